@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace tetralight {
+
+/// Reads a whole file. Errors name the path and the system's reason.
+[[nodiscard]] Result<std::vector<std::byte>> read_file(const std::string& path);
+
+/// Writes `parts` one after the other to a new file beside `path`, syncs it, then renames it over
+/// `path`: a failure leaves what was there before whole, and no half file behind.
+/// `-` and devices are written to as they are.
+[[nodiscard]] Status write_file(const std::string& path,
+                                std::span<const std::span<const std::byte>> parts);
+
+[[nodiscard]] Status write_file(const std::string& path, std::span<const std::byte> bytes);
+
+/// Read-only bytes of a file, mapped into memory for as long as this object lives.
+class MappedFile {
+  public:
+    [[nodiscard]] static Result<MappedFile> open(const std::string& path);
+
+    /// Holds no bytes.
+    MappedFile() = default;
+    MappedFile(MappedFile&& other) noexcept;
+    MappedFile& operator=(MappedFile&& other) noexcept;
+    ~MappedFile();
+
+    [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
+
+  private:
+    explicit MappedFile(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    std::span<const std::byte> bytes_;
+};
+
+}  // namespace tetralight

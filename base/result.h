@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/assert.h"
+
+namespace tetralight {
+
+/// Why data could not be used: what, where and the value, in one line for a person.
+/// Example: `groups.json: group "hall": probe 7: position is not finite (nan, 0, 1)`.
+struct Error {
+    std::string message;
+
+    /// Puts a place before the message: `Error{"b"}.in("a")` reads `a: b`.
+    [[nodiscard]] Error in(const std::string& place) const { return {place + ": " + message}; }
+
+    bool operator==(const Error&) const = default;
+};
+
+/// A value, or the reason why there is none. The only way in which bad data is reported.
+template <class T>
+class [[nodiscard]] Result {
+  public:
+    Result(T value) : value_(std::move(value)) {}
+
+    Result(Error error) : error_(std::move(error)) {}
+
+    [[nodiscard]] explicit operator bool() const noexcept { return value_.has_value(); }
+
+    /// The value. Precondition: there is one.
+    [[nodiscard]] T& operator*() & { return checked(); }
+
+    [[nodiscard]] const T& operator*() const& { return const_cast<Result*>(this)->checked(); }
+
+    [[nodiscard]] T&& operator*() && { return std::move(checked()); }
+
+    [[nodiscard]] T* operator->() { return &checked(); }
+
+    [[nodiscard]] const T* operator->() const { return &const_cast<Result*>(this)->checked(); }
+
+    /// The reason. Precondition: there is no value.
+    [[nodiscard]] const Error& error() const {
+        TETRALIGHT_ASSERT(!value_, "error() of a Result that holds a value");
+        return error_;
+    }
+
+  private:
+    [[nodiscard]] T& checked() {
+        TETRALIGHT_ASSERT(value_, "value of a Result that holds an error");
+        return *value_;
+    }
+
+    std::optional<T> value_;
+    Error error_;
+};
+
+/// The value of a call that only succeeds or fails: `return Ok{};`.
+struct Ok {
+    bool operator==(const Ok&) const = default;
+};
+
+using Status = Result<Ok>;
+
+}  // namespace tetralight
