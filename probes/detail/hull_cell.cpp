@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/detail/hull_cell.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tetralight::detail {
+namespace {
+
+/// c[0] + c[1] t + c[2] t² + c[3] t³.
+using Cubic = std::array<double, 4>;
+
+double determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return glm::dot(glm::cross(a, b), c);
+}
+
+double evaluate(const Cubic& c, double t) {
+    return ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
+}
+
+double derivative(const Cubic& c, double t) {
+    return (3 * c[3] * t + 2 * c[2]) * t + c[1];
+}
+
+/// The t > 0 where the slope is zero, ascending; unused places are 0. Stable quadratic formula.
+std::array<double, 2> extrema(const Cubic& c) {
+    const double a = 3 * c[3];
+    const double b = 2 * c[2];
+    const double discriminant = b * b - 4 * a * c[1];
+    if (discriminant < 0) return {0, 0};
+    const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+    const auto positive = [](double root) { return std::isfinite(root) && root > 0 ? root : 0.0; };
+    std::array<double, 2> roots{positive(q / a), positive(c[1] / q)};
+    if (roots[0] > roots[1]) std::swap(roots[0], roots[1]);
+    return roots;
+}
+
+/// The root in [low, high], where the cubic goes from positive to not positive: Newton's steps, or
+/// halving where they leave the bracket.
+double bracketed_root(const Cubic& c, double low, double high) {
+    double t = 0.5 * (low + high);
+    for (int step = 0; step < 100; ++step) {
+        const double value = evaluate(c, t);
+        (value > 0 ? low : high) = t;
+        const double newton = t - value / derivative(c, t);
+        const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
+        if (std::abs(next - t) <= 1e-15 * high) return next;
+        t = next;
+    }
+    return t;
+}
+
+/// Smallest t ≥ 0 where the cubic, positive at 0, is no longer positive. Lengths are of order 1, so
+/// that a surface farther than 2^20 belongs to another cell.
+std::optional<double> first_root(const Cubic& c) {
+    double low = 0;
+    for (const double extremum : extrema(c)) {
+        if (extremum <= low) continue;
+        if (evaluate(c, extremum) <= 0) return bracketed_root(c, low, extremum);
+        low = extremum;
+    }
+    for (double high = std::max(1.0, 2 * low); high <= 0x1p20; high *= 2) {
+        if (evaluate(c, high) <= 0) return bracketed_root(c, low, high);
+    }
+    return std::nullopt;
+}
+
+/// det[A + tA', B + tB', D − t v2] as a cubic in t, where A, B are edges of the triangle, A', B'
+/// those of its rays, and D goes from the third corner to the position.
+Cubic plane_cubic(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& v) {
+    const glm::dvec3 a = p[0] - p[2], da = v[0] - v[2];
+    const glm::dvec3 b = p[1] - p[2], db = v[1] - v[2];
+    const glm::dvec3 d = -p[2];
+    return {determinant(a, b, d),
+            determinant(a, db, d) + determinant(da, b, d) - determinant(a, b, v[2]),
+            determinant(da, db, d) - determinant(a, db, v[2]) - determinant(da, b, v[2]),
+            -determinant(da, db, v[2])};
+}
+
+std::optional<glm::dvec3> weights_of_origin(const std::array<glm::dvec3, 3>& q) {
+    const glm::dvec3 normal = glm::cross(q[1] - q[0], q[2] - q[0]);
+    const double area = glm::dot(normal, normal);
+    if (!(area > 0)) return std::nullopt;
+    const double w0 = determinant(q[1], q[2], normal) / area;
+    const double w1 = determinant(q[2], q[0], normal) / area;
+    return glm::dvec3(w0, w1, 1 - w0 - w1);
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> hull_cell_weights(const std::array<glm::dvec3, 3>& corners,
+                                            const HullCellRays& rays) noexcept {
+    double scale = 0;
+    for (const glm::dvec3& corner : corners) scale = std::max(scale, glm::dot(corner, corner));
+    if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
+    scale = std::sqrt(scale);
+
+    std::array<glm::dvec3, 3> p;
+    std::array<glm::dvec3, 3> v;
+    for (int i = 0; i < 3; ++i) {
+        p[i] = corners[i] / scale;
+        v[i] = glm::dvec3(rays.rays[i]);
+    }
+    const Cubic cubic = plane_cubic(p, v);
+    if (cubic[0] < 0) return std::nullopt;
+    const std::optional<double> t = cubic[0] == 0 ? 0.0 : first_root(cubic);
+    if (!t) return std::nullopt;
+    for (int i = 0; i < 3; ++i) p[i] += *t * v[i];
+    return weights_of_origin(p);
+}
+
+}  // namespace tetralight::detail

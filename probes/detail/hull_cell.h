@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "probes/probe_volume.h"
+
+namespace tetralight::detail {
+
+/// Barycentric weights of the origin in a hull cell, i.e. of the one triangle (p_i + t v_i), t ≥ 0,
+/// whose plane holds the origin first (Cupisz, GDC 2012). They sum to 1; a negative one says
+/// that the origin lies beyond that edge's wall. None: the origin is behind the hull triangle, or
+/// no such plane exists.
+///
+/// `corners` are relative to the queried position. Free of absolute thresholds: lengths are
+/// scaled by the farthest corner.
+[[nodiscard]] std::optional<glm::dvec3> hull_cell_weights(const std::array<glm::dvec3, 3>& corners,
+                                                          const HullCellRays& rays) noexcept;
+
+}  // namespace tetralight::detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <type_traits>
+
+namespace tetralight {
+
+enum class LightType : uint32_t { Directional = 0, Point = 1, Spot = 2 };
+
+/// Which share of a light is baked into the probes (docs/conventions.md).
+enum class LightMode : uint32_t {
+    Mixed = 0,  ///< its bounces; whoever shades adds the direct term with a shadow
+    Baked = 1,  ///< its bounces and its direct light
+};
+
+/// A punctual light with the meaning and units of glTF's KHR_lights_punctual. Stored in probe
+/// volumes as it stands, so that whoever shades can add the direct term of `Mixed` lights.
+struct Light {
+    LightType type = LightType::Directional;
+    LightMode mode = LightMode::Mixed;
+    /// Colour × intensity, linear Rec.709: lux for directional lights, candela for the others.
+    glm::vec3 intensity{1.0f};
+    /// Unused by directional lights.
+    glm::vec3 position{0.0f};
+    /// Unit vector in which the light shines (from it, not towards it). Unused by point lights.
+    glm::vec3 direction{0.0f, 0.0f, -1.0f};
+    /// Distance in metres at which the light ends; 0 = never.
+    float range = 0.0f;
+    /// Cosines of the spot cone's half angles.
+    float cos_inner_cone = 1.0f;
+    float cos_outer_cone = 0.7071067811865476f;
+    uint32_t reserved = 0;
+
+    bool operator==(const Light&) const = default;
+};
+
+static_assert(sizeof(Light) == 60 && alignof(Light) == 4 && std::is_trivially_copyable_v<Light>);
+
+/// Light that arrives at one position from one light, shadows left out.
+struct Illumination {
+    /// Irradiance on a surface that faces the light: E(n) = irradiance · max(0, n · to_light).
+    glm::vec3 irradiance{0.0f};
+    glm::vec3 to_light{0.0f};
+    /// Where a shadow ray ends; infinite for directional lights.
+    float distance = 0.0f;
+};
+
+/// Falloff and cone as KHR_lights_punctual defines them: 1/d² windowed by sat(1 − (d/range)⁴), and
+/// the squared linear ramp between the cosines of the outer and the inner cone.
+[[nodiscard]] Illumination illuminate(const Light& light, glm::vec3 position) noexcept;
+
+}  // namespace tetralight

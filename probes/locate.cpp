@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/locate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+
+#include "probes/detail/hull_cell.h"
+
+namespace tetralight {
+namespace {
+
+/// Weights of a position in one cell. Not normalized: in a tetrahedron they are signed volumes,
+/// and a sliver's volume is never divided by before the walk has ended in it.
+struct CellWeights {
+    glm::dvec4 weights{0.0};
+
+    [[nodiscard]] double sum() const { return weights.x + weights.y + weights.z + weights.w; }
+
+    /// Smallest weight as a share of the sum: ≥ 0 inside the cell.
+    [[nodiscard]] double inside_measure() const {
+        const double total = sum();
+        if (!(total > 0)) return -std::numeric_limits<double>::infinity();
+        return std::min({weights.x, weights.y, weights.z, weights.w}) / total;
+    }
+
+    [[nodiscard]] int most_negative() const {
+        int lowest = 0;
+        for (int i = 1; i < 4; ++i) {
+            if (weights[i] < weights[lowest]) lowest = i;
+        }
+        return lowest;
+    }
+};
+
+CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) {
+    const auto& [a, b, c, d] = corners;
+    const glm::dvec3 cd = glm::cross(c, d);
+    const glm::dvec3 ab = glm::cross(a, b);
+    return {{glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)}};
+}
+
+/// Walks over the cells of one volume towards one position.
+class Walk {
+  public:
+    Walk(const ProbeVolumeView& volume, glm::vec3 position)
+        : volume_(volume), position_(glm::dvec3(position) - volume.info.world_origin) {
+        // Far away only the direction matters; nearer, double can tell the hull's corners apart.
+        const double farthest = kFarthestExtents * static_cast<double>(volume.info.extent);
+        const double distance = glm::length(position_);
+        if (farthest > 0.0 && distance > farthest) position_ *= farthest / distance;
+    }
+
+    [[nodiscard]] CellLocation run(uint32_t start) const {
+        uint32_t cell = start;
+        uint32_t previous = kNoIndex;
+        CellWeights previous_weights;
+        for (uint32_t steps = step_limit(); steps > 0; --steps) {
+            const auto weights = cell_weights(cell);
+            if (!weights) return search_all();
+            if (weights->inside_measure() >= 0) return finish(cell, *weights);
+            const uint32_t next = volume_.cells[cell].neighbors[weights->most_negative()];
+            if (next == previous) return settle(cell, *weights, previous, previous_weights);
+            previous = cell;
+            previous_weights = *weights;
+            cell = next;
+        }
+        return search_all();
+    }
+
+  private:
+    static constexpr double kFarthestExtents = 65536.0;
+
+    /// Four times the steps of a random walk (2.5 n^(1/3), measured), so that only a cycle meets
+    /// it.
+    [[nodiscard]] uint32_t step_limit() const {
+        return 64 + 10 * static_cast<uint32_t>(std::cbrt(volume_.cells.size()));
+    }
+
+    /// Every index is tested here, where it is used: the volume may be an unverified file.
+    [[nodiscard]] std::optional<CellWeights> cell_weights(uint32_t index) const {
+        if (index >= volume_.cells.size()) return std::nullopt;
+        const Cell& cell = volume_.cells[index];
+        const int corner_count = index < volume_.info.tetrahedron_count ? 4 : 3;
+        std::array<glm::dvec3, 4> corners{};
+        for (int i = 0; i < corner_count; ++i) {
+            if (cell.vertices[i] >= volume_.positions.size()) return std::nullopt;
+            corners[i] = glm::dvec3(volume_.positions[cell.vertices[i]]) - position_;
+        }
+        if (corner_count == 4) return tetrahedron_weights(corners);
+        const uint32_t hull_index = index - volume_.info.tetrahedron_count;
+        if (hull_index >= volume_.hull_rays.size()) return std::nullopt;
+        const auto weights = detail::hull_cell_weights({corners[0], corners[1], corners[2]},
+                                                       volume_.hull_rays[hull_index]);
+        if (!weights) return CellWeights{{0.0, 0.0, 0.0, -1.0}};  // go on into the tetrahedron
+        return CellWeights{{*weights, 0.0}};
+    }
+
+    /// Each of two neighbors sends the walk to the other. On their shared face that is rounding,
+    /// and both answers are the same; anything else is a cycle.
+    [[nodiscard]] CellLocation settle(uint32_t a, const CellWeights& in_a, uint32_t b,
+                                      const CellWeights& in_b) const {
+        constexpr double kRounding = 1e-6;
+        const bool is_in_a = in_a.inside_measure() >= in_b.inside_measure();
+        const CellWeights& best = is_in_a ? in_a : in_b;
+        if (best.inside_measure() < -kRounding) return search_all();
+        return finish(is_in_a ? a : b, best);
+    }
+
+    /// The fallback that cannot fail: the cell that comes nearest to holding the position.
+    [[nodiscard]] CellLocation search_all() const {
+        CellLocation best;
+        double best_measure = -std::numeric_limits<double>::infinity();
+        for (uint32_t cell = 0; cell < volume_.cells.size(); ++cell) {
+            const auto weights = cell_weights(cell);
+            if (!weights || !(weights->inside_measure() > best_measure)) continue;
+            best_measure = weights->inside_measure();
+            best = finish(cell, *weights);
+        }
+        return best;
+    }
+
+    [[nodiscard]] static CellLocation finish(uint32_t cell, const CellWeights& cell_weights) {
+        const glm::dvec4 clamped = glm::max(cell_weights.weights, glm::dvec4(0.0));
+        const glm::vec4 weights(clamped / (clamped.x + clamped.y + clamped.z + clamped.w));
+        if (!std::isfinite(weights.x + weights.y + weights.z + weights.w)) return {};
+        return {cell, weights};
+    }
+
+    const ProbeVolumeView& volume_;
+    glm::dvec3 position_;
+};
+
+bool is_finite(glm::vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+CellLocation locate(const ProbeVolumeView& volume, glm::vec3 position, uint32_t hint) noexcept {
+    if (volume.cells.empty() || !is_finite(position)) return {};
+    return Walk(volume, position).run(hint < volume.cells.size() ? hint : 0);
+}
+
+}  // namespace tetralight

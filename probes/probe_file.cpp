@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/probe_file.h"
+
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "base/text.h"
+#include "probes/detail/probe_file_layout.h"
+
+namespace tetralight {
+namespace {
+
+using detail::FileHeader;
+using detail::SectionEntry;
+
+template <class T>
+std::span<const std::byte> bytes_of(const std::span<const T>& elements) {
+    return std::as_bytes(elements);
+}
+
+std::span<const std::byte> bytes_of(std::string_view characters) {
+    return std::as_bytes(std::span(characters));
+}
+
+/// A section to be written.
+struct Part {
+    SectionEntry entry;
+    std::span<const std::byte> bytes;
+};
+
+Part make_part(std::string_view name, std::span<const std::byte> bytes, size_t element_size) {
+    Part part{{}, bytes};
+    std::memcpy(part.entry.name.data(), name.data(), name.size());
+    part.entry.element_size = element_size;
+    part.entry.element_count = bytes.size() / element_size;
+    part.entry.checksum = detail::checksum(bytes);
+    return part;
+}
+
+uint64_t aligned(uint64_t offset) {
+    return (offset + detail::kAlignment - 1) / detail::kAlignment * detail::kAlignment;
+}
+
+/// Empty sections are left out; "info" is always there.
+std::vector<Part> make_parts(const ProbeVolumeView& volume) {
+    const std::span info(&volume.info, 1);
+    std::vector<Part> parts{make_part("info", std::as_bytes(info), sizeof(VolumeInfo))};
+    detail::for_each_section(volume, [&](std::string_view name, const auto& elements) {
+        if (elements.empty()) return;
+        parts.push_back(make_part(name, bytes_of(elements), sizeof elements[0]));
+    });
+    uint64_t offset = sizeof(FileHeader) + parts.size() * sizeof(SectionEntry);
+    for (Part& part : parts) {
+        part.entry.offset = aligned(offset);
+        offset = part.entry.offset + part.bytes.size();
+    }
+    return parts;
+}
+
+Status read_section(const SectionEntry& entry, std::span<const std::byte> bytes,
+                    std::string_view& out) {
+    if (entry.element_size != 1) return Error{"wrong element size"};
+    out = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    return Ok{};
+}
+
+template <class T>
+Status read_section(const SectionEntry& entry, std::span<const std::byte> bytes,
+                    std::span<const T>& out) {
+    if (entry.element_size != sizeof(T)) {
+        return Error{text("elements have ", entry.element_size, " bytes instead of ", sizeof(T))};
+    }
+    if (entry.element_count >= kNoIndex) {
+        return Error{text(entry.element_count, " elements are more than 32-bit indices can name")};
+    }
+    out = {reinterpret_cast<const T*>(bytes.data()), entry.element_count};
+    return Ok{};
+}
+
+Status read_info(const SectionEntry& entry, std::span<const std::byte> bytes, VolumeInfo& info) {
+    std::span<const VolumeInfo> one;
+    if (auto status = read_section(entry, bytes, one); !status) return status;
+    if (one.size() != 1) return Error{text(one.size(), " elements instead of 1")};
+    info = one[0];
+    return Ok{};
+}
+
+}  // namespace
+
+/// Builds a ProbeFile from its bytes.
+struct ProbeFileReader {
+    ProbeFile file;
+    bool has_info = false;
+
+    Status read(const SectionEntry& entry) {
+        const std::string name = detail::section_name(entry);
+        const auto bytes = file.mapping_.bytes().subspan(entry.offset, entry.size());
+        file.sections_.push_back({name, entry.offset, entry.size()});
+        Status status = Ok{};
+        if (name == "info") {
+            status = read_info(entry, bytes, file.view_.info);
+            has_info = true;
+        }
+        detail::for_each_section(file.view_, [&](std::string_view known, auto& elements) {
+            if (name == known) status = read_section(entry, bytes, elements);
+        });
+        if (!status) return status.error().in("section \"" + name + "\"");
+        return Ok{};
+    }
+
+    static Result<ProbeFile> open(MappedFile mapping) {
+        ProbeFileReader reader;
+        reader.file.mapping_ = std::move(mapping);
+        const auto table = detail::read_section_table(reader.file.mapping_.bytes());
+        if (!table) return table.error();
+        for (const SectionEntry& entry : *table) {
+            if (auto status = reader.read(entry); !status) return status.error();
+        }
+        if (!reader.has_info) return Error{"section \"info\" is missing"};
+        return std::move(reader.file);
+    }
+
+    static Status verify(const ProbeFile& file) {
+        const auto table = detail::read_section_table(file.mapping_.bytes());
+        if (!table) return table.error();
+        const Status status = detail::verify_checksums(file.mapping_.bytes(), *table);
+        if (!status) return status;
+        return tetralight::verify(file.view_);
+    }
+};
+
+Result<ProbeFile> open_probe_file_lazy(const std::string& path) {
+    auto mapping = MappedFile::open(path);
+    if (!mapping) return mapping.error();
+    auto file = ProbeFileReader::open(std::move(*mapping));
+    if (!file) return file.error().in(path);
+    return file;
+}
+
+Result<ProbeFile> open_probe_file(const std::string& path) {
+    auto file = open_probe_file_lazy(path);
+    if (!file) return file;
+    if (auto status = verify(*file); !status) return status.error().in(path);
+    return file;
+}
+
+Status verify(const ProbeFile& file) {
+    return ProbeFileReader::verify(file);
+}
+
+std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume) {
+    const std::vector<Part> parts = make_parts(volume);
+    std::vector<SectionEntry> table;
+    for (const Part& part : parts) table.push_back(part.entry);
+
+    FileHeader header;
+    header.section_count = static_cast<uint32_t>(parts.size());
+    header.file_size = aligned(table.back().offset + table.back().size());
+    header.checksum = detail::header_checksum(header, table);
+
+    std::vector<std::byte> file(header.file_size);
+    std::memcpy(file.data(), &header, sizeof header);
+    std::memcpy(file.data() + sizeof header, table.data(), table.size() * sizeof(SectionEntry));
+    for (const Part& part : parts) {
+        std::memcpy(file.data() + part.entry.offset, part.bytes.data(), part.bytes.size());
+    }
+    return file;
+}
+
+Status write_probe_file(const std::string& path, const ProbeVolumeView& volume) {
+    return write_file(path, probe_file_bytes(volume));
+}
+
+}  // namespace tetralight

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "base/result.h"
+#include "probes/probe_volume.h"
+
+// The `.probes` file: little-endian, 64-byte aligned sections with an xxh3 checksum each, mapped
+// and used in place. docs/file_format.md has the layout byte by byte.
+//
+//     auto file = open_probe_file("level.probes");
+//     if (!file) return file.error();
+//     CellLocation location = locate(file->view(), position);
+
+namespace tetralight {
+
+/// An open probe file. Its view is valid as long as it lives; moving it keeps the view valid.
+class ProbeFile {
+  public:
+    [[nodiscard]] const ProbeVolumeView& view() const noexcept { return view_; }
+
+    /// One section as the file's table lists it.
+    struct Section {
+        std::string name;
+        uint64_t offset = 0;
+        uint64_t size = 0;
+    };
+
+    [[nodiscard]] const std::vector<Section>& sections() const noexcept { return sections_; }
+
+  private:
+    friend struct ProbeFileReader;
+    ProbeFile() = default;
+
+    MappedFile mapping_;
+    ProbeVolumeView view_;
+    std::vector<Section> sections_;
+};
+
+/// Opens a file and verifies all of it: checksums, structure, every index and number. Reads the
+/// whole file once. Use it for files from anywhere. Errors name the path, the section and the
+/// value.
+[[nodiscard]] Result<ProbeFile> open_probe_file(const std::string& path);
+
+/// Opens a file by its header and section table alone, in the time of two page reads. Queries test
+/// every index where they use it, so that a corrupt section gives wrong light or the ambient result
+/// but never a read out of range.
+[[nodiscard]] Result<ProbeFile> open_probe_file_lazy(const std::string& path);
+
+/// Does what `open_probe_file` adds to `open_probe_file_lazy`; for a background thread.
+[[nodiscard]] Status verify(const ProbeFile& file);
+
+/// Checks that a volume in memory holds what every query relies on: counts that agree, indices in
+/// range, neighbors that are each other's neighbors, finite numbers.
+[[nodiscard]] Status verify(const ProbeVolumeView& volume);
+
+/// Writes a volume; the old file stays whole on failure. The same volume gives the same bytes.
+/// Precondition: `verify(volume)` holds.
+[[nodiscard]] Status write_probe_file(const std::string& path, const ProbeVolumeView& volume);
+
+/// The bytes that `write_probe_file` writes.
+[[nodiscard]] std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume);
+
+}  // namespace tetralight

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace tetralight {
+
+/// Probes that belong together: a room, a prefab, a generated lattice. Names are unique in a scene.
+struct ProbeGroup {
+    std::string name;
+    glm::dmat4 world_from_group{1.0};
+    /// Positions in the group's own space, metres.
+    std::vector<glm::dvec3> positions;
+    /// Remove ringing (negative irradiance) from this group's probes after the bake.
+    bool dering = false;
+
+    bool operator==(const ProbeGroup&) const = default;
+};
+
+}  // namespace tetralight

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "probes/light.h"
+#include "probes/no_index.h"
+#include "probes/sh.h"
+
+// The probe volume: baked probes joined by one Delaunay tetrahedralization, whose tetrahedra and
+// hull cells together fill space. ProbeVolume owns, ProbeVolumeView is what queries read: of a
+// ProbeVolume in memory or of a mapped file (probes/probe_file.h).
+
+namespace tetralight {
+
+/// A tetrahedron, or a hull cell: the space outside one triangle of the convex hull.
+///
+/// Tetrahedron: `neighbors[i]` is the cell across the face opposite `vertices[i]`; positively
+/// oriented, i.e. dot(v1 − v0, cross(v2 − v0, v3 − v0)) > 0.
+/// Hull cell: `vertices[3]` is kNoIndex; the triangle is counter-clockwise seen from outside;
+/// `neighbors[0..2]` are the hull cells across the opposite edges, `neighbors[3]` the tetrahedron.
+struct Cell {
+    std::array<uint32_t, 4> vertices{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+    std::array<uint32_t, 4> neighbors{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+
+    bool operator==(const Cell&) const = default;
+};
+
+static_assert(sizeof(Cell) == 32 && std::is_trivially_copyable_v<Cell>);
+
+/// The corners of the face opposite each corner of a positively oriented tetrahedron,
+/// counter-clockwise seen from outside.
+inline constexpr std::array<std::array<int, 3>, 4> kOutwardFaces{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+/// Unit rays from the vertices of one hull cell, along which it is extruded to infinity.
+struct HullCellRays {
+    std::array<glm::vec3, 3> rays{};
+
+    bool operator==(const HullCellRays&) const = default;
+};
+
+static_assert(sizeof(HullCellRays) == 36 && std::is_trivially_copyable_v<HullCellRays>);
+
+/// Where a probe came from. Several sources share one probe when they were welded.
+struct ProbeSource {
+    uint32_t group = 0;  ///< index into `group_names`
+    uint32_t index = 0;  ///< in the group
+    uint32_t probe = 0;
+
+    bool operator==(const ProbeSource&) const = default;
+};
+
+static_assert(sizeof(ProbeSource) == 12 && std::is_trivially_copyable_v<ProbeSource>);
+
+/// The fixed-size facts of a volume.
+struct VolumeInfo {
+    /// World position of the local origin. Arrays of float positions are relative to it, so that a
+    /// volume far from the world's origin keeps its precision.
+    glm::dvec3 world_origin{0.0};
+    /// Cells [0, tetrahedron_count) are tetrahedra, the rest hull cells.
+    uint32_t tetrahedron_count = 0;
+    /// Share of the radial direction in the hull rays (docs/conventions.md).
+    float radial_share = 0.0f;
+    /// Light where there is no probe: that of the environment alone.
+    IrradianceSh ambient;
+    /// Distance of the farthest probe from the local origin, metres.
+    float extent = 0.0f;
+
+    bool operator==(const VolumeInfo&) const = default;
+};
+
+static_assert(sizeof(VolumeInfo) == 144 && std::is_trivially_copyable_v<VolumeInfo>);
+
+/// Read-only spans over a probe volume. Cheap to copy; valid as long as its owner.
+struct ProbeVolumeView {
+    VolumeInfo info;
+
+    // One a probe.
+    std::span<const glm::vec3> positions;         ///< relative to `info.world_origin`
+    std::span<const IrradianceSh> irradiance;     ///< empty: not baked, every answer is ambient
+    std::span<const glm::vec4> occlusion;         ///< empty: (1, 1, 1, 1); 1 = lit
+    std::span<const float> validity;              ///< empty: 1; share of front faces or sky seen
+    std::span<const glm::dvec3> exact_positions;  ///< world positions that were tetrahedralized
+
+    std::span<const Cell> cells;
+    std::span<const HullCellRays> hull_rays;  ///< one a hull cell
+
+    std::span<const ProbeSource> sources;  ///< sorted by group, then index
+    std::string_view group_names;          ///< sorted, each ended by '\n'
+    std::span<const Light> lights;         ///< the lights of the bake; world space
+    std::string_view light_names;          ///< each ended by '\n'
+    std::string_view metadata;             ///< how the volume was made: a JSON object, or empty
+
+    [[nodiscard]] uint32_t probe_count() const noexcept {
+        return static_cast<uint32_t>(positions.size());
+    }
+};
+
+/// A probe volume in memory.
+struct ProbeVolume {
+    VolumeInfo info;
+    std::vector<glm::vec3> positions;
+    std::vector<IrradianceSh> irradiance;
+    std::vector<glm::vec4> occlusion;
+    std::vector<float> validity;
+    std::vector<glm::dvec3> exact_positions;
+    std::vector<Cell> cells;
+    std::vector<HullCellRays> hull_rays;
+    std::vector<ProbeSource> sources;
+    std::string group_names;
+    std::vector<Light> lights;
+    std::string light_names;
+    std::string metadata;
+
+    [[nodiscard]] ProbeVolumeView view() const noexcept;
+
+    bool operator==(const ProbeVolume&) const = default;
+};
+
+/// The lines of `group_names` or `light_names`.
+[[nodiscard]] std::vector<std::string_view> split_names(std::string_view names);
+
+}  // namespace tetralight

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/probe_file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "probes/detail/probe_file_layout.h"
+#include "probes/interpolate.h"
+#include "tests/support/random_probes.h"
+
+namespace tetralight {
+namespace {
+
+namespace fs = std::filesystem;
+
+ProbeVolume make_full_volume() {
+    ProbeVolume volume = test::make_lit_volume(test::random_positions(12, 1));
+    volume.occlusion.assign(volume.positions.size(), glm::vec4(0.25f));
+    volume.validity.assign(volume.positions.size(), 0.75f);
+    volume.info.ambient = test::linear_light({1, 2, 3});
+    volume.lights.resize(2);
+    volume.light_names = "sun\nlamp\n";
+    volume.metadata = "{\"samples\":16}";
+    return volume;
+}
+
+class ProbeFileTest : public testing::Test {
+  protected:
+    ~ProbeFileTest() override { fs::remove(path); }
+
+    /// Without the syncing that write_file does: these tests write some ten thousand files.
+    void write(std::span<const std::byte> bytes) const {
+        std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+        stream.write(reinterpret_cast<const char*>(bytes.data()),
+                     static_cast<std::streamsize>(bytes.size()));
+    }
+
+    const std::string path =
+        (fs::temp_directory_path() / ("tetralight_probe_file_" + std::to_string(getpid())))
+            .string();
+    const ProbeVolume volume = make_full_volume();
+};
+
+TEST_F(ProbeFileTest, ReadsBackEverySection) {
+    ASSERT_TRUE(write_probe_file(path, volume.view()));
+    const auto file = open_probe_file(path);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(probe_file_bytes(file->view()), probe_file_bytes(volume.view()));
+    EXPECT_EQ(file->view().info, volume.info);
+    EXPECT_EQ(file->view().light_names, volume.light_names);
+    EXPECT_EQ(file->view().irradiance[3], volume.irradiance[3]);
+}
+
+TEST_F(ProbeFileTest, AnswersFromTheMappedBytesAsFromMemory) {
+    ASSERT_TRUE(write_probe_file(path, volume.view()));
+    auto opened = open_probe_file_lazy(path);
+    ASSERT_TRUE(opened);
+    const ProbeFile file = std::move(*opened);  // the view must survive a move
+    for (const glm::dvec3& p : test::random_positions(100, 2, 2.0)) {
+        const CellLocation location = locate(file.view(), glm::vec3(p));
+        EXPECT_EQ(location, locate(volume.view(), glm::vec3(p)));
+        EXPECT_EQ(interpolate(file.view(), location), interpolate(volume.view(), location));
+    }
+}
+
+TEST_F(ProbeFileTest, HasAlignedSectionsAndAHeaderOf64Bytes) {
+    const std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    const auto table = detail::read_section_table(bytes);
+    ASSERT_TRUE(table);
+    EXPECT_EQ(bytes.size() % 64, 0u);
+    EXPECT_EQ(std::memcmp(bytes.data(), "TETRAPV\n", 8), 0);
+    for (const auto& entry : *table) EXPECT_EQ(entry.offset % 64, 0u);
+}
+
+TEST_F(ProbeFileTest, AnEmptyVolumeIsAFileToo) {
+    ASSERT_TRUE(write_probe_file(path, ProbeVolume{}.view()));
+    const auto file = open_probe_file(path);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->view().probe_count(), 0u);
+}
+
+TEST_F(ProbeFileTest, RefusesAFileCutAtAnyLength) {
+    const std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    for (size_t length = 0; length < bytes.size(); ++length) {
+        write(std::span(bytes).first(length));
+        ASSERT_FALSE(open_probe_file(path)) << length;
+        ASSERT_FALSE(open_probe_file_lazy(path)) << length;
+    }
+}
+
+TEST_F(ProbeFileTest, RefusesAFileWithAnyByteChanged) {
+    std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    for (size_t i = 0; i < bytes.size(); ++i) {
+        for (const std::byte flip : {std::byte{1}, std::byte{0x80}, std::byte{0xff}}) {
+            bytes[i] ^= flip;
+            write(bytes);
+            ASSERT_FALSE(open_probe_file(path)) << "byte " << i;
+            bytes[i] ^= flip;
+        }
+    }
+}
+
+TEST_F(ProbeFileTest, LazilyOpenedCorruptSectionsNeverReadOutOfRange) {
+    const std::vector<std::byte> sound = probe_file_bytes(volume.view());
+    const size_t first_section = detail::read_section_table(sound)->front().offset;
+    for (size_t i = first_section; i < sound.size(); ++i) {
+        std::vector<std::byte> bytes = sound;
+        bytes[i] ^= std::byte{0xff};
+        write(bytes);
+        const auto file = open_probe_file_lazy(path);
+        ASSERT_TRUE(file);
+        for (const glm::vec3& p : {glm::vec3(0.1f), glm::vec3(5.0f, 1.0f, 0.0f)}) {
+            const CellLocation location = locate(file->view(), p);
+            static_cast<void>(interpolate(file->view(), location));
+        }
+        EXPECT_FALSE(verify(*file)) << "byte " << i;
+    }
+}
+
+TEST_F(ProbeFileTest, SkipsSectionsItDoesNotKnow) {
+    std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    auto* header = reinterpret_cast<detail::FileHeader*>(bytes.data());
+    auto* entries = reinterpret_cast<detail::SectionEntry*>(bytes.data() + sizeof *header);
+    entries[header->section_count - 1].name = {'f', 'u', 't', 'u', 'r', 'e'};
+    header->checksum = detail::header_checksum(*header, {entries, header->section_count});
+    write(bytes);
+    const auto file = open_probe_file(path);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_TRUE(file->view().metadata.empty());
+}
+
+TEST_F(ProbeFileTest, NamesThePathAndTheSection) {
+    std::vector<std::byte> bytes = probe_file_bytes(volume.view());
+    bytes[detail::read_section_table(bytes)->back().offset] ^= std::byte{1};
+    write(bytes);
+    const auto file = open_probe_file(path);
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().message, path + ": section \"metadata\" is corrupt (wrong checksum)");
+}
+
+TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {
+    using Break = void (*)(ProbeVolume&);
+    for (const Break break_it : std::initializer_list<Break>{
+             [](ProbeVolume& v) { v.cells[0].vertices[1] = 12; },
+             [](ProbeVolume& v) { v.cells[0].neighbors[2] = 100000; },
+             [](ProbeVolume& v) { v.cells[0].neighbors[0] = v.cells[0].neighbors[1]; },
+             [](ProbeVolume& v) { v.cells.back().vertices[3] = 0; },
+             [](ProbeVolume& v) { v.hull_rays.pop_back(); },
+             [](ProbeVolume& v) { v.hull_rays[0].rays[0] *= 2.0f; },
+             [](ProbeVolume& v) { v.positions[0].x = std::nanf(""); },
+             [](ProbeVolume& v) { v.irradiance[0].coefficients[8].z = INFINITY; },
+             [](ProbeVolume& v) { v.irradiance.pop_back(); },
+             [](ProbeVolume& v) { v.occlusion[0].x = 1.5f; },
+             [](ProbeVolume& v) { v.validity[0] = -0.1f; },
+             [](ProbeVolume& v) { v.sources[0].probe = 99; },
+             [](ProbeVolume& v) { v.sources[0].group = 1; },
+             [](ProbeVolume& v) { v.group_names = "no end"; },
+             [](ProbeVolume& v) { v.light_names = "one\n"; },
+             [](ProbeVolume& v) { v.lights[0].type = static_cast<LightType>(9); },
+             [](ProbeVolume& v) { v.info.tetrahedron_count = 100000; }}) {
+        ProbeVolume broken = volume;
+        break_it(broken);
+        EXPECT_FALSE(verify(broken.view()));
+    }
+    EXPECT_TRUE(verify(volume.view()));
+}
+
+TEST_F(ProbeFileTest, KeepsTheOldFileWhenTheNewOneCannotBeWritten) {
+    ASSERT_TRUE(write_probe_file(path, volume.view()));
+    EXPECT_FALSE(write_probe_file(path + "/inside", volume.view()));
+    EXPECT_TRUE(open_probe_file(path));
+}
+
+}  // namespace
+}  // namespace tetralight
