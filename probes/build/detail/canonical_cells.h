@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "probes/build/tetrahedralize.h"
+
+namespace tetralight::detail {
+
+/// Brings tetrahedra into canonical order and adds one hull cell for each face without a neighbor
+/// (kNoIndex). The result does not depend on the order of the tetrahedra or of their vertices.
+/// Precondition: positively oriented; together they fill a convex hull.
+[[nodiscard]] Tetrahedralization canonical_cells(std::vector<Cell> tetrahedra);
+
+}  // namespace tetralight::detail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Links CGAL 3D triangulations (GPL-3.0-or-later).
+#include "probes/build/detail/cgal.h"
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+namespace tetralight::detail {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<uint32_t, Kernel>;
+using CellBase =
+    CGAL::Triangulation_cell_base_with_info_3<uint32_t, Kernel,
+                                              CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Delaunay =
+    CGAL::Delaunay_triangulation_3<Kernel,
+                                   CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+
+Kernel::Point_3 point(const glm::dvec3& p) {
+    return {p.x, p.y, p.z};
+}
+
+Delaunay triangulate(std::span<const glm::dvec3> positions) {
+    std::vector<std::pair<Kernel::Point_3, uint32_t>> points;
+    points.reserve(positions.size());
+    for (uint32_t i = 0; i < positions.size(); ++i) points.emplace_back(point(positions[i]), i);
+    return {points.begin(), points.end()};
+}
+
+/// Numbers the finite cells 0.. and the infinite ones kNoIndex.
+void number_cells(Delaunay& delaunay) {
+    uint32_t next = 0;
+    for (const auto cell : delaunay.all_cell_handles()) {
+        cell->info() = delaunay.is_infinite(cell) ? kNoIndex : next++;
+    }
+}
+
+}  // namespace
+
+std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions) {
+    Delaunay delaunay = triangulate(positions);
+    if (delaunay.dimension() < 3) return {};
+    number_cells(delaunay);
+    std::vector<Cell> cells;
+    cells.reserve(delaunay.number_of_cells());
+    for (const auto handle : delaunay.finite_cell_handles()) {
+        Cell cell;
+        for (int i = 0; i < 4; ++i) {
+            cell.vertices[i] = handle->vertex(i)->info();
+            cell.neighbors[i] = handle->neighbor(i)->info();
+        }
+        cells.push_back(cell);
+    }
+    return cells;
+}
+
+int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                const glm::dvec3& d) {
+    return CGAL::orientation(point(a), point(b), point(c), point(d));
+}
+
+bool is_in_circumsphere(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                        const glm::dvec3& d, const glm::dvec3& position) {
+    return CGAL::side_of_oriented_sphere(point(a), point(b), point(c), point(d), point(position)) ==
+           CGAL::ON_POSITIVE_SIDE;
+}
+
+}  // namespace tetralight::detail

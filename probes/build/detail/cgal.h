@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "probes/probe_volume.h"
+
+// Everything that is asked of CGAL.
+
+namespace tetralight::detail {
+
+/// Delaunay tetrahedra over distinct positions, positively oriented, in no particular order;
+/// kNoIndex neighbors are outside the hull. Empty when all positions lie in one plane.
+[[nodiscard]] std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions);
+
+/// Exact sign of dot(b − a, cross(c − a, d − a)).
+[[nodiscard]] int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                              const glm::dvec3& d);
+
+/// Exact: whether `position` lies strictly inside the circumsphere of a positively oriented
+/// tetrahedron.
+[[nodiscard]] bool is_in_circumsphere(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                                      const glm::dvec3& d, const glm::dvec3& position);
+
+}  // namespace tetralight::detail

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/build/make_probe_volume.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "probes/build/hull_rays.h"
+#include "probes/build/tetrahedralize.h"
+
+namespace tetralight {
+namespace {
+
+/// The world's own origin where that costs no precision, else the centre of the probes.
+glm::dvec3 local_origin(std::span<const glm::dvec3> positions) {
+    if (positions.empty()) return glm::dvec3(0.0);
+    glm::dvec3 low = positions[0];
+    glm::dvec3 high = positions[0];
+    for (const glm::dvec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    constexpr double kNear = 16.0;
+    const glm::dvec3 center = (low + high) * 0.5;
+    const bool is_near = glm::length(center) <= kNear * glm::distance(low, high);
+    return is_near ? glm::dvec3(0.0) : glm::dvec3(glm::vec3(center));
+}
+
+}  // namespace
+
+Result<ProbeVolume> make_probe_volume(const MergedProbes& probes) {
+    auto tetrahedralization = tetrahedralize(probes.positions);
+    if (!tetrahedralization) return tetrahedralization.error();
+    HullRays hull = make_hull_rays(probes.positions, *tetrahedralization);
+
+    ProbeVolume volume;
+    volume.info.world_origin = local_origin(probes.positions);
+    volume.info.tetrahedron_count = tetrahedralization->tetrahedron_count;
+    volume.info.radial_share = hull.radial_share;
+    for (const glm::dvec3& p : probes.positions) {
+        const glm::vec3 local(p - volume.info.world_origin);
+        volume.positions.push_back(local);
+        volume.info.extent = std::max(volume.info.extent, glm::length(local));
+    }
+    volume.exact_positions = probes.positions;
+    volume.cells = std::move(tetrahedralization->cells);
+    volume.hull_rays = std::move(hull.cells);
+    volume.sources = probes.sources;
+    for (const std::string& name : probes.group_names) volume.group_names += name + "\n";
+    return volume;
+}
+
+}  // namespace tetralight

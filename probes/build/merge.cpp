@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/build/merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+#include "base/text.h"
+#include "probes/build/detail/hilbert.h"
+
+namespace tetralight {
+namespace {
+
+constexpr double kFarthest = 1e18;
+
+bool is_finite(const glm::dvec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+Error position_error(const ProbeGroup& group, size_t index, const char* what, glm::dvec3 p) {
+    return {text("group \"", group.name, "\": probe ", index, ": position ", what, " (", p.x, ", ",
+                 p.y, ", ", p.z, ")")};
+}
+
+Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
+    if (group.name.empty()) return Error{"a probe group has no name"};
+    if (group.name.find('\n') != std::string::npos) {
+        return Error{text("group \"", group.name, "\": the name holds a line break")};
+    }
+    if (previous != nullptr && previous->name == group.name) {
+        return Error{text("group \"", group.name, "\": there are two groups of this name")};
+    }
+    return Ok{};
+}
+
+Result<std::vector<glm::dvec3>> world_positions(const ProbeGroup& group) {
+    std::vector<glm::dvec3> positions;
+    for (size_t i = 0; i < group.positions.size(); ++i) {
+        const glm::dvec3 p(group.world_from_group * glm::dvec4(group.positions[i], 1.0));
+        if (!is_finite(group.positions[i])) {
+            return position_error(group, i, "is not finite", group.positions[i]);
+        }
+        if (!is_finite(p) || glm::length(p) > kFarthest) {
+            return position_error(group, i, "in the world is beyond 1e18", p);
+        }
+        positions.push_back(p + 0.0);  // -0 becomes 0: equal positions have equal bits
+    }
+    return positions;
+}
+
+bool is_before(const glm::dvec3& a, const glm::dvec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// Joins positions within a radius of each other into clusters, by a hash grid whose cells are as
+/// wide as the radius.
+class Welder {
+  public:
+    Welder(std::span<const glm::dvec3> positions, double radius)
+        : positions_(positions), radius_(radius), parents_(positions.size()) {
+        std::iota(parents_.begin(), parents_.end(), 0u);
+    }
+
+    /// For each position the one that stands for its cluster.
+    std::vector<uint32_t> run() {
+        for (uint32_t i = 0; i < positions_.size(); ++i) {
+            if (radius_ > 0) {
+                join_near(i);
+            } else {
+                join_with_cell(i, positions_[i]);
+            }
+            cells_[cell_of(positions_[i])].push_back(i);
+        }
+        std::vector<uint32_t> representatives(positions_.size());
+        for (uint32_t i = 0; i < positions_.size(); ++i) representatives[i] = root(i);
+        return representatives;
+    }
+
+  private:
+    struct CellHash {
+        size_t operator()(const glm::dvec3& cell) const {
+            const std::hash<double> hash;
+            return hash(cell.x) * 73856093u ^ hash(cell.y) * 19349663u ^ hash(cell.z) * 83492791u;
+        }
+    };
+
+    [[nodiscard]] glm::dvec3 cell_of(const glm::dvec3& position) const {
+        return radius_ > 0 ? glm::floor(position / radius_) + 0.0 : position;
+    }
+
+    void join_near(uint32_t i) {
+        const glm::dvec3 cell = cell_of(positions_[i]);
+        for (int neighbor = 0; neighbor < 27; ++neighbor) {
+            const glm::dvec3 step(neighbor % 3 - 1, neighbor / 3 % 3 - 1, neighbor / 9 - 1);
+            join_with_cell(i, cell + step);
+        }
+    }
+
+    void join_with_cell(uint32_t i, const glm::dvec3& cell) {
+        const auto found = cells_.find(cell);
+        if (found == cells_.end()) return;
+        for (const uint32_t j : found->second) {
+            if (glm::distance(positions_[i], positions_[j]) <= radius_) join(i, j);
+        }
+    }
+
+    /// The root of a cluster is always its lexicographically smallest position.
+    void join(uint32_t a, uint32_t b) {
+        a = root(a);
+        b = root(b);
+        if (is_before(positions_[b], positions_[a])) std::swap(a, b);
+        parents_[b] = a;
+    }
+
+    uint32_t root(uint32_t i) {
+        while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+        return i;
+    }
+
+    std::span<const glm::dvec3> positions_;
+    double radius_;
+    std::vector<uint32_t> parents_;
+    std::unordered_map<glm::dvec3, std::vector<uint32_t>, CellHash> cells_;
+};
+
+double weld_radius(std::span<const glm::dvec3> positions, const MergeSettings& settings) {
+    glm::dvec3 low(kFarthest);
+    glm::dvec3 high(-kFarthest);
+    for (const glm::dvec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return positions.empty() ? 0.0 : settings.weld_tolerance * glm::distance(low, high);
+}
+
+/// Puts the representatives in canonical order and points every source at its probe.
+void weld(std::span<const glm::dvec3> positions, const MergeSettings& settings,
+          MergedProbes& merged) {
+    const auto representatives = Welder(positions, weld_radius(positions, settings)).run();
+    std::vector<glm::dvec3> kept;
+    std::vector<uint32_t> kept_index(positions.size(), kNoIndex);
+    for (uint32_t i = 0; i < positions.size(); ++i) {
+        if (representatives[i] != i) continue;
+        kept_index[i] = static_cast<uint32_t>(kept.size());
+        kept.push_back(positions[i]);
+    }
+    const std::vector<uint32_t> order = detail::hilbert_order(kept);
+    std::vector<uint32_t> place(kept.size());
+    for (uint32_t i = 0; i < order.size(); ++i) {
+        place[order[i]] = i;
+        merged.positions.push_back(kept[order[i]]);
+    }
+    for (uint32_t i = 0; i < positions.size(); ++i) {
+        merged.sources[i].probe = place[kept_index[representatives[i]]];
+    }
+}
+
+}  // namespace
+
+Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettings& settings) {
+    std::vector<const ProbeGroup*> sorted;
+    for (const ProbeGroup& group : groups) sorted.push_back(&group);
+    std::ranges::sort(sorted, {},
+                      [](const ProbeGroup* group) { return std::string_view(group->name); });
+
+    MergedProbes merged;
+    std::vector<glm::dvec3> positions;
+    for (uint32_t g = 0; g < sorted.size(); ++g) {
+        const ProbeGroup& group = *sorted[g];
+        const auto name = check_name(group, g > 0 ? sorted[g - 1] : nullptr);
+        if (!name) return name.error();
+        const auto group_positions = world_positions(group);
+        if (!group_positions) return group_positions.error();
+        merged.group_names.push_back(group.name);
+        merged.group_dering.push_back(group.dering);
+        for (uint32_t i = 0; i < group_positions->size(); ++i) {
+            merged.sources.push_back({g, i, 0});
+            positions.push_back((*group_positions)[i]);
+        }
+    }
+    if (positions.size() >= kNoIndex / 8) {
+        return Error{text(positions.size(), " probes are more than 32-bit cell indices can name")};
+    }
+    weld(positions, settings, merged);
+    return merged;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "probes/probe_group.h"
+#include "probes/probe_volume.h"
+
+namespace tetralight {
+
+struct MergeSettings {
+    /// Positions nearer to each other than this share of the set's bounding-box diagonal become one
+    /// probe.
+    double weld_tolerance = 1e-6;
+
+    bool operator==(const MergeSettings&) const = default;
+};
+
+/// All groups as one set of probes, in canonical order: along a Hilbert curve through the bounding
+/// cube. The same for every order of the groups.
+struct MergedProbes {
+    /// World space, distinct.
+    std::vector<glm::dvec3> positions;
+    /// Sorted.
+    std::vector<std::string> group_names;
+    /// Every probe of every group, sorted by group, then index.
+    std::vector<ProbeSource> sources;
+    /// One a group: whether it asked for dering.
+    std::vector<bool> group_dering;
+
+    /// Probes that were welded to another one.
+    [[nodiscard]] size_t welded_count() const { return sources.size() - positions.size(); }
+};
+
+/// Joins groups into one set. Clusters of near positions are closed transitively; the
+/// lexicographically smallest position stands for its cluster.
+///
+/// Errors: a group without a name, with a line break in it or with the name of another; a position
+/// that is not finite or beyond 1e18 (they name the group and the index).
+[[nodiscard]] Result<MergedProbes> merge(std::span<const ProbeGroup> groups,
+                                         const MergeSettings& settings = {});
+
+}  // namespace tetralight

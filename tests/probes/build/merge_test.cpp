@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/build/merge.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/support/random_probes.h"
+
+namespace tetralight {
+namespace {
+
+ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions) {
+    ProbeGroup group;
+    group.name = std::move(name);
+    group.positions = std::move(positions);
+    return group;
+}
+
+TEST(Merge, PutsPositionsInWorldSpace) {
+    ProbeGroup group = make_group("a", {{1, 0, 0}, {0, 1, 0}});
+    group.world_from_group = glm::translate(glm::dmat4(1.0), glm::dvec3(10, 20, 30));
+    const auto merged = merge(std::span(&group, 1));
+    ASSERT_TRUE(merged);
+    EXPECT_EQ(merged->positions[merged->sources[0].probe], glm::dvec3(11, 20, 30));
+    EXPECT_EQ(merged->positions[merged->sources[1].probe], glm::dvec3(10, 21, 30));
+}
+
+TEST(Merge, IsTheSameForEveryOrderOfTheGroups) {
+    std::vector<ProbeGroup> groups{make_group("c", test::random_positions(20, 1)),
+                                   make_group("a", test::random_positions(30, 2)),
+                                   make_group("b", test::random_positions(10, 3))};
+    const auto first = merge(groups);
+    std::swap(groups[0], groups[2]);
+    std::swap(groups[0], groups[1]);
+    const auto second = merge(groups);
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->positions, second->positions);
+    EXPECT_EQ(first->sources, second->sources);
+    EXPECT_EQ(first->group_names, (std::vector<std::string>{"a", "b", "c"}));
+}
+
+TEST(Merge, NoProbeIsLost) {
+    const std::vector<ProbeGroup> groups{make_group("a", test::random_positions(500, 4)),
+                                         make_group("b", test::random_positions(300, 5))};
+    const auto merged = merge(groups);
+    ASSERT_TRUE(merged);
+    ASSERT_EQ(merged->sources.size(), 800u);
+    for (const ProbeSource& source : merged->sources) {
+        EXPECT_EQ(merged->positions[source.probe], groups[source.group].positions[source.index]);
+    }
+}
+
+TEST(Merge, WeldsDuplicatesAndSaysSo) {
+    const std::vector<ProbeGroup> groups{make_group("a", {{0, 0, 0}, {1, 1, 1}}),
+                                         make_group("b", {{1, 1, 1}, {0, 0, -0.0}, {2, 0, 0}})};
+    const auto merged = merge(groups);
+    ASSERT_TRUE(merged);
+    EXPECT_EQ(merged->positions.size(), 3u);
+    EXPECT_EQ(merged->welded_count(), 2u);
+    EXPECT_EQ(merged->sources[1].probe, merged->sources[2].probe);
+}
+
+TEST(Merge, ClosesClustersTransitivelyAndKeepsTheSmallestPosition) {
+    // Each is 0.6 of the radius from the next: one cluster although its ends are far apart.
+    std::vector<glm::dvec3> chain{{0, 0, 0}, {1, 0, 0}};
+    const MergeSettings settings{0.1};  // radius 0.1 × diagonal 1
+    for (int i = 1; i <= 9; ++i) chain.emplace_back(0.06 * i, 0.0, 0.0);
+    std::reverse(chain.begin() + 2, chain.end());
+    const ProbeGroup group = make_group("chain", chain);
+    const auto merged = merge(std::span(&group, 1), settings);
+    ASSERT_TRUE(merged);
+    ASSERT_EQ(merged->positions.size(), 2u);
+    EXPECT_EQ(merged->positions[merged->sources[5].probe], glm::dvec3(0.0));
+}
+
+TEST(Merge, NamesTheProbeThatIsNotFinite) {
+    const ProbeGroup group = make_group("hall", {{0, 0, 0}, {0, std::nan(""), 1}});
+    const auto merged = merge(std::span(&group, 1));
+    ASSERT_FALSE(merged);
+    EXPECT_EQ(merged.error().message,
+              "group \"hall\": probe 1: position is not finite (0, nan, 1)");
+}
+
+TEST(Merge, RefusesPositionsBeyondAllScenes) {
+    const ProbeGroup group = make_group("far", {{2e18, 0, 0}});
+    EXPECT_FALSE(merge(std::span(&group, 1)));
+}
+
+TEST(Merge, RefusesNamesThatAreMissingDoubleOrBroken) {
+    EXPECT_FALSE(merge(std::vector{make_group("", {{0, 0, 0}})}));
+    EXPECT_FALSE(merge(std::vector{make_group("a\nb", {{0, 0, 0}})}));
+    const auto twice =
+        merge(std::vector{make_group("a", {}), make_group("b", {}), make_group("a", {})});
+    ASSERT_FALSE(twice);
+    EXPECT_EQ(twice.error().message, "group \"a\": there are two groups of this name");
+}
+
+TEST(Merge, OfNothingIsNothing) {
+    const auto merged = merge({});
+    ASSERT_TRUE(merged);
+    EXPECT_TRUE(merged->positions.empty());
+}
+
+}  // namespace
+}  // namespace tetralight
