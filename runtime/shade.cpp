@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/shade.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace tetralight {
+
+glm::vec3 direct_light(const Light& light, glm::vec3 position, glm::vec3 normal) noexcept {
+    const Illumination arriving = illuminate(light, position);
+    const float cosine = std::max(0.0f, glm::dot(normal, arriving.to_light));
+    return arriving.irradiance * (cosine * std::numbers::inv_pi_v<float>);
+}
+
+glm::vec3 shade_diffuse(glm::vec3 albedo, const PackedSh& probe_light, glm::vec3 normal,
+                        glm::vec3 direct) noexcept {
+    return albedo * (glm::max(sample_sh9(probe_light, normal), glm::vec3(0.0f)) + direct);
+}
+
+}  // namespace tetralight
