@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "bake/image/image.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+/// Reads channels R, G, B (or Y alone as grey) of an OpenEXR file as they stand: NaN, infinite and
+/// negative values are the caller's to mend.
+[[nodiscard]] Result<ImageF> read_exr(const std::string& path);
+
+}  // namespace tetralight::detail

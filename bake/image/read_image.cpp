@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/image/read_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string_view>
+
+#include "bake/image/detail/radiance_length.h"
+#include "bake/image/detail/read_exr.h"
+#include "base/file.h"
+#include "base/text.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_HDR
+#include <stb_image.h>
+
+namespace tetralight {
+namespace {
+
+constexpr float kLargestHalf = 65504.0f;
+
+struct FreeStb {
+    void operator()(void* memory) const noexcept { stbi_image_free(memory); }
+};
+
+struct ImageSize {
+    int width = 0;
+    int height = 0;
+};
+
+bool starts_with(std::span<const std::byte> bytes, std::string_view magic) {
+    return bytes.size() >= magic.size() &&
+           std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+}
+
+const stbi_uc* stb_data(std::span<const std::byte> bytes) {
+    return reinterpret_cast<const stbi_uc*>(bytes.data());
+}
+
+Error stb_error(const std::string& name) {
+    const char* reason = stbi_failure_reason();
+    return {text(name, ": cannot decode image (", reason != nullptr ? reason : "unknown", ")")};
+}
+
+bool is_too_large(uint64_t width, uint64_t height) {
+    return height != 0 && width > kMaxImagePixels / height;
+}
+
+Error too_large(const std::string& name, uint64_t width, uint64_t height) {
+    return {text(name, ": ", width, " x ", height, " pixels are more than the largest size (",
+                 kMaxImagePixels, " pixels)")};
+}
+
+uint32_t big_endian_at(std::span<const std::byte> bytes, size_t offset) {
+    uint32_t value = 0;
+    for (size_t i = 0; i < 4; ++i) {
+        value = value << 8 | std::to_integer<uint32_t>(bytes[offset + i]);
+    }
+    return value;
+}
+
+/// stb_image calls a PNG that is too large for it an unknown image; this says what is wrong.
+Status check_png_size(std::span<const std::byte> bytes, const std::string& name) {
+    constexpr size_t kWidthOffset = 16;
+    constexpr size_t kHeightOffset = 20;
+    if (!starts_with(bytes, "\x89PNG") || bytes.size() < kHeightOffset + 4) return Ok{};
+    const uint64_t width = big_endian_at(bytes, kWidthOffset);
+    const uint64_t height = big_endian_at(bytes, kHeightOffset);
+    if (is_too_large(width, height)) return too_large(name, width, height);
+    return Ok{};
+}
+
+/// Reads the size from the header, so that nothing is allocated for an image that is too large.
+Result<ImageSize> read_size(std::span<const std::byte> bytes, const std::string& name) {
+    if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
+        return Error{text(name, ": ", bytes.size(), " bytes are too many for an image file")};
+    }
+    const auto png = check_png_size(bytes, name);
+    if (!png) return png.error();
+    ImageSize size;
+    int channel_count = 0;
+    if (stbi_info_from_memory(stb_data(bytes), static_cast<int>(bytes.size()), &size.width,
+                              &size.height, &channel_count) == 0) {
+        return stb_error(name);
+    }
+    if (size.width <= 0 || size.height <= 0) return Error{name + ": image is empty"};
+    const auto width = static_cast<uint64_t>(size.width);
+    const auto height = static_cast<uint64_t>(size.height);
+    if (is_too_large(width, height)) return too_large(name, width, height);
+    return size;
+}
+
+Result<ImageF> decode_radiance_hdr(std::span<const std::byte> bytes, const std::string& path) {
+    const auto size = read_size(bytes, path);
+    if (!size) return size.error();
+    if (!detail::has_all_scan_lines(bytes, static_cast<uint32_t>(size->width),
+                                    static_cast<uint32_t>(size->height))) {
+        return Error{
+            text(path, ": is cut off or corrupt (", size->width, " x ", size->height, " pixels)")};
+    }
+    int width = 0;
+    int height = 0;
+    int channel_count = 0;
+    const std::unique_ptr<float, FreeStb> values(stbi_loadf_from_memory(
+        stb_data(bytes), static_cast<int>(bytes.size()), &width, &height, &channel_count, 3));
+    if (!values) return stb_error(path);
+    ImageF image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
+    image.pixels.resize(size_t{image.width} * image.height);
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    std::memcpy(image.pixels.data(), values.get(), image.pixels.size() * sizeof(glm::vec3));
+    return image;
+}
+
+float mended(float value) {
+    if (!(value >= 0.0f)) return 0.0f;  // NaN too
+    return std::isinf(value) ? kLargestHalf : value;
+}
+
+uint64_t mend(ImageF& image) {
+    uint64_t mended_pixel_count = 0;
+    for (glm::vec3& pixel : image.pixels) {
+        const glm::vec3 good(mended(pixel.x), mended(pixel.y), mended(pixel.z));
+        if (good == pixel) continue;
+        pixel = good;
+        ++mended_pixel_count;
+    }
+    return mended_pixel_count;
+}
+
+Result<ImageF> read_any_hdr(const std::string& path) {
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    const auto bytes = file->bytes();
+    if (starts_with(bytes, "\x76\x2f\x31\x01")) return detail::read_exr(path);
+    if (starts_with(bytes, "#?")) return decode_radiance_hdr(bytes, path);
+    return Error{path + ": is neither a Radiance .hdr nor an OpenEXR image"};
+}
+
+}  // namespace
+
+Result<Image8> decode_image8(std::span<const std::byte> bytes, const std::string& name) {
+    if (!starts_with(bytes, "\x89PNG") && !starts_with(bytes, "\xff\xd8")) {
+        return Error{name + ": is neither a PNG nor a JPEG image"};
+    }
+    const auto size = read_size(bytes, name);
+    if (!size) return size.error();
+    int width = 0;
+    int height = 0;
+    int channel_count = 0;
+    const std::unique_ptr<stbi_uc, FreeStb> values(stbi_load_from_memory(
+        stb_data(bytes), static_cast<int>(bytes.size()), &width, &height, &channel_count, 4));
+    if (!values) return stb_error(name);
+    Image8 image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
+    image.pixels.resize(size_t{image.width} * image.height);
+    std::memcpy(image.pixels.data(), values.get(), image.pixels.size() * 4);
+    return image;
+}
+
+Result<HdrImage> read_hdr_image(const std::string& path) {
+    auto image = read_any_hdr(path);
+    if (!image) return image.error();
+    HdrImage result{std::move(*image), 0};
+    result.mended_pixel_count = mend(result.image);
+    return result;
+}
+
+}  // namespace tetralight

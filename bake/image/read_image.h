@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "bake/image/image.h"
+#include "base/result.h"
+
+namespace tetralight {
+
+/// Largest image that is read, in pixels: 16384², so that a small hostile file cannot fill memory.
+inline constexpr uint64_t kMaxImagePixels = uint64_t{16384} * 16384;
+
+/// Decodes PNG or JPEG bytes. `name` stands in error messages only.
+[[nodiscard]] Result<Image8> decode_image8(std::span<const std::byte> bytes,
+                                           const std::string& name);
+
+/// A radiance image, and how many of its pixels had to be mended.
+struct HdrImage {
+    ImageF image;
+    /// Pixels with a NaN, infinite or negative channel; that channel was set to 0 (NaN, negative)
+    /// or to the largest finite half (infinite).
+    uint64_t mended_pixel_count = 0;
+};
+
+/// Reads a radiance image: Radiance .hdr or OpenEXR .exr (any compression; channels R, G, B).
+/// The kind is told by the file's first bytes, not by its name.
+[[nodiscard]] Result<HdrImage> read_hdr_image(const std::string& path);
+
+}  // namespace tetralight

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <vector>
+
+#include "bake/image/read_image.h"
+#include "bake/image/write_image.h"
+#include "base/file.h"
+#include "base/text.h"
+
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#include <stb_image_write.h>
+
+namespace tetralight {
+namespace {
+
+void append_bytes(void* target, void* data, int size) {
+    auto& bytes = *static_cast<std::vector<std::byte>*>(target);
+    const auto* first = static_cast<const std::byte*>(data);
+    bytes.insert(bytes.end(), first, first + size);
+}
+
+}  // namespace
+
+Status write_png(const std::string& path, const Image8& image) {
+    const uint64_t pixel_count = uint64_t{image.width} * image.height;
+    TETRALIGHT_ASSERT(image.pixels.size() == pixel_count, "an image has width * height pixels");
+    if (pixel_count == 0 || pixel_count > kMaxImagePixels) {
+        return Error{
+            text(path, ": cannot write an image of ", image.width, " x ", image.height, " pixels")};
+    }
+    std::vector<std::byte> bytes;
+    const int width = static_cast<int>(image.width);
+    if (stbi_write_png_to_func(append_bytes, &bytes, width, static_cast<int>(image.height), 4,
+                               image.pixels.data(), width * 4) == 0) {
+        return Error{path + ": cannot encode PNG image"};
+    }
+    return write_file(path, bytes);
+}
+
+}  // namespace tetralight

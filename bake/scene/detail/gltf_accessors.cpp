@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_accessors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+constexpr uint32_t kByte = 5120;
+constexpr uint32_t kUnsignedByte = 5121;
+constexpr uint32_t kShort = 5122;
+constexpr uint32_t kUnsignedShort = 5123;
+constexpr uint32_t kUnsignedInt = 5125;
+constexpr uint32_t kFloat = 5126;
+
+/// Elements that no byte of the file stands for: a bound against small files that fill memory.
+constexpr uint64_t kMaxZeroElements = 1 << 20;
+
+/// Bytes of one component; 0 for types that nothing here reads.
+uint64_t component_size(uint32_t component_type) {
+    switch (component_type) {
+        case kByte:
+        case kUnsignedByte:
+            return 1;
+        case kShort:
+        case kUnsignedShort:
+            return 2;
+        case kUnsignedInt:
+        case kFloat:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+/// A run of elements in a buffer view.
+struct ElementRun {
+    uint64_t byte_offset = 0;
+    uint64_t count = 0;
+    uint64_t element_size = 0;
+};
+
+/// Copies the elements of a run, tightly packed. All numbers are below 2^33, so nothing overflows.
+Result<std::vector<std::byte>> gather(const GltfDocument& document, uint32_t view_index,
+                                      const ElementRun& run) {
+    const GltfBufferView& view = document.buffer_views[view_index];
+    const uint64_t stride = view.byte_stride == 0 ? run.element_size : view.byte_stride;
+    if (stride < run.element_size) {
+        return Error{text("byteStride ", stride, " of buffer view ", view_index,
+                          " is less than an element's ", run.element_size, " bytes")};
+    }
+    const uint64_t end = run.byte_offset + (run.count - 1) * stride + run.element_size;
+    if (end > view.byte_length) {
+        return Error{text("bytes ", run.byte_offset, " to ", end, " are outside of buffer view ",
+                          view_index, " (", view.byte_length, " bytes)")};
+    }
+    const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
+    const std::byte* source = buffer.data() + view.byte_offset + run.byte_offset;
+    std::vector<std::byte> packed(run.count * run.element_size);
+    for (uint64_t i = 0; i < run.count; ++i) {
+        std::memcpy(&packed[i * run.element_size], source + i * stride, run.element_size);
+    }
+    return packed;
+}
+
+/// One unsigned integer of 1, 2 or 4 bytes.
+uint32_t unsigned_at(const std::byte* bytes, uint32_t component_type) {
+    if (component_type == kUnsignedByte) return std::to_integer<uint32_t>(*bytes);
+    if (component_type == kUnsignedShort) {
+        uint16_t value = 0;
+        std::memcpy(&value, bytes, sizeof value);
+        return value;
+    }
+    uint32_t value = 0;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
+bool is_index_type(uint32_t component_type) {
+    return component_type == kUnsignedByte || component_type == kUnsignedShort ||
+           component_type == kUnsignedInt;
+}
+
+Status replace_sparse(const GltfDocument& document, const GltfAccessor& accessor,
+                      std::span<std::byte> packed) {
+    const GltfSparse& sparse = *accessor.sparse;
+    if (sparse.count == 0 || sparse.count > accessor.count) {
+        return Error{text("sparse count ", sparse.count, " is not in 1 to ", accessor.count)};
+    }
+    if (!is_index_type(sparse.index_component_type)) {
+        return Error{text("sparse indices: component type ", sparse.index_component_type,
+                          " is not supported")};
+    }
+    const uint64_t element_size = packed.size() / accessor.count;
+    const uint64_t index_size = component_size(sparse.index_component_type);
+    const auto indices =
+        gather(document, sparse.index_view, {sparse.index_byte_offset, sparse.count, index_size});
+    if (!indices) return indices.error().in("sparse indices");
+    const auto values =
+        gather(document, sparse.value_view, {sparse.value_byte_offset, sparse.count, element_size});
+    if (!values) return values.error().in("sparse values");
+    for (uint64_t i = 0; i < sparse.count; ++i) {
+        const uint32_t index =
+            unsigned_at(&(*indices)[i * index_size], sparse.index_component_type);
+        if (index >= accessor.count) {
+            return Error{
+                text("sparse index ", index, " is out of range (", accessor.count, " elements)")};
+        }
+        std::memcpy(&packed[index * element_size], &(*values)[i * element_size], element_size);
+    }
+    return Ok{};
+}
+
+/// All elements of an accessor as packed bytes, sparse replacements included.
+Result<std::vector<std::byte>> packed_elements(const GltfDocument& document,
+                                               const GltfAccessor& accessor) {
+    const uint64_t element_size =
+        component_size(accessor.component_type) * accessor.component_count;
+    if (accessor.count == 0) return Error{"has no elements"};
+    std::vector<std::byte> packed;
+    if (accessor.buffer_view != kNoIndex) {
+        auto gathered = gather(document, accessor.buffer_view,
+                               {accessor.byte_offset, accessor.count, element_size});
+        if (!gathered) return gathered.error();
+        packed = std::move(*gathered);
+    } else if (accessor.count > kMaxZeroElements) {
+        return Error{text(accessor.count, " elements without a buffer view are more than ",
+                          kMaxZeroElements)};
+    } else {
+        packed.resize(accessor.count * element_size);
+    }
+    if (accessor.sparse) {
+        const auto status = replace_sparse(document, accessor, packed);
+        if (!status) return status.error();
+    }
+    return packed;
+}
+
+template <class Integer>
+float integer_at(const std::byte* bytes, bool is_normalized) {
+    Integer value = 0;
+    std::memcpy(&value, bytes, sizeof value);
+    const auto number = static_cast<float>(value);
+    if (!is_normalized) return number;
+    return std::max(number / static_cast<float>(std::numeric_limits<Integer>::max()), -1.0f);
+}
+
+float float_at(const std::byte* bytes, uint32_t component_type, bool is_normalized) {
+    switch (component_type) {
+        case kByte:
+            return integer_at<int8_t>(bytes, is_normalized);
+        case kUnsignedByte:
+            return integer_at<uint8_t>(bytes, is_normalized);
+        case kShort:
+            return integer_at<int16_t>(bytes, is_normalized);
+        case kUnsignedShort:
+            return integer_at<uint16_t>(bytes, is_normalized);
+        default:
+            break;
+    }
+    float value = 0.0f;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
+Status check_float_type(const GltfAccessor& accessor, int component_count) {
+    if (accessor.component_count != static_cast<uint32_t>(component_count)) {
+        return Error{text("is not of type VEC", component_count)};
+    }
+    const bool is_known = component_size(accessor.component_type) != 0;
+    if (is_known && accessor.component_type != kUnsignedInt) return Ok{};
+    return Error{text("component type ", accessor.component_type, " is not supported here")};
+}
+
+template <class Vector>
+Result<std::vector<Vector>> decode_vectors(const GltfDocument& document,
+                                           const GltfAccessor& accessor) {
+    constexpr int kComponentCount = Vector::length();
+    const auto type = check_float_type(accessor, kComponentCount);
+    if (!type) return type.error();
+    const auto packed = packed_elements(document, accessor);
+    if (!packed) return packed.error();
+    std::vector<Vector> vectors(accessor.count);
+    const std::byte* bytes = packed->data();
+    for (size_t i = 0; i < vectors.size(); ++i) {
+        for (int axis = 0; axis < kComponentCount; ++axis) {
+            const float value = float_at(bytes, accessor.component_type, accessor.is_normalized);
+            if (!std::isfinite(value)) {
+                return Error{
+                    text("element ", i, " is not finite (component ", axis, " is ", value, ")")};
+            }
+            vectors[i][axis] = value;
+            bytes += component_size(accessor.component_type);
+        }
+    }
+    return vectors;
+}
+
+template <class Vector>
+Result<std::vector<Vector>> read_vectors(const GltfDocument& document, uint32_t accessor_index) {
+    auto vectors = decode_vectors<Vector>(document, document.accessors[accessor_index]);
+    if (!vectors) return vectors.error().in(text("accessor ", accessor_index));
+    return vectors;
+}
+
+}  // namespace
+
+Result<std::vector<glm::vec2>> read_vec2s(const GltfDocument& document, uint32_t accessor_index) {
+    return read_vectors<glm::vec2>(document, accessor_index);
+}
+
+Result<std::vector<glm::vec3>> read_vec3s(const GltfDocument& document, uint32_t accessor_index) {
+    return read_vectors<glm::vec3>(document, accessor_index);
+}
+
+Result<std::vector<glm::vec4>> read_vec4s(const GltfDocument& document, uint32_t accessor_index) {
+    return read_vectors<glm::vec4>(document, accessor_index);
+}
+
+Result<std::vector<uint32_t>> read_indices(const GltfDocument& document, uint32_t accessor_index) {
+    const GltfAccessor& accessor = document.accessors[accessor_index];
+    const std::string place = text("accessor ", accessor_index);
+    if (accessor.component_count != 1) return Error{place + ": is not of type SCALAR"};
+    if (!is_index_type(accessor.component_type)) {
+        return Error{text(place, ": component type ", accessor.component_type,
+                          " is not supported for indices")};
+    }
+    const auto packed = packed_elements(document, accessor);
+    if (!packed) return packed.error().in(place);
+    const uint64_t size = component_size(accessor.component_type);
+    std::vector<uint32_t> indices(accessor.count);
+    for (size_t i = 0; i < indices.size(); ++i) {
+        indices[i] = unsigned_at(&(*packed)[i * size], accessor.component_type);
+    }
+    return indices;
+}
+
+}  // namespace tetralight::detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "base/result.h"
+
+// Accessors read to plain arrays: floats as they stand, 8- and 16-bit integers as
+// KHR_mesh_quantization defines them (normalized or not). Messages name the accessor.
+
+namespace tetralight::detail {
+
+[[nodiscard]] Result<std::vector<glm::vec2>> read_vec2s(const GltfDocument& document,
+                                                        uint32_t accessor_index);
+[[nodiscard]] Result<std::vector<glm::vec3>> read_vec3s(const GltfDocument& document,
+                                                        uint32_t accessor_index);
+[[nodiscard]] Result<std::vector<glm::vec4>> read_vec4s(const GltfDocument& document,
+                                                        uint32_t accessor_index);
+
+/// Unsigned integers of 8, 16 or 32 bits.
+[[nodiscard]] Result<std::vector<uint32_t>> read_indices(const GltfDocument& document,
+                                                         uint32_t accessor_index);
+
+}  // namespace tetralight::detail

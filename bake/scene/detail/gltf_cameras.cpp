@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_cameras.h"
+
+#include <glm/geometric.hpp>
+
+namespace tetralight::detail {
+namespace {
+
+/// Cameras have no scale: their axes become unit vectors.
+glm::dmat4 without_scale(glm::dmat4 matrix) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const double length = glm::length(matrix[axis]);
+        if (length > 0.0) matrix[axis] /= length;
+    }
+    return matrix;
+}
+
+}  // namespace
+
+std::vector<Camera> read_cameras(const GltfDocument& document,
+                                 std::span<const GltfWorldNode> nodes) {
+    std::vector<Camera> cameras;
+    for (const GltfWorldNode& placed : nodes) {
+        const GltfNode& node = document.nodes[placed.node];
+        if (node.camera == kNoIndex) continue;
+        const GltfCamera& source = document.cameras[node.camera];
+        if (!source.fov_y_radians) continue;
+        const std::string& name = node.name.empty() ? source.name : node.name;
+        cameras.push_back({name, without_scale(placed.world_from_node), *source.fov_y_radians});
+    }
+    return cameras;
+}
+
+}  // namespace tetralight::detail

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "bake/scene/detail/gltf_nodes.h"
+
+namespace tetralight::detail {
+
+/// The scene's perspective cameras; others are left out. A camera is named after its node, or else
+/// by its own name.
+[[nodiscard]] std::vector<Camera> read_cameras(const GltfDocument& document,
+                                               std::span<const GltfWorldNode> nodes);
+
+}  // namespace tetralight::detail

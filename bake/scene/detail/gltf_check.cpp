@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_check.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "bake/scene/detail/gltf_rules.h"
+#include "bake/scene/detail/gltf_uri.h"
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+using nlohmann::json;
+
+/// tinygltf copies extras by recursion; no real file nests nearly as deep.
+constexpr int kDeepestNesting = 64;
+
+constexpr std::string_view kSupportedExtensions[] = {
+    "KHR_texture_transform",   "KHR_materials_emissive_strength", "KHR_lights_punctual",
+    "EXT_mesh_gpu_instancing", "KHR_mesh_quantization",
+};
+
+bool is_deeper_than(const json& value, int limit) {
+    if (!value.is_structured()) return false;
+    if (limit == 0) return true;
+    return std::any_of(value.begin(), value.end(),
+                       [limit](const json& part) { return is_deeper_than(part, limit - 1); });
+}
+
+uint64_t size_or(const json& element, const char* key, uint64_t otherwise) {
+    const auto value = element.find(key);
+    return value == element.end() ? otherwise : value->get<uint64_t>();
+}
+
+Status check_version(const json& document) {
+    const json* version = find_json(document, "asset/version");
+    if (version == nullptr || !version->is_string()) return Error{"asset.version is missing"};
+    if (version->get_ref<const std::string&>().starts_with("2.")) return Ok{};
+    return Error{text("asset.version ", shown_json(*version), " is not supported (2.x is)")};
+}
+
+Status check_required_extensions(const json& document) {
+    const json* required = find_json(document, "extensionsRequired");
+    if (required == nullptr) return Ok{};
+    if (!required->is_array()) {
+        return Error{text("extensionsRequired is not an array (", shown_json(*required), ")")};
+    }
+    for (const json& extension : *required) {
+        const bool is_supported =
+            extension.is_string() &&
+            std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions),
+                      extension.get_ref<const std::string&>()) != std::end(kSupportedExtensions);
+        if (is_supported) continue;
+        return Error{text("required extension ", shown_json(extension), " is not supported")};
+    }
+    return Ok{};
+}
+
+Status check_default_scene(const json& document) {
+    const json* scene = find_json(document, "scene");
+    if (scene == nullptr) return Ok{};
+    const json* scenes = find_json(document, "scenes");
+    const size_t count = scenes == nullptr ? 0 : scenes->size();
+    if (scene->is_number_unsigned() && scene->get<uint64_t>() < count) return Ok{};
+    return Error{text("scene ", shown_json(*scene), " is out of range (", count, " scenes)")};
+}
+
+Status check_uri(const json& element) {
+    const json* uri = find_json(element, "uri");
+    if (uri == nullptr || is_data_uri(uri->get_ref<const std::string&>())) return Ok{};
+    const auto path = relative_path_from_uri(uri->get_ref<const std::string&>());
+    if (!path) return path.error();
+    return Ok{};
+}
+
+Status check_buffers(const json& document, GltfContainer container) {
+    const json* buffers = find_json(document, "buffers");
+    if (buffers == nullptr) return Ok{};
+    for (size_t i = 0; i < buffers->size(); ++i) {
+        const json& buffer = (*buffers)[i];
+        const bool is_embedded = container == GltfContainer::Glb && i == 0;
+        if (!buffer.contains("uri") && !is_embedded)
+            return Error{text("buffer ", i, ": has no uri")};
+        if (buffer["byteLength"] == 0) return Error{text("buffer ", i, ": byteLength is 0")};
+        const auto uri = check_uri(buffer);
+        if (!uri) return uri.error().in(text("buffer ", i));
+    }
+    return Ok{};
+}
+
+Status check_image_uris(const json& document) {
+    const json* images = find_json(document, "images");
+    if (images == nullptr) return Ok{};
+    for (size_t i = 0; i < images->size(); ++i) {
+        const auto uri = check_uri((*images)[i]);
+        if (!uri) return uri.error().in(text("image ", i));
+    }
+    return Ok{};
+}
+
+Status check_buffer_views(const json& document) {
+    const json* views = find_json(document, "bufferViews");
+    if (views == nullptr) return Ok{};
+    for (size_t i = 0; i < views->size(); ++i) {
+        const json& view = (*views)[i];
+        const auto buffer = view["buffer"].get<size_t>();
+        const uint64_t buffer_length = document["buffers"][buffer]["byteLength"].get<uint64_t>();
+        const uint64_t offset = size_or(view, "byteOffset", 0);
+        const uint64_t length = size_or(view, "byteLength", 0);
+        if (length == 0) return Error{text("buffer view ", i, ": byteLength is 0")};
+        if (offset + length > buffer_length) {  // both < 2^32
+            return Error{text("buffer view ", i, ": bytes ", offset, " to ", offset + length,
+                              " are outside of buffer ", buffer, " (", buffer_length, " bytes)")};
+        }
+    }
+    return Ok{};
+}
+
+Status check_document(const json& document, GltfContainer container) {
+    if (!document.is_object()) return Error{"is not a JSON object"};
+    if (is_deeper_than(document, kDeepestNesting)) {
+        return Error{text("JSON is nested deeper than ", kDeepestNesting)};
+    }
+    if (const auto status = check_version(document); !status) return status;
+    if (const auto status = check_required_extensions(document); !status) return status;
+    if (const auto status = check_gltf_sections(document); !status) return status;
+    if (const auto status = check_default_scene(document); !status) return status;
+    if (const auto status = check_buffers(document, container); !status) return status;
+    if (const auto status = check_image_uris(document); !status) return status;
+    return check_buffer_views(document);
+}
+
+}  // namespace
+
+Status check_gltf_json(std::string_view json_text, GltfContainer container) {
+    try {
+        return check_document(json::parse(json_text), container);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& exception) {
+        return Error{text("cannot parse JSON (", exception.what(), ")")};
+    }
+}
+
+}  // namespace tetralight::detail

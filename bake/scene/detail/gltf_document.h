@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/scene/scene.h"
+#include "base/result.h"
+
+// What a glTF file says, as plain values and before it is interpreted. Indices are in range or
+// kNoIndex, where the file leaves them out; numbers are finite; buffer views lie in their buffers.
+
+namespace tetralight::detail {
+
+struct GltfBufferView {
+    uint32_t buffer = 0;
+    uint64_t byte_offset = 0;
+    uint64_t byte_length = 0;
+    /// 0 = elements follow one another.
+    uint64_t byte_stride = 0;
+};
+
+/// Elements that replace some of an accessor's.
+struct GltfSparse {
+    uint64_t count = 0;
+    uint32_t index_view = 0;
+    uint64_t index_byte_offset = 0;
+    uint32_t index_component_type = 0;
+    uint32_t value_view = 0;
+    uint64_t value_byte_offset = 0;
+};
+
+struct GltfAccessor {
+    /// kNoIndex = zeros.
+    uint32_t buffer_view = kNoIndex;
+    uint64_t byte_offset = 0;
+    /// glTF's code, 5120 (byte) to 5126 (float).
+    uint32_t component_type = 0;
+    /// 1 to 4; 0 for matrices, which nothing here reads.
+    uint32_t component_count = 0;
+    bool is_normalized = false;
+    uint64_t count = 0;
+    std::optional<GltfSparse> sparse;
+};
+
+/// Accessors by the name of what they hold: `POSITION`, `TEXCOORD_0`, `TRANSLATION`.
+using GltfAttributes = std::map<std::string, uint32_t>;
+
+struct GltfPrimitive {
+    GltfAttributes attributes;
+    uint32_t indices = kNoIndex;
+    uint32_t material = kNoIndex;
+    /// glTF's code: 0 = points, 4 = triangles, 5 = strip, 6 = fan.
+    uint32_t mode = 4;
+};
+
+struct GltfMesh {
+    std::string name;
+    std::vector<GltfPrimitive> primitives;
+};
+
+struct GltfMaterial {
+    std::string name;
+    glm::dvec4 base_color{1.0};
+    double metallic = 1.0;
+    double roughness = 1.0;
+    glm::dvec3 emissive_factor{0.0};
+    double emissive_strength = 1.0;
+    std::string alpha_mode;
+    double alpha_cutoff = 0.5;
+    bool is_double_sided = false;
+    /// `texture` is an index of GltfDocument::textures here.
+    TextureUse base_color_texture;
+    TextureUse emission_texture;
+};
+
+struct GltfTexture {
+    std::string name;
+    uint32_t image = kNoIndex;
+    uint32_t sampler = kNoIndex;
+};
+
+/// An encoded image: in a buffer view, in `encoded` (from a data URI), or in the file `uri`.
+struct GltfImage {
+    std::string name;
+    std::string uri;
+    uint32_t buffer_view = kNoIndex;
+    std::vector<std::byte> encoded;
+};
+
+struct GltfSampler {
+    uint32_t wrap_s = 0;
+    uint32_t wrap_t = 0;
+};
+
+struct GltfLight {
+    std::string name;
+    std::string type;
+    glm::dvec3 color{1.0};
+    double intensity = 1.0;
+    /// 0 = infinite.
+    double range = 0.0;
+    double inner_cone_radians = 0.0;
+    double outer_cone_radians = 0.0;
+    std::optional<std::string> mode;
+};
+
+struct GltfCamera {
+    std::string name;
+    /// None = not a perspective camera.
+    std::optional<double> fov_y_radians;
+};
+
+struct GltfNode {
+    std::string name;
+    glm::dmat4 parent_from_node{1.0};
+    std::vector<uint32_t> children;
+    uint32_t mesh = kNoIndex;
+    uint32_t light = kNoIndex;
+    uint32_t camera = kNoIndex;
+    bool has_skin = false;
+    /// EXT_mesh_gpu_instancing.
+    std::optional<GltfAttributes> instancing;
+    // Extras of Tetralight's own.
+    std::optional<bool> contributes_gi;
+    std::optional<std::string> light_mode;
+    bool is_probe_group = false;
+    bool dering = false;
+};
+
+struct GltfDocument {
+    /// The file's path, to which other files are relative and with which messages begin.
+    std::string path;
+    std::vector<std::vector<unsigned char>> buffers;
+    std::vector<GltfBufferView> buffer_views;
+    std::vector<GltfAccessor> accessors;
+    std::vector<GltfMesh> meshes;
+    std::vector<GltfMaterial> materials;
+    std::vector<GltfTexture> textures;
+    std::vector<GltfImage> images;
+    std::vector<GltfSampler> samplers;
+    std::vector<GltfLight> lights;
+    std::vector<GltfCamera> cameras;
+    std::vector<GltfNode> nodes;
+    /// Roots of the default scene: the file's choice, else its first scene; none = no scene.
+    std::optional<std::vector<uint32_t>> scene_roots;
+    /// Radiance of the sky, from the default scene's `extras.sky`.
+    std::optional<glm::dvec3> sky_radiance;
+};
+
+/// Reads and checks a .gltf or .glb file and its buffers. Image files are left for later.
+[[nodiscard]] Result<GltfDocument> read_gltf_document(const std::string& path);
+
+/// How messages name an element: `mesh 3 "wall"`, without the name where it has none.
+[[nodiscard]] std::string gltf_place(const char* kind, size_t index, const std::string& name);
+
+}  // namespace tetralight::detail

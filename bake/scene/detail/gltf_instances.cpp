@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_instances.h"
+
+#include "bake/scene/detail/gltf_accessors.h"
+#include "bake/scene/detail/gltf_transform.h"
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+/// Attributes of EXT_mesh_gpu_instancing, filled up to one length.
+struct InstanceAttributes {
+    std::vector<glm::vec3> translations;
+    std::vector<glm::vec4> rotations;
+    std::vector<glm::vec3> scales;
+};
+
+/// Number of instances, on which all attributes have to agree.
+Result<size_t> instance_count(const GltfDocument& document, const GltfAttributes& attributes) {
+    size_t count = 0;
+    for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"}) {
+        const auto attribute = attributes.find(name);
+        if (attribute == attributes.end()) continue;
+        const size_t own = document.accessors[attribute->second].count;
+        if (count != 0 && own != count) {
+            return Error{text(name, " has ", own, " elements, another attribute has ", count)};
+        }
+        count = own;
+    }
+    if (count == 0) return Error{"has neither TRANSLATION nor ROTATION nor SCALE"};
+    return count;
+}
+
+Status read_vec3_attribute(const GltfDocument& document, const GltfAttributes& attributes,
+                           const char* name, std::vector<glm::vec3>& values) {
+    const auto attribute = attributes.find(name);
+    if (attribute == attributes.end()) return Ok{};
+    auto result = read_vec3s(document, attribute->second);
+    if (!result) return result.error().in(name);
+    values = std::move(*result);
+    return Ok{};
+}
+
+Result<InstanceAttributes> read_attributes(const GltfDocument& document,
+                                           const GltfAttributes& attributes) {
+    const auto count = instance_count(document, attributes);
+    if (!count) return count.error();
+    InstanceAttributes result;
+    const auto translations =
+        read_vec3_attribute(document, attributes, "TRANSLATION", result.translations);
+    if (!translations) return translations.error();
+    const auto scales = read_vec3_attribute(document, attributes, "SCALE", result.scales);
+    if (!scales) return scales.error();
+    if (const auto rotation = attributes.find("ROTATION"); rotation != attributes.end()) {
+        auto rotations = read_vec4s(document, rotation->second);
+        if (!rotations) return rotations.error().in("ROTATION");
+        result.rotations = std::move(*rotations);
+    }
+    result.translations.resize(*count, glm::vec3(0.0f));
+    result.rotations.resize(*count, glm::vec4(0.0f, 0.0f, 0.0f, 1.0f));
+    result.scales.resize(*count, glm::vec3(1.0f));
+    return result;
+}
+
+/// The transforms at which a node shows its mesh: its own, or those of its instancing.
+Result<std::vector<glm::dmat4>> read_transforms(const GltfDocument& document,
+                                                const GltfWorldNode& placed) {
+    const auto& instancing = document.nodes[placed.node].instancing;
+    if (!instancing) return std::vector<glm::dmat4>{placed.world_from_node};
+    const auto attributes = read_attributes(document, *instancing);
+    if (!attributes) return attributes.error().in("EXT_mesh_gpu_instancing");
+    std::vector<glm::dmat4> transforms;
+    transforms.reserve(attributes->translations.size());
+    for (size_t i = 0; i < attributes->translations.size(); ++i) {
+        const glm::dvec4 q(attributes->rotations[i]);
+        const glm::dmat4 node_from_instance =
+            compose_transform(glm::dvec3(attributes->translations[i]),
+                              glm::dquat(q.w, q.x, q.y, q.z), glm::dvec3(attributes->scales[i]));
+        transforms.push_back(placed.world_from_node * node_from_instance);
+        if (is_finite_affine(transforms.back())) continue;
+        return Error{text("EXT_mesh_gpu_instancing: transform ", i, " is not finite")};
+    }
+    return transforms;
+}
+
+}  // namespace
+
+Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
+                                                 std::span<const GltfWorldNode> nodes,
+                                                 const std::vector<bool>& is_probe,
+                                                 const GltfMeshes& meshes) {
+    std::vector<MeshInstance> instances;
+    for (const GltfWorldNode& placed : nodes) {
+        const GltfNode& node = document.nodes[placed.node];
+        if (node.mesh == kNoIndex || is_probe[placed.node]) continue;
+        const auto transforms = read_transforms(document, placed);
+        if (!transforms) {
+            return transforms.error().in(gltf_place("node", placed.node, node.name));
+        }
+        for (const glm::dmat4& world_from_mesh : *transforms) {
+            for (const uint32_t mesh : meshes.meshes_of[node.mesh]) {
+                instances.push_back({mesh, world_from_mesh, node.name, placed.contributes_gi});
+            }
+        }
+    }
+    return instances;
+}
+
+}  // namespace tetralight::detail

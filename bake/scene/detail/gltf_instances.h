@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "bake/scene/detail/gltf_meshes.h"
+#include "bake/scene/detail/gltf_nodes.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+/// What stands where: one instance for each triangle primitive of each node's mesh, times the
+/// node's EXT_mesh_gpu_instancing. Nodes that are probes are left out.
+[[nodiscard]] Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
+                                                               std::span<const GltfWorldNode> nodes,
+                                                               const std::vector<bool>& is_probe,
+                                                               const GltfMeshes& meshes);
+
+}  // namespace tetralight::detail

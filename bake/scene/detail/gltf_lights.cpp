@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+std::optional<LightType> type_from(const std::string& type) {
+    if (type == "directional") return LightType::Directional;
+    if (type == "point") return LightType::Point;
+    if (type == "spot") return LightType::Spot;
+    return std::nullopt;
+}
+
+Result<LightMode> mode_from(const std::string& mode) {
+    if (mode == "mixed") return LightMode::Mixed;
+    if (mode == "baked") return LightMode::Baked;
+    return Error{text("extras.mode \"", mode, "\" is neither \"mixed\" nor \"baked\"")};
+}
+
+Status read_intensity(const GltfLight& source, Light& light) {
+    if (source.intensity < 0.0) return Error{text("intensity ", source.intensity, " is negative")};
+    for (int channel = 0; channel < 3; ++channel) {
+        const double color = source.color[channel];
+        if (color < 0.0) return Error{text("color ", color, " is negative")};
+        light.intensity[channel] = static_cast<float>(color * source.intensity);
+        if (std::isfinite(light.intensity[channel])) continue;
+        return Error{text("intensity is not finite (", color, " * ", source.intensity, ")")};
+    }
+    return Ok{};
+}
+
+Status read_range(const GltfLight& source, Light& light) {
+    light.range = static_cast<float>(source.range);
+    if (source.range >= 0.0 && std::isfinite(light.range)) return Ok{};
+    return Error{text("range ", source.range, " is negative or too large")};
+}
+
+/// Exporters write equal angles for a cone with a hard edge, and a right angle rounded up to float.
+Status read_cone(const GltfLight& source, Light& light) {
+    constexpr double kRightAngle = std::numbers::pi / 2.0;
+    constexpr double kRounding = 1e-6;
+    const double inner = source.inner_cone_radians;
+    const double outer = source.outer_cone_radians;
+    const bool is_cone = inner >= 0.0 && inner <= outer && outer > 0.0;
+    if (!is_cone || outer > kRightAngle + kRounding) {
+        return Error{
+            text("cone angles ", inner, " and ", outer, " are not 0 <= inner <= outer <= pi / 2")};
+    }
+    light.cos_inner_cone = static_cast<float>(std::cos(std::min(inner, kRightAngle)));
+    light.cos_outer_cone = static_cast<float>(std::cos(std::min(outer, kRightAngle)));
+    return Ok{};
+}
+
+Status place_light(const glm::dmat4& world_from_node, Light& light) {
+    light.position = glm::vec3(world_from_node[3]);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::isfinite(light.position[axis])) continue;
+        return Error{text("position is too far away (", world_from_node[3][axis], ")")};
+    }
+    const glm::dvec3 direction = -glm::dvec3(world_from_node[2]);
+    const double length = glm::length(direction);
+    if (length > 0.0 && std::isfinite(length)) {
+        light.direction = glm::vec3(direction / length);
+    } else if (light.type != LightType::Point) {
+        return Error{text("direction is undefined: its node is scaled to ", length)};
+    }
+    return Ok{};
+}
+
+Result<Light> read_light(const GltfLight& source, LightType type, const GltfWorldNode& placed,
+                         const GltfNode& node) {
+    Light light;
+    light.type = type;
+    const auto mode = mode_from(node.light_mode.value_or(source.mode.value_or("mixed")));
+    if (!mode) return mode.error();
+    light.mode = *mode;
+    if (const auto status = read_intensity(source, light); !status) return status.error();
+    if (const auto status = read_range(source, light); !status) return status.error();
+    if (type == LightType::Spot) {
+        if (const auto status = read_cone(source, light); !status) return status.error();
+    }
+    if (const auto status = place_light(placed.world_from_node, light); !status) {
+        return status.error();
+    }
+    return light;
+}
+
+}  // namespace
+
+Result<GltfLights> read_lights(const GltfDocument& document, std::span<const GltfWorldNode> nodes) {
+    GltfLights result;
+    for (const GltfWorldNode& placed : nodes) {
+        const GltfNode& node = document.nodes[placed.node];
+        if (node.light == kNoIndex) continue;
+        const GltfLight& source = document.lights[node.light];
+        const std::string place = gltf_place("light", node.light, source.name);
+        const auto type = type_from(source.type);
+        if (!type) {
+            result.warnings.push_back(
+                text(place, ": type \"", source.type, "\" is not known; left out"));
+            continue;
+        }
+        const auto light = read_light(source, *type, placed, node);
+        if (!light) {
+            return light.error().in(place).in(gltf_place("node", placed.node, node.name));
+        }
+        result.lights.push_back(*light);
+        result.names.push_back(node.name.empty() ? source.name : node.name);
+    }
+    return result;
+}
+
+}  // namespace tetralight::detail

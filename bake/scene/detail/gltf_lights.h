@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "bake/scene/detail/gltf_nodes.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+struct GltfLights {
+    std::vector<Light> lights;
+    /// The node's name, else the light's.
+    std::vector<std::string> names;
+    std::vector<std::string> warnings;
+};
+
+/// The lights of the nodes, placed in the world.
+[[nodiscard]] Result<GltfLights> read_lights(const GltfDocument& document,
+                                             std::span<const GltfWorldNode> nodes);
+
+}  // namespace tetralight::detail

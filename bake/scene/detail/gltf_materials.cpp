@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_materials.h"
+
+#include <cmath>
+
+#include "bake/scene/detail/gltf_textures.h"
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+constexpr uint32_t kUvSetCount = 2;
+
+Result<float> factor_from(double value, const char* name) {
+    if (value >= 0.0 && value <= 1.0) return static_cast<float>(value);
+    return Error{text(name, " ", value, " is not in 0 to 1")};
+}
+
+Result<glm::vec4> base_color_from(const GltfMaterial& source) {
+    glm::vec4 color{};
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto factor = factor_from(source.base_color[channel], "baseColorFactor");
+        if (!factor) return factor.error();
+        color[channel] = *factor;
+    }
+    return color;
+}
+
+Result<glm::vec3> emission_from(const GltfMaterial& source) {
+    if (source.emissive_strength < 0.0) {
+        return Error{text("emissiveStrength ", source.emissive_strength, " is negative")};
+    }
+    glm::vec3 emission{};
+    for (int channel = 0; channel < 3; ++channel) {
+        const double factor = source.emissive_factor[channel];
+        if (factor < 0.0) return Error{text("emissiveFactor ", factor, " is negative")};
+        emission[channel] = static_cast<float>(factor * source.emissive_strength);
+        if (std::isfinite(emission[channel])) continue;
+        return Error{
+            text("emission is not finite (", factor, " * ", source.emissive_strength, ")")};
+    }
+    return emission;
+}
+
+Result<AlphaMode> alpha_mode_from(const std::string& mode) {
+    if (mode == "OPAQUE") return AlphaMode::Opaque;
+    if (mode == "MASK") return AlphaMode::Mask;
+    if (mode == "BLEND") return AlphaMode::Blend;
+    return Error{text("alphaMode \"", mode, "\" is not OPAQUE, MASK or BLEND")};
+}
+
+bool is_finite(const glm::mat3& matrix) {
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            if (!std::isfinite(matrix[column][row])) return false;
+        }
+    }
+    return true;
+}
+
+/// The same use with an index of the scene's textures.
+Result<TextureUse> texture_use_from(TextureUse use, const char* name, GltfTextureReader& reader) {
+    if (use.texture == kNoIndex) return use;
+    if (use.uv_set >= kUvSetCount) {
+        return Error{text(name, ": texCoord ", use.uv_set, " is not supported (0 and 1 are)")};
+    }
+    if (!is_finite(use.image_from_mesh)) {
+        return Error{text(name, ": KHR_texture_transform is not finite")};
+    }
+    const auto texture = reader.read(use.texture);
+    if (!texture) return texture.error().in(name);
+    use.texture = *texture;
+    return use;
+}
+
+Status read_textures(const GltfMaterial& source, GltfTextureReader& reader, Material& material) {
+    const auto base_color = texture_use_from(source.base_color_texture, "baseColorTexture", reader);
+    if (!base_color) return base_color.error();
+    material.base_color_texture = *base_color;
+    if (material.emission == glm::vec3(0.0f)) return Ok{};  // nothing for a texture to scale
+    const auto emission = texture_use_from(source.emission_texture, "emissiveTexture", reader);
+    if (!emission) return emission.error();
+    material.emission_texture = *emission;
+    return Ok{};
+}
+
+Status read_factors(const GltfMaterial& source, Material& material) {
+    const auto base_color = base_color_from(source);
+    if (!base_color) return base_color.error();
+    const auto metallic = factor_from(source.metallic, "metallicFactor");
+    if (!metallic) return metallic.error();
+    const auto roughness = factor_from(source.roughness, "roughnessFactor");
+    if (!roughness) return roughness.error();
+    const auto emission = emission_from(source);
+    if (!emission) return emission.error();
+    material.base_color = *base_color;
+    material.metallic = *metallic;
+    material.roughness = *roughness;
+    material.emission = *emission;
+    return Ok{};
+}
+
+Result<Material> read_material(const GltfMaterial& source, GltfTextureReader& reader) {
+    Material material;
+    material.name = source.name;
+    material.is_double_sided = source.is_double_sided;
+    const auto factors = read_factors(source, material);
+    if (!factors) return factors.error();
+    const auto alpha_mode = alpha_mode_from(source.alpha_mode);
+    if (!alpha_mode) return alpha_mode.error();
+    material.alpha_mode = *alpha_mode;
+    material.alpha_cutoff = static_cast<float>(source.alpha_cutoff);
+    if (!(source.alpha_cutoff >= 0.0) || !std::isfinite(material.alpha_cutoff)) {
+        return Error{text("alphaCutoff ", source.alpha_cutoff, " is negative or too large")};
+    }
+    const auto textures = read_textures(source, reader, material);
+    if (!textures) return textures.error();
+    return material;
+}
+
+}  // namespace
+
+Result<GltfMaterials> read_materials(const GltfDocument& document) {
+    GltfMaterials result;
+    GltfTextureReader reader(document);
+    for (size_t i = 0; i < document.materials.size(); ++i) {
+        const GltfMaterial& source = document.materials[i];
+        auto material = read_material(source, reader);
+        if (!material) return material.error().in(gltf_place("material", i, source.name));
+        result.materials.push_back(std::move(*material));
+    }
+    result.textures = std::move(reader.textures);
+    result.warnings = std::move(reader.warnings);
+    return result;
+}
+
+void assign_default_material(std::vector<Material>& materials, std::vector<Mesh>& meshes) {
+    uint32_t default_material = kNoIndex;
+    for (Mesh& mesh : meshes) {
+        if (mesh.material != kNoIndex) continue;
+        if (default_material == kNoIndex) {
+            default_material = static_cast<uint32_t>(materials.size());
+            materials.emplace_back().name = "default";
+        }
+        mesh.material = default_material;
+    }
+}
+
+}  // namespace tetralight::detail

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+/// The document's materials, in its order, and the textures they use.
+struct GltfMaterials {
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<std::string> warnings;
+};
+
+[[nodiscard]] Result<GltfMaterials> read_materials(const GltfDocument& document);
+
+/// Gives meshes without a material glTF's default one, which is appended where it is needed.
+void assign_default_material(std::vector<Material>& materials, std::vector<Mesh>& meshes);
+
+}  // namespace tetralight::detail

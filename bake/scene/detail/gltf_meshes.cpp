@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_meshes.h"
+
+#include <numeric>
+
+#include "bake/scene/detail/gltf_accessors.h"
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+constexpr uint32_t kTriangles = 4;
+constexpr uint32_t kTriangleStrip = 5;
+constexpr uint32_t kTriangleFan = 6;
+
+/// The corners in the order the primitive gives them: its indices, or each vertex once.
+Result<std::vector<uint32_t>> read_corners(const GltfDocument& document,
+                                           const GltfPrimitive& primitive, size_t vertex_count) {
+    if (primitive.indices == kNoIndex) {
+        std::vector<uint32_t> corners(vertex_count);
+        std::iota(corners.begin(), corners.end(), 0u);
+        return corners;
+    }
+    auto corners = read_indices(document, primitive.indices);
+    if (!corners) return corners.error();
+    for (const uint32_t index : *corners) {
+        if (index < vertex_count) continue;
+        return Error{text("index ", index, " is out of range (", vertex_count, " vertices)")};
+    }
+    return corners;
+}
+
+/// Triangle i of a strip is (i, i + 1 + i % 2, i + 2 - i % 2). Triangles that only join parts of a
+/// strip, and have no area, are left out.
+std::vector<uint32_t> triangles_from_strip(const std::vector<uint32_t>& corners) {
+    std::vector<uint32_t> indices;
+    for (size_t i = 0; i + 2 < corners.size(); ++i) {
+        const uint32_t a = corners[i];
+        const uint32_t b = corners[i + 1 + i % 2];
+        const uint32_t c = corners[i + 2 - i % 2];
+        if (a != b && b != c && c != a) indices.insert(indices.end(), {a, b, c});
+    }
+    return indices;
+}
+
+std::vector<uint32_t> triangles_from_fan(const std::vector<uint32_t>& corners) {
+    std::vector<uint32_t> indices;
+    for (size_t i = 0; i + 2 < corners.size(); ++i) {
+        indices.insert(indices.end(), {corners[i + 1], corners[i + 2], corners[0]});
+    }
+    return indices;
+}
+
+Result<std::vector<uint32_t>> triangles_from(std::vector<uint32_t> corners, uint32_t mode) {
+    if (corners.size() < 3 || (mode == kTriangles && corners.size() % 3 != 0)) {
+        return Error{text(corners.size(), " corners do not make whole triangles")};
+    }
+    if (mode == kTriangleStrip) return triangles_from_strip(corners);
+    if (mode == kTriangleFan) return triangles_from_fan(corners);
+    return corners;
+}
+
+Status check_count(size_t count, const char* attribute, const Mesh& mesh) {
+    if (count == mesh.positions.size()) return Ok{};
+    return Error{
+        text(attribute, " has ", count, " elements, POSITION has ", mesh.positions.size())};
+}
+
+/// Reads normals and texture coordinates, where there are some.
+Status read_optional_attributes(const GltfDocument& document, const GltfAttributes& attributes,
+                                Mesh& mesh) {
+    if (const auto normal = attributes.find("NORMAL"); normal != attributes.end()) {
+        auto normals = read_vec3s(document, normal->second);
+        if (!normals) return normals.error().in("NORMAL");
+        const auto status = check_count(normals->size(), "NORMAL", mesh);
+        if (!status) return status;
+        mesh.normals = std::move(*normals);
+    }
+    constexpr const char* kUvNames[] = {"TEXCOORD_0", "TEXCOORD_1"};
+    for (size_t set = 0; set < std::size(kUvNames); ++set) {
+        const auto uv = attributes.find(kUvNames[set]);
+        if (uv == attributes.end()) continue;
+        auto uvs = read_vec2s(document, uv->second);
+        if (!uvs) return uvs.error().in(kUvNames[set]);
+        const auto status = check_count(uvs->size(), kUvNames[set], mesh);
+        if (!status) return status;
+        mesh.uvs[set] = std::move(*uvs);
+    }
+    return Ok{};
+}
+
+Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& primitive) {
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) return Error{"has no POSITION"};
+    auto positions = read_vec3s(document, position->second);
+    if (!positions) return positions.error().in("POSITION");
+    Mesh mesh;
+    mesh.positions = std::move(*positions);
+    mesh.material = primitive.material;
+    const auto status = read_optional_attributes(document, primitive.attributes, mesh);
+    if (!status) return status.error();
+    auto corners = read_corners(document, primitive, mesh.positions.size());
+    if (!corners) return corners.error();
+    auto indices = triangles_from(std::move(*corners), primitive.mode);
+    if (!indices) return indices.error();
+    mesh.indices = std::move(*indices);
+    return mesh;
+}
+
+Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshes& result) {
+    auto& meshes_of_source = result.meshes_of.emplace_back();
+    for (size_t i = 0; i < source.primitives.size(); ++i) {
+        const GltfPrimitive& primitive = source.primitives[i];
+        const std::string place = text("primitive ", i);
+        if (primitive.mode > kTriangleFan) {
+            return Error{text(place, ": mode ", primitive.mode, " is not known")};
+        }
+        if (primitive.mode < kTriangles) continue;  // points and lines reflect no light
+        auto mesh = read_primitive(document, primitive);
+        if (!mesh) return mesh.error().in(place);
+        if (mesh->indices.empty()) continue;
+        meshes_of_source.push_back(static_cast<uint32_t>(result.meshes.size()));
+        result.meshes.push_back(std::move(*mesh));
+    }
+    return Ok{};
+}
+
+}  // namespace
+
+Result<GltfMeshes> read_meshes(const GltfDocument& document) {
+    GltfMeshes result;
+    for (size_t i = 0; i < document.meshes.size(); ++i) {
+        const auto status = read_mesh(document, document.meshes[i], result);
+        if (!status) return status.error().in(gltf_place("mesh", i, document.meshes[i].name));
+    }
+    return result;
+}
+
+}  // namespace tetralight::detail

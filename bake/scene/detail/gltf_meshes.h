@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+/// The meshes of a scene: one for each primitive that has triangles.
+struct GltfMeshes {
+    std::vector<Mesh> meshes;
+    /// For each glTF mesh, which of `meshes` are its primitives.
+    std::vector<std::vector<uint32_t>> meshes_of;
+};
+
+/// Reads all triangle primitives. `material` is kNoIndex where the file names none.
+[[nodiscard]] Result<GltfMeshes> read_meshes(const GltfDocument& document);
+
+}  // namespace tetralight::detail

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_nodes.h"
+
+#include "bake/scene/detail/gltf_transform.h"
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+std::string node_place(const GltfDocument& document, uint32_t node) {
+    return gltf_place("node", node, document.nodes[node].name);
+}
+
+Result<std::vector<uint32_t>> find_parents(const GltfDocument& document) {
+    std::vector<uint32_t> parents(document.nodes.size(), kNoIndex);
+    for (uint32_t node = 0; node < document.nodes.size(); ++node) {
+        for (const uint32_t child : document.nodes[node].children) {
+            if (parents[child] != kNoIndex) {
+                return Error{text(node_place(document, child), ": has two parents, nodes ",
+                                  parents[child], " and ", node)};
+            }
+            parents[child] = node;
+        }
+    }
+    return parents;
+}
+
+/// Where each node has one parent at most, what no parentless node leads to is a cycle.
+Status check_no_cycle(const GltfDocument& document, const std::vector<uint32_t>& parents) {
+    std::vector<uint32_t> pending;
+    for (uint32_t node = 0; node < parents.size(); ++node) {
+        if (parents[node] == kNoIndex) pending.push_back(node);
+    }
+    std::vector<bool> is_reached(parents.size(), false);
+    while (!pending.empty()) {
+        const uint32_t node = pending.back();
+        pending.pop_back();
+        is_reached[node] = true;
+        const auto& children = document.nodes[node].children;
+        pending.insert(pending.end(), children.begin(), children.end());
+    }
+    for (uint32_t node = 0; node < parents.size(); ++node) {
+        if (is_reached[node]) continue;
+        return Error{node_place(document, node) + ": is part of a cycle of nodes"};
+    }
+    return Ok{};
+}
+
+/// The roots of the scene; without a scene, all nodes that have no parent.
+Result<std::vector<uint32_t>> find_roots(const GltfDocument& document,
+                                         const std::vector<uint32_t>& parents) {
+    std::vector<uint32_t> roots;
+    if (!document.scene_roots) {
+        for (uint32_t node = 0; node < parents.size(); ++node) {
+            if (parents[node] == kNoIndex) roots.push_back(node);
+        }
+        return roots;
+    }
+    std::vector<bool> is_root(parents.size(), false);
+    for (const uint32_t node : *document.scene_roots) {
+        if (parents[node] != kNoIndex) {
+            return Error{text(node_place(document, node),
+                              ": is a root of the scene and a child of node ", parents[node])};
+        }
+        if (is_root[node]) return Error{node_place(document, node) + ": stands twice in the scene"};
+        is_root[node] = true;
+    }
+    return *document.scene_roots;
+}
+
+struct PendingNode {
+    uint32_t node = 0;
+    /// Where the parent stands in the result; kNoIndex for roots.
+    uint32_t parent_position = kNoIndex;
+};
+
+Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
+                                 const GltfWorldNode* parent) {
+    const GltfNode& source = document.nodes[node];
+    GltfWorldNode placed;
+    placed.node = node;
+    placed.world_from_node = source.parent_from_node;
+    if (parent != nullptr) {
+        placed.parent = parent->node;
+        placed.world_from_node = parent->world_from_node * source.parent_from_node;
+        placed.contributes_gi = parent->contributes_gi;
+    }
+    placed.contributes_gi = source.contributes_gi.value_or(placed.contributes_gi);
+    if (is_finite_affine(source.parent_from_node) && is_finite_affine(placed.world_from_node)) {
+        return placed;
+    }
+    return Error{node_place(document, node) + ": transform is not finite or not affine"};
+}
+
+Result<std::vector<GltfWorldNode>> flatten_from(const GltfDocument& document,
+                                                const std::vector<uint32_t>& roots) {
+    std::vector<PendingNode> pending;
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root});
+    std::vector<GltfWorldNode> result;
+    while (!pending.empty()) {
+        const PendingNode next = pending.back();
+        pending.pop_back();
+        const bool is_root = next.parent_position == kNoIndex;
+        const auto placed =
+            place_node(document, next.node, is_root ? nullptr : &result[next.parent_position]);
+        if (!placed) return placed.error();
+        const auto position = static_cast<uint32_t>(result.size());
+        result.push_back(*placed);
+        const auto& children = document.nodes[next.node].children;
+        for (auto child = children.rbegin(); child != children.rend(); ++child) {
+            pending.push_back({*child, position});
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+Result<std::vector<GltfWorldNode>> flatten_nodes(const GltfDocument& document) {
+    const auto parents = find_parents(document);
+    if (!parents) return parents.error();
+    const auto acyclic = check_no_cycle(document, *parents);
+    if (!acyclic) return acyclic.error();
+    const auto roots = find_roots(document, *parents);
+    if (!roots) return roots.error();
+    return flatten_from(document, *roots);
+}
+
+}  // namespace tetralight::detail

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+/// A node of the default scene with what it inherits.
+struct GltfWorldNode {
+    uint32_t node = 0;
+    uint32_t parent = kNoIndex;
+    glm::dmat4 world_from_node{1.0};
+    bool contributes_gi = true;
+};
+
+/// The default scene's nodes, parents before children and children in the file's order. A node with
+/// two parents, a cycle and a transform that is not finite are errors. Walks without recursion, so
+/// that depth is no limit.
+[[nodiscard]] Result<std::vector<GltfWorldNode>> flatten_nodes(const GltfDocument& document);
+
+}  // namespace tetralight::detail

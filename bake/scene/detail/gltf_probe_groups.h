@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "bake/scene/detail/gltf_nodes.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+/// The probe groups of a scene, and which nodes are probes rather than objects.
+struct GltfProbeGroups {
+    std::vector<ProbeGroup> groups;
+    /// One for each node of the document.
+    std::vector<bool> is_probe;
+};
+
+[[nodiscard]] Result<GltfProbeGroups> read_gltf_probe_groups(const GltfDocument& document,
+                                                             std::span<const GltfWorldNode> nodes);
+
+}  // namespace tetralight::detail

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_textures.h"
+
+#include <span>
+
+#include "bake/image/read_image.h"
+#include "bake/scene/detail/gltf_uri.h"
+#include "base/file.h"
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+constexpr uint32_t kClampToEdge = 33071;
+constexpr uint32_t kMirroredRepeat = 33648;
+constexpr uint32_t kRepeat = 10497;
+
+Result<TextureWrap> wrap_from(uint32_t code, const char* name) {
+    switch (code) {
+        case kRepeat:
+            return TextureWrap::Repeat;
+        case kMirroredRepeat:
+            return TextureWrap::MirroredRepeat;
+        case kClampToEdge:
+            return TextureWrap::ClampToEdge;
+        default:
+            return Error{text(name, " ", code, " is not a wrap mode")};
+    }
+}
+
+Status set_wrap_modes(const GltfDocument& document, uint32_t sampler_index, Texture& texture) {
+    if (sampler_index == kNoIndex) return Ok{};
+    const GltfSampler& sampler = document.samplers[sampler_index];
+    const std::string place = text("sampler ", sampler_index);
+    const auto wrap_u = wrap_from(sampler.wrap_s, "wrapS");
+    if (!wrap_u) return wrap_u.error().in(place);
+    const auto wrap_v = wrap_from(sampler.wrap_t, "wrapT");
+    if (!wrap_v) return wrap_v.error().in(place);
+    texture.wrap_u = *wrap_u;
+    texture.wrap_v = *wrap_v;
+    return Ok{};
+}
+
+Result<Image8> decode_file(const GltfDocument& document, const GltfImage& image,
+                           const std::string& place) {
+    if (is_data_uri(image.uri)) return Error{place + ": kind of data URI is not supported"};
+    const auto relative = relative_path_from_uri(image.uri);
+    if (!relative) return relative.error().in(place);
+    const std::string path = folder_of(document.path) + *relative;
+    const auto bytes = read_file(path);
+    if (!bytes) return bytes.error().in(place);
+    return decode_image8(*bytes, text(place, ": ", path));
+}
+
+Result<Image8> decode(const GltfDocument& document, uint32_t image_index) {
+    const GltfImage& image = document.images[image_index];
+    const std::string place = gltf_place("image", image_index, image.name);
+    if (image.buffer_view != kNoIndex) {
+        const GltfBufferView& view = document.buffer_views[image.buffer_view];
+        const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
+        return decode_image8(buffer.subspan(view.byte_offset, view.byte_length), place);
+    }
+    if (!image.encoded.empty()) return decode_image8(image.encoded, place);
+    return decode_file(document, image, place);
+}
+
+std::string name_of(const GltfTexture& texture, const GltfImage& image) {
+    if (!texture.name.empty()) return texture.name;
+    return image.name.empty() && !is_data_uri(image.uri) ? image.uri : image.name;
+}
+
+}  // namespace
+
+Result<uint32_t> GltfTextureReader::read(uint32_t gltf_texture) {
+    const GltfTexture& source = document_.textures[gltf_texture];
+    const std::string place = gltf_place("texture", gltf_texture, source.name);
+    if (source.image == kNoIndex) {
+        warnings.push_back(place + ": has no PNG or JPEG image; left out");
+        return kNoIndex;
+    }
+    auto texture = find_or_decode(source);
+    if (!texture) return texture.error().in(place);
+    return texture;
+}
+
+Result<uint32_t> GltfTextureReader::find_or_decode(const GltfTexture& source) {
+    Texture texture;
+    const auto wrap = set_wrap_modes(document_, source.sampler, texture);
+    if (!wrap) return wrap.error();
+    const std::array<uint32_t, 3> key = {source.image, static_cast<uint32_t>(texture.wrap_u),
+                                         static_cast<uint32_t>(texture.wrap_v)};
+    if (const auto known = known_.find(key); known != known_.end()) return known->second;
+    auto image = decode(document_, source.image);
+    if (!image) return image.error();
+    texture.name = name_of(source, document_.images[source.image]);
+    texture.image = std::move(*image);
+    const auto index = static_cast<uint32_t>(textures.size());
+    textures.push_back(std::move(texture));
+    known_.emplace(key, index);
+    return index;
+}
+
+}  // namespace tetralight::detail

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+/// Decodes the textures that materials ask for, each image with each pair of wrap modes once.
+class GltfTextureReader {
+  public:
+    explicit GltfTextureReader(const GltfDocument& document) : document_(document) {}
+
+    /// Index in `textures` of what a glTF texture shows; kNoIndex, with a warning, where only an
+    /// extension names its image.
+    [[nodiscard]] Result<uint32_t> read(uint32_t gltf_texture);
+
+    std::vector<Texture> textures;
+    std::vector<std::string> warnings;
+
+  private:
+    [[nodiscard]] Result<uint32_t> find_or_decode(const GltfTexture& source);
+
+    const GltfDocument& document_;
+    /// By image index and the two wrap modes.
+    std::map<std::array<uint32_t, 3>, uint32_t> known_;
+};
+
+}  // namespace tetralight::detail

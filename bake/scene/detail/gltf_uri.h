@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+[[nodiscard]] bool is_data_uri(std::string_view uri);
+
+/// Path below the glTF file's folder that a relative URI names, percent-decoded. Absolute paths,
+/// `..` and schemes such as `file:` are errors: a scene must not reach out of its folder.
+[[nodiscard]] Result<std::string> relative_path_from_uri(std::string_view uri);
+
+/// Folder of a file, for joining: "" or ending in '/'.
+[[nodiscard]] std::string folder_of(const std::string& path);
+
+}  // namespace tetralight::detail

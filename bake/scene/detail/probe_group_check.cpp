@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/probe_group_check.h"
+
+#include <cmath>
+#include <set>
+
+#include "base/text.h"
+
+namespace tetralight::detail {
+namespace {
+
+bool is_finite(const glm::dvec3& position) {
+    return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+}
+
+Status check_transform(const glm::dmat4& world_from_group) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            const double value = world_from_group[column][row];
+            if (!std::isfinite(value)) {
+                return Error{
+                    text("transform: number ", column * 4 + row, " is not finite (", value, ")")};
+            }
+            if (row == 3 && value != (column == 3 ? 1.0 : 0.0)) {
+                return Error{text("transform is not affine: number ", column * 4 + row, " is ",
+                                  value, ", not ", column == 3 ? 1 : 0)};
+            }
+        }
+    }
+    return Ok{};
+}
+
+Status check_group(const ProbeGroup& group) {
+    const auto transform = check_transform(group.world_from_group);
+    if (!transform) return transform;
+    if (group.positions.empty()) return Error{"has no probes"};
+    for (size_t probe = 0; probe < group.positions.size(); ++probe) {
+        const glm::dvec3& position = group.positions[probe];
+        if (is_finite(position)) continue;
+        return Error{text("probe ", probe, ": position is not finite (", position.x, ", ",
+                          position.y, ", ", position.z, ")")};
+    }
+    return Ok{};
+}
+
+}  // namespace
+
+std::string group_place(size_t group_index, const std::string& name) {
+    return name.empty() ? text("group ", group_index) : text("group \"", name, "\"");
+}
+
+Status check_probe_groups(std::span<const ProbeGroup> groups) {
+    std::set<std::string_view> names;
+    for (size_t i = 0; i < groups.size(); ++i) {
+        const ProbeGroup& group = groups[i];
+        if (group.name.empty()) return Error{text("group ", i, ": name is empty")};
+        if (!names.insert(group.name).second) {
+            return Error{text("group ", i, ": another group is named \"", group.name, "\"")};
+        }
+        const auto status = check_group(group);
+        if (!status) return status.error().in(group_place(i, group.name));
+    }
+    return Ok{};
+}
+
+}  // namespace tetralight::detail

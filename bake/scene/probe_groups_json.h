@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "probes/probe_group.h"
+
+namespace tetralight {
+
+/// Reads a probe-group file:
+///
+///     { "groups": [ { "name": "hall",
+///                     "transform": [16 numbers, column-major, world from group],   (optional)
+///                     "dering": false,                                             (optional)
+///                     "positions": [[x, y, z], ...] } ] }
+///
+/// A file without a group, a group without a probe, two groups of one name, unknown keys, a
+/// transform that is not affine and numbers that are not finite are errors that say where.
+[[nodiscard]] Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path);
+
+/// Writes what `read_probe_groups` reads; numbers come back bit for bit.
+[[nodiscard]] Status write_probe_groups(const std::string& path,
+                                        std::span<const ProbeGroup> groups);
+
+}  // namespace tetralight

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/read_gltf.h"
+
+#include <algorithm>
+
+#include "bake/scene/detail/gltf_cameras.h"
+#include "bake/scene/detail/gltf_document.h"
+#include "bake/scene/detail/gltf_instances.h"
+#include "bake/scene/detail/gltf_lights.h"
+#include "bake/scene/detail/gltf_materials.h"
+#include "bake/scene/detail/gltf_meshes.h"
+#include "bake/scene/detail/gltf_nodes.h"
+#include "bake/scene/detail/gltf_probe_groups.h"
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+void append_warnings(Scene& scene, const std::vector<std::string>& warnings) {
+    scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
+}
+
+Status add_surfaces(const detail::GltfDocument& document, Scene& scene,
+                    detail::GltfMeshes& meshes) {
+    auto read = detail::read_meshes(document);
+    if (!read) return read.error();
+    auto materials = detail::read_materials(document);
+    if (!materials) return materials.error();
+    meshes = std::move(*read);
+    scene.meshes = std::move(meshes.meshes);
+    scene.materials = std::move(materials->materials);
+    scene.textures = std::move(materials->textures);
+    detail::assign_default_material(scene.materials, scene.meshes);
+    append_warnings(scene, materials->warnings);
+    return Ok{};
+}
+
+void warn_about_skins(const detail::GltfDocument& document,
+                      std::span<const detail::GltfWorldNode> nodes, Scene& scene) {
+    for (const detail::GltfWorldNode& placed : nodes) {
+        const detail::GltfNode& node = document.nodes[placed.node];
+        if (!node.has_skin || !placed.contributes_gi) continue;
+        scene.warnings.push_back(detail::gltf_place("node", placed.node, node.name) +
+                                 ": skin is left out; its mesh stands as it was modelled");
+    }
+}
+
+Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes& meshes,
+                 Scene& scene) {
+    const auto nodes = detail::flatten_nodes(document);
+    if (!nodes) return nodes.error();
+    auto lights = detail::read_lights(document, *nodes);
+    if (!lights) return lights.error();
+    auto probe_groups = detail::read_gltf_probe_groups(document, *nodes);
+    if (!probe_groups) return probe_groups.error();
+    auto instances = detail::read_instances(document, *nodes, probe_groups->is_probe, meshes);
+    if (!instances) return instances.error();
+    scene.lights = std::move(lights->lights);
+    scene.light_names = std::move(lights->names);
+    scene.probe_groups = std::move(probe_groups->groups);
+    scene.instances = std::move(*instances);
+    scene.cameras = detail::read_cameras(document, *nodes);
+    append_warnings(scene, lights->warnings);
+    warn_about_skins(document, *nodes, scene);
+    return Ok{};
+}
+
+Status add_sky(const detail::GltfDocument& document, Scene& scene) {
+    if (!document.sky_radiance) return Ok{};
+    const glm::dvec3& radiance = *document.sky_radiance;
+    scene.environment.radiance = glm::vec3(radiance);
+    if (std::min({radiance.x, radiance.y, radiance.z}) >= 0.0) return Ok{};
+    return Error{text("scene: extras.sky.radiance (", radiance.x, ", ", radiance.y, ", ",
+                      radiance.z, ") is negative")};
+}
+
+Status add_all(const detail::GltfDocument& document, Scene& scene) {
+    detail::GltfMeshes meshes;
+    const auto surfaces = add_surfaces(document, scene, meshes);
+    if (!surfaces) return surfaces;
+    const auto sky = add_sky(document, scene);
+    if (!sky) return sky;
+    return add_nodes(document, meshes, scene);
+}
+
+}  // namespace
+
+Result<Scene> read_gltf(const std::string& path) {
+    const auto document = detail::read_gltf_document(path);
+    if (!document) return document.error();
+    Scene scene;
+    const auto status = add_all(*document, scene);
+    if (!status) return status.error().in(path);
+    for (std::string& warning : scene.warnings) warning.insert(0, path + ": ");
+    return scene;
+}
+
+}  // namespace tetralight

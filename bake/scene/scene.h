@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+#include "bake/image/image.h"
+#include "probes/light.h"
+#include "probes/no_index.h"
+#include "probes/probe_group.h"
+
+// What a bake reads, as plain values: filled by read_gltf(), or by hand. Elements refer to each
+// other by index. Space is glTF's: right-handed, Y up, metres.
+
+namespace tetralight {
+
+/// How a texture coordinate outside [0, 1] is read (glTF sampler wrap modes).
+enum class TextureWrap : uint8_t { Repeat, MirroredRepeat, ClampToEdge };
+
+/// A sampled image: bilinear filtering, glTF's wrap modes, row 0 at v = 0.
+struct Texture {
+    std::string name;
+    Image8 image;
+    TextureWrap wrap_u = TextureWrap::Repeat;
+    TextureWrap wrap_v = TextureWrap::Repeat;
+
+    bool operator==(const Texture&) const = default;
+};
+
+/// A texture as a material uses it.
+struct TextureUse {
+    uint32_t texture = kNoIndex;
+    /// Which of a mesh's texture coordinate sets: 0 or 1.
+    uint32_t uv_set = 0;
+    /// KHR_texture_transform: image_uv = image_from_mesh · (u, v, 1).
+    glm::mat3 image_from_mesh{1.0f};
+
+    bool operator==(const TextureUse&) const = default;
+};
+
+enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
+
+/// glTF's metallic-roughness material, as far as diffuse light transport needs it.
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1.0f};  ///< linear, times the texture's (sRGB-decoded) colour
+    TextureUse base_color_texture;
+    float metallic = 1.0f;
+    float roughness = 1.0f;
+    glm::vec3 emission{0.0f};  ///< radiance, linear, strength included, times the texture's colour
+    TextureUse emission_texture;
+    AlphaMode alpha_mode = AlphaMode::Opaque;
+    float alpha_cutoff = 0.5f;
+    bool is_double_sided = false;
+
+    bool operator==(const Material&) const = default;
+};
+
+/// One primitive: indexed triangles with one material. Arrays beside `positions` are empty or as
+/// long as it.
+struct Mesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> uvs[2];
+    /// Three a triangle, counter-clockwise seen from the front.
+    std::vector<uint32_t> indices;
+    uint32_t material = kNoIndex;
+
+    bool operator==(const Mesh&) const = default;
+};
+
+/// A mesh placed in the world.
+struct MeshInstance {
+    uint32_t mesh = 0;
+    glm::dmat4 world_from_mesh{1.0};
+    /// Name of the glTF node, for messages and for finding objects.
+    std::string name;
+    /// False for things that move: the bake does not see them (`extras.contribute_gi: false`).
+    bool contributes_gi = true;
+
+    bool operator==(const MeshInstance&) const = default;
+};
+
+/// Distant light from all directions.
+struct Environment {
+    /// Radiance of every direction; scales the image when there is one.
+    glm::vec3 radiance{0.0f};
+    /// Equirectangular; empty = constant. Centre = +X, +Z to its right, +Y up, before the rotation.
+    ImageF image;
+    /// Turns the image about +Y, counter-clockwise seen from above.
+    float rotation_radians = 0.0f;
+
+    bool operator==(const Environment&) const = default;
+};
+
+/// A perspective camera: it looks along its −Z, with +Y up in the picture.
+struct Camera {
+    std::string name;
+    glm::dmat4 world_from_camera{1.0};
+    double fov_y_radians = 0.8;
+
+    bool operator==(const Camera&) const = default;
+};
+
+struct Scene {
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<MeshInstance> instances;
+    std::vector<Light> lights;
+    /// Names of `lights`, in the same order.
+    std::vector<std::string> light_names;
+    Environment environment;
+    std::vector<Camera> cameras;
+    std::vector<ProbeGroup> probe_groups;
+    /// What was left out or mended, one line each, for the user.
+    std::vector<std::string> warnings;
+
+    bool operator==(const Scene&) const = default;
+};
+
+}  // namespace tetralight

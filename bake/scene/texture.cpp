@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/texture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/image/srgb.h"
+#include "base/assert.h"
+
+namespace tetralight {
+namespace {
+
+/// The two texels beside a coordinate and the weight of the second one.
+struct TexelPair {
+    uint32_t first = 0;
+    uint32_t second = 0;
+    float second_weight = 0.0f;
+};
+
+/// Brings a coordinate into one period, so that large ones neither overflow nor lose the fraction.
+float reduced(float coordinate, TextureWrap wrap) {
+    if (!std::isfinite(coordinate)) return 0.0f;
+    switch (wrap) {
+        case TextureWrap::Repeat:
+            return coordinate - std::floor(coordinate);
+        case TextureWrap::MirroredRepeat:
+            return coordinate - 2.0f * std::floor(coordinate * 0.5f);
+        case TextureWrap::ClampToEdge:
+            break;
+    }
+    return std::clamp(coordinate, 0.0f, 1.0f);
+}
+
+/// Texel index of an index up to one period outside of the image.
+uint32_t wrapped(int64_t index, int64_t size, TextureWrap wrap) {
+    if (wrap == TextureWrap::ClampToEdge) {
+        return static_cast<uint32_t>(std::clamp<int64_t>(index, 0, size - 1));
+    }
+    const int64_t period = wrap == TextureWrap::Repeat ? size : 2 * size;
+    const int64_t inside = (index + period) % period;
+    return static_cast<uint32_t>(inside < size ? inside : period - 1 - inside);
+}
+
+TexelPair texels_at(float coordinate, uint32_t size, TextureWrap wrap) {
+    const float texel = reduced(coordinate, wrap) * static_cast<float>(size) - 0.5f;
+    const float floor = std::floor(texel);
+    const auto first = static_cast<int64_t>(floor);
+    return {wrapped(first, size, wrap), wrapped(first + 1, size, wrap), texel - floor};
+}
+
+glm::vec4 texel_color(const Image8& image, uint32_t x, uint32_t y) {
+    const auto& code = image.pixels[size_t{y} * image.width + x];
+    return {linear_from_srgb8(code[0]), linear_from_srgb8(code[1]), linear_from_srgb8(code[2]),
+            static_cast<float>(code[3]) / 255.0f};
+}
+
+glm::vec4 lerp(glm::vec4 first, glm::vec4 second, float second_weight) {
+    return first * (1.0f - second_weight) + second * second_weight;
+}
+
+}  // namespace
+
+glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
+    const Image8& image = texture.image;
+    TETRALIGHT_ASSERT(!image.pixels.empty(), "a texture has pixels");
+    const TexelPair x = texels_at(uv.x, image.width, texture.wrap_u);
+    const TexelPair y = texels_at(uv.y, image.height, texture.wrap_v);
+    const glm::vec4 upper = lerp(texel_color(image, x.first, y.first),
+                                 texel_color(image, x.second, y.first), x.second_weight);
+    const glm::vec4 lower = lerp(texel_color(image, x.first, y.second),
+                                 texel_color(image, x.second, y.second), x.second_weight);
+    return lerp(upper, lower, y.second_weight);
+}
+
+}  // namespace tetralight

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "bake/scene/scene.h"
+
+namespace tetralight {
+
+/// Bilinear lookup of a colour texture: RGB decoded from sRGB before filtering, alpha linear.
+[[nodiscard]] glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
+
+}  // namespace tetralight

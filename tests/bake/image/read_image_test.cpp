@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/image/read_image.h"
+
+#include <gtest/gtest.h>
+
+#include "bake/image/write_image.h"
+#include "tests/bake/image/temp_folder.h"
+
+namespace tetralight {
+namespace {
+
+std::vector<std::byte> small_png() {
+    const TempFolder folder;
+    EXPECT_TRUE(write_png(folder.path("a.png"), Image8{2, 1, {{255, 0, 0, 255}, {0, 9, 0, 128}}}));
+    return *read_file(folder.path("a.png"));
+}
+
+std::span<const std::byte> bytes_of(std::string_view text) {
+    return std::as_bytes(std::span(text));
+}
+
+/// A Radiance file of flat RGBE pixels: value = mantissa / 256 * 2^(exponent - 128).
+std::string radiance_hdr(std::string_view size, std::string_view rgbe) {
+    return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + std::string(size) + "\n" + std::string(rgbe);
+}
+
+TEST(DecodeImage8, RejectsWhatIsNoPngOrJpeg) {
+    const auto image = decode_image8(bytes_of("GIF89a"), "photo.gif");
+    ASSERT_FALSE(image);
+    EXPECT_EQ(image.error().message, "photo.gif: is neither a PNG nor a JPEG image");
+}
+
+TEST(DecodeImage8, RejectsEveryTruncationOfAPng) {
+    const auto png = small_png();
+    for (size_t length = 0; length < png.size() - 4; ++length) {  // the last 4 are a checksum
+        const auto image = decode_image8(std::span(png).first(length), "cut.png");
+        ASSERT_FALSE(image) << length;
+        EXPECT_TRUE(image.error().message.starts_with("cut.png: "));
+    }
+}
+
+TEST(DecodeImage8, RejectsASizeAboveTheCapBeforeDecoding) {
+    auto png = small_png();
+    const uint8_t size[] = {0, 0, 0x80, 0, 0, 0, 0x80, 0};  // 32768 x 32768, big-endian
+    constexpr size_t kWidthOffset = 16;
+    for (size_t i = 0; i < sizeof size; ++i) png[kWidthOffset + i] = std::byte{size[i]};
+    const auto image = decode_image8(png, "bomb.png");
+    ASSERT_FALSE(image);
+    EXPECT_EQ(image.error().message,
+              "bomb.png: 32768 x 32768 pixels are more than the largest size (268435456 pixels)");
+}
+
+TEST(ReadHdrImage, DecodesRadianceRgbe) {
+    const TempFolder folder;
+    // (128, 64, 32) / 256 * 2^(130 - 128) = (2, 1, 0.5); exponent 0 is black.
+    const std::string rgbe("\x80\x40\x20\x82\x00\x00\x00\x00", 8);
+    const auto path = folder.write("a.hdr", radiance_hdr("-Y 1 +X 2", rgbe));
+    const auto read = read_hdr_image(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->image.width, 2u);
+    EXPECT_EQ(read->image.pixels, (std::vector<glm::vec3>{{2.0f, 1.0f, 0.5f}, {0, 0, 0}}));
+}
+
+TEST(ReadHdrImage, TellsTheKindByContentNotByName) {
+    const TempFolder folder;
+    ASSERT_TRUE(write_exr(folder.path("named.hdr"), ImageF{1, 1, {{1, 2, 3}}}));
+    const auto read = read_hdr_image(folder.path("named.hdr"));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->image.pixels[0], glm::vec3(1, 2, 3));
+}
+
+TEST(ReadHdrImage, RejectsARadianceSizeAboveTheCap) {
+    const TempFolder folder;
+    const auto path = folder.write("large.hdr", radiance_hdr("-Y 100000 +X 100000", ""));
+    const auto read = read_hdr_image(path);
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().message.find("100000 x 100000 pixels"), std::string::npos);
+}
+
+TEST(ReadHdrImage, RejectsACutOffRadianceFile) {
+    const TempFolder folder;
+    const auto path = folder.write("cut.hdr", radiance_hdr("-Y 4 +X 2", "\x80\x40\x20\x82"));
+    const auto read = read_hdr_image(path);
+    ASSERT_FALSE(read);
+    EXPECT_TRUE(read.error().message.starts_with(path));
+}
+
+TEST(ReadHdrImage, RejectsOtherFiles) {
+    const TempFolder folder;
+    const auto path = folder.write("a.hdr", "hello");
+    const auto read = read_hdr_image(path);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().message, path + ": is neither a Radiance .hdr nor an OpenEXR image");
+}
+
+TEST(ReadHdrImage, NamesAFileThatIsMissing) {
+    const auto read = read_hdr_image("/nowhere/sky.hdr");
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().message.find("/nowhere/sky.hdr"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tetralight

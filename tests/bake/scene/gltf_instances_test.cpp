@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_instances.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/bake/scene/gltf_builder.h"
+
+namespace tetralight {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A triangle under a node that is moved up by 10, with these instancing attributes.
+GltfBuilder instanced(const std::function<Json(GltfBuilder&)>& attributes) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    const Json extension = {{"attributes", attributes(gltf)}};
+    gltf.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+    gltf.add_root({{"name", "trees"},
+                   {"mesh", mesh},
+                   {"translation", {0, 10, 0}},
+                   {"extensions", {{"EXT_mesh_gpu_instancing", extension}}}});
+    return gltf;
+}
+
+std::vector<MeshInstance> instances_of(const GltfBuilder& gltf) {
+    const auto scene = gltf.read();
+    EXPECT_TRUE(scene) << scene.error().message;
+    return scene ? scene->instances : std::vector<MeshInstance>();
+}
+
+TEST(GltfInstances, NodesShareAMesh) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    gltf.add_root({{"mesh", mesh}, {"name", "a"}});
+    gltf.add_root({{"mesh", mesh}, {"name", "b"}});
+    const auto instances = instances_of(gltf);
+    ASSERT_EQ(instances.size(), 2u);
+    EXPECT_EQ(instances[0].mesh, instances[1].mesh);
+    EXPECT_EQ(instances[1].name, "b");
+}
+
+TEST(GltfInstances, TranslationsAloneAreEnough) {
+    const auto instances = instances_of(instanced([](GltfBuilder& gltf) -> Json {
+        return {{"TRANSLATION", gltf.add_floats({1, 2, 3, 4, 5, 6}, "VEC3")}};
+    }));
+    ASSERT_EQ(instances.size(), 2u);
+    EXPECT_EQ(instances[0].world_from_mesh[3], glm::dvec4(1, 12, 3, 1));
+    EXPECT_EQ(instances[1].world_from_mesh[3], glm::dvec4(4, 15, 6, 1));
+    EXPECT_EQ(instances[1].name, "trees");
+}
+
+TEST(GltfInstances, ScaleComesBeforeRotation) {
+    const float half = std::sqrt(0.5f);
+    const auto instances = instances_of(instanced([&](GltfBuilder& gltf) -> Json {
+        return {{"ROTATION", gltf.add_floats({0, 0, half, half}, "VEC4")},  // x to y
+                {"SCALE", gltf.add_floats({2, 3, 4}, "VEC3")}};
+    }));
+    ASSERT_EQ(instances.size(), 1u);
+    EXPECT_NEAR(instances[0].world_from_mesh[0].y, 2.0, 1e-6);
+    EXPECT_NEAR(instances[0].world_from_mesh[1].x, -3.0, 1e-6);
+}
+
+TEST(GltfInstances, RotationsMayBeNormalizedBytes) {
+    const auto instances = instances_of(instanced([](GltfBuilder& gltf) -> Json {
+        const size_t rotation = gltf.add_accessor(std::vector<int8_t>{0, 127, 0, 0}, "VEC4", 5120);
+        gltf.json["accessors"][rotation]["normalized"] = true;
+        return {{"ROTATION", rotation}};
+    }));
+    ASSERT_EQ(instances.size(), 1u);
+    EXPECT_NEAR(instances[0].world_from_mesh[0].x, -1.0, 1e-6);  // half a turn about +Y
+}
+
+TEST(GltfInstances, RejectsAttributesOfDifferentLengths) {
+    const auto gltf = instanced([](GltfBuilder& builder) -> Json {
+        return {{"TRANSLATION", builder.add_floats({1, 2, 3, 4, 5, 6}, "VEC3")},
+                {"SCALE", builder.add_floats({1, 1, 1}, "VEC3")}};
+    });
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"trees\": EXT_mesh_gpu_instancing: SCALE has 1 elements, another "
+              "attribute has 2");
+}
+
+TEST(GltfInstances, RejectsInstancingWithoutAttributes) {
+    const auto gltf = instanced([](GltfBuilder&) { return Json::object(); });
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"trees\": EXT_mesh_gpu_instancing: has neither TRANSLATION nor "
+              "ROTATION nor SCALE");
+}
+
+TEST(GltfInstances, RejectsAZeroRotation) {
+    const auto gltf = instanced([](GltfBuilder& builder) -> Json {
+        return {{"ROTATION", builder.add_floats({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4")}};
+    });
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"trees\": EXT_mesh_gpu_instancing: transform 1 is not finite");
+}
+
+TEST(GltfInstances, RejectsATranslationThatIsNotFinite) {
+    const auto gltf = instanced([](GltfBuilder& builder) -> Json {
+        const float infinity = std::numeric_limits<float>::infinity();
+        return {{"TRANSLATION", builder.add_floats({0, 0, infinity}, "VEC3")}};
+    });
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"trees\": EXT_mesh_gpu_instancing: TRANSLATION: accessor 1: "
+              "element 0 is not finite (component 2 is inf)");
+}
+
+}  // namespace
+}  // namespace tetralight

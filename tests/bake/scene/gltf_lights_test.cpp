@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_lights.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/bake/scene/gltf_builder.h"
+
+namespace tetralight {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A scene with one light on a node "lamp" that has these further properties.
+GltfBuilder lamp(Json light, Json node = Json::object()) {
+    GltfBuilder gltf;
+    node["name"] = "lamp";
+    node["extensions"] = GltfBuilder::light_extension(gltf.add_light(std::move(light)));
+    gltf.add_root(std::move(node));
+    return gltf;
+}
+
+/// The one light of a scene; a default one, and a failed test, where there is none.
+Light light_of(const GltfBuilder& gltf) {
+    const auto scene = gltf.read();
+    EXPECT_TRUE(scene) << scene.error().message;
+    if (!scene || scene->lights.size() != 1) return {};
+    return scene->lights[0];
+}
+
+TEST(GltfLights, DirectionalLightIsColorTimesLux) {
+    const Light light =
+        light_of(lamp({{"type", "directional"}, {"color", {1.0, 0.5, 0.25}}, {"intensity", 1000}}));
+    EXPECT_EQ(light.type, LightType::Directional);
+    EXPECT_EQ(light.intensity, glm::vec3(1000, 500, 250));
+    EXPECT_EQ(light.direction, glm::vec3(0, 0, -1));
+}
+
+TEST(GltfLights, DefaultsAreWhiteAndOne) {
+    const Light light = light_of(lamp({{"type", "point"}}));
+    EXPECT_EQ(light.type, LightType::Point);
+    EXPECT_EQ(light.intensity, glm::vec3(1.0f));
+    EXPECT_EQ(light.range, 0.0f);
+    EXPECT_EQ(light.mode, LightMode::Mixed);
+}
+
+TEST(GltfLights, NodePlacesAndTurnsTheLight) {
+    const double half = std::sqrt(0.5);
+    // -90 degrees about +X turn -Z to -Y; scale changes neither direction length nor units.
+    const Light light = light_of(lamp(
+        {{"type", "spot"}, {"spot", Json::object()}, {"range", 8}},
+        {{"translation", {1, 2, 3}}, {"rotation", {-half, 0, 0, half}}, {"scale", {2, 2, 2}}}));
+    EXPECT_EQ(light.position, glm::vec3(1, 2, 3));
+    EXPECT_NEAR(light.direction.y, -1.0f, 1e-6f);
+    EXPECT_NEAR(light.direction.z, 0.0f, 1e-6f);
+    EXPECT_EQ(light.range, 8.0f);
+}
+
+TEST(GltfLights, SpotAnglesBecomeCosines) {
+    const Light light = light_of(
+        lamp({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}}));
+    EXPECT_EQ(light.type, LightType::Spot);
+    EXPECT_FLOAT_EQ(light.cos_inner_cone, std::cos(0.25f));
+    EXPECT_FLOAT_EQ(light.cos_outer_cone, std::cos(0.5f));
+}
+
+TEST(GltfLights, SpotDefaultsToZeroAndFortyFiveDegrees) {
+    const Light light = light_of(lamp({{"type", "spot"}, {"spot", Json::object()}}));
+    EXPECT_FLOAT_EQ(light.cos_inner_cone, 1.0f);
+    EXPECT_FLOAT_EQ(light.cos_outer_cone, std::sqrt(0.5f));
+}
+
+TEST(GltfLights, HardEdgedAndHalfSphereConesAreAllowed) {
+    const double right_angle = static_cast<float>(std::numbers::pi / 2);  // above pi / 2
+    const Light light = light_of(
+        lamp({{"type", "spot"},
+              {"spot", {{"innerConeAngle", right_angle}, {"outerConeAngle", right_angle}}}}));
+    EXPECT_NEAR(light.cos_outer_cone, 0.0f, 1e-7f);
+    EXPECT_EQ(light.cos_inner_cone, light.cos_outer_cone);
+}
+
+TEST(GltfLights, ModeOfTheLight) {
+    EXPECT_EQ(light_of(lamp({{"type", "point"}, {"extras", {{"mode", "baked"}}}})).mode,
+              LightMode::Baked);
+}
+
+TEST(GltfLights, ModeOfTheNodeWins) {
+    EXPECT_EQ(light_of(lamp({{"type", "point"}, {"extras", {{"mode", "baked"}}}},
+                            {{"extras", {{"mode", "mixed"}}}}))
+                  .mode,
+              LightMode::Mixed);
+}
+
+TEST(GltfLights, NamesAreTheNodesElseTheLights) {
+    GltfBuilder gltf = lamp({{"type", "point"}, {"name", "bulb"}});
+    gltf.add_root({{"extensions", GltfBuilder::light_extension(0)}});
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->light_names, (std::vector<std::string>{"lamp", "bulb"}));
+    EXPECT_EQ(scene->lights.size(), 2u);
+}
+
+TEST(GltfLights, UnknownTypeIsLeftOutWithAWarning) {
+    const auto scene = lamp({{"type", "area"}, {"name", "panel"}}).read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene->lights.empty());
+    ASSERT_EQ(scene->warnings.size(), 1u);
+    EXPECT_TRUE(scene->warnings[0].ends_with(
+        "scene.glb: light 0 \"panel\": type \"area\" is not known; left out"));
+}
+
+TEST(GltfLights, PointLightNeedsNoDirection) {
+    EXPECT_EQ(light_of(lamp({{"type", "point"}}, {{"scale", {0, 0, 0}}})).type, LightType::Point);
+}
+
+struct LightRejection {
+    const char* label;
+    Json light;
+    Json node;
+    const char* error;
+};
+
+class GltfLightsReject : public testing::TestWithParam<LightRejection> {};
+
+TEST_P(GltfLightsReject, WithPlaceAndValue) {
+    EXPECT_EQ(lamp(GetParam().light, GetParam().node).error(),
+              std::string("scene.glb: node 0 \"lamp\": light 0: ") + GetParam().error);
+}
+
+const Json kNoExtras = Json::object();
+
+Json spot(double inner, double outer) {
+    return {{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, GltfLightsReject,
+    testing::Values(
+        LightRejection{"Intensity",
+                       {{"type", "point"}, {"intensity", -1}},
+                       kNoExtras,
+                       "intensity -1 is negative"},
+        LightRejection{"Color",
+                       {{"type", "point"}, {"color", {1, -0.5, 1}}},
+                       kNoExtras,
+                       "color -0.5 is negative"},
+        LightRejection{"Overflow",
+                       {{"type", "point"}, {"intensity", 1e300}},
+                       kNoExtras,
+                       "intensity is not finite (1 * 1e+300)"},
+        LightRejection{"Range",
+                       {{"type", "point"}, {"range", -2}},
+                       kNoExtras,
+                       "range -2 is negative or too large"},
+        LightRejection{"Inner", spot(-0.1, 0.5), kNoExtras,
+                       "cone angles -0.1 and 0.5 are not 0 <= inner <= outer <= pi / 2"},
+        LightRejection{"InnerAboveOuter", spot(0.6, 0.5), kNoExtras,
+                       "cone angles 0.6 and 0.5 are not 0 <= inner <= outer <= pi / 2"},
+        LightRejection{"Outer", spot(0.1, 2), kNoExtras,
+                       "cone angles 0.1 and 2 are not 0 <= inner <= outer <= pi / 2"},
+        LightRejection{"NoDirection",
+                       {{"type", "directional"}},
+                       {{"scale", {1, 1, 0}}},
+                       "direction is undefined: its node is scaled to 0"},
+        LightRejection{"FarAway",
+                       {{"type", "point"}},
+                       {{"translation", {1e300, 0, 0}}},
+                       "position is too far away (1e+300)"},
+        LightRejection{"NodeMode",
+                       {{"type", "point"}},
+                       {{"extras", {{"mode", "dynamic"}}}},
+                       "extras.mode \"dynamic\" is neither \"mixed\" nor \"baked\""},
+        LightRejection{"ModeNoString",
+                       {{"type", "point"}},
+                       {{"extras", {{"mode", 3}}}},
+                       "extras.mode \"(not a string)\" is neither \"mixed\" nor \"baked\""}),
+    [](const auto& param_info) { return std::string(param_info.param.label); });
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_materials.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bake/scene/gltf_builder.h"
+
+namespace tetralight {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A scene of one triangle with one material.
+GltfBuilder painted(Json material) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    gltf.primitive(mesh)["material"] = gltf.add("materials", std::move(material));
+    gltf.add_root({{"mesh", mesh}});
+    return gltf;
+}
+
+/// The first material of a scene; a default one, and a failed test, where there is none.
+Material material_of(const GltfBuilder& gltf) {
+    const auto scene = gltf.read();
+    EXPECT_TRUE(scene) << scene.error().message;
+    if (!scene || scene->materials.empty()) return {};
+    return scene->materials[0];
+}
+
+Json emitter(Json factor, double strength) {
+    return {
+        {"emissiveFactor", std::move(factor)},
+        {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}}}};
+}
+
+TEST(GltfMaterials, DefaultsAreThoseOfGltf) {
+    const Material expected;  // white, metallic 1, roughness 1, no emission, opaque, cutoff 0.5
+    EXPECT_EQ(material_of(painted(Json::object())), expected);
+}
+
+TEST(GltfMaterials, FactorsAreTakenAsLinear) {
+    const Material material = material_of(painted({{"name", "clay"},
+                                                   {"doubleSided", true},
+                                                   {"pbrMetallicRoughness",
+                                                    {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}},
+                                                     {"metallicFactor", 0.0},
+                                                     {"roughnessFactor", 0.5}}}}));
+    EXPECT_EQ(material.name, "clay");
+    EXPECT_EQ(material.base_color, glm::vec4(0.5f, 0.25f, 0.125f, 0.75f));
+    EXPECT_EQ(material.metallic, 0.0f);
+    EXPECT_EQ(material.roughness, 0.5f);
+    EXPECT_TRUE(material.is_double_sided);
+}
+
+TEST(GltfMaterials, StrengthMultipliesEmission) {
+    EXPECT_EQ(material_of(painted(emitter({1.0, 0.5, 0.0}, 40))).emission, glm::vec3(40, 20, 0));
+}
+
+TEST(GltfMaterials, EmissionWithoutStrengthIsTheFactor) {
+    EXPECT_EQ(material_of(painted({{"emissiveFactor", {0.5, 1, 0}}})).emission,
+              glm::vec3(0.5f, 1, 0));
+}
+
+TEST(GltfMaterials, AlphaModes) {
+    EXPECT_EQ(material_of(painted({{"alphaMode", "OPAQUE"}})).alpha_mode, AlphaMode::Opaque);
+    EXPECT_EQ(material_of(painted({{"alphaMode", "BLEND"}})).alpha_mode, AlphaMode::Blend);
+    const Material mask = material_of(painted({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}}));
+    EXPECT_EQ(mask.alpha_mode, AlphaMode::Mask);
+    EXPECT_EQ(mask.alpha_cutoff, 0.25f);
+}
+
+TEST(GltfMaterials, MeshesWithoutMaterialShareOneDefault) {
+    GltfBuilder gltf = painted({{"name", "clay"}});
+    gltf.add_triangle();
+    gltf.add_triangle();
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->materials.size(), 2u);
+    EXPECT_EQ(scene->materials[1].base_color, glm::vec4(1.0f));
+    EXPECT_EQ(scene->meshes[0].material, 0u);
+    EXPECT_EQ(scene->meshes[1].material, 1u);
+    EXPECT_EQ(scene->meshes[2].material, 1u);
+}
+
+TEST(GltfMaterials, NoDefaultIsAddedWhereNoneIsNeeded) {
+    const auto scene = painted({{"name", "clay"}}).read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->materials.size(), 1u);
+}
+
+struct MaterialRejection {
+    const char* label;
+    Json material;
+    const char* error;
+};
+
+class GltfMaterialsReject : public testing::TestWithParam<MaterialRejection> {};
+
+TEST_P(GltfMaterialsReject, WithPlaceAndValue) {
+    EXPECT_EQ(painted(GetParam().material).error(),
+              std::string("scene.glb: material 0: ") + GetParam().error);
+}
+
+Json pbr(const char* key, Json value) {
+    return {{"pbrMetallicRoughness", {{key, std::move(value)}}}};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, GltfMaterialsReject,
+    testing::Values(
+        MaterialRejection{
+            "Emission", {{"emissiveFactor", {0, -1, 0}}}, "emissiveFactor -1 is negative"},
+        MaterialRejection{"Strength", emitter({1, 1, 1}, -2), "emissiveStrength -2 is negative"},
+        MaterialRejection{"Overflow", emitter({1, 1, 1}, 1e300),
+                          "emission is not finite (1 * 1e+300)"},
+        MaterialRejection{"BaseColor", pbr("baseColorFactor", {1, 1, 1.5, 1}),
+                          "baseColorFactor 1.5 is not in 0 to 1"},
+        MaterialRejection{"Metallic", pbr("metallicFactor", -0.5),
+                          "metallicFactor -0.5 is not in 0 to 1"},
+        MaterialRejection{"Roughness", pbr("roughnessFactor", 2),
+                          "roughnessFactor 2 is not in 0 to 1"},
+        MaterialRejection{"AlphaMode",
+                          {{"alphaMode", "CUTOUT"}},
+                          "alphaMode \"CUTOUT\" is not OPAQUE, MASK or BLEND"},
+        MaterialRejection{
+            "AlphaCutoff", {{"alphaCutoff", -1}}, "alphaCutoff -1 is negative or too large"}),
+    [](const auto& param_info) { return std::string(param_info.param.label); });
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_nodes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/bake/scene/gltf_builder.h"
+
+namespace tetralight {
+namespace {
+
+using Json = nlohmann::json;
+
+const double kHalf = std::sqrt(0.5);
+
+/// The scene of a builder; a default one, and a failed test, where it cannot be read.
+Scene scene_of(const GltfBuilder& gltf) {
+    auto scene = gltf.read();
+    EXPECT_TRUE(scene) << scene.error().message;
+    return scene ? std::move(*scene) : Scene{};
+}
+
+void expect_near(const glm::dvec4& actual, const glm::dvec4& expected) {
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-12) << i;
+}
+
+TEST(GltfNodes, AppliesScaleThenRotationThenTranslation) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()},
+                   {"translation", {10, 20, 30}},
+                   {"rotation", {0, 0, kHalf, kHalf}},  // 90 degrees about +Z: x to y
+                   {"scale", {2, 3, 4}}});
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    expect_near(scene.instances[0].world_from_mesh * glm::dvec4(1, 0, 0, 1), {10, 22, 30, 1});
+    expect_near(scene.instances[0].world_from_mesh * glm::dvec4(0, 1, 0, 1), {7, 20, 30, 1});
+}
+
+TEST(GltfNodes, ChildrenAreInTheirParentsSpace) {
+    GltfBuilder gltf;
+    const size_t child = gltf.add(
+        "nodes", {{"mesh", gltf.add_triangle()}, {"name", "child"}, {"translation", {1, 0, 0}}});
+    gltf.add_root({{"scale", {5, 5, 5}}, {"translation", {0, 7, 0}}, {"children", {child}}});
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.instances[0].name, "child");
+    expect_near(scene.instances[0].world_from_mesh[3], {5, 7, 0, 1});
+}
+
+TEST(GltfNodes, MatrixIsColumnMajorAndMayMirror) {
+    GltfBuilder gltf;
+    const Json matrix = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 5, 1};
+    gltf.add_root({{"mesh", gltf.add_triangle()}, {"matrix", matrix}});
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.instances[0].world_from_mesh[0], glm::dvec4(-1, 0, 0, 0));
+    EXPECT_EQ(scene.instances[0].world_from_mesh[3], glm::dvec4(3, 4, 5, 1));
+}
+
+TEST(GltfNodes, FlatScaleIsAllowed) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()}, {"scale", {1, 0, 1}}});
+    EXPECT_EQ(scene_of(gltf).instances.size(), 1u);
+}
+
+TEST(GltfNodes, OnlyTheDefaultSceneIsRead) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    gltf.add_root({{"mesh", mesh}, {"name", "first"}});
+    gltf.json["scenes"].push_back(
+        {{"nodes", {gltf.add("nodes", {{"mesh", mesh}, {"name", "second"}})}}});
+    EXPECT_EQ(scene_of(gltf).instances[0].name, "first");
+    gltf.json["scene"] = 1;
+    EXPECT_EQ(scene_of(gltf).instances[0].name, "second");
+}
+
+TEST(GltfNodes, FirstSceneIsTheDefault) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()}});
+    gltf.json.erase("scene");
+    EXPECT_EQ(scene_of(gltf).instances.size(), 1u);
+}
+
+TEST(GltfNodes, WithoutScenesAllRootsAreRead) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()}});
+    gltf.json.erase("scene");
+    gltf.json.erase("scenes");
+    EXPECT_EQ(scene_of(gltf).instances.size(), 1u);
+}
+
+TEST(GltfNodes, ContributeGiIsInheritedAndCanBeSetAgain) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    const size_t back = gltf.add(
+        "nodes", {{"mesh", mesh}, {"name", "back"}, {"extras", {{"contribute_gi", true}}}});
+    const size_t arm = gltf.add("nodes", {{"mesh", mesh}, {"name", "arm"}, {"children", {back}}});
+    gltf.add_root({{"mesh", mesh},
+                   {"name", "robot"},
+                   {"children", {arm}},
+                   {"extras", {{"contribute_gi", false}}}});
+    gltf.add_root({{"mesh", mesh}, {"name", "wall"}});
+    std::vector<std::pair<std::string, bool>> found;
+    for (const auto& instance : scene_of(gltf).instances) {
+        found.emplace_back(instance.name, instance.contributes_gi);
+    }
+    const std::vector<std::pair<std::string, bool>> expected = {
+        {"robot", false}, {"arm", false}, {"back", true}, {"wall", true}};
+    EXPECT_EQ(found, expected);
+}
+
+TEST(GltfNodes, AHundredThousandDeepIsNoLimit) {
+    GltfBuilder gltf;
+    constexpr size_t kDepth = 100000;
+    const size_t mesh = gltf.add_triangle();
+    Json nodes = Json::array();
+    for (size_t i = 0; i + 1 < kDepth; ++i) {
+        nodes.push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
+    }
+    nodes.push_back({{"mesh", mesh}});
+    gltf.json["nodes"] = std::move(nodes);
+    gltf.json["scenes"] = {{{"nodes", {0}}}};
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.instances[0].world_from_mesh[3].x, static_cast<double>(kDepth - 1));
+}
+
+TEST(GltfNodes, RejectsTwoParents) {
+    GltfBuilder gltf;
+    const size_t shared = gltf.add("nodes", {{"name", "shared"}});
+    gltf.add_root({{"children", {shared}}});
+    gltf.add_root({{"children", {shared}}});
+    EXPECT_EQ(gltf.error(), "scene.glb: node 0 \"shared\": has two parents, nodes 1 and 2");
+}
+
+TEST(GltfNodes, RejectsACycle) {
+    GltfBuilder gltf;
+    gltf.add("nodes", {{"children", {1}}});
+    gltf.add("nodes", {{"children", {0}}});
+    gltf.add_root({{"name", "root"}});
+    EXPECT_EQ(gltf.error(), "scene.glb: node 0: is part of a cycle of nodes");
+}
+
+TEST(GltfNodes, RejectsANodeThatIsItsOwnChild) {
+    GltfBuilder gltf;
+    gltf.add("nodes", {{"children", {0}}});
+    EXPECT_EQ(gltf.error(), "scene.glb: node 0: is part of a cycle of nodes");
+}
+
+TEST(GltfNodes, RejectsARootThatIsAChild) {
+    GltfBuilder gltf;
+    const size_t child = gltf.add_root({{"name", "child"}});
+    gltf.add_root({{"children", {child}}});
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"child\": is a root of the scene and a child of node 1");
+}
+
+TEST(GltfNodes, RejectsARootThatStandsTwice) {
+    GltfBuilder gltf;
+    gltf.add_root({{"name", "wall"}});
+    gltf.json["scenes"][0]["nodes"].push_back(0);
+    EXPECT_EQ(gltf.error(), "scene.glb: node 0 \"wall\": stands twice in the scene");
+}
+
+TEST(GltfNodes, RejectsTransformsThatAreNotFiniteOrAffine) {
+    const Json projective = {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const Json bad_nodes[] = {{{"rotation", {0, 0, 0, 0}}}, {{"matrix", projective}}};
+    for (const Json& node : bad_nodes) {
+        GltfBuilder gltf;
+        gltf.add_root(node);
+        EXPECT_EQ(gltf.error(), "scene.glb: node 0: transform is not finite or not affine");
+    }
+}
+
+TEST(GltfNodes, RejectsAHierarchyThatOverflows) {
+    GltfBuilder gltf;
+    const size_t child = gltf.add("nodes", {{"name", "far"}, {"scale", {1e200, 1, 1}}});
+    gltf.add_root({{"scale", {1e200, 1, 1}}, {"children", {child}}});
+    EXPECT_EQ(gltf.error(), "scene.glb: node 0 \"far\": transform is not finite or not affine");
+}
+
+TEST(GltfNodes, SkinsAreLeftOutWithAWarning) {
+    GltfBuilder gltf;
+    gltf.json["skins"] = {{{"joints", {0}}}};
+    gltf.add_root({{"name", "person"}, {"mesh", gltf.add_triangle()}, {"skin", 0}});
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("node 0 \"person\": skin is left out"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tetralight

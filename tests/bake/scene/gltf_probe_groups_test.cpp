@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_probe_groups.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bake/scene/gltf_builder.h"
+
+namespace tetralight {
+namespace {
+
+using Json = nlohmann::json;
+
+const Json kIsGroup = {{"light_probe_group", true}};
+
+Scene scene_of(const GltfBuilder& gltf) {
+    auto scene = gltf.read();
+    EXPECT_TRUE(scene) << scene.error().message;
+    return scene ? std::move(*scene) : Scene{};
+}
+
+/// A scene with a group "hall" of two points.
+GltfBuilder group_of_points(Json extras = kIsGroup) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_mesh({1, 2, 3, 4, 5, 6});
+    gltf.primitive(mesh)["mode"] = 0;
+    gltf.add_root({{"name", "hall"},
+                   {"mesh", mesh},
+                   {"translation", {10, 0, 0}},
+                   {"extras", std::move(extras)}});
+    return gltf;
+}
+
+const std::vector<glm::dvec3> kTwoPoints = {{1, 2, 3}, {4, 5, 6}};
+
+TEST(GltfProbeGroups, PointsArePositionsInTheGroup) {
+    const Scene scene = scene_of(group_of_points());
+    ASSERT_EQ(scene.probe_groups.size(), 1u);
+    const ProbeGroup& group = scene.probe_groups[0];
+    EXPECT_EQ(group.name, "hall");
+    EXPECT_EQ(group.positions, kTwoPoints);
+    EXPECT_EQ(group.world_from_group[3], glm::dvec4(10, 0, 0, 1));
+    EXPECT_FALSE(group.dering);
+}
+
+TEST(GltfProbeGroups, AllPointPrimitivesCount) {
+    GltfBuilder gltf = group_of_points();
+    gltf.json["meshes"][0]["primitives"].push_back(gltf.primitive(0));
+    EXPECT_EQ(scene_of(gltf).probe_groups[0].positions.size(), 4u);
+}
+
+TEST(GltfProbeGroups, IndicesChooseThePoints) {
+    GltfBuilder gltf = group_of_points();
+    gltf.primitive(0)["indices"] = gltf.add_accessor(std::vector<uint8_t>{1}, "SCALAR", 5121);
+    EXPECT_EQ(scene_of(gltf).probe_groups[0].positions, (std::vector<glm::dvec3>{{4, 5, 6}}));
+}
+
+TEST(GltfProbeGroups, DeringIsRead) {
+    const auto gltf = group_of_points({{"light_probe_group", true}, {"dering", true}});
+    EXPECT_TRUE(scene_of(gltf).probe_groups[0].dering);
+}
+
+TEST(GltfProbeGroups, FalseIsNoGroup) {
+    EXPECT_TRUE(scene_of(group_of_points({{"light_probe_group", false}})).probe_groups.empty());
+}
+
+/// A group whose two children are marked by a mesh; the second one has a child of its own.
+GltfBuilder group_of_children() {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    const size_t chair = gltf.add("nodes", {{"mesh", mesh}, {"name", "chair"}});
+    const size_t a = gltf.add("nodes", {{"mesh", mesh}, {"translation", {1, 2, 3}}});
+    const size_t b =
+        gltf.add("nodes", {{"mesh", mesh}, {"translation", {4, 5, 6}}, {"children", {chair}}});
+    gltf.add_root({{"name", "hall"}, {"children", {a, b}}, {"extras", kIsGroup}});
+    return gltf;
+}
+
+TEST(GltfProbeGroups, ChildrenAreProbesWhereThereAreNoPoints) {
+    const Scene scene = scene_of(group_of_children());
+    ASSERT_EQ(scene.probe_groups.size(), 1u);
+    EXPECT_EQ(scene.probe_groups[0].positions, kTwoPoints);
+}
+
+TEST(GltfProbeGroups, ChildrenThatAreProbesAreNoInstances) {
+    const Scene scene = scene_of(group_of_children());
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.instances[0].name, "chair");
+}
+
+TEST(GltfProbeGroups, ChildrenOfAGroupOfPointsStayInstances) {
+    GltfBuilder gltf = group_of_points();
+    const size_t child = gltf.add("nodes", {{"mesh", gltf.add_triangle()}, {"name", "chair"}});
+    gltf.json["nodes"][0]["children"] = {child};
+    EXPECT_EQ(scene_of(gltf).instances.size(), 1u);
+}
+
+TEST(GltfProbeGroups, GroupsInsideGroupsAreNoProbes) {
+    GltfBuilder gltf = group_of_children();
+    gltf.json["nodes"][2]["extras"] = kIsGroup;
+    gltf.json["nodes"][2]["name"] = "niche";
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.probe_groups.size(), 2u);
+    EXPECT_EQ(scene.probe_groups[0].positions, (std::vector<glm::dvec3>{{1, 2, 3}}));
+    EXPECT_EQ(scene.probe_groups[1].positions, (std::vector<glm::dvec3>{{0, 0, 0}}));
+}
+
+TEST(GltfProbeGroups, RejectsAGroupWithoutAName) {
+    GltfBuilder gltf = group_of_points();
+    gltf.json["nodes"][0].erase("name");
+    EXPECT_EQ(gltf.error(), "scene.glb: node 0: is a probe group and has no name");
+}
+
+TEST(GltfProbeGroups, RejectsTwoGroupsOfOneName) {
+    GltfBuilder gltf = group_of_points();
+    gltf.add_root(gltf.json["nodes"][0]);
+    EXPECT_EQ(gltf.error(), "scene.glb: group 1: another group is named \"hall\"");
+}
+
+TEST(GltfProbeGroups, RejectsAGroupWithoutProbes) {
+    GltfBuilder gltf;
+    gltf.add_root({{"name", "hall"}, {"extras", kIsGroup}});
+    EXPECT_EQ(gltf.error(), "scene.glb: group \"hall\": has no probes");
+}
+
+TEST(GltfProbeGroups, RejectsAnIndexOutOfRange) {
+    GltfBuilder gltf = group_of_points();
+    gltf.primitive(0)["indices"] = gltf.add_accessor(std::vector<uint8_t>{2}, "SCALAR", 5121);
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"hall\": mesh 0: primitive 0: index 2 is out of range (2 "
+              "vertices)");
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_rules.h"
+
+#include <gtest/gtest.h>
+
+#include "bake/scene/detail/gltf_schema.h"
+#include "tests/bake/scene/gltf_builder.h"
+
+namespace tetralight {
+namespace {
+
+using Json = nlohmann::json;
+
+/// One element of each kind, joined by indices that are all in range.
+GltfBuilder linked_scene() {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    gltf.primitive(mesh)["indices"] =
+        gltf.add_accessor(std::vector<uint16_t>{0, 1, 2}, "SCALAR", 5123);
+    gltf.primitive(mesh)["material"] =
+        gltf.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                               {"emissiveTexture", {{"index", 0}}}});
+    gltf.add("textures", {{"sampler", 0}});
+    gltf.add("samplers", Json::object());
+    gltf.add("images", {{"bufferView", 0}});
+    gltf.add("skins", {{"joints", {0}}});
+    const size_t light = gltf.add_light({{"type", "point"}});
+    const size_t child = gltf.add("nodes", {{"extensions", GltfBuilder::light_extension(light)}});
+    const Json instancing = {{"TRANSLATION", gltf.add_floats({0, 0, 0}, "VEC3")}};
+    gltf.add_root({{"mesh", mesh},
+                   {"skin", 0},
+                   {"children", {child}},
+                   {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", instancing}}}}}});
+    gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}}};
+    gltf.json["accessors"].push_back({{"componentType", 5126},
+                                      {"count", 1},
+                                      {"type", "VEC3"},
+                                      {"sparse",
+                                       {{"count", 1},
+                                        {"indices", {{"bufferView", 0}, {"componentType", 5123}}},
+                                        {"values", {{"bufferView", 0}}}}}});
+    return gltf;
+}
+
+TEST(GltfRules, LinkedSceneIsRead) {
+    const auto scene = linked_scene().read();
+    EXPECT_TRUE(scene) << scene.error().message;
+}
+
+/// JSON pointers of all indices in linked_scene().
+const char* const kIndexPointers[] = {
+    "/scene",
+    "/scenes/0/nodes/0",
+    "/nodes/1/mesh",
+    "/nodes/1/skin",
+    "/nodes/1/children/0",
+    "/nodes/0/extensions/KHR_lights_punctual/light",
+    "/nodes/1/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION",
+    "/meshes/0/primitives/0/attributes/POSITION",
+    "/meshes/0/primitives/0/indices",
+    "/meshes/0/primitives/0/material",
+    "/materials/0/pbrMetallicRoughness/baseColorTexture/index",
+    "/materials/0/emissiveTexture/index",
+    "/textures/0/sampler",
+    "/textures/0/source",
+    "/images/0/bufferView",
+    "/accessors/0/bufferView",
+    "/accessors/3/sparse/indices/bufferView",
+    "/accessors/3/sparse/values/bufferView",
+    "/bufferViews/0/buffer",
+};
+
+class GltfIndex : public testing::TestWithParam<const char*> {};
+
+TEST_P(GltfIndex, OutOfRangeIsAnErrorThatNamesIt) {
+    // 2^32 and 2^32 + 1 become 0 and 1 where 32 bits are cut off.
+    for (const int64_t value :
+         {int64_t{99}, int64_t{-1}, int64_t{1} << 32, (int64_t{1} << 32) + 1}) {
+        GltfBuilder gltf = linked_scene();
+        gltf.json[Json::json_pointer(GetParam())] = value;
+        const std::string error = gltf.error();
+        EXPECT_NE(error.find(std::to_string(value) + " is out of range ("), std::string::npos)
+            << error;
+    }
+}
+
+TEST_P(GltfIndex, OfAnotherTypeIsAnError) {
+    for (const Json& value : {Json("0"), Json(0.5), Json(), Json(true), Json::array()}) {
+        GltfBuilder gltf = linked_scene();
+        gltf.json[Json::json_pointer(GetParam())] = value;
+        EXPECT_NE(gltf.error(), "(no error)") << value;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GltfIndex, testing::ValuesIn(kIndexPointers),
+                         [](const auto& param_info) {
+                             std::string label = param_info.param;
+                             for (char& c : label) {
+                                 if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+                             }
+                             return label;
+                         });
+
+TEST(GltfRules, EveryPropertyOfTheWrongTypeIsAnError) {
+    for (const auto& section : detail::gltf_sections()) {
+        if (std::string(section.name) == "skins" || std::string(section.name) == "lights") continue;
+        for (const auto& rule : section.rules) {
+            std::string pointer = std::string("/") + section.path + "/0/" + rule.path;
+            GltfBuilder gltf = linked_scene();
+            // An array of an array is right for none of the kinds.
+            gltf.json[Json::json_pointer(pointer)] = Json::array({Json::array()});
+            EXPECT_NE(gltf.error(), "(no error)") << pointer;
+        }
+    }
+}
+
+TEST(GltfRules, RequiredPropertiesAreRequired) {
+    for (const char* pointer :
+         {"/accessors/0/componentType", "/accessors/0/count", "/accessors/0/type",
+          "/bufferViews/0/byteLength", "/buffers/0/byteLength", "/asset/version",
+          "/meshes/0/primitives", "/meshes/0/primitives/0/attributes"}) {
+        GltfBuilder gltf = linked_scene();
+        const Json::json_pointer path(pointer);
+        gltf.json[path.parent_pointer()].erase(path.back());
+        EXPECT_NE(gltf.error().find("missing"), std::string::npos) << pointer << gltf.error();
+    }
+}
+
+TEST(GltfRules, NamesTheElementAndTheValue) {
+    GltfBuilder gltf = linked_scene();
+    gltf.json["nodes"][1]["name"] = "wall";
+    gltf.json["nodes"][1]["mesh"] = 9999;
+    EXPECT_EQ(gltf.error(), "scene.glb: node 1 \"wall\": mesh 9999 is out of range (1 meshes)");
+}
+
+TEST(GltfRules, ExtrasMayBeAnything) {
+    for (const Json& extras : {Json("text"), Json(1), Json::array({1, 2}), Json({{"mode", 5}})}) {
+        GltfBuilder gltf = linked_scene();
+        gltf.json["nodes"][1]["extras"] = extras;
+        EXPECT_EQ(gltf.error(), "(no error)") << extras;
+    }
+}
+
+TEST(GltfRules, RejectsABufferViewOutsideOfItsBuffer) {
+    for (const char* key : {"byteOffset", "byteLength"}) {
+        GltfBuilder gltf = linked_scene();
+        gltf.json["bufferViews"][0][key] = 4294967295u;
+        EXPECT_NE(gltf.error().find("scene.glb: buffer view 0: bytes "), std::string::npos)
+            << gltf.error();
+    }
+}
+
+TEST(GltfRules, RejectsUnknownRequiredExtensions) {
+    for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "X"}) {
+        GltfBuilder gltf = linked_scene();
+        gltf.json["extensionsRequired"] = {"KHR_texture_transform", extension};
+        EXPECT_EQ(gltf.error(), std::string("scene.glb: required extension \"") + extension +
+                                    "\" is not supported");
+    }
+}
+
+TEST(GltfRules, RejectsOtherVersions) {
+    GltfBuilder gltf = linked_scene();
+    gltf.json["asset"]["version"] = "1.0";
+    EXPECT_EQ(gltf.error(), "scene.glb: asset.version \"1.0\" is not supported (2.x is)");
+}
+
+TEST(GltfRules, RejectsASecondBufferWithoutUri) {
+    GltfBuilder gltf = linked_scene();
+    gltf.add("buffers", {{"byteLength", 4}});
+    EXPECT_EQ(gltf.error(), "scene.glb: buffer 1: has no uri");
+}
+
+TEST(GltfRules, RejectsDeepNesting) {
+    GltfBuilder gltf = linked_scene();
+    Json deep = 1;
+    for (int i = 0; i < 100; ++i) deep = Json::array({deep});
+    gltf.json["extras"] = deep;
+    EXPECT_EQ(gltf.error(), "scene.glb: JSON is nested deeper than 64");
+}
+
+TEST(GltfRules, RejectsNestingThatWouldEndTheStack) {
+    const TempFolder folder;
+    const std::string text = std::string(1000000, '[') + std::string(1000000, ']');
+    EXPECT_FALSE(read_gltf(folder.write("scene.gltf", text)));
+}
+
+}  // namespace
+}  // namespace tetralight

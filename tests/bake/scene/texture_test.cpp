@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/texture.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bake/image/srgb.h"
+
+namespace tetralight {
+namespace {
+
+constexpr std::array<uint8_t, 4> kBlack = {0, 0, 0, 255};
+constexpr std::array<uint8_t, 4> kWhite = {255, 255, 255, 255};
+
+/// Four texels in a row, of which only the first is white.
+Texture row_texture(TextureWrap wrap) {
+    return {"row", Image8{4, 1, {kWhite, kBlack, kBlack, kBlack}}, wrap, wrap};
+}
+
+float red_at(const Texture& texture, float u) {
+    return sample_texture(texture, {u, 0.5f}).x;
+}
+
+TEST(SampleTexture, TexelCentersGiveTexels) {
+    const Texture texture = row_texture(TextureWrap::Repeat);
+    EXPECT_FLOAT_EQ(red_at(texture, 0.125f), 1.0f);
+    EXPECT_FLOAT_EQ(red_at(texture, 0.375f), 0.0f);
+}
+
+TEST(SampleTexture, FiltersLinearlyBetweenCenters) {
+    EXPECT_FLOAT_EQ(red_at(row_texture(TextureWrap::Repeat), 0.1875f), 0.75f);
+}
+
+TEST(SampleTexture, RepeatBlendsAcrossTheEdge) {
+    const Texture texture = row_texture(TextureWrap::Repeat);
+    EXPECT_FLOAT_EQ(red_at(texture, 0.0f), 0.5f);
+    EXPECT_FLOAT_EQ(red_at(texture, 1.0f), 0.5f);
+    EXPECT_FLOAT_EQ(red_at(texture, -2.875f), 1.0f);
+}
+
+TEST(SampleTexture, ClampKeepsTheEdge) {
+    const Texture texture = row_texture(TextureWrap::ClampToEdge);
+    EXPECT_FLOAT_EQ(red_at(texture, -5.0f), 1.0f);
+    EXPECT_FLOAT_EQ(red_at(texture, 0.0f), 1.0f);
+    EXPECT_FLOAT_EQ(red_at(texture, 5.0f), 0.0f);
+}
+
+TEST(SampleTexture, MirrorRunsBackwardsInOddPeriods) {
+    const Texture texture = row_texture(TextureWrap::MirroredRepeat);
+    EXPECT_FLOAT_EQ(red_at(texture, 0.0f), 1.0f);
+    EXPECT_FLOAT_EQ(red_at(texture, -0.125f), 1.0f);
+    EXPECT_FLOAT_EQ(red_at(texture, 1.125f), 0.0f);
+    EXPECT_FLOAT_EQ(red_at(texture, 1.875f), 1.0f);
+    EXPECT_FLOAT_EQ(red_at(texture, 2.125f), 1.0f);
+}
+
+TEST(SampleTexture, RowZeroIsAtTheTop) {
+    const Texture texture{"column", Image8{1, 2, {kWhite, kBlack}}};
+    EXPECT_FLOAT_EQ(sample_texture(texture, {0.5f, 0.25f}).x, 1.0f);
+    EXPECT_FLOAT_EQ(sample_texture(texture, {0.5f, 0.75f}).x, 0.0f);
+}
+
+TEST(SampleTexture, DecodesBeforeFiltering) {
+    const Texture texture{"pair", Image8{2, 1, {{0, 0, 0, 255}, {188, 188, 188, 255}}}};
+    EXPECT_FLOAT_EQ(red_at(texture, 0.5f), 0.5f * linear_from_srgb8(188));
+}
+
+TEST(SampleTexture, AlphaIsLinear) {
+    const Texture texture{"alpha", Image8{1, 1, {{0, 0, 0, 51}}}};
+    EXPECT_FLOAT_EQ(sample_texture(texture, {0.5f, 0.5f}).w, 0.2f);
+}
+
+TEST(SampleTexture, AnyCoordinateIsSafe) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (const auto wrap :
+         {TextureWrap::Repeat, TextureWrap::MirroredRepeat, TextureWrap::ClampToEdge}) {
+        for (const float u : {1e30f, -1e30f, kInfinity, -kInfinity, std::nanf("")}) {
+            const float red = red_at(row_texture(wrap), u);
+            EXPECT_TRUE(red >= 0.0f && red <= 1.0f) << u;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tetralight
