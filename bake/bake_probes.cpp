@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/bake_probes.h"
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+
+#include "bake/parallel.h"
+#include "bake/path_tracer.h"
+#include "bake/sampling.h"
+#include "bake/scene/environment.h"
+#include "bake/trace_scene.h"
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+/// Counts work from all threads and passes it on a few times a second.
+class ProgressReporter {
+  public:
+    ProgressReporter(const BakeCallback& callback, size_t probe_count)
+        : callback_(callback), probe_count_(probe_count) {}
+
+    void add(uint64_t rays) {
+        probes_done_.fetch_add(1, std::memory_order_relaxed);
+        ray_count_.fetch_add(rays, std::memory_order_relaxed);
+        if (!callback_) return;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock.owns_lock()) return;
+        const auto now = std::chrono::steady_clock::now();
+        if (now - last_report_ < std::chrono::milliseconds(50)) return;
+        last_report_ = now;
+        if (!callback_({probes_done_, probe_count_, ray_count_})) is_cancelled_ = true;
+    }
+
+    [[nodiscard]] bool is_cancelled() const { return is_cancelled_; }
+
+    [[nodiscard]] uint64_t ray_count() const { return ray_count_; }
+
+    void finish() {
+        if (callback_ && !is_cancelled_) callback_({probes_done_, probe_count_, ray_count_});
+    }
+
+  private:
+    const BakeCallback& callback_;
+    size_t probe_count_;
+    std::atomic<size_t> probes_done_ = 0;
+    std::atomic<uint64_t> ray_count_ = 0;
+    std::atomic<bool> is_cancelled_ = false;
+    std::mutex mutex_;
+    std::chrono::steady_clock::time_point last_report_{};
+};
+
+struct BakedProbe {
+    RadianceSh radiance;
+    float validity = 1.0f;
+    uint64_t ray_count = 0;
+};
+
+/// Everything that the probes of one bake share.
+struct ProbeBaker {
+    const TraceScene& traced;
+    const PathTracer& tracer;
+    const BakeSettings& settings;
+    std::vector<glm::vec3> directions;
+
+    [[nodiscard]] BakedProbe bake(const glm::dvec3& position) const {
+        const uint64_t key = probe_key(settings.seed, position);
+        const glm::vec3 origin = traced.traced_from_world(position);
+        RandomStream rotation_stream(key, ~uint64_t{0});
+        const glm::mat3 rotation = sample_rotation(rotation_stream);
+
+        BakedProbe probe;
+        RadianceShSum sum;
+        uint32_t behind_count = 0;
+        for (uint32_t i = 0; i < directions.size(); ++i) {
+            const glm::vec3 direction = rotation * directions[i];
+            const PathSample sample = tracer.trace(origin, direction, RandomStream(key, i));
+            sum.add(direction, sample.radiance);
+            behind_count += sample.is_behind_surface;
+            probe.ray_count += sample.ray_count;
+        }
+        const auto count = static_cast<double>(directions.size());
+        probe.radiance = radiance_from_sum(sum, 4.0 * std::numbers::pi / count);
+        probe.validity = static_cast<float>(1.0 - behind_count / count);
+        add_baked_lights(origin, probe);
+        return probe;
+    }
+
+    void add_baked_lights(glm::vec3 origin, BakedProbe& probe) const {
+        for (const Light& light : tracer.traced_lights()) {
+            if (light.mode != LightMode::Baked) continue;
+            const Illumination arriving = tracer.visible_light(light, origin);
+            probe.radiance +=
+                radiance_from_directional_light(arriving.to_light, arriving.irradiance);
+            ++probe.ray_count;
+        }
+    }
+};
+
+RadianceSh project_environment(const Environment& environment) {
+    if (environment.image.pixels.empty()) return constant_radiance(environment.radiance);
+    const std::vector<glm::vec3> directions = spherical_fibonacci(1u << 16);
+    RadianceShSum sum;
+    for (const glm::vec3& direction : directions) {
+        sum.add(direction, environment_radiance(environment, direction));
+    }
+    return radiance_from_sum(sum, 4.0 * std::numbers::pi / static_cast<double>(directions.size()));
+}
+
+Status check(std::span<const glm::dvec3> positions, const BakeSettings& settings) {
+    if (settings.sample_count == 0) return Error{"samples: 0 is not a number of directions"};
+    for (size_t i = 0; i < positions.size(); ++i) {
+        const glm::dvec3& p = positions[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            return Error{
+                text("probe ", i, ": position is not finite (", p.x, ", ", p.y, ", ", p.z, ")")};
+        }
+    }
+    return Ok{};
+}
+
+void bake_all(const ProbeBaker& baker, std::span<const glm::dvec3> positions,
+              ProgressReporter& progress, BakedProbes& baked) {
+    parallel_for(positions.size(), baker.settings.thread_count, [&](size_t i) {
+        if (progress.is_cancelled()) return;
+        const BakedProbe probe = baker.bake(positions[i]);
+        baked.radiance[i] = probe.radiance;
+        baked.validity[i] = probe.validity;
+        progress.add(probe.ray_count);
+    });
+}
+
+}  // namespace
+
+Result<BakedProbes> bake_probes(const Scene& scene, std::span<const glm::dvec3> positions,
+                                const BakeSettings& settings, const BakeCallback& callback) {
+    if (auto status = check(positions, settings); !status) return status.error();
+    const auto traced = TraceScene::make_static(scene);
+    if (!traced) return traced.error();
+    const PathTracer tracer(scene, *traced, settings.bounces);
+    const ProbeBaker baker{*traced, tracer, settings, spherical_fibonacci(settings.sample_count)};
+
+    BakedProbes baked;
+    baked.radiance.resize(positions.size());
+    baked.validity.resize(positions.size());
+    baked.ambient = project_environment(scene.environment);
+    ProgressReporter progress(callback, positions.size());
+    bake_all(baker, positions, progress, baked);
+    if (progress.is_cancelled()) return Error{"cancelled"};
+    progress.finish();
+    baked.ray_count = progress.ray_count();
+    return baked;
+}
+
+}  // namespace tetralight

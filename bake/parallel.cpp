@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace tetralight {
+namespace {
+
+/// Sets the processor's flush-to-zero modes for as long as it lives.
+class FlushDenormals {
+  public:
+#if defined(__SSE2__)
+    FlushDenormals() : saved_(_mm_getcsr()) {
+        _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero);
+    }
+
+    ~FlushDenormals() {
+        _mm_setcsr(saved_);
+    }
+
+    FlushDenormals(const FlushDenormals&) = delete;
+    FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+  private:
+    static constexpr unsigned kFlushToZero = 0x8000;
+    static constexpr unsigned kDenormalsAreZero = 0x0040;
+    unsigned saved_;
+#endif
+};
+
+}  // namespace
+
+void parallel_for(size_t count, uint32_t thread_count, const std::function<void(size_t)>& work) {
+    const int threads =
+        thread_count == 0 ? tbb::task_arena::automatic : static_cast<int>(thread_count);
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, count),
+                          [&](const tbb::blocked_range<size_t>& range) {
+                              const FlushDenormals flush;
+                              for (size_t i = range.begin(); i < range.end(); ++i) work(i);
+                          });
+    });
+}
+
+}  // namespace tetralight

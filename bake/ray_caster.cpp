@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/ray_caster.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace tetralight {
+namespace {
+
+RTCRay embree_ray(const Ray& ray) {
+    RTCRay result{};
+    result.org_x = ray.origin.x;
+    result.org_y = ray.origin.y;
+    result.org_z = ray.origin.z;
+    result.dir_x = ray.direction.x;
+    result.dir_y = ray.direction.y;
+    result.dir_z = ray.direction.z;
+    result.tfar = ray.max_distance;
+    result.mask = 0xffffffffu;
+    return result;
+}
+
+RayHit hit_from(const RTCHit& hit, float distance) {
+    return {distance, hit.geomID, hit.primID, {hit.u, hit.v}, {hit.Ng_x, hit.Ng_y, hit.Ng_z}};
+}
+
+/// Embree's callback for one candidate hit of a single ray.
+void filter_hit(const RTCFilterFunctionNArguments* arguments) {
+    const auto& filter = *static_cast<const HitFilter*>(arguments->geometryUserPtr);
+    const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
+    const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
+    const Ray own_ray{{ray->org_x, ray->org_y, ray->org_z}, {ray->dir_x, ray->dir_y, ray->dir_z}};
+    if (!filter.stops_at(filter.context, own_ray, hit_from(*hit, ray->tfar))) {
+        arguments->valid[0] = 0;
+    }
+}
+
+template <class T>
+void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
+                std::span<const T> elements, size_t element_size) {
+    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, element_size,
+                                           elements.size_bytes() / element_size);
+    if (buffer != nullptr) std::memcpy(buffer, elements.data(), elements.size_bytes());
+}
+
+}  // namespace
+
+struct RayCaster::Handles {
+    explicit Handles(HitFilter hit_filter) : filter(hit_filter) {
+        device = rtcNewDevice(nullptr);
+        scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+    }
+
+    Handles(const Handles&) = delete;
+    Handles& operator=(const Handles&) = delete;
+
+    ~Handles() {
+        rtcReleaseScene(scene);
+        rtcReleaseDevice(device);
+    }
+
+    uint32_t attach(RTCGeometry geometry) {
+        rtcCommitGeometry(geometry);
+        const uint32_t number = rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+        return number;
+    }
+
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    HitFilter filter;
+};
+
+RayCaster::RayCaster(HitFilter filter) : handles_(std::make_unique<Handles>(filter)) {}
+
+RayCaster::~RayCaster() = default;
+RayCaster::RayCaster(RayCaster&&) noexcept = default;
+RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
+
+uint32_t RayCaster::add_triangles(std::span<const glm::vec3> positions,
+                                  std::span<const uint32_t> indices, Filtered filtered) {
+    RTCGeometry geometry = rtcNewGeometry(handles_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions, sizeof(glm::vec3));
+    set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, indices, 3 * sizeof(uint32_t));
+    if (filtered == Filtered::Yes) {
+        rtcSetGeometryUserData(geometry, &handles_->filter);
+        rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
+        rtcSetGeometryOccludedFilterFunction(geometry, filter_hit);
+    }
+    return handles_->attach(geometry);
+}
+
+uint32_t RayCaster::add_spheres(std::span<const glm::vec4> spheres) {
+    RTCGeometry geometry = rtcNewGeometry(handles_->device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, spheres, sizeof(glm::vec4));
+    return handles_->attach(geometry);
+}
+
+Status RayCaster::commit() {
+    // One thread builds: the tree, and with it the choice between equal hits, is then the same on
+    // every machine. (The device's own "threads=1" would hold for all of TBB.)
+    tbb::task_arena arena(1);
+    arena.execute([&] { rtcJoinCommitScene(handles_->scene); });
+    const RTCError error = rtcGetDeviceError(handles_->device);
+    if (error == RTC_ERROR_NONE) return Ok{};
+    if (error == RTC_ERROR_OUT_OF_MEMORY) return Error{"not enough memory for the scene"};
+    return Error{"Embree failed with error " + std::to_string(static_cast<int>(error))};
+}
+
+std::optional<RayHit> RayCaster::cast(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit ray_hit{embree_ray(ray), {}};
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(handles_->scene, &context, &ray_hit);
+    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return hit_from(ray_hit.hit, ray_hit.ray.tfar);
+}
+
+bool RayCaster::is_blocked(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay embree = embree_ray(ray);
+    rtcOccluded1(handles_->scene, &context, &embree);
+    return embree.tfar < 0.0f;
+}
+
+}  // namespace tetralight

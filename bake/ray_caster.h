@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "base/result.h"
+
+namespace tetralight {
+
+struct Ray {
+    glm::vec3 origin{0.0f};
+    /// Need not be a unit vector; distances are in units of its length.
+    glm::vec3 direction{0.0f};
+    float max_distance = std::numeric_limits<float>::infinity();
+};
+
+struct RayHit {
+    float distance = 0.0f;
+    uint32_t geometry = 0;   ///< number that `add_*` returned
+    uint32_t primitive = 0;  ///< triangle or sphere of that geometry
+    /// Weights of a triangle's second and third corner.
+    glm::vec2 barycentric{0.0f};
+    /// Not normalized; on the side from which the triangle is counter-clockwise.
+    glm::vec3 normal{0.0f};
+};
+
+/// Says whether a ray stops at a hit. Called for filtered geometries only, from many threads.
+struct HitFilter {
+    bool (*stops_at)(const void* context, const Ray& ray, const RayHit& hit) = nullptr;
+    const void* context = nullptr;
+};
+
+/// Finds what rays hit; the only part that knows Embree. Add geometry, commit once, then cast from
+/// any number of threads. Same answers for any number of threads on one instruction set.
+class RayCaster {
+  public:
+    explicit RayCaster(HitFilter filter = {});
+    ~RayCaster();
+    RayCaster(RayCaster&&) noexcept;
+    RayCaster& operator=(RayCaster&&) noexcept;
+
+    enum class Filtered : bool { No, Yes };
+
+    /// Adds triangles and returns their number, counted from 0. Data is copied.
+    uint32_t add_triangles(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
+                           Filtered filtered = Filtered::No);
+
+    /// Adds spheres given as (center, radius) and returns their number.
+    uint32_t add_spheres(std::span<const glm::vec4> spheres);
+
+    /// Builds the search structure. Error: not enough memory.
+    [[nodiscard]] Status commit();
+
+    [[nodiscard]] std::optional<RayHit> cast(const Ray& ray) const;
+    [[nodiscard]] bool is_blocked(const Ray& ray) const;
+
+  private:
+    struct Handles;
+    std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace tetralight

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace tetralight {
+
+/// Key of everything random about one probe: the seed and the bits of its canonical world position,
+/// never its index, so that other probes do not matter.
+[[nodiscard]] uint64_t probe_key(uint64_t seed, const glm::dvec3& position) noexcept;
+
+/// Counter-based random numbers: the n-th number is a hash of (key, stream, n).
+class RandomStream {
+  public:
+    RandomStream(uint64_t key, uint64_t stream) noexcept;
+
+    /// Uniform in [0, 1).
+    [[nodiscard]] float next() noexcept;
+    [[nodiscard]] glm::vec2 next2() noexcept;
+
+  private:
+    uint64_t state_;
+};
+
+/// `count` directions spread evenly over the sphere (spherical Fibonacci lattice: Marques et al.
+/// 2013, "Spherical Fibonacci Point Sets for Illumination Integrals").
+[[nodiscard]] std::vector<glm::vec3> spherical_fibonacci(uint32_t count);
+
+/// A rotation that is uniform over all rotations for uniform numbers (Shoemake 1992, "Uniform
+/// Random Rotations").
+[[nodiscard]] glm::mat3 sample_rotation(RandomStream& random) noexcept;
+
+/// A direction in the hemisphere around a unit normal with density cos θ / π.
+[[nodiscard]] glm::vec3 sample_cosine_hemisphere(glm::vec3 normal, glm::vec2 u) noexcept;
+[[nodiscard]] float sample_cosine_hemisphere_pdf(glm::vec3 normal, glm::vec3 direction) noexcept;
+
+}  // namespace tetralight

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bake/ray_caster.h"
+#include "bake/scene/scene.h"
+#include "base/result.h"
+
+namespace tetralight {
+
+/// What a ray sees at a hit.
+struct Surface {
+    glm::vec3 position{0.0f};
+    /// Unit normal of the triangle, on the side that the ray came from.
+    glm::vec3 geometric_normal{0.0f};
+    /// Unit interpolated vertex normal, on the same side.
+    glm::vec3 shading_normal{0.0f};
+    /// Diffuse reflectivity.
+    glm::vec3 albedo{0.0f};
+    /// Emitted radiance.
+    glm::vec3 emission{0.0f};
+    uint32_t instance = 0;
+    /// The ray came from behind the triangle.
+    bool is_from_behind = false;
+    /// It did, and the material has only a front.
+    bool is_back_face = false;
+};
+
+/// A scene's triangles ready for rays. Rays and surfaces are in traced space: world space moved so
+/// that the scene's centre is the origin, done in double, because rays are float.
+///
+/// Transparency: hits of alpha-masked surfaces below the cutoff are skipped; blended ones are
+/// skipped with probability 1 − alpha, by a hash of the ray, in `cast` and `is_blocked` alike.
+class TraceScene {
+  public:
+    /// Which instances rays can hit.
+    using Selection = std::function<bool(const MeshInstance&)>;
+
+    /// Builds from the selected instances. Keeps a reference to the scene. Error: not enough
+    /// memory.
+    [[nodiscard]] static Result<TraceScene> make(const Scene& scene, const Selection& selection);
+
+    /// Built from what contributes global illumination: what a bake sees.
+    [[nodiscard]] static Result<TraceScene> make_static(const Scene& scene);
+
+    [[nodiscard]] glm::vec3 traced_from_world(const glm::dvec3& position) const {
+        return glm::vec3(position - state_->origin);
+    }
+
+    [[nodiscard]] glm::dvec3 world_from_traced(glm::vec3 position) const {
+        return glm::dvec3(position) + state_->origin;
+    }
+
+    /// The light in traced space.
+    [[nodiscard]] Light traced_from_world(Light light) const;
+
+    [[nodiscard]] std::optional<Surface> cast(const Ray& ray) const;
+
+    [[nodiscard]] bool is_blocked(const Ray& ray) const { return caster_.is_blocked(ray); }
+
+    /// The position moved off its surface, to start a ray on the side that `normal` points to.
+    [[nodiscard]] glm::vec3 ray_origin(glm::vec3 position, glm::vec3 normal) const {
+        return position + state_->ray_offset * normal;
+    }
+
+  private:
+    /// An instance as a geometry of the caster.
+    struct Placed {
+        uint32_t instance = 0;
+        const Mesh* mesh = nullptr;
+        const Material* material = nullptr;
+        glm::mat3 normal_from_mesh{1.0f};
+        bool is_mirrored = false;
+    };
+
+    struct State {
+        const Scene* scene = nullptr;
+        std::vector<Placed> placed;
+        glm::dvec3 origin{0.0};
+        float ray_offset = 0.0f;
+    };
+
+    TraceScene(std::unique_ptr<State> state, RayCaster caster)
+        : state_(std::move(state)), caster_(std::move(caster)) {}
+
+    static Placed place(const Scene& scene, uint32_t instance);
+    static bool stops_at(const void* state, const Ray& ray, const RayHit& hit);
+
+    std::unique_ptr<State> state_;  // on the heap: the caster's filter points to it
+    RayCaster caster_;
+};
+
+}  // namespace tetralight

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/text.h"
+#include "cli/common.h"
+#include "cli/progress.h"
+#include "cli/scene_options.h"
+#include "pipeline/bake_volume.h"
+#include "probes/probe_file.h"
+
+namespace tetralight::cli {
+namespace {
+
+struct Bake {
+    SceneOptions scene_options;
+    std::vector<std::string> group_paths;
+    bool only_given_groups = false;
+    std::string output;
+    MergeSettings merge_settings;
+    BakeSettings settings;
+    CommonOptions common;
+
+    void add_to(CLI::App& command) {
+        scene_options.add_to(command);
+        command.add_option("-o,--output", output, "Probe volume to write (.probes)")->required();
+        command.add_option("-g,--groups", group_paths,
+                           "Probe groups beside the scene's own: .json files, or glTF scenes");
+        command.add_flag("--only-given-groups", only_given_groups,
+                         "Leave the scene's own probe groups out");
+        command.add_option("-s,--samples", settings.sample_count, "Directions a probe")
+            ->check(CLI::Range(1u, 1u << 24))
+            ->capture_default_str();
+        command
+            .add_option("-b,--bounces", settings.bounces,
+                        "Reflections that light may take (0 = direct light only)")
+            ->check(CLI::Range(0u, 1000u))
+            ->capture_default_str();
+        command.add_option("--seed", settings.seed, "Seed of the random numbers")
+            ->capture_default_str();
+        command
+            .add_option("--weld", merge_settings.weld_tolerance,
+                        "Join probes nearer than this share of the set's diagonal")
+            ->check(CLI::Range(0.0, 0.1))
+            ->capture_default_str();
+        common.add_to(command);
+    }
+
+    [[nodiscard]] Result<std::vector<ProbeGroup>> all_groups(Scene& scene) const {
+        auto groups = read_groups(group_paths);
+        if (!groups || only_given_groups) return groups;
+        for (ProbeGroup& group : scene.probe_groups) groups->push_back(std::move(group));
+        if (groups->empty()) {
+            return Error{scene_options.path +
+                         ": the scene has no probe groups; give some with --groups, made by "
+                         "`tetralight grid` for example"};
+        }
+        return groups;
+    }
+
+    Status run() {
+        if (auto status = check_output(output); !status) return status;
+        auto scene = scene_options.read();
+        if (!scene) return scene.error();
+        common.warn(scene->warnings);
+        const auto groups = all_groups(*scene);
+        if (!groups) return groups.error();
+
+        settings.thread_count = common.thread_count;
+        BakeProgressDisplay display(common.is_quiet);
+        const auto baked =
+            bake_volume(*scene, *groups, merge_settings, settings,
+                        [&](const BakeProgress& progress) { return display.show(progress); });
+        if (!baked) return baked.error();
+        common.warn(baked->report.warnings);
+        const ProbeVolumeView volume = baked->volume.view();
+        if (auto status = write_probe_file(output, volume); !status) return status;
+        report(volume, baked->report);
+        return Ok{};
+    }
+
+    void report(const ProbeVolumeView& volume, const BakeReport& bake) const {
+        const double rays_per_second = static_cast<double>(bake.ray_count) / bake.bake_seconds;
+        Json json{{"output", output}};
+        json.update(counts(volume));
+        json.update({{"samples", settings.sample_count},
+                     {"bounces", settings.bounces},
+                     {"rays", bake.ray_count},
+                     {"rays_per_second", rays_per_second},
+                     {"seconds",
+                      {{"merge", bake.merge_seconds},
+                       {"tetrahedralize", bake.tetrahedralize_seconds},
+                       {"bake", bake.bake_seconds}}}});
+        common.print(
+            json,
+            text(output, ": ", grouped(volume.probe_count()), " probes (",
+                 grouped(bake.welded_count), " welded), ", grouped(volume.info.tetrahedron_count),
+                 " tetrahedra\n  merge ", duration(bake.merge_seconds), ", tetrahedralize ",
+                 duration(bake.tetrahedralize_seconds), ", bake ", duration(bake.bake_seconds),
+                 " (", magnitude(static_cast<double>(bake.ray_count)), "rays, ",
+                 magnitude(rays_per_second), "rays/s)"));
+    }
+};
+
+}  // namespace
+
+void add_bake(CLI::App& app, Run& run) {
+    add_command<Bake>(app, run, "bake", "Bake a scene's light into a probe volume",
+                      "tetralight bake courtyard.glb -o courtyard.probes");
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/common.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "bake/scene/probe_groups_json.h"
+#include "bake/scene/read_gltf.h"
+#include "base/text.h"
+
+namespace tetralight::cli {
+namespace {
+
+std::string formatted(const char* format, double number, const char* unit) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, number);
+    return buffer + std::string(unit);
+}
+
+bool is_gltf(const std::string& path) {
+    const auto extension = std::filesystem::path(path).extension();
+    return extension == ".glb" || extension == ".gltf";
+}
+
+}  // namespace
+
+void CommonOptions::add_to(CLI::App& command) {
+    command.add_flag("--json", is_json, "Print one JSON object on stdout");
+    command.add_flag("-q,--quiet", is_quiet, "Print errors only");
+    command.add_option("-j,--threads", thread_count, "Threads to use (0 = all)")
+        ->capture_default_str();
+}
+
+void CommonOptions::print(const Json& json, const std::string& text) const {
+    if (is_json) {
+        std::cout << json.dump() << '\n';
+    } else if (!is_quiet) {
+        std::cout << text << '\n';
+    }
+}
+
+void CommonOptions::warn(const std::vector<std::string>& warnings) const {
+    if (is_quiet) return;
+    for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
+}
+
+std::optional<glm::dvec3> parse_vec3(const std::string& text) {
+    glm::dvec3 value(0.0);
+    const char* begin = text.data();
+    const char* const end = text.data() + text.size();
+    for (int i = 0; i < 3; ++i) {
+        const auto [next, error] = std::from_chars(begin, end, value[i]);
+        const bool is_last = i == 2;
+        if (error != std::errc{} || (next == end) != is_last) return std::nullopt;
+        if (!is_last && *next != ',') return std::nullopt;
+        begin = next + 1;
+    }
+    return value;
+}
+
+CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& value,
+                      const std::string& help) {
+    const auto parse = [name, &value](const std::string& text) {
+        const auto parsed = parse_vec3(text);
+        if (!parsed) throw CLI::ValidationError(name, "\"" + text + "\" is not of the form x,y,z");
+        value = *parsed;
+    };
+    return command.add_option_function<std::string>(name, parse, help)->type_name("X,Y,Z");
+}
+
+CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm::dvec3& value,
+                                const std::string& help) {
+    const auto parse = [name, &value](const std::string& text) {
+        const std::string triple =
+            text.find(',') == std::string::npos ? text + "," + text + "," + text : text;
+        const auto parsed = parse_vec3(triple);
+        if (!parsed) {
+            throw CLI::ValidationError(name, "\"" + text + "\" is not a number or x,y,z");
+        }
+        value = *parsed;
+    };
+    return command.add_option_function<std::string>(name, parse, help)->type_name("M|X,Y,Z");
+}
+
+Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
+    if (!is_gltf(path)) return read_probe_groups(path);
+    auto scene = read_gltf(path);
+    if (!scene) return scene.error();
+    if (scene->probe_groups.empty()) {
+        return Error{path + ": no node has extras.light_probe_group"};
+    }
+    return std::move(scene->probe_groups);
+}
+
+Result<std::vector<ProbeGroup>> read_groups(const std::vector<std::string>& paths) {
+    std::vector<ProbeGroup> all;
+    for (const std::string& path : paths) {
+        auto groups = read_groups(path);
+        if (!groups) return groups.error();
+        for (ProbeGroup& group : *groups) all.push_back(std::move(group));
+    }
+    return all;
+}
+
+Status check_output(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (fs::is_directory(path, error)) return Error{path + ": cannot write (is a folder)"};
+    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+    if (!fs::is_directory(folder, error)) {
+        return Error{path + ": cannot write (there is no folder " + folder.string() + ")"};
+    }
+    if (::access(folder.c_str(), W_OK) != 0) {
+        return Error{path + ": cannot write (no permission in " + folder.string() + ")"};
+    }
+    return Ok{};
+}
+
+Json to_json(const glm::dvec3& value) {
+    return Json::array({value.x, value.y, value.z});
+}
+
+Json counts(const ProbeVolumeView& volume) {
+    return {{"probes", volume.probe_count()},
+            {"tetrahedra", volume.info.tetrahedron_count},
+            {"hull_cells", volume.cells.size() - volume.info.tetrahedron_count},
+            {"groups", split_names(volume.group_names).size()},
+            {"welded",
+             volume.sources.size() - std::min(volume.sources.size(), volume.positions.size())}};
+}
+
+std::string duration(double seconds) {
+    if (seconds >= 1.0) return formatted("%.1f", seconds, " s");
+    if (seconds >= 1e-3) return formatted("%.1f", seconds * 1e3, " ms");
+    return formatted("%.1f", seconds * 1e6, " µs");
+}
+
+std::string grouped(uint64_t number) {
+    std::string digits = std::to_string(number);
+    for (size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, " ");
+    return digits;
+}
+
+std::string magnitude(double number) {
+    if (number >= 1e9) return formatted("%.2f", number / 1e9, " G");
+    if (number >= 1e6) return formatted("%.2f", number / 1e6, " M");
+    if (number >= 1e3) return formatted("%.2f", number / 1e3, " k");
+    return formatted("%.0f", number, "");
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/probe_grid.h"
+
+#include "bake/scene/probe_groups_json.h"
+#include "bake/scene/read_gltf.h"
+#include "base/text.h"
+#include "cli/common.h"
+
+namespace tetralight::cli {
+namespace {
+
+struct Grid {
+    std::string scene_path;
+    std::string output;
+    ProbeGridSettings settings;
+    Box bounds;
+    CLI::Option* low_option = nullptr;
+    CommonOptions common;
+
+    void add_to(CLI::App& command) {
+        command.add_option("SCENE", scene_path, "glTF 2.0 scene")->required();
+        command.add_option("-o,--output", output, "Probe-group file to write (.json)")->required();
+        add_vec3_or_number(command, "--spacing", settings.spacing, "Metres between probes")
+            ->required();
+        low_option = add_vec3(command, "--min", bounds.low, "Lower corner of the box to fill");
+        auto* high_option = add_vec3(command, "--max", bounds.high, "Upper corner of the box");
+        low_option->needs(high_option);
+        high_option->needs(low_option);
+        command.add_option("--name", settings.group_name, "Name of the probe group")
+            ->capture_default_str();
+        command
+            .add_option("--max-probes", settings.max_probe_count,
+                        "Refuse grids with more candidates than this")
+            ->capture_default_str();
+        common.add_to(command);
+    }
+
+    Status run() {
+        if (auto status = check_output(output); !status) return status;
+        const auto scene = read_gltf(scene_path);
+        if (!scene) return scene.error();
+        common.warn(scene->warnings);
+        settings.thread_count = common.thread_count;
+        if (low_option->count() > 0) settings.bounds = bounds;
+        const auto grid = make_probe_grid(*scene, settings);
+        if (!grid) return grid.error().in(scene_path);
+        auto status = write_probe_groups(output, std::span(&grid->group, 1));
+        if (!status) return status;
+        const size_t kept = grid->group.positions.size();
+        common.print(
+            {{"output", output},
+             {"probes", kept},
+             {"candidates", grid->candidate_count},
+             {"inside_geometry", grid->inside_count}},
+            text(output, ": ", grouped(kept), " probes of ", grouped(grid->candidate_count),
+                 " candidates (", grouped(grid->inside_count), " inside geometry)"));
+        return Ok{};
+    }
+};
+
+}  // namespace
+
+void add_grid(CLI::App& app, Run& run) {
+    add_command<Grid>(app, run, "grid", "Fill a scene with a grid of probes",
+                      "tetralight grid courtyard.glb --spacing 2 -o grid.json");
+}
+
+}  // namespace tetralight::cli

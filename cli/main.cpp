@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `tetralight` command. Exit codes: 0 fine, 1 bad data, 2 wrong usage, 130 interrupted.
+#include <iostream>
+#include <new>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+
+namespace {
+
+constexpr int kExitFine = 0;
+constexpr int kExitBadData = 1;
+constexpr int kExitUsage = 2;
+constexpr int kExitInterrupted = 130;
+
+void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
+    using namespace tetralight::cli;
+    app.set_version_flag("--version", "tetralight " TETRALIGHT_VERSION);
+    app.require_subcommand(1);
+    add_grid(app, run);
+    add_bake(app, run);
+    add_tetrahedralize(app, run);
+    add_query(app, run);
+    add_render(app, run);
+    add_meshball(app, run);
+    add_info(app, run);
+    add_validate(app, run);
+}
+
+int run_command(const tetralight::cli::Run& run) {
+    const tetralight::Status status = run();
+    if (tetralight::cli::BakeProgressDisplay::is_interrupted()) {
+        std::cerr << "tetralight: interrupted\n";
+        return kExitInterrupted;
+    }
+    if (!status) {
+        std::cerr << "tetralight: " << status.error().message << '\n';
+        return kExitBadData;
+    }
+    std::cout.flush();
+    if (std::cout) return kExitFine;
+    std::cerr << "tetralight: cannot write to stdout\n";
+    return kExitBadData;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Baked light probes for things that move: bake a glTF scene, query and render it.",
+                 "tetralight");
+    tetralight::cli::Run run;
+    declare_commands(app, run);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kExitFine : kExitUsage;
+    }
+    try {
+        return run_command(run);
+    } catch (const std::bad_alloc&) {
+        std::cerr << "tetralight: not enough memory\n";
+        return kExitBadData;
+    }
+}

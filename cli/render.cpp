@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "bake/image/write_image.h"
+#include "bake/scene/read_gltf.h"
+#include "bake/scene/scene_bounds.h"
+#include "base/text.h"
+#include "cli/common.h"
+#include "cli/view_options.h"
+#include "pipeline/render_scene.h"
+#include "probes/probe_file.h"
+
+namespace tetralight::cli {
+namespace {
+
+/// A camera that sees all of a scene from the front, above and to the right.
+Camera overview(const Scene& scene) {
+    const Box bounds =
+        scene_bounds(scene, [](const MeshInstance&) { return true; }).value_or(Box{});
+    const double fov = glm::radians(45.0);
+    const double distance = 0.75 * std::max(glm::length(bounds.size()), 1e-3) / std::tan(fov / 2);
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(0.5, 0.45, 1.0));
+    return look_at(bounds.center() + direction * distance, bounds.center(), fov);
+}
+
+struct Render {
+    std::string scene_path;
+    std::string volume_path;
+    std::string output;
+    std::string camera_name;
+    ViewOptions view;
+    CommonOptions common;
+
+    void add_to(CLI::App& command) {
+        command.add_option("SCENE", scene_path, "glTF 2.0 scene")->required();
+        command.add_option("VOLUME", volume_path, "Probe volume baked from it (.probes)")
+            ->required();
+        command.add_option("-o,--output", output, "Picture to write (.png)")->required();
+        command.add_option("--camera", camera_name,
+                           "Camera of the scene by name; otherwise --eye, else the scene's first, "
+                           "else an overview");
+        view.add_to(command);
+        common.add_to(command);
+    }
+
+    [[nodiscard]] Result<Camera> camera(const Scene& scene) const {
+        if (view.has_camera && camera_name.empty()) return view.camera();
+        for (const Camera& candidate : scene.cameras) {
+            if (!camera_name.empty() && candidate.name != camera_name) continue;
+            return candidate;
+        }
+        if (camera_name.empty()) return overview(scene);
+        std::string names;
+        for (const Camera& candidate : scene.cameras) names += " \"" + candidate.name + "\"";
+        return Error{scene_path + ": no camera \"" + camera_name +
+                     "\"; there is:" + (names.empty() ? " none" : names)};
+    }
+
+    Status run() {
+        if (auto status = check_output(output); !status) return status;
+        if (auto status = view.check(); !status) return status;
+        const auto scene = read_gltf(scene_path);
+        if (!scene) return scene.error();
+        common.warn(scene->warnings);
+        const auto file = open_probe_file(volume_path);
+        if (!file) return file.error();
+        const auto chosen = camera(*scene);
+        if (!chosen) return chosen.error();
+
+        view.settings.thread_count = common.thread_count;
+        const auto start = std::chrono::steady_clock::now();
+        const auto image = render_scene(*scene, file->view(), *chosen, view.settings);
+        if (!image) return image.error();
+        auto status = write_png(output, develop(*image, view.settings.exposure));
+        if (!status) return status;
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        common.print({{"output", output}, {"seconds", elapsed.count()}},
+                     text(output, ": ", image->width, "×", image->height, " in ",
+                          duration(elapsed.count())));
+        return Ok{};
+    }
+};
+
+}  // namespace
+
+void add_render(CLI::App& app, Run& run) {
+    add_command<Render>(app, run, "render", "Render a scene with the light of a probe volume",
+                        "tetralight render courtyard.glb courtyard.probes -o courtyard.png");
+}
+
+}  // namespace tetralight::cli

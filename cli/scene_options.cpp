@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/scene_options.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "bake/image/read_image.h"
+#include "bake/scene/read_gltf.h"
+#include "base/text.h"
+#include "cli/common.h"
+
+namespace tetralight::cli {
+
+void SceneOptions::add_to(CLI::App& command) {
+    command.add_option("SCENE", path, "glTF 2.0 scene (.glb or .gltf)")->required();
+    command
+        .add_option("--sky", sky,
+                    "Radiance of the sky: R,G,B for a constant one, or an equirectangular .hdr "
+                    "or .exr file; replaces the scene's own")
+        ->type_name("R,G,B|FILE");
+    command.add_option("--sky-intensity", sky_intensity, "Factor on the sky")
+        ->capture_default_str();
+    command
+        .add_option("--sky-rotation", sky_rotation_degrees,
+                    "Degrees to turn the sky about +Y, counter-clockwise from above")
+        ->capture_default_str();
+    auto* direction = add_vec3(command, "--sun-direction", sun_direction,
+                               "Add a sun that shines in this direction");
+    auto* irradiance = add_vec3(command, "--sun-irradiance", sun_irradiance,
+                                "Irradiance of the added sun on a surface that faces it");
+    direction->needs(irradiance);
+    irradiance->needs(direction);
+    command
+        .add_option("--sun-mode", sun_mode,
+                    "What probes hold of the added sun: its bounces (mixed), or its direct "
+                    "light too (baked)")
+        ->check(CLI::IsMember({"mixed", "baked"}))
+        ->capture_default_str();
+}
+
+Result<Scene> SceneOptions::read() const {
+    auto scene = read_gltf(path);
+    if (!scene) return scene;
+    if (auto status = add_sky(*scene); !status) return status.error();
+    if (auto status = add_sun(*scene); !status) return status.error();
+    return scene;
+}
+
+Status SceneOptions::add_sky(Scene& scene) const {
+    Environment& environment = scene.environment;
+    if (const auto constant = parse_vec3(sky)) {
+        environment = {};
+        environment.radiance = glm::vec3(*constant);
+    } else if (!sky.empty()) {
+        auto image = read_hdr_image(sky);
+        if (!image) return image.error();
+        environment = {};
+        environment.radiance = glm::vec3(1.0f);
+        environment.image = std::move(image->image);
+        if (image->mended_pixel_count > 0) {
+            scene.warnings.push_back(text(sky, ": ", image->mended_pixel_count,
+                                          " pixels with NaN, infinite or negative values mended"));
+        }
+    }
+    environment.radiance *= static_cast<float>(sky_intensity);
+    environment.rotation_radians += glm::radians(static_cast<float>(sky_rotation_degrees));
+    const glm::vec3& radiance = environment.radiance;
+    if (radiance.x >= 0.0f && radiance.y >= 0.0f && radiance.z >= 0.0f &&
+        glm::length(radiance) < 1e30f) {
+        return Ok{};
+    }
+    return Error{text("--sky: radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
+                      ") is negative or not finite")};
+}
+
+Status SceneOptions::add_sun(Scene& scene) const {
+    if (sun_direction == glm::dvec3(0.0) && sun_irradiance == glm::dvec3(0.0)) return Ok{};
+    const double length = glm::length(sun_direction);
+    if (!(length > 0.0) || !std::isfinite(length)) {
+        return Error{text("--sun-direction: (", sun_direction.x, ", ", sun_direction.y, ", ",
+                          sun_direction.z, ") is not a direction")};
+    }
+    for (int i = 0; i < 3; ++i) {
+        if (sun_irradiance[i] >= 0.0 && std::isfinite(sun_irradiance[i])) continue;
+        return Error{text("--sun-irradiance: ", sun_irradiance[i], " is negative or not finite")};
+    }
+    Light sun;
+    sun.mode = sun_mode == "baked" ? LightMode::Baked : LightMode::Mixed;
+    sun.direction = glm::vec3(sun_direction / length);
+    sun.intensity = glm::vec3(sun_irradiance);
+    scene.lights.push_back(sun);
+    scene.light_names.push_back("command-line sun");
+    return Ok{};
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "bake/scene/scene.h"
+#include "base/result.h"
+
+namespace tetralight::cli {
+
+/// The scene to work on, and light that the command line adds to it.
+struct SceneOptions {
+    std::string path;
+    std::string sky;
+    double sky_intensity = 1.0;
+    double sky_rotation_degrees = 0.0;
+    glm::dvec3 sun_direction{0.0};
+    glm::dvec3 sun_irradiance{0.0};
+    std::string sun_mode = "mixed";
+
+    /// Declares SCENE and the light options.
+    void add_to(CLI::App& command);
+
+    /// Reads the scene and adds the light.
+    [[nodiscard]] Result<Scene> read() const;
+
+  private:
+    [[nodiscard]] Status add_sky(Scene& scene) const;
+    [[nodiscard]] Status add_sun(Scene& scene) const;
+};
+
+}  // namespace tetralight::cli

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+
+#include "base/result.h"
+#include "pipeline/image_renderer.h"
+
+namespace tetralight::cli {
+
+/// The size and exposure of a picture, and the camera if the user gave one.
+struct ViewOptions {
+    RenderSettings settings;
+    glm::dvec3 eye{0.0};
+    glm::dvec3 target{0.0};
+    double fov_degrees = 45.0;
+    bool has_camera = false;
+
+    void add_to(CLI::App& command);
+
+    /// The user's camera. Precondition: `has_camera`. Error: eye and target are one point.
+    [[nodiscard]] Result<Camera> camera() const;
+
+    /// A picture of no size, or larger than 16384 pixels a side.
+    [[nodiscard]] Status check() const;
+};
+
+}  // namespace tetralight::cli

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/bake_volume.h"
+
+#include <chrono>
+#include <utility>
+
+#include "base/text.h"
+#include "probes/build/make_probe_volume.h"
+
+namespace tetralight {
+namespace {
+
+/// Seconds since the last call.
+class Stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::string metadata(const BakeSettings& settings) {
+    return text("{\"generator\":\"tetralight ", TETRALIGHT_VERSION,
+                "\",\"samples\":", settings.sample_count, ",\"bounces\":", settings.bounces,
+                ",\"seed\":", settings.seed, "}");
+}
+
+void store_light(const Scene& scene, const BakedProbes& baked, ProbeVolume& volume) {
+    for (const RadianceSh& radiance : baked.radiance) {
+        volume.irradiance.push_back(irradiance_from_radiance(radiance));
+    }
+    volume.validity = baked.validity;
+    volume.info.ambient = irradiance_from_radiance(baked.ambient);
+    volume.lights = scene.lights;
+    for (const std::string& name : scene.light_names) volume.light_names += name + "\n";
+}
+
+/// Groups in which half of the probes or more lie inside something.
+std::vector<std::string> buried_groups(const MergedProbes& merged,
+                                       std::span<const float> validity) {
+    std::vector<size_t> buried(merged.group_names.size(), 0);
+    std::vector<size_t> total(merged.group_names.size(), 0);
+    for (const ProbeSource& source : merged.sources) {
+        ++total[source.group];
+        buried[source.group] += validity[source.probe] < 0.5f;
+    }
+    std::vector<std::string> warnings;
+    for (size_t g = 0; g < total.size(); ++g) {
+        if (total[g] == 0 || 2 * buried[g] < total[g]) continue;
+        warnings.push_back(text("group \"", merged.group_names[g], "\": ", buried[g], " of ",
+                                total[g], " probes see mostly back faces (inside geometry?)"));
+    }
+    return warnings;
+}
+
+}  // namespace
+
+Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> groups,
+                                const MergeSettings& merge_settings, const BakeSettings& settings,
+                                const BakeCallback& callback) {
+    BakedVolume result;
+    Stopwatch watch;
+    const auto merged = merge(groups, merge_settings);
+    if (!merged) return merged.error();
+    result.report.welded_count = merged->welded_count();
+    result.report.merge_seconds = watch.lap();
+
+    auto volume = make_probe_volume(*merged);
+    if (!volume) return volume.error();
+    result.report.tetrahedralize_seconds = watch.lap();
+
+    const auto baked = bake_probes(scene, merged->positions, settings, callback);
+    if (!baked) return baked.error();
+    store_light(scene, *baked, *volume);
+    volume->metadata = metadata(settings);
+    result.report.bake_seconds = watch.lap();
+    result.report.ray_count = baked->ray_count;
+    result.report.warnings = buried_groups(*merged, volume->validity);
+    result.volume = std::move(*volume);
+    return result;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bake/bake_probes.h"
+#include "bake/scene/scene.h"
+#include "base/result.h"
+#include "probes/build/merge.h"
+#include "probes/probe_group.h"
+#include "probes/probe_volume.h"
+
+// The offline chain in one function:
+//
+//     groups → merge → positions → bake_probes → irradiance ┐
+//                          └→ make_probe_volume ────────────┴→ ProbeVolume
+
+namespace tetralight {
+
+/// What a bake did, for the user.
+struct BakeReport {
+    size_t welded_count = 0;
+    uint64_t ray_count = 0;
+    double merge_seconds = 0.0;
+    double tetrahedralize_seconds = 0.0;
+    double bake_seconds = 0.0;
+    /// Groups most of whose probes see mostly back faces, and the like; one line each.
+    std::vector<std::string> warnings;
+};
+
+struct BakedVolume {
+    ProbeVolume volume;
+    BakeReport report;
+};
+
+/// Bakes a scene's light at the probes of all `groups` and joins them in one volume. The scene's
+/// own groups count only if they are among `groups`. No group at all gives a volume that answers
+/// with its ambient light. Same input, same bytes.
+[[nodiscard]] Result<BakedVolume> bake_volume(const Scene& scene,
+                                              std::span<const ProbeGroup> groups,
+                                              const MergeSettings& merge_settings,
+                                              const BakeSettings& settings,
+                                              const BakeCallback& callback = {});
+
+}  // namespace tetralight

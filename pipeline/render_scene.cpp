@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/render_scene.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "bake/scene/scene_bounds.h"
+#include "probes/interpolate.h"
+#include "probes/locate.h"
+#include "runtime/shade.h"
+
+namespace tetralight {
+namespace {
+
+/// Probe light is looked up this far off a surface, so that a wall takes less of the light behind
+/// it.
+constexpr float kNormalBias = 0.25f;
+
+PackedSh light_at(const ProbeVolumeView& volume, const glm::dvec3& position) {
+    const CellLocation location = locate(volume, glm::vec3(position));
+    return pack_sh(interpolate(volume, location).irradiance);
+}
+
+}  // namespace
+
+SceneShader::SceneShader(const Scene& scene, const ProbeVolumeView& volume, TraceScene traced)
+    : scene_(&scene), volume_(volume), traced_(std::move(traced)) {
+    light_of_mover_.resize(scene.instances.size());
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const MeshInstance& instance = scene.instances[i];
+        const auto bounds = instance_bounds(scene, instance);
+        if (instance.contributes_gi || !bounds) continue;
+        light_of_mover_[i] = light_at(volume, bounds->center());
+    }
+    for (const Light& light : volume.lights) {
+        if (light.mode == LightMode::Mixed) {
+            mixed_lights_.push_back(traced_.traced_from_world(light));
+        }
+    }
+}
+
+Result<SceneShader> SceneShader::make(const Scene& scene, const ProbeVolumeView& volume) {
+    auto traced = TraceScene::make(scene, [](const MeshInstance&) { return true; });
+    if (!traced) return traced.error();
+    return SceneShader(scene, volume, std::move(*traced));
+}
+
+PackedSh SceneShader::probe_light(const Surface& surface) const {
+    if (!scene_->instances[surface.instance].contributes_gi) {
+        return light_of_mover_[surface.instance];
+    }
+    const glm::vec3 position = surface.position + kNormalBias * surface.geometric_normal;
+    return light_at(volume_, traced_.world_from_traced(position));
+}
+
+glm::vec3 SceneShader::direct_term(const Surface& surface) const {
+    const glm::vec3 position = traced_.ray_origin(surface.position, surface.geometric_normal);
+    glm::vec3 sum(0.0f);
+    for (const Light& light : mixed_lights_) {
+        const glm::vec3 direct = direct_light(light, position, surface.shading_normal);
+        if (direct == glm::vec3(0.0f)) continue;
+        const Illumination arriving = illuminate(light, position);
+        if (!traced_.is_blocked({position, arriving.to_light, arriving.distance})) sum += direct;
+    }
+    return sum;
+}
+
+std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
+                                                      glm::vec3 direction) const {
+    const auto surface = traced_.cast({traced_.traced_from_world(origin), direction});
+    if (!surface) return std::nullopt;
+    const float distance = glm::distance(traced_.traced_from_world(origin), surface->position);
+    if (surface->is_back_face) return Shaded{glm::vec3(0.0f), distance};
+    const glm::vec3 reflected = shade_diffuse(surface->albedo, probe_light(*surface),
+                                              surface->shading_normal, direct_term(*surface));
+    return Shaded{surface->emission + reflected, distance};
+}
+
+bool SceneShader::is_blocked(const glm::dvec3& origin, glm::vec3 direction, float distance) const {
+    return traced_.is_blocked({traced_.traced_from_world(origin), direction, distance});
+}
+
+glm::vec3 sky_radiance(const ProbeVolumeView& volume, glm::vec3 direction) {
+    return glm::max(evaluate_radiance(radiance_from_irradiance(volume.info.ambient), direction),
+                    glm::vec3(0.0f));
+}
+
+Result<ImageF> render_scene(const Scene& scene, const ProbeVolumeView& volume, const Camera& camera,
+                            const RenderSettings& settings) {
+    const auto shader = SceneShader::make(scene, volume);
+    if (!shader) return shader.error();
+    return render_view(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
+        const auto shaded = shader->shade(origin, direction);
+        return shaded ? shaded->radiance : sky_radiance(volume, direction);
+    });
+}
+
+}  // namespace tetralight

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "bake/scene/scene.h"
+#include "bake/trace_scene.h"
+#include "base/result.h"
+#include "pipeline/image_renderer.h"
+#include "probes/probe_volume.h"
+#include "runtime/packed_sh.h"
+
+namespace tetralight {
+
+/// Shades a scene with a volume's light: what an engine would show with this runtime. Static
+/// surfaces take the probe light of each point, things that move (`contributes_gi` false) that of
+/// their bounds' centre; the volume's mixed lights add their direct term with shadow rays.
+class SceneShader {
+  public:
+    /// Keeps references. Error: not enough memory.
+    [[nodiscard]] static Result<SceneShader> make(const Scene& scene,
+                                                  const ProbeVolumeView& volume);
+
+    /// Radiance that leaves the first surface towards the ray's origin; none when nothing is hit.
+    /// Also gives the distance.
+    struct Shaded {
+        glm::vec3 radiance{0.0f};
+        float distance = 0.0f;
+    };
+
+    [[nodiscard]] std::optional<Shaded> shade(const glm::dvec3& origin, glm::vec3 direction) const;
+
+    /// Whether the scene blocks the way from a world position.
+    [[nodiscard]] bool is_blocked(const glm::dvec3& origin, glm::vec3 direction,
+                                  float distance) const;
+
+  private:
+    SceneShader(const Scene& scene, const ProbeVolumeView& volume, TraceScene traced);
+
+    [[nodiscard]] PackedSh probe_light(const Surface& surface) const;
+    [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
+
+    const Scene* scene_;
+    ProbeVolumeView volume_;
+    TraceScene traced_;
+    std::vector<PackedSh> light_of_mover_;  // by instance
+    std::vector<Light> mixed_lights_;       // in traced space
+};
+
+/// Light of the sky in a direction, as the volume's ambient probe knows it.
+[[nodiscard]] glm::vec3 sky_radiance(const ProbeVolumeView& volume, glm::vec3 direction);
+
+/// Renders the scene, with the sky behind it.
+[[nodiscard]] Result<ImageF> render_scene(const Scene& scene, const ProbeVolumeView& volume,
+                                          const Camera& camera, const RenderSettings& settings);
+
+}  // namespace tetralight
