@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/harness.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <iomanip>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+namespace tetralight::bench {
+namespace {
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
+double rounded(double value) {
+    return std::stod((std::ostringstream() << std::setprecision(4) << value).str());
+}
+
+}  // namespace
+
+void run(const Contest& contest, const Options& options) {
+    std::vector<double> ours;
+    std::vector<double> baseline;
+    for (int i = 0; i < options.repetitions; ++i) {
+        ours.push_back(contest.work / contest.ours());
+        baseline.push_back(contest.work / contest.baseline());
+    }
+    const nlohmann::ordered_json line{{"figure", contest.figure},
+                                      {"ours", rounded(median(ours))},
+                                      {"baseline", rounded(median(baseline))},
+                                      {"unit", contest.unit},
+                                      {"ratio", rounded(median(ours) / median(baseline))},
+                                      {"baseline_is", contest.baseline_is}};
+    std::cout << line.dump() << std::endl;
+}
+
+void report(const std::string& figure, double value, const std::string& unit) {
+    const nlohmann::ordered_json line{{"figure", figure}, {"ours", rounded(value)}, {"unit", unit}};
+    std::cout << line.dump() << std::endl;
+}
+
+double seconds(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void require(bool is_right, const std::string& what) {
+    if (is_right) return;
+    std::cerr << "tetralight_bench: wrong answer: " << what << '\n';
+    std::exit(1);
+}
+
+std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double extent) {
+    std::mt19937_64 engine(seed);
+    std::uniform_real_distribution<double> coordinate(0.0, extent);
+    std::vector<glm::dvec3> positions;
+    for (size_t i = 0; i < count; ++i) {
+        const double x = coordinate(engine), y = coordinate(engine), z = coordinate(engine);
+        positions.emplace_back(x, y, z);
+    }
+    return positions;
+}
+
+}  // namespace tetralight::bench

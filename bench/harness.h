@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Every figure is a ratio against a baseline that is timed in the same process, alternating, because
+// machines differ and are noisy. docs/performance.md says what the figures mean.
+
+namespace tetralight::bench {
+
+struct Options {
+    /// A real scene, where a benchmark can use one.
+    std::optional<std::string> scene;
+    int repetitions = 7;
+    /// Leave out what takes minutes.
+    bool is_quick = false;
+};
+
+/// Two ways to do the same amount of work. Each returns the seconds that count, so that preparation
+/// is not timed.
+struct Contest {
+    std::string figure;
+    std::string unit;
+    std::string baseline_is;
+    /// Units of work in one run: rates are work / seconds.
+    double work = 1.0;
+    std::function<double()> ours;
+    std::function<double()> baseline;
+};
+
+/// Runs both alternately and prints one JSON line with the medians of their rates.
+void run(const Contest& contest, const Options& options);
+
+/// Prints a figure that has no baseline.
+void report(const std::string& figure, double value, const std::string& unit);
+
+/// Seconds that `work` takes.
+[[nodiscard]] double seconds(const std::function<void()>& work);
+
+/// Ends the benchmark with exit code 1: an answer differs from the baseline's.
+void require(bool is_right, const std::string& what);
+
+[[nodiscard]] std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double extent);
+
+void bench_query(const Options& options);
+void bench_tetrahedralize(const Options& options);
+
+}  // namespace tetralight::bench

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "bench/harness.h"
+
+int main(int argc, char** argv) {
+    using namespace tetralight::bench;
+    const std::map<std::string, void (*)(const Options&)> benches{
+        {"query", bench_query}, {"tetrahedralize", bench_tetrahedralize}};
+
+    CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");
+    Options options;
+    std::vector<std::string> names;
+    app.add_option("NAME", names, "Benchmarks to run (default: all)")
+        ->check(CLI::IsMember(benches));
+    app.add_option("--scene", options.scene, "glTF scene for the benchmarks that can use one");
+    app.add_option("--repetitions", options.repetitions, "Runs of each side")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    app.add_flag("--quick", options.is_quick, "Leave out what takes minutes");
+    CLI11_PARSE(app, argc, argv);
+    for (const auto& [name, bench] : benches) {
+        if (names.empty() || std::ranges::find(names, name) != names.end()) bench(options);
+    }
+    return 0;
+}

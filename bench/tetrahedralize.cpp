@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Links CGAL's 3D triangulations (GPL-3.0-or-later).
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include "bench/harness.h"
+#include "probes/build/make_probe_volume.h"
+
+namespace tetralight::bench {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
+
+std::vector<glm::dvec3> lattice(int side) {
+    std::vector<glm::dvec3> positions;
+    for (int i = 0; i < side * side * side; ++i) {
+        positions.emplace_back(i % side, i / side % side, i / side / side);
+    }
+    return positions;
+}
+
+void build(const std::string& name, std::vector<glm::dvec3> positions, const Options& options) {
+    std::vector<Kernel::Point_3> points;
+    for (const glm::dvec3& p : positions) points.emplace_back(p.x, p.y, p.z);
+    ProbeGroup group;
+    group.name = "bench";
+    group.positions = std::move(positions);
+
+    size_t our_cells = 0;
+    size_t their_cells = 0;
+    Contest contest;
+    contest.figure = "tetrahedralize.build." + name;
+    contest.unit = "Mprobes/s";
+    contest.baseline_is = "CGAL::Delaunay_triangulation_3 range constructor";
+    contest.work = static_cast<double>(points.size()) * 1e-6;
+    contest.ours = [&] {
+        return seconds([&] {
+            our_cells = make_probe_volume(*merge(std::span(&group, 1)))->info.tetrahedron_count;
+        });
+    };
+    contest.baseline = [&] {
+        return seconds([&] {
+            their_cells = Delaunay(points.begin(), points.end()).number_of_finite_cells();
+        });
+    };
+    run(contest, options);
+    require(our_cells == their_cells, contest.figure + ": tetrahedra differ from CGAL's");
+}
+
+}  // namespace
+
+void bench_tetrahedralize(const Options& options) {
+    build("10k", random_positions(10'000, 1, 1.0), options);
+    build("100k", random_positions(100'000, 2, 1.0), options);
+    if (options.is_quick) return;
+    build("1m", random_positions(1'000'000, 3, 1.0), options);
+    build("lattice", lattice(100), options);
+}
+
+}  // namespace tetralight::bench
