@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-// Every figure is a ratio against a baseline that is timed in the same process, alternating, because
-// machines differ and are noisy. docs/performance.md says what the figures mean.
+// Every figure is a ratio against a baseline that is timed in the same process, alternating,
+// because machines differ and are noisy. docs/performance.md says what the figures mean.
 
 namespace tetralight::bench {
 

@@ -40,9 +40,8 @@ void build(const std::string& name, std::vector<glm::dvec3> positions, const Opt
         });
     };
     contest.baseline = [&] {
-        return seconds([&] {
-            their_cells = Delaunay(points.begin(), points.end()).number_of_finite_cells();
-        });
+        return seconds(
+            [&] { their_cells = Delaunay(points.begin(), points.end()).number_of_finite_cells(); });
     };
     run(contest, options);
     require(our_cells == their_cells, contest.figure + ": tetrahedra differ from CGAL's");

@@ -21,10 +21,13 @@ struct Bake {
     void add_to(CLI::App& command) {
         scene_options.add_to(command);
         command.add_option("-o,--output", output, "Probe volume to write (.probes)")->required();
-        command.add_option("-g,--groups", group_paths,
-                           "Probe groups beside the scene's own: .json files, or glTF scenes");
-        command.add_flag("--only-given-groups", only_given_groups,
-                         "Leave the scene's own probe groups out");
+        auto* groups_option =
+            command.add_option("-g,--groups", group_paths,
+                               "Probe groups beside the scene's own: .json files, or glTF scenes");
+        command
+            .add_flag("--only-given-groups", only_given_groups,
+                      "Leave the scene's own probe groups out")
+            ->needs(groups_option);
         command.add_option("-s,--samples", settings.sample_count, "Directions a probe")
             ->check(CLI::Range(1u, 1u << 24))
             ->capture_default_str();
@@ -34,11 +37,12 @@ struct Bake {
             ->check(CLI::Range(0u, 1000u))
             ->capture_default_str();
         command.add_option("--seed", settings.seed, "Seed of the random numbers")
+            ->check(CLI::NonNegativeNumber)
             ->capture_default_str();
         command
             .add_option("--weld", merge_settings.weld_tolerance,
                         "Join probes nearer than this share of the set's diagonal")
-            ->check(CLI::Range(0.0, 0.1))
+            ->check(numbers_in(0.0, 0.1))
             ->capture_default_str();
         common.add_to(command);
     }
@@ -88,8 +92,8 @@ struct Bake {
                       {{"merge", bake.merge_seconds},
                        {"tetrahedralize", bake.tetrahedralize_seconds},
                        {"bake", bake.bake_seconds}}}});
-        common.print(
-            json,
+        common.report(
+            output, json,
             text(output, ": ", grouped(volume.probe_count()), " probes (",
                  grouped(bake.welded_count), " welded), ", grouped(volume.info.tetrahedron_count),
                  " tetrahedra\n  merge ", duration(bake.merge_seconds), ", tetrahedralize ",

@@ -3,9 +3,8 @@
 
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -23,6 +22,39 @@ std::string formatted(const char* format, double number, const char* unit) {
     return buffer + std::string(unit);
 }
 
+void print_to(std::ostream& stream, const CommonOptions& common, const Json& json,
+              const std::string& text) {
+    if (common.is_json) {
+        stream << dump(json) << '\n';
+    } else if (!common.is_quiet) {
+        stream << text << '\n';
+    }
+}
+
+std::string range_error(const std::string& input, double low, double high) {
+    const char* begin = input.data();
+    const char* const end = begin + input.size();
+    while (true) {
+        const char* const comma = std::find(begin, end, ',');
+        const std::string part(begin, comma);
+        double value = 0.0;
+        const auto [next, error] = std::from_chars(begin, comma, value);
+        if (error == std::errc::invalid_argument || next != comma) {
+            return text("\"", part, "\" is not a number");
+        }
+        if (error != std::errc{} || !(value >= low && value <= high)) {
+            return text(part, " is not in the range from ", low, " to ", high);
+        }
+        if (comma == end) return {};
+        begin = comma + 1;
+    }
+}
+
+/// Positions beyond this are refused by `merge`, too.
+CLI::Validator finite() {
+    return numbers_in(-1e18, 1e18).description("");
+}
+
 bool is_gltf(const std::string& path) {
     const auto extension = std::filesystem::path(path).extension();
     return extension == ".glb" || extension == ".gltf";
@@ -38,16 +70,18 @@ void CommonOptions::add_to(CLI::App& command) {
 }
 
 void CommonOptions::print(const Json& json, const std::string& text) const {
-    if (is_json) {
-        std::cout << json.dump() << '\n';
-    } else if (!is_quiet) {
-        std::cout << text << '\n';
-    }
+    print_to(std::cout, *this, json, text);
+}
+
+void CommonOptions::report(const std::string& output, const Json& json,
+                           const std::string& text) const {
+    print_to(output == "-" ? std::cerr : std::cout, *this, json, text);
 }
 
 void CommonOptions::warn(const std::vector<std::string>& warnings) const {
     if (is_quiet) return;
-    for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
+    for (const std::string& warning : warnings)
+        std::cerr << "warning: " << printable(warning) << '\n';
 }
 
 std::optional<glm::dvec3> parse_vec3(const std::string& text) {
@@ -64,6 +98,11 @@ std::optional<glm::dvec3> parse_vec3(const std::string& text) {
     return value;
 }
 
+CLI::Validator numbers_in(double low, double high) {
+    return {[low, high](const std::string& input) { return range_error(input, low, high); },
+            text("[", low, " - ", high, "]")};
+}
+
 CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& value,
                       const std::string& help) {
     const auto parse = [name, &value](const std::string& text) {
@@ -71,7 +110,9 @@ CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& va
         if (!parsed) throw CLI::ValidationError(name, "\"" + text + "\" is not of the form x,y,z");
         value = *parsed;
     };
-    return command.add_option_function<std::string>(name, parse, help)->type_name("X,Y,Z");
+    return command.add_option_function<std::string>(name, parse, help)
+        ->check(finite())
+        ->type_name("X,Y,Z");
 }
 
 CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm::dvec3& value,
@@ -85,7 +126,9 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
         }
         value = *parsed;
     };
-    return command.add_option_function<std::string>(name, parse, help)->type_name("M|X,Y,Z");
+    return command.add_option_function<std::string>(name, parse, help)
+        ->check(finite())
+        ->type_name("M|X,Y,Z");
 }
 
 Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
@@ -111,6 +154,7 @@ Result<std::vector<ProbeGroup>> read_groups(const std::vector<std::string>& path
 Status check_output(const std::string& path) {
     namespace fs = std::filesystem;
     std::error_code error;
+    if (path == "-" || fs::is_other(fs::status(path, error))) return Ok{};  // stdout, devices
     if (fs::is_directory(path, error)) return Error{path + ": cannot write (is a folder)"};
     const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
     if (!fs::is_directory(folder, error)) {
@@ -124,6 +168,18 @@ Status check_output(const std::string& path) {
 
 Json to_json(const glm::dvec3& value) {
     return Json::array({value.x, value.y, value.z});
+}
+
+std::string printable(std::string text) {
+    constexpr char kDelete = 0x7f;
+    for (char& c : text) {
+        if ((c >= 0 && c < ' ') || c == kDelete) c = '?';
+    }
+    return text;
+}
+
+std::string dump(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 Json counts(const ProbeVolumeView& volume) {
@@ -143,7 +199,7 @@ std::string duration(double seconds) {
 
 std::string grouped(uint64_t number) {
     std::string digits = std::to_string(number);
-    for (size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, " ");
+    for (size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, 1, ' ');
     return digits;
 }
 
@@ -151,7 +207,7 @@ std::string magnitude(double number) {
     if (number >= 1e9) return formatted("%.2f", number / 1e9, " G");
     if (number >= 1e6) return formatted("%.2f", number / 1e6, " M");
     if (number >= 1e3) return formatted("%.2f", number / 1e3, " k");
-    return formatted("%.0f", number, "");
+    return formatted("%.0f", number, " ");
 }
 
 }  // namespace tetralight::cli

@@ -28,6 +28,8 @@ struct CommonOptions {
 
     /// The result on stdout: as one JSON object, or as `text` unless quiet.
     void print(const Json& json, const std::string& text) const;
+    /// The same after `output` was written; on stderr when the output itself went to stdout (`-`).
+    void report(const std::string& output, const Json& json, const std::string& text) const;
     /// Lines on stderr, unless quiet.
     void warn(const std::vector<std::string>& warnings) const;
 };
@@ -44,7 +46,11 @@ CLI::App& add_command(CLI::App& app, Run& run, const char* name, const char* des
     return *command;
 }
 
-/// An option whose value is three numbers with commas between: `--name 1,2,3`.
+/// One number, or several with commas between, each from `low` to `high`. Unlike CLI::Range it
+/// refuses NaN.
+[[nodiscard]] CLI::Validator numbers_in(double low, double high);
+
+/// An option whose value is three finite numbers with commas between: `--name 1,2,3`.
 CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& value,
                       const std::string& help);
 
@@ -65,6 +71,10 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 [[nodiscard]] Status check_output(const std::string& path);
 
 [[nodiscard]] Json to_json(const glm::dvec3& value);
+/// Text for a terminal: one line, control characters shown as '?'.
+[[nodiscard]] std::string printable(std::string text);
+/// JSON on one line, or indented. Bytes that are not UTF-8, in a path for example, are replaced.
+[[nodiscard]] std::string dump(const Json& json, int indent = -1);
 /// What a volume holds, in numbers.
 [[nodiscard]] Json counts(const ProbeVolumeView& volume);
 
@@ -72,7 +82,7 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 [[nodiscard]] std::string duration(double seconds);
 /// "1 234 567" with thin grouping.
 [[nodiscard]] std::string grouped(uint64_t number);
-/// "3.4 M" for rates.
+/// "3.4 M", "512 ": a unit can follow.
 [[nodiscard]] std::string magnitude(double number);
 
 }  // namespace tetralight::cli

@@ -9,6 +9,15 @@
 namespace tetralight::cli {
 namespace {
 
+/// The names that `merge` takes.
+CLI::Validator name_check() {
+    const auto check = [](const std::string& name) -> std::string {
+        if (name.empty()) return "the name is empty";
+        return name.find('\n') == std::string::npos ? "" : "the name holds a line break";
+    };
+    return {check, ""};
+}
+
 struct Grid {
     std::string scene_path;
     std::string output;
@@ -21,18 +30,30 @@ struct Grid {
         command.add_option("SCENE", scene_path, "glTF 2.0 scene")->required();
         command.add_option("-o,--output", output, "Probe-group file to write (.json)")->required();
         add_vec3_or_number(command, "--spacing", settings.spacing, "Metres between probes")
-            ->required();
+            ->required()
+            ->check(numbers_in(1e-6, 1e9).description(""));
         low_option = add_vec3(command, "--min", bounds.low, "Lower corner of the box to fill");
         auto* high_option = add_vec3(command, "--max", bounds.high, "Upper corner of the box");
         low_option->needs(high_option);
         high_option->needs(low_option);
         command.add_option("--name", settings.group_name, "Name of the probe group")
+            ->check(name_check())
             ->capture_default_str();
         command
             .add_option("--max-probes", settings.max_probe_count,
                         "Refuse grids with more candidates than this")
             ->capture_default_str();
         common.add_to(command);
+        command.parse_complete_callback([this] { check_box(); });
+    }
+
+    void check_box() const {
+        constexpr const char* kAxes[] = {"x", "y", "z"};
+        for (int i = 0; i < 3; ++i) {
+            if (bounds.low[i] <= bounds.high[i]) continue;
+            throw CLI::ValidationError("--max", text(bounds.high[i], " is less than --min ",
+                                                     bounds.low[i], " along ", kAxes[i]));
+        }
     }
 
     Status run() {
@@ -47,7 +68,8 @@ struct Grid {
         auto status = write_probe_groups(output, std::span(&grid->group, 1));
         if (!status) return status;
         const size_t kept = grid->group.positions.size();
-        common.print(
+        common.report(
+            output,
             {{"output", output},
              {"probes", kept},
              {"candidates", grid->candidate_count},

@@ -83,7 +83,7 @@ struct Info {
             bytes += section.size;
         }
         json["bytes"] = bytes;
-        common.print(json, json.dump(2));
+        common.print(json, dump(json, 2));
         return Ok{};
     }
 };

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "cli/commands.h"
+#include "cli/common.h"
 #include "cli/progress.h"
 
 namespace {
@@ -13,10 +14,23 @@ constexpr int kExitBadData = 1;
 constexpr int kExitUsage = 2;
 constexpr int kExitInterrupted = 130;
 
+/// What is wrong with the arguments, and where to read on.
+std::string usage_message(const CLI::App* app, const CLI::Error& error) {
+    const auto chosen = app->get_subcommands();
+    const std::string command = chosen.empty() ? "" : " " + chosen[0]->get_name();
+    std::string message = error.what();
+    if (chosen.empty() && !app->remaining().empty()) {
+        message = "there is no subcommand \"" + app->remaining()[0] + "\"";
+    }
+    return "tetralight" + command + ": " + message + "\nRun tetralight" + command +
+           " --help for more information.\n";
+}
+
 void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
     using namespace tetralight::cli;
     app.set_version_flag("--version", "tetralight " TETRALIGHT_VERSION);
     app.require_subcommand(1);
+    app.failure_message(usage_message);
     add_grid(app, run);
     add_bake(app, run);
     add_tetrahedralize(app, run);
@@ -29,12 +43,12 @@ void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
 
 int run_command(const tetralight::cli::Run& run) {
     const tetralight::Status status = run();
-    if (tetralight::cli::BakeProgressDisplay::is_interrupted()) {
+    if (!status && tetralight::cli::BakeProgressDisplay::is_interrupted()) {
         std::cerr << "tetralight: interrupted\n";
         return kExitInterrupted;
     }
     if (!status) {
-        std::cerr << "tetralight: " << status.error().message << '\n';
+        std::cerr << "tetralight: " << tetralight::cli::printable(status.error().message) << '\n';
         return kExitBadData;
     }
     std::cout.flush();

@@ -37,8 +37,9 @@ struct MeshBall {
                                  "Centre of the ball (default: of the probes)");
         radius_option = command.add_option("--radius", settings.radius,
                                            "Radius of the ball (default: from the probes)");
-        radius_option->check(CLI::PositiveNumber);
+        radius_option->check(numbers_in(1e-6, 1e9));
         command.add_option("--seed", settings.seed, "Seed of places and colours")
+            ->check(CLI::NonNegativeNumber)
             ->capture_default_str();
         view.add_to(command);
         common.add_to(command);
@@ -62,7 +63,7 @@ struct MeshBall {
         }
     }
 
-    [[nodiscard]] Result<Camera> camera() const {
+    [[nodiscard]] Camera camera() const {
         if (view.has_camera) return view.camera();
         const glm::dvec3 direction = glm::normalize(glm::dvec3(0.3, 0.25, 1.0));
         return look_at(settings.center + direction * (3.2 * settings.radius), settings.center,
@@ -71,7 +72,6 @@ struct MeshBall {
 
     Status run() {
         if (auto status = check_output(output); !status) return status;
-        if (auto status = view.check(); !status) return status;
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         std::optional<Scene> scene;
@@ -82,14 +82,12 @@ struct MeshBall {
             scene = std::move(*read);
         }
         place_in(file->view());
-        const auto chosen = camera();
-        if (!chosen) return chosen.error();
         view.settings.thread_count = common.thread_count;
 
         const auto start = std::chrono::steady_clock::now();
         const auto instances = make_mesh_ball(settings);
         const auto picture = render_mesh_ball(instances, scene ? &*scene : nullptr, file->view(),
-                                              *chosen, view.settings);
+                                              camera(), view.settings);
         if (!picture) return picture.error();
         auto status = write_png(output, develop(picture->image, view.settings.exposure));
         if (!status) return status;
@@ -99,15 +97,16 @@ struct MeshBall {
     }
 
     void report(const MeshBallPicture& picture, double seconds) const {
-        common.print({{"output", output},
-                      {"instances", settings.instance_count},
-                      {"query_seconds", picture.query_seconds},
-                      {"pack_seconds", picture.pack_seconds},
-                      {"seconds", seconds}},
-                     text(output, ": ", grouped(settings.instance_count),
-                          " instances lit by one batch query in ", duration(picture.query_seconds),
-                          " (+ packing ", duration(picture.pack_seconds), "), picture in ",
-                          duration(seconds)));
+        common.report(output,
+                      {{"output", output},
+                       {"instances", settings.instance_count},
+                       {"query_seconds", picture.query_seconds},
+                       {"pack_seconds", picture.pack_seconds},
+                       {"seconds", seconds}},
+                      text(output, ": ", grouped(settings.instance_count),
+                           " instances lit by one batch query in ", duration(picture.query_seconds),
+                           " (+ packing ", duration(picture.pack_seconds), "), picture in ",
+                           duration(seconds)));
     }
 };
 

@@ -29,6 +29,12 @@ std::optional<glm::vec3> parse_position(std::string_view line) {
     return line.empty() ? std::optional(position) : std::nullopt;
 }
 
+/// A line as messages show it: not too long.
+std::string shown(const std::string& line) {
+    constexpr size_t kLongest = 40;
+    return line.size() > kLongest ? line.substr(0, kLongest) + "..." : line;
+}
+
 struct Answer {
     glm::vec3 position;
     CellLocation location;
@@ -90,6 +96,10 @@ struct Query {
         return answer_lines(stream, file->view());
     }
 
+    [[nodiscard]] std::string positions_name() const {
+        return positions_path == "-" ? "stdin" : positions_path;
+    }
+
     Status answer_lines(std::istream& stream, const ProbeVolumeView& volume) const {
         std::string line;
         uint32_t hint = kNoIndex;
@@ -98,18 +108,19 @@ struct Query {
             if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
             const auto position = parse_position(line);
             if (!position) {
-                return Error{text(positions_path, ":", number, ": \"", line, "\" is not x y z")};
+                return Error{
+                    text(positions_name(), ":", number, ": \"", shown(line), "\" is not x y z")};
             }
             const CellLocation location = locate(volume, *position, hint);
             const Answer answer{*position, location, interpolate(volume, location)};
             hint = location.cell;
             if (common.is_json) {
-                std::cout << to_json(answer, volume).dump() << '\n';
+                std::cout << dump(to_json(answer, volume)) << '\n';
             } else {
                 std::cout << to_text(answer, volume) << '\n';
             }
         }
-        if (stream.bad()) return Error{positions_path + ": cannot read"};
+        if (stream.bad()) return Error{positions_name() + ": cannot read"};
         return Ok{};
     }
 };

@@ -60,7 +60,6 @@ struct Render {
 
     Status run() {
         if (auto status = check_output(output); !status) return status;
-        if (auto status = view.check(); !status) return status;
         const auto scene = read_gltf(scene_path);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
@@ -76,9 +75,9 @@ struct Render {
         auto status = write_png(output, develop(*image, view.settings.exposure));
         if (!status) return status;
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        common.print({{"output", output}, {"seconds", elapsed.count()}},
-                     text(output, ": ", image->width, "×", image->height, " in ",
-                          duration(elapsed.count())));
+        common.report(output, {{"output", output}, {"seconds", elapsed.count()}},
+                      text(output, ": ", image->width, "×", image->height, " in ",
+                           duration(elapsed.count())));
         return Ok{};
     }
 };

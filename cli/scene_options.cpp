@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_options.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -12,24 +11,52 @@
 
 namespace tetralight::cli {
 
+namespace {
+
+/// Sums over directions and bounces stay far from the largest float, 3e38.
+constexpr double kMaxRadiance = 1e30;
+
+/// A constant sky has radiance ≥ 0; anything else is the name of a file.
+CLI::Validator sky_check() {
+    const auto check = [](std::string& sky) -> std::string {
+        return parse_vec3(sky) ? numbers_in(0.0, kMaxRadiance)(sky) : "";
+    };
+    return {check, ""};
+}
+
+CLI::Validator direction_check() {
+    const auto check = [](const std::string& direction) -> std::string {
+        const auto parsed = parse_vec3(direction);
+        if (!parsed || glm::length(*parsed) > 0.0) return "";
+        return "\"" + direction + "\" is not a direction";
+    };
+    return {check, ""};
+}
+
+}  // namespace
+
 void SceneOptions::add_to(CLI::App& command) {
     command.add_option("SCENE", path, "glTF 2.0 scene (.glb or .gltf)")->required();
     command
         .add_option("--sky", sky,
                     "Radiance of the sky: R,G,B for a constant one, or an equirectangular .hdr "
                     "or .exr file; replaces the scene's own")
+        ->check(sky_check())
         ->type_name("R,G,B|FILE");
     command.add_option("--sky-intensity", sky_intensity, "Factor on the sky")
+        ->check(numbers_in(0.0, kMaxRadiance))
         ->capture_default_str();
     command
         .add_option("--sky-rotation", sky_rotation_degrees,
                     "Degrees to turn the sky about +Y, counter-clockwise from above")
+        ->check(numbers_in(-360.0, 360.0))
         ->capture_default_str();
     auto* direction = add_vec3(command, "--sun-direction", sun_direction,
                                "Add a sun that shines in this direction");
     auto* irradiance = add_vec3(command, "--sun-irradiance", sun_irradiance,
                                 "Irradiance of the added sun on a surface that faces it");
-    direction->needs(irradiance);
+    direction->check(direction_check())->needs(irradiance);
+    irradiance->check(numbers_in(0.0, kMaxRadiance).description(""))->type_name("R,G,B");
     irradiance->needs(direction);
     command
         .add_option("--sun-mode", sun_mode,
@@ -43,7 +70,7 @@ Result<Scene> SceneOptions::read() const {
     auto scene = read_gltf(path);
     if (!scene) return scene;
     if (auto status = add_sky(*scene); !status) return status.error();
-    if (auto status = add_sun(*scene); !status) return status.error();
+    add_sun(*scene);
     return scene;
 }
 
@@ -66,32 +93,22 @@ Status SceneOptions::add_sky(Scene& scene) const {
     environment.radiance *= static_cast<float>(sky_intensity);
     environment.rotation_radians += glm::radians(static_cast<float>(sky_rotation_degrees));
     const glm::vec3& radiance = environment.radiance;
-    if (radiance.x >= 0.0f && radiance.y >= 0.0f && radiance.z >= 0.0f &&
-        glm::length(radiance) < 1e30f) {
-        return Ok{};
+    for (int i = 0; i < 3; ++i) {
+        if (radiance[i] >= 0.0f && radiance[i] <= static_cast<float>(kMaxRadiance)) continue;
+        return Error{text("--sky: radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
+                          ") is negative or not finite")};
     }
-    return Error{text("--sky: radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
-                      ") is negative or not finite")};
+    return Ok{};
 }
 
-Status SceneOptions::add_sun(Scene& scene) const {
-    if (sun_direction == glm::dvec3(0.0) && sun_irradiance == glm::dvec3(0.0)) return Ok{};
-    const double length = glm::length(sun_direction);
-    if (!(length > 0.0) || !std::isfinite(length)) {
-        return Error{text("--sun-direction: (", sun_direction.x, ", ", sun_direction.y, ", ",
-                          sun_direction.z, ") is not a direction")};
-    }
-    for (int i = 0; i < 3; ++i) {
-        if (sun_irradiance[i] >= 0.0 && std::isfinite(sun_irradiance[i])) continue;
-        return Error{text("--sun-irradiance: ", sun_irradiance[i], " is negative or not finite")};
-    }
+void SceneOptions::add_sun(Scene& scene) const {
+    if (sun_direction == glm::dvec3(0.0)) return;
     Light sun;
     sun.mode = sun_mode == "baked" ? LightMode::Baked : LightMode::Mixed;
-    sun.direction = glm::vec3(sun_direction / length);
+    sun.direction = glm::vec3(glm::normalize(sun_direction));
     sun.intensity = glm::vec3(sun_irradiance);
     scene.lights.push_back(sun);
     scene.light_names.push_back("command-line sun");
-    return Ok{};
 }
 
 }  // namespace tetralight::cli

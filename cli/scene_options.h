@@ -28,7 +28,7 @@ struct SceneOptions {
 
   private:
     [[nodiscard]] Status add_sky(Scene& scene) const;
-    [[nodiscard]] Status add_sun(Scene& scene) const;
+    void add_sun(Scene& scene) const;
 };
 
 }  // namespace tetralight::cli

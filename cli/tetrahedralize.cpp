@@ -23,7 +23,7 @@ struct Tetrahedralize {
         command
             .add_option("--weld", merge_settings.weld_tolerance,
                         "Join probes nearer than this share of the set's diagonal")
-            ->check(CLI::Range(0.0, 0.1))
+            ->check(numbers_in(0.0, 0.1))
             ->capture_default_str();
         common.add_to(command);
     }
@@ -39,9 +39,10 @@ struct Tetrahedralize {
         if (auto status = write_probe_file(output, volume->view()); !status) return status;
         Json json{{"output", output}};
         json.update(counts(volume->view()));
-        common.print(json, text(output, ": ", grouped(volume->positions.size()), " probes (",
-                                grouped(merged->welded_count()), " welded), ",
-                                grouped(volume->info.tetrahedron_count), " tetrahedra, no light"));
+        common.report(output, json,
+                      text(output, ": ", grouped(volume->positions.size()), " probes (",
+                           grouped(merged->welded_count()), " welded), ",
+                           grouped(volume->info.tetrahedron_count), " tetrahedra, no light"));
         return Ok{};
     }
 };

@@ -5,7 +5,6 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-#include "base/result.h"
 #include "pipeline/image_renderer.h"
 
 namespace tetralight::cli {
@@ -20,11 +19,8 @@ struct ViewOptions {
 
     void add_to(CLI::App& command);
 
-    /// The user's camera. Precondition: `has_camera`. Error: eye and target are one point.
-    [[nodiscard]] Result<Camera> camera() const;
-
-    /// A picture of no size, or larger than 16384 pixels a side.
-    [[nodiscard]] Status check() const;
+    /// The user's camera. Precondition: `has_camera`.
+    [[nodiscard]] Camera camera() const;
 };
 
 }  // namespace tetralight::cli

@@ -28,12 +28,11 @@ const std::map<std::string, Folders> kMayInclude = [] {
         {"bake/image", {"base"}},
         {"bake/scene", {"base", "probes", "bake/image"}},
         {"bake", {"base", "probes", "bake/scene", "bake/image"}},
-        {"bake/placement",
-         {"base", "probes", "probes/build", "bake", "bake/scene", "bake/image"}},
+        {"bake/placement", {"base", "probes", "probes/build", "bake", "bake/scene", "bake/image"}},
         {"examples", {"base", "probes", "runtime"}},
     };
-    Folders all{"base", "probes", "probes/build", "runtime", "bake/image", "bake/scene",
-                "bake", "bake/placement"};
+    Folders all{"base",       "probes",     "probes/build", "runtime",
+                "bake/image", "bake/scene", "bake",         "bake/placement"};
     table["pipeline"] = all;
     all.insert("pipeline");
     table["cli"] = all;
@@ -95,8 +94,8 @@ TEST(Layers, TheTableHasNoCycle) {
 }
 
 TEST(Layers, EverySourceSaysItsLicenceFirst) {
-    for (const char* top : {"base", "probes", "runtime", "bake", "pipeline", "cli", "bench",
-                            "examples", "tests"}) {
+    for (const char* top :
+         {"base", "probes", "runtime", "bake", "pipeline", "cli", "bench", "examples", "tests"}) {
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
             const fs::path extension = entry.path().extension();
             if (extension != ".h" && extension != ".cpp") continue;

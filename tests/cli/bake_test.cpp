@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <numbers>
+#include <thread>
+
+#include "bake/image/write_image.h"
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+/// Coefficient 0 of the irradiance under constant radiance 1: A_0 · 4π · Y_0.
+const double kConstant = std::numbers::pi * 4.0 * std::numbers::pi * 0.282094791773878;
+
+class Bake : public CommandFixture {
+  protected:
+    Bake() {
+        write("empty.gltf", kEmptyScene);
+        write("five.json", kFiveProbes);
+    }
+
+    /// Bakes with few samples and returns the file's bytes.
+    [[nodiscard]] std::string bytes_of(const Arguments& more) const {
+        Arguments arguments{"bake", kCourtyard, "-o", "bytes.probes", "-s", "16"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        succeed(arguments);
+        return read("bytes.probes");
+    }
+
+    /// Bakes five probes in an empty scene and returns coefficient 0 of the one at (1, 1, 1).
+    [[nodiscard]] std::vector<double> first_coefficient(const Arguments& light) const {
+        Arguments arguments{"bake", "empty.gltf", "-g", "five.json",
+                            "-o",   "sky.probes", "-s", "64"};
+        arguments.insert(arguments.end(), light.begin(), light.end());
+        succeed(arguments);
+        const std::string out = succeed({"query", "sky.probes", "--json"}, "1 1 1").out;
+        return Json::parse(out)["irradiance_sh"][0].get<std::vector<double>>();
+    }
+
+    void expect_radiance(const Arguments& light, const std::vector<double>& radiance) const {
+        const auto coefficient = first_coefficient(light);
+        for (size_t i = 0; i < 3; ++i) {
+            EXPECT_NEAR(coefficient[i], kConstant * radiance[i], 2e-3 * kConstant) << i;
+        }
+    }
+
+    /// A bake that took long enough for progress to show, on a machine of any speed.
+    [[nodiscard]] CommandResult long_bake(const Arguments& more) const {
+        for (int samples = 8192;; samples *= 2) {
+            Arguments arguments{"bake",  kCourtyard, "-o", "long.probes",
+                                "-j",    "1",        "-s", std::to_string(samples),
+                                "--json"};
+            arguments.insert(arguments.end(), more.begin(), more.end());
+            CommandResult result = succeed(arguments);
+            if (HasFailure() || Json::parse(result.out)["seconds"]["bake"] > 1.5) return result;
+        }
+    }
+};
+
+TEST_F(Bake, JsonHasTheDocumentedFields) {
+    const Json json = run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : json.items()) keys.push_back(key);
+    const std::vector<std::string> expected{"bounces", "groups",     "hull_cells",      "output",
+                                            "probes",  "rays",       "rays_per_second", "samples",
+                                            "seconds", "tetrahedra", "welded"};  // sorted
+    EXPECT_EQ(keys, expected);
+}
+
+TEST_F(Bake, TextSaysWhatWasMade) {
+    const std::string out = succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "16"}).out;
+    EXPECT_TRUE(contains(out, "v.probes: 255 probes")) << out;
+}
+
+TEST_F(Bake, GivesTheSameBytesForAnyNumberOfThreads) {
+    EXPECT_TRUE(bytes_of({"-j", "1"}) == bytes_of({"-j", "2"}));
+}
+
+TEST_F(Bake, GivesTheSameBytesForAnyOrderOfGroupFiles) {
+    succeed({"grid", kCourtyard, "-o", "grid.json", "--spacing", "8"});
+    EXPECT_TRUE(bytes_of({"-g", "grid.json", "five.json"}) ==
+                bytes_of({"-g", "five.json", "-g", "grid.json"}));
+}
+
+TEST_F(Bake, GivesOtherBytesForAnotherSeed) {
+    EXPECT_TRUE(bytes_of({"--seed", "1"}) != bytes_of({"--seed", "2"}));
+}
+
+TEST_F(Bake, AddsGivenGroupsToThoseOfTheScene) {
+    const Json json =
+        run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "1", "--groups", "five.json"});
+    EXPECT_EQ(json["groups"], 6);
+    EXPECT_EQ(json["probes"], 255 + 5);
+}
+
+TEST_F(Bake, LeavesTheGroupsOfTheSceneOutWhenAsked) {
+    const Json json = run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "1", "-g", "five.json",
+                                "--only-given-groups"});
+    EXPECT_EQ(json["groups"], 1);
+    EXPECT_EQ(json["probes"], 5);
+}
+
+TEST_F(Bake, SaysWhereToGetGroupsWhenThereAreNone) {
+    const std::string message = fail_and_keep("v.probes", {"bake", "empty.gltf", "-o", "v.probes"});
+    EXPECT_TRUE(contains(message, "empty.gltf: ")) << message;
+    EXPECT_TRUE(contains(message, "tetralight grid")) << message;
+}
+
+TEST_F(Bake, TakesAConstantSky) {
+    expect_radiance({"--sky", "1,0.5,0.25"}, {1.0, 0.5, 0.25});
+}
+
+TEST_F(Bake, ScalesTheSky) {
+    expect_radiance({"--sky", "1,0.5,0.25", "--sky-intensity", "3"}, {3.0, 1.5, 0.75});
+}
+
+TEST_F(Bake, TakesASkyImage) {
+    ImageF sky;
+    sky.width = 8;
+    sky.height = 4;
+    sky.pixels.assign(32, glm::vec3(0.5f, 0.25f, 2.0f));
+    ASSERT_TRUE(write_exr(path("sky.exr"), sky));
+    expect_radiance({"--sky", "sky.exr"}, {0.5, 0.25, 2.0});
+}
+
+TEST_F(Bake, BakesAnAddedSunThatIsBaked) {
+    const auto coefficient =
+        first_coefficient({"--sky", "0,0,0", "--sun-direction", "0,-2,0", "--sun-irradiance",
+                           "3,2,1", "--sun-mode", "baked"});
+    for (size_t i = 0; i < 3; ++i) {
+        const double irradiance = 3.0 - static_cast<double>(i);
+        EXPECT_NEAR(coefficient[i], std::numbers::pi * 0.282094791773878 * irradiance, 1e-5);
+    }
+}
+
+TEST_F(Bake, LeavesTheDirectLightOfAMixedSunToTheRuntime) {
+    const auto coefficient = first_coefficient(
+        {"--sky", "0,0,0", "--sun-direction", "0,-2,0", "--sun-irradiance", "3,2,1"});
+    EXPECT_EQ(coefficient, (std::vector<double>{0.0, 0.0, 0.0}));
+}
+
+TEST_F(Bake, RecordsTheAddedSunInTheVolume) {
+    succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "1", "--sun-direction", "1,-1,0",
+             "--sun-irradiance", "1,1,1", "--sun-mode", "baked"});
+    const Json lights = run_json({"info", "v.probes"})["lights"];
+    ASSERT_EQ(lights.size(), 2u);
+    EXPECT_EQ(lights[1],
+              (Json{{"name", "command-line sun"}, {"type", "directional"}, {"mode", "baked"}}));
+}
+
+TEST_F(Bake, RefusesAMalformedSun) {
+    for (const char* direction : {"1,2", "abc", "0,0,0", "1,2,3,4", "nan,0,0", "1,,2"}) {
+        EXPECT_TRUE(contains(misuse({"bake", kCourtyard, "-o", "v.probes", "--sun-direction",
+                                     direction, "--sun-irradiance", "1,1,1"}),
+                             "--sun-direction"));
+    }
+    for (const char* irradiance : {"-1,1,1", "1,1", "1e39,1,1", "inf,1,1"}) {
+        EXPECT_TRUE(contains(misuse({"bake", kCourtyard, "-o", "v.probes", "--sun-direction",
+                                     "0,-1,0", "--sun-irradiance", irradiance}),
+                             "--sun-irradiance"));
+    }
+}
+
+TEST_F(Bake, RefusesBadScenesAndKeepsTheOldVolume) {
+    refuse_each(bad_scenes(read(kCourtyard)), "old.probes", [](const std::string& name) {
+        return Arguments{"bake", name, "-o", "old.probes"};
+    });
+}
+
+TEST_F(Bake, RefusesBadGroupsAndKeepsTheOldVolume) {
+    refuse_each(bad_groups(), "old.probes", [](const std::string& name) {
+        return Arguments{"bake", kCourtyard, "-g", name, "-o", "old.probes"};
+    });
+}
+
+TEST_F(Bake, RefusesASkyThatCannotBeReadAndKeepsTheOldVolume) {
+    write("garbage.hdr", "this is no picture");
+    write("cut.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n");
+    std::filesystem::create_directory(path("folder.hdr"));
+    for (const std::string sky : {"garbage.hdr", "cut.hdr", "none.hdr", "folder.hdr"}) {
+        const std::string message =
+            fail_and_keep("old.probes", {"bake", kCourtyard, "--sky", sky, "-o", "old.probes"});
+        EXPECT_TRUE(contains(message, sky + ": ")) << message;
+    }
+}
+
+TEST_F(Bake, NamesFilesThatAreNotThere) {
+    EXPECT_TRUE(contains(fail({"bake", "none.glb", "-o", "v.probes"}), "none.glb: cannot open"));
+    EXPECT_TRUE(contains(fail({"bake", kCourtyard, "-g", "none.json", "-o", "v.probes"}),
+                         "none.json: cannot open"));
+}
+
+TEST_F(Bake, WarnsOfBuriedProbesOnStderr) {
+    // Inside the violet box of the courtyard.
+    write("buried.json", R"({"groups": [{"name": "buried", "positions":
+        [[1.6, 1, -6.4], [1.7, 1, -6.4], [1.6, 1.1, -6.4], [1.6, 1, -6.3]]}]})");
+    const CommandResult result =
+        succeed({"bake", kCourtyard, "-g", "buried.json", "-o", "v.probes", "-s", "16", "--json"});
+    EXPECT_TRUE(contains(result.err, "warning: group \"buried\": 4 of 4")) << result.err;
+    EXPECT_TRUE(Json::accept(result.out));
+}
+
+TEST_F(Bake, PrintsPlainProgressLinesWhenStderrIsNoTerminal) {
+    const CommandResult result = long_bake({});
+    EXPECT_EQ(result.err.find("Progress: "), 0u) << result.err;
+    EXPECT_TRUE(contains(result.err, "Progress: 100%, 255/255 probes")) << result.err;
+    EXPECT_EQ(result.err.find_first_of("\r\x1b"), std::string::npos) << result.err;
+}
+
+TEST_F(Bake, PrintsNoProgressWhenQuiet) {
+    EXPECT_EQ(long_bake({"--quiet"}).err, "");
+}
+
+TEST_F(Bake, EndsAtCtrlCAndKeepsTheOldVolume) {
+    write("old.probes", "old");
+    const auto names_before = file_names();
+    RunningCommand bake(
+        folder(), {"bake", kCourtyard, "-o", "old.probes", "-s", "262144", "-j", "1", "-q"}, "");
+    while (!bake.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    bake.send(SIGINT);
+    const CommandResult result = bake.wait();
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_EQ(result.err, "tetralight: interrupted\n");
+    EXPECT_EQ(read("old.probes"), "old");
+    EXPECT_EQ(file_names(), names_before);
+}
+
+}  // namespace
+}  // namespace tetralight::test

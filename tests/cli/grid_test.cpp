@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+class Grid : public CommandFixture {};
+
+TEST_F(Grid, WritesTheProbesThatItCounts) {
+    const Json json = run_json({"grid", kCourtyard, "-o", "grid.json", "--spacing", "4"});
+    const Json groups = Json::parse(read("grid.json"))["groups"];
+    ASSERT_EQ(groups.size(), 1u);
+    EXPECT_EQ(groups[0]["positions"].size(), json["probes"]);
+    EXPECT_EQ(json["probes"].get<int>() + json["inside_geometry"].get<int>(), json["candidates"]);
+}
+
+TEST_F(Grid, NamesTheGroupAsAsked) {
+    succeed({"grid", kCourtyard, "-o", "grid.json", "--spacing", "9", "--name", "the \"hall\""});
+    EXPECT_EQ(Json::parse(read("grid.json"))["groups"][0]["name"], "the \"hall\"");
+}
+
+TEST_F(Grid, StaysInTheGivenBox) {
+    succeed({"grid", kCourtyard, "-o", "grid.json", "--spacing", "1,0.5,2", "--min", "10,1,10",
+             "--max", "14,2,14"});
+    const Json positions = Json::parse(read("grid.json"))["groups"][0]["positions"];
+    EXPECT_EQ(positions.size(), 4u * 2u * 2u);
+    for (const Json& position : positions) {
+        EXPECT_TRUE(position[0] >= 10 && position[0] <= 14) << position;
+        EXPECT_TRUE(position[1] >= 1 && position[1] <= 2) << position;
+        EXPECT_TRUE(position[2] >= 10 && position[2] <= 14) << position;
+    }
+}
+
+TEST_F(Grid, GivesTheSameBytesForAnyNumberOfThreads) {
+    succeed({"grid", kCourtyard, "-o", "one.json", "--spacing", "2", "-j", "1"});
+    succeed({"grid", kCourtyard, "-o", "two.json", "--spacing", "2", "-j", "2"});
+    EXPECT_TRUE(read("one.json") == read("two.json"));
+}
+
+TEST_F(Grid, RefusesSpacingsThatAreNoLengths) {
+    for (const char* spacing : {"0", "-1", "nan", "inf", "abc", "1,2", "1,0,1", "1,2,3,4", ""}) {
+        EXPECT_TRUE(contains(misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", spacing}),
+                             "--spacing"));
+    }
+}
+
+TEST_F(Grid, RefusesABoxThatIsTurnedInsideOut) {
+    const std::string message = misuse(
+        {"grid", kCourtyard, "-o", "g.json", "--spacing", "1", "--min", "0,2,0", "--max", "1,1,1"});
+    EXPECT_TRUE(contains(message, "--max: 1 is less than --min 2 along y")) << message;
+}
+
+TEST_F(Grid, RefusesMoreProbesThanAllowed) {
+    const std::string message = fail_and_keep(
+        "g.json", {"grid", kCourtyard, "-o", "g.json", "--spacing", "1", "--max-probes", "100"});
+    EXPECT_TRUE(contains(message, "more than the limit of 100")) << message;
+}
+
+TEST_F(Grid, RefusesBadScenesAndKeepsTheOldFile) {
+    refuse_each(bad_scenes(read(kCourtyard)), "g.json", [](const std::string& name) {
+        return Arguments{"grid", name, "-o", "g.json", "--spacing", "2"};
+    });
+}
+
+TEST_F(Grid, RefusesASceneWithoutExtent) {
+    write("empty.gltf", kEmptyScene);
+    const std::string message =
+        fail_and_keep("g.json", {"grid", "empty.gltf", "-o", "g.json", "--spacing", "2"});
+    EXPECT_TRUE(contains(message, "empty.gltf: ")) << message;
+}
+
+TEST_F(Grid, CountsAgreeFromGridToValidate) {
+    const Json grid = run_json({"grid", kCourtyard, "-o", "grid.json", "--spacing", "3"});
+    const Json alone = run_json({"bake", kCourtyard, "-o", "alone.probes", "-s", "1"});
+    const Json baked =
+        run_json({"bake", kCourtyard, "-g", "grid.json", "-o", "v.probes", "-s", "16"});
+    const Json info = run_json({"info", "v.probes"});
+    const Json valid = run_json({"validate", "v.probes"});
+    EXPECT_EQ(baked["probes"].get<int>() + baked["welded"].get<int>(),
+              grid["probes"].get<int>() + alone["probes"].get<int>());
+    for (const char* count : {"probes", "tetrahedra", "hull_cells", "groups", "welded"}) {
+        EXPECT_EQ(info[count], baked[count]) << count;
+        EXPECT_EQ(valid[count], baked[count]) << count;
+    }
+    EXPECT_EQ(valid["is_valid"], true);
+}
+
+}  // namespace
+}  // namespace tetralight::test

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all subcommands have in common.
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+class Main : public CommandFixture {};
+
+TEST_F(Main, SaysItsVersion) {
+    EXPECT_EQ(succeed({"--version"}).out.find("tetralight "), 0u);
+}
+
+TEST_F(Main, HelpListsTheSubcommands) {
+    const std::string out = succeed({"--help"}).out;
+    for (const char* name :
+         {"bake", "grid", "info", "meshball", "query", "render", "tetrahedralize", "validate"}) {
+        EXPECT_TRUE(contains(out, std::string("\n  ") + name)) << name;
+    }
+}
+
+TEST_F(Main, WantsASubcommand) {
+    EXPECT_TRUE(contains(misuse({}), "subcommand is required"));
+}
+
+TEST_F(Main, NamesAnUnknownSubcommand) {
+    EXPECT_TRUE(contains(misuse({"frobnicate", "x"}), "\"frobnicate\""));
+}
+
+class EverySubcommand : public CommandFixture, public testing::WithParamInterface<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Main, EverySubcommand,
+                         testing::Values("bake", "grid", "info", "meshball", "query", "render",
+                                         "tetrahedralize", "validate"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+TEST_P(EverySubcommand, HelpHasAnExample) {
+    const std::string out = succeed({GetParam(), "--help"}).out;
+    const size_t example = out.find("Example:\n  ");
+    ASSERT_NE(example, std::string::npos) << out;
+    EXPECT_TRUE(contains(out.substr(example), std::string("tetralight ") + GetParam()));
+}
+
+TEST_P(EverySubcommand, HelpNamesTheCommonOptions) {
+    const std::string out = succeed({GetParam(), "--help"}).out;
+    for (const char* option : {"--json", "--quiet", "--threads"}) {
+        EXPECT_TRUE(contains(out, option)) << option;
+    }
+}
+
+TEST_P(EverySubcommand, WantsItsArgumentsAndNamesItself) {
+    const std::string message = misuse({GetParam()});
+    EXPECT_TRUE(contains(message, "required"));
+    EXPECT_TRUE(contains(message, std::string("tetralight ") + GetParam() + " --help"));
+}
+
+TEST_P(EverySubcommand, RefusesAnUnknownOption) {
+    EXPECT_TRUE(
+        contains(misuse({GetParam(), "a", "b", "-o", "c", "--spacing", "1", "--frobnicate"}),
+                 "--frobnicate"));
+}
+
+struct BadOption {
+    const char* command;
+    const char* option;
+    const char* value;
+};
+
+std::string arguments_name(const BadOption& bad) {
+    return std::string(bad.command) + " " + bad.option + " " + bad.value;
+}
+
+/// The smallest arguments that a subcommand accepts; the files need not be there.
+Arguments least_arguments(const std::string& command) {
+    if (command == "grid") return {"grid", "s.glb", "-o", "g.json", "--spacing", "2"};
+    if (command == "render") return {"render", "s.glb", "v.probes", "-o", "r.png"};
+    if (command == "meshball") return {"meshball", "v.probes", "-o", "m.png"};
+    return {command, "s.glb", "-o", "v.probes"};
+}
+
+/// Values that are wrong whatever the files hold.
+constexpr BadOption kBadOptions[] = {{"bake", "--samples", "0"},
+                                     {"bake", "--samples", "many"},
+                                     {"bake", "--samples", "1.5"},
+                                     {"bake", "--bounces", "-1"},
+                                     {"bake", "--seed", "-1"},
+                                     {"bake", "--seed", "x"},
+                                     {"bake", "--weld", "nan"},
+                                     {"bake", "--weld", "0.5"},
+                                     {"bake", "--threads", "-1"},
+                                     {"bake", "--sky", "-1,0,0"},
+                                     {"bake", "--sky", "nan,0,0"},
+                                     {"bake", "--sky-intensity", "-1"},
+                                     {"bake", "--sky-intensity", "nan"},
+                                     {"bake", "--sky-rotation", "inf"},
+                                     {"bake", "--sun-mode", "dim"},
+                                     {"bake", "--sun-direction", "0,-1,0"},
+                                     {"bake", "--only-given-groups", ""},
+                                     {"grid", "--min", "0,0,0"},
+                                     {"grid", "--max", "1,2"},
+                                     {"grid", "--max-probes", "few"},
+                                     {"grid", "--name", ""},
+                                     {"grid", "--name", "two\nlines"},
+                                     {"tetrahedralize", "--weld", "-1"},
+                                     {"render", "--width", "0"},
+                                     {"render", "--height", "16385"},
+                                     {"render", "--antialias", "0"},
+                                     {"render", "--exposure", "nan"},
+                                     {"render", "--exposure", "-1"},
+                                     {"render", "--fov", "nan"},
+                                     {"render", "--eye", "0,0,0"},
+                                     {"render", "--target", "a,b,c"},
+                                     {"meshball", "--count", "-1"},
+                                     {"meshball", "--radius", "0"},
+                                     {"meshball", "--radius", "nan"},
+                                     {"meshball", "--center", "nan,0,0"},
+                                     {"meshball", "--center", "0,0"},
+                                     {"meshball", "--seed", "-3"}};
+
+TEST_F(Main, RefusesOptionsThatAreWrongByThemselves) {
+    for (const BadOption& bad : kBadOptions) {
+        SCOPED_TRACE(arguments_name(bad));
+        Arguments arguments = least_arguments(bad.command);
+        arguments.emplace_back(bad.option);
+        if (bad.value != std::string("") || bad.option == std::string("--name")) {
+            arguments.emplace_back(bad.value);
+        }
+        EXPECT_TRUE(contains(misuse(arguments), bad.option));
+    }
+}
+
+/// Commands that write a file, with sound input beside them.
+class EveryWriter : public CommandFixture, public testing::WithParamInterface<const char*> {
+  protected:
+    EveryWriter() {
+        bake_courtyard("v.probes");
+        write("five.json", kFiveProbes);
+    }
+
+    [[nodiscard]] static Arguments arguments(const std::string& output) {
+        const std::string command = GetParam();
+        if (command == "bake") return {"bake", kCourtyard, "-o", output, "-s", "1"};
+        if (command == "grid") return {"grid", kCourtyard, "-o", output, "--spacing", "9"};
+        if (command == "tetrahedralize") return {"tetrahedralize", "five.json", "-o", output};
+        Arguments picture{command};
+        if (command == "render") picture.push_back(kCourtyard);
+        for (const char* word : {"v.probes", "--width", "4", "--height", "4", "-o"}) {
+            picture.emplace_back(word);
+        }
+        picture.push_back(output);
+        return picture;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Main, EveryWriter,
+                         testing::Values("bake", "grid", "meshball", "render", "tetrahedralize"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+TEST_P(EveryWriter, ReplacesAnOldFileAndLeavesNothingElse) {
+    write("out", "old");
+    const auto names_before = file_names();
+    succeed(arguments("out"));
+    EXPECT_NE(read("out"), "old");
+    EXPECT_EQ(file_names(), names_before);
+}
+
+TEST_P(EveryWriter, NamesAnOutputThatCannotBeWritten) {
+    std::filesystem::create_directory(path("folder"));
+    write("file", "");
+    for (const std::string output :
+         {"none/out", "folder", "file/out", "/proc/tetralight.out", "/dev/full"}) {
+        EXPECT_TRUE(contains(fail(arguments(output)), output + ": cannot write"));
+    }
+}
+
+TEST_P(EveryWriter, WritesToADevice) {
+    succeed(arguments("/dev/null"));
+}
+
+TEST_P(EveryWriter, KeepsStdoutForTheOutputThatGoesThere) {
+    succeed(arguments("out"));
+    EXPECT_EQ(succeed(arguments("-")).out, read("out"));
+}
+
+TEST_P(EveryWriter, SaysNothingWhenQuiet) {
+    Arguments quiet = arguments("out");
+    quiet.emplace_back("--quiet");
+    const CommandResult result = succeed(quiet);
+    EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_P(EveryWriter, ReportsItsOutputAsJson) {
+    EXPECT_EQ(run_json(arguments("out")).value("output", ""), "out");
+}
+
+TEST_P(EveryWriter, TakesAPathThatIsNotUtf8) {
+    EXPECT_EQ(run_json(arguments("\xff")).value("output", ""), "\xef\xbf\xbd");
+}
+
+}  // namespace
+}  // namespace tetralight::test

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/cli/command_fixture.h"
+#include "tests/cli/picture.h"
+
+namespace tetralight::test {
+namespace {
+
+class MeshBall : public CommandFixture {
+  protected:
+    MeshBall() { bake_courtyard("v.probes"); }
+
+    [[nodiscard]] static Arguments arguments(const Arguments& more) {
+        Arguments all{"meshball", "v.probes", "-o", "m.png",       "--width",
+                      "24",       "--height", "16", "--antialias", "1"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
+    [[nodiscard]] std::string picture(const Arguments& more) const {
+        succeed(arguments(more));
+        return read("m.png");
+    }
+};
+
+TEST_F(MeshBall, WritesAPictureOfTheAskedSize) {
+    const auto image = decode_picture(picture({}));
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->width, 24u);
+    EXPECT_EQ(image->height, 16u);
+}
+
+TEST_F(MeshBall, Holds1023InstancesUnlessToldOtherwise) {
+    EXPECT_EQ(run_json(arguments({}))["instances"], 1023);
+}
+
+TEST_F(MeshBall, HoldsAsManyInstancesAsAsked) {
+    for (const char* count : {"0", "1", "5000"}) {
+        EXPECT_EQ(run_json(arguments({"--count", count}))["instances"], std::stoi(count));
+        EXPECT_TRUE(decode_picture(read("m.png"))) << count;
+    }
+}
+
+TEST_F(MeshBall, GivesTheSameBytesForAnyNumberOfThreads) {
+    EXPECT_TRUE(picture({"-j", "1"}) == picture({"-j", "2"}));
+}
+
+TEST_F(MeshBall, GivesAnotherPictureForAnotherSeed) {
+    EXPECT_TRUE(picture({"--seed", "1"}) != picture({"--seed", "2"}));
+}
+
+TEST_F(MeshBall, ShowsTheSceneAroundTheBallWhenAsked) {
+    EXPECT_TRUE(picture({"--scene", kCourtyard}) != picture({}));
+}
+
+TEST_F(MeshBall, PutsTheBallWhereAsked) {
+    const Arguments view{"--eye", "0,1,20", "--target", "0,1,0"};
+    Arguments here = view;
+    Arguments there = view;
+    here.insert(here.end(), {"--center", "-4,1,0", "--radius", "3"});
+    there.insert(there.end(), {"--center", "4,1,0", "--radius", "3"});
+    EXPECT_TRUE(picture(here) != picture(there));
+}
+
+TEST_F(MeshBall, RefusesBadVolumesAndKeepsTheOldPicture) {
+    refuse_each(bad_volumes(read("v.probes")), "m.png", [](const std::string& name) {
+        return Arguments{"meshball", name, "-o", "m.png"};
+    });
+}
+
+TEST_F(MeshBall, RefusesBadScenesAndKeepsTheOldPicture) {
+    refuse_each(bad_scenes(read(kCourtyard)), "m.png", [](const std::string& name) {
+        return Arguments{"meshball", "v.probes", "--scene", name, "-o", "m.png"};
+    });
+}
+
+TEST_F(MeshBall, NamesFilesThatAreNotThere) {
+    EXPECT_TRUE(
+        contains(fail({"meshball", "none.probes", "-o", "m.png"}), "none.probes: cannot open"));
+    EXPECT_TRUE(contains(fail({"meshball", "v.probes", "--scene", "none.glb", "-o", "m.png"}),
+                         "none.glb: cannot open"));
+}
+
+}  // namespace
+}  // namespace tetralight::test

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "probes/probe_file.h"
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+class Query : public CommandFixture {
+  protected:
+    Query() {
+        write("five.json", kFiveProbes);
+        succeed({"bake", kCourtyard, "-g", "five.json", "--only-given-groups", "-o", "v.probes",
+                 "-s", "16"});
+    }
+
+    [[nodiscard]] std::vector<Json> answers(const std::string& positions) const {
+        std::istringstream lines(succeed({"query", "v.probes", "--json"}, positions).out);
+        std::vector<Json> result;
+        for (std::string line; std::getline(lines, line);) result.push_back(Json::parse(line));
+        return result;
+    }
+};
+
+double weight_sum(const Json& answer) {
+    double sum = 0.0;
+    for (const Json& probe : answer["probes"]) sum += probe["weight"].get<double>();
+    return sum;
+}
+
+TEST_F(Query, AnswersOneJsonObjectALine) {
+    const auto all = answers("1 1 1\n2 1 1\n");
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[1]["position"], (Json{2.0, 1.0, 1.0}));
+    EXPECT_EQ(all[1]["irradiance_sh"].size(), 9u);
+    EXPECT_EQ(all[1]["occlusion"].size(), 4u);
+    EXPECT_NEAR(weight_sum(all[1]), 1.0, 1e-6);
+}
+
+TEST_F(Query, AnswersOneLineOfTextAPosition) {
+    const std::string out = succeed({"query", "v.probes"}, "1 1 2\n-5 1 1\n").out;
+    EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 2) << out;
+    EXPECT_EQ(out.find("1 1 2: tetrahedron "), 0u) << out;
+    EXPECT_TRUE(contains(out, "\n-5 1 1: hull cell ")) << out;
+}
+
+TEST_F(Query, AnswersAFileAsItAnswersStdin) {
+    write("positions.txt", "1 1 1\n2 1 1\n");
+    EXPECT_EQ(succeed({"query", "v.probes", "positions.txt"}).out,
+              succeed({"query", "v.probes", "-"}, "1 1 1\n2 1 1\n").out);
+}
+
+TEST_F(Query, SkipsCommentsAndBlankLines) {
+    const auto all = answers("# a comment\n\n  \t\n1 1 1 # here\r\n\t1,1 , 2\n1 2 3");
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_EQ(all[0]["position"], (Json{1.0, 1.0, 1.0}));
+    EXPECT_EQ(all[1]["position"], (Json{1.0, 1.0, 2.0}));
+    EXPECT_EQ(all[2]["position"], (Json{1.0, 2.0, 3.0}));
+}
+
+TEST_F(Query, AnswersNothingToNothing) {
+    EXPECT_EQ(succeed({"query", "v.probes"}, "").out, "");
+}
+
+TEST_F(Query, NamesTheFileAndTheLineThatIsMalformed) {
+    for (const char* line : {"1 2", "1 2 3 4", "one two three", "1 2 3x", "1;2;3"}) {
+        write("positions.txt", std::string("# three numbers\n\n") + line + "\n");
+        const std::string message = fail({"query", "v.probes", "positions.txt"});
+        EXPECT_TRUE(contains(message, std::string("positions.txt:3: \"") + line)) << message;
+    }
+}
+
+TEST_F(Query, NamesStdinWhenItsLineIsMalformed) {
+    const std::string message = fail({"query", "v.probes"}, "1 2\n");
+    EXPECT_TRUE(contains(message, "stdin:1: \"1 2\"")) << message;
+}
+
+TEST_F(Query, ShowsOfABinaryLineOnlyWhatATerminalCanTake) {
+    write("binary", "\x1b[31m\x07" + std::string(5000, '\x80'));
+    const std::string message = fail({"query", "v.probes", "binary"});
+    EXPECT_LT(message.size(), 120u);
+    EXPECT_EQ(message.find('\x1b'), std::string::npos);
+}
+
+TEST_F(Query, NamesPositionsThatAreNotThere) {
+    EXPECT_TRUE(contains(fail({"query", "v.probes", "none.txt"}), "none.txt: cannot open"));
+    EXPECT_TRUE(contains(fail({"query", "v.probes", "."}), ".: cannot read"));
+}
+
+TEST_F(Query, GivesAProbeAllWeightAtItsPosition) {
+    const auto all = answers("1 1 1\n");
+    const auto file = open_probe_file(path("v.probes"));
+    ASSERT_TRUE(file && all.size() == 1);
+    int found = 0;
+    for (const Json& probe : all[0]["probes"]) {
+        if (probe["weight"].get<double>() != 1.0) continue;
+        ++found;
+        EXPECT_EQ(file->view().exact_positions[probe["probe"].get<size_t>()], glm::dvec3(1.0));
+    }
+    EXPECT_EQ(found, 1);
+}
+
+TEST_F(Query, StaysFiniteFarOutside) {
+    for (const Json& answer : answers("1e6 2e6 -3e6\n0 -1e20 0\n3e38 3e38 3e38\n")) {
+        EXPECT_NEAR(weight_sum(answer), 1.0, 1e-6) << answer;
+        for (const Json& rgb : answer["irradiance_sh"]) {
+            for (const Json& value : rgb) EXPECT_TRUE(value.is_number()) << answer;
+        }
+    }
+}
+
+TEST_F(Query, AnswersANonFinitePositionWithAmbientLight) {
+    const auto file = open_probe_file(path("v.probes"));
+    ASSERT_TRUE(file);
+    const glm::vec3 ambient = file->view().info.ambient.coefficients[0];
+    for (const Json& answer : answers("nan 0 0\n0 inf 0\n0 0 -inf\n")) {
+        EXPECT_TRUE(answer["cell"].is_null()) << answer;
+        EXPECT_EQ(answer["probes"], Json::array());
+        EXPECT_EQ(answer["irradiance_sh"][0], (Json{ambient.x, ambient.y, ambient.z}));
+    }
+    EXPECT_EQ(succeed({"query", "v.probes"}, "nan 0 0").out, "nan 0 0: ambient\n");
+}
+
+TEST_F(Query, RefusesBadVolumes) {
+    refuse_each(bad_volumes(read("v.probes")), "", [](const std::string& name) {
+        return Arguments{"query", name};
+    });
+}
+
+}  // namespace
+}  // namespace tetralight::test

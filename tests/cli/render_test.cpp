@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/cli/command_fixture.h"
+#include "tests/cli/picture.h"
+
+namespace tetralight::test {
+namespace {
+
+class Render : public CommandFixture {
+  protected:
+    Render() { bake_courtyard("v.probes"); }
+
+    [[nodiscard]] static Arguments arguments(const Arguments& more) {
+        Arguments all{"render", kCourtyard, "v.probes", "-o",          "r.png", "--width",
+                      "24",     "--height", "16",       "--antialias", "1"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
+    [[nodiscard]] std::string picture(const Arguments& more) const {
+        succeed(arguments(more));
+        return read("r.png");
+    }
+};
+
+TEST_F(Render, WritesAPictureOfTheAskedSize) {
+    const auto image = decode_picture(picture({}));
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->width, 24u);
+    EXPECT_EQ(image->height, 16u);
+}
+
+TEST_F(Render, GivesTheSameBytesForAnyNumberOfThreads) {
+    EXPECT_TRUE(picture({"-j", "1"}) == picture({"-j", "2"}));
+}
+
+TEST_F(Render, TakesTheFirstCameraUnlessToldOtherwise) {
+    EXPECT_TRUE(picture({}) == picture({"--camera", "camera"}));
+}
+
+TEST_F(Render, TakesACameraByName) {
+    EXPECT_TRUE(picture({"--camera", "camera_interior"}) != picture({"--camera", "camera"}));
+}
+
+TEST_F(Render, TakesACameraByPosition) {
+    EXPECT_TRUE(picture({"--eye", "0,30,0.1", "--target", "0,0,0"}) != picture({}));
+}
+
+TEST_F(Render, ListsTheCamerasWhenItHasNoneOfTheName) {
+    const std::string message = fail_and_keep("r.png", arguments({"--camera", "nave"}));
+    EXPECT_TRUE(contains(message, "no camera \"nave\"")) << message;
+    EXPECT_TRUE(contains(message, "\"camera\" \"camera_interior\"")) << message;
+}
+
+TEST_F(Render, RefusesToLookFromAPointAtItself) {
+    EXPECT_TRUE(contains(misuse(arguments({"--eye", "1,2,3", "--target", "1,2,3"})), "--target"));
+}
+
+TEST_F(Render, ShowsMoreLightAtMoreExposure) {
+    const auto dark = decode_picture(picture({"--exposure", "0.1"}));
+    const auto light = decode_picture(picture({"--exposure", "10"}));
+    ASSERT_TRUE(dark && light);
+    uint64_t dark_sum = 0;
+    uint64_t light_sum = 0;
+    for (const auto& pixel : dark->pixels) dark_sum += pixel[0];
+    for (const auto& pixel : light->pixels) light_sum += pixel[0];
+    EXPECT_GT(light_sum, dark_sum);
+}
+
+TEST_F(Render, RendersASceneWithoutCamerasAndMeshes) {
+    write("empty.gltf", kEmptyScene);
+    succeed({"render", "empty.gltf", "v.probes", "-o", "r.png", "--width", "4", "--height", "4"});
+    EXPECT_TRUE(decode_picture(read("r.png")));
+}
+
+TEST_F(Render, RefusesBadScenesAndKeepsTheOldPicture) {
+    refuse_each(bad_scenes(read(kCourtyard)), "r.png", [](const std::string& name) {
+        return Arguments{"render", name, "v.probes", "-o", "r.png"};
+    });
+}
+
+TEST_F(Render, RefusesBadVolumesAndKeepsTheOldPicture) {
+    refuse_each(bad_volumes(read("v.probes")), "r.png", [](const std::string& name) {
+        return Arguments{"render", kCourtyard, name, "-o", "r.png"};
+    });
+}
+
+TEST_F(Render, NamesFilesThatAreNotThere) {
+    EXPECT_TRUE(
+        contains(fail({"render", "none.glb", "v.probes", "-o", "r.png"}), "none.glb: cannot open"));
+    EXPECT_TRUE(contains(fail({"render", kCourtyard, "none.probes", "-o", "r.png"}),
+                         "none.probes: cannot open"));
+}
+
+}  // namespace
+}  // namespace tetralight::test

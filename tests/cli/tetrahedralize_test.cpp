@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+class Tetrahedralize : public CommandFixture {
+  protected:
+    Tetrahedralize() { write("five.json", kFiveProbes); }
+};
+
+TEST_F(Tetrahedralize, JoinsTheProbesOfAGroupFile) {
+    const Json json = run_json({"tetrahedralize", "five.json", "-o", "v.probes"});
+    // The fifth probe splits the tetrahedron of the others in four.
+    EXPECT_EQ(json["probes"], 5);
+    EXPECT_EQ(json["tetrahedra"], 4);
+    EXPECT_EQ(json["hull_cells"], 4);
+}
+
+TEST_F(Tetrahedralize, JoinsTheGroupsOfAScene) {
+    const Json json = run_json({"tetrahedralize", kCourtyard, "-o", "v.probes"});
+    EXPECT_EQ(json["probes"], 255);
+    EXPECT_EQ(json["groups"], 5);
+}
+
+TEST_F(Tetrahedralize, GivesTheSameBytesForAnyOrderOfFiles) {
+    succeed({"tetrahedralize", kCourtyard, "five.json", "-o", "a.probes"});
+    succeed({"tetrahedralize", "five.json", kCourtyard, "-o", "b.probes"});
+    EXPECT_TRUE(read("a.probes") == read("b.probes"));
+}
+
+TEST_F(Tetrahedralize, MakesTheVolumeThatABakeMakes) {
+    const Json joined = run_json({"tetrahedralize", kCourtyard, "-o", "v.probes"});
+    const Json baked = run_json({"bake", kCourtyard, "-o", "b.probes", "-s", "1"});
+    for (const char* count : {"probes", "tetrahedra", "hull_cells", "groups", "welded"}) {
+        EXPECT_EQ(joined[count], baked[count]) << count;
+    }
+}
+
+TEST_F(Tetrahedralize, WeldsProbesThatAreNear) {
+    write("twice.json", R"({"groups": [{"name": "twice", "positions":
+        [[0, 0, 0], [8, 0, 0], [0, 8, 0], [0, 0, 8], [8, 0, 0.001]]}]})");
+    const Json json =
+        run_json({"tetrahedralize", "twice.json", "-o", "v.probes", "--weld", "0.001"});
+    EXPECT_EQ(json["probes"], 4);
+    EXPECT_EQ(json["welded"], 1);
+}
+
+TEST_F(Tetrahedralize, RefusesAFlatSet) {
+    write("flat.json", R"({"groups": [{"name": "flat", "positions":
+        [[0, 1, 0], [1, 1, 0], [0, 1, 1], [1, 1, 1], [3, 1, 7]]}]})");
+    const std::string message =
+        fail_and_keep("old.probes", {"tetrahedralize", "flat.json", "-o", "old.probes"});
+    EXPECT_TRUE(contains(message, "5 probes lie in one plane")) << message;
+}
+
+TEST_F(Tetrahedralize, NamesAGroupThatIsThereTwice) {
+    const std::string message = fail_and_keep(
+        "old.probes", {"tetrahedralize", "five.json", "five.json", "-o", "old.probes"});
+    EXPECT_TRUE(contains(message, "group \"five\"")) << message;
+}
+
+TEST_F(Tetrahedralize, KeepsToOneLineWhenANameHasTwo) {
+    write("lines.json", R"({"groups": [{"name": "two\nlines", "positions": [[0, 0, 0]]}]})");
+    const std::string message = fail({"tetrahedralize", "lines.json", "-o", "v.probes"});
+    EXPECT_TRUE(contains(message, "group \"two?lines\"")) << message;
+}
+
+TEST_F(Tetrahedralize, RefusesBadGroupsAndKeepsTheOldVolume) {
+    refuse_each(bad_groups(), "old.probes", [](const std::string& name) {
+        return Arguments{"tetrahedralize", "five.json", name, "-o", "old.probes"};
+    });
+}
+
+TEST_F(Tetrahedralize, RefusesBadScenesAndKeepsTheOldVolume) {
+    refuse_each(bad_scenes(read(kCourtyard)), "old.probes", [](const std::string& name) {
+        return Arguments{"tetrahedralize", name, "-o", "old.probes"};
+    });
+}
+
+TEST_F(Tetrahedralize, NamesAFileThatIsNotThere) {
+    EXPECT_TRUE(contains(fail({"tetrahedralize", "none.json", "-o", "v.probes"}),
+                         "none.json: cannot open"));
+}
+
+}  // namespace
+}  // namespace tetralight::test
