@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/bake_probes.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -100,14 +101,40 @@ struct ProbeBaker {
     }
 };
 
-RadianceSh project_environment(const Environment& environment) {
-    if (environment.image.pixels.empty()) return constant_radiance(environment.radiance);
-    const std::vector<glm::vec3> directions = spherical_fibonacci(1u << 16);
+/// Sum over one row of the sky, whose samples all have the same solid angle.
+RadianceShSum environment_row(const Environment& environment, double polar_angle,
+                              uint32_t columns) {
     RadianceShSum sum;
-    for (const glm::vec3& direction : directions) {
+    const double y = std::cos(polar_angle), radius = std::sin(polar_angle);
+    for (uint32_t column = 0; column < columns; ++column) {
+        const double azimuth = 2.0 * std::numbers::pi * (column + 0.5) / columns;
+        const glm::vec3 direction(radius * std::cos(azimuth), y, radius * std::sin(azimuth));
         sum.add(direction, environment_radiance(environment, direction));
     }
-    return radiance_from_sum(sum, 4.0 * std::numbers::pi / static_cast<double>(directions.size()));
+    return sum;
+}
+
+/// Midpoint rule with one sample a texel, each with its own solid angle, so that the smallest sun
+/// counts as what it is. Texels of a small image are split, as the light varies within them.
+RadianceSh project_environment(const Environment& environment, uint32_t thread_count) {
+    const ImageF& image = environment.image;
+    if (image.pixels.empty()) return constant_radiance(environment.radiance);
+    const uint32_t split = 1 + 255 / std::min(image.width, image.height);
+    const uint32_t columns = image.width * split, rows = image.height * split;
+    const double row_angle = std::numbers::pi / rows;
+    std::vector<RadianceShSum> row_sums(rows);
+    parallel_for(rows, thread_count, [&](size_t row) {
+        const double polar_angle = (static_cast<double>(row) + 0.5) * row_angle;
+        row_sums[row] = environment_row(environment, polar_angle, columns);
+    });
+    RadianceShSum sum;
+    for (uint32_t row = 0; row < rows; ++row) {
+        const double height = std::cos(row * row_angle) - std::cos((row + 1) * row_angle);
+        for (int i = 0; i < kShCoefficientCount; ++i) {
+            sum.coefficients[i] += row_sums[row].coefficients[i] * height;
+        }
+    }
+    return radiance_from_sum(sum, 2.0 * std::numbers::pi / columns);
 }
 
 Status check(std::span<const glm::dvec3> positions, const BakeSettings& settings) {
@@ -146,7 +173,7 @@ Result<BakedProbes> bake_probes(const Scene& scene, std::span<const glm::dvec3> 
     BakedProbes baked;
     baked.radiance.resize(positions.size());
     baked.validity.resize(positions.size());
-    baked.ambient = project_environment(scene.environment);
+    baked.ambient = project_environment(scene.environment, settings.thread_count);
     ProgressReporter progress(callback, positions.size());
     bake_all(baker, positions, progress, baked);
     if (progress.is_cancelled()) return Error{"cancelled"};

@@ -2,8 +2,11 @@
 #include "bake/parallel.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -37,9 +40,10 @@ class FlushDenormals {
 }  // namespace
 
 void parallel_for(size_t count, uint32_t thread_count, const std::function<void(size_t)>& work) {
-    const int threads =
-        thread_count == 0 ? tbb::task_arena::automatic : static_cast<int>(thread_count);
-    tbb::task_arena arena(threads);
+    // TBB has no more threads than the machine, and prints a warning when asked for more.
+    const auto available = static_cast<uint32_t>(tbb::info::default_concurrency());
+    tbb::task_arena arena(
+        static_cast<int>(thread_count == 0 ? available : std::min(thread_count, available)));
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<size_t>(0, count),
                           [&](const tbb::blocked_range<size_t>& range) {

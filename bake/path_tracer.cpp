@@ -49,15 +49,15 @@ Illumination PathTracer::visible_light(const Light& traced_light, glm::vec3 posi
     return arriving;
 }
 
-glm::vec3 PathTracer::reflected_light(const Surface& surface, glm::vec3 position,
+glm::vec3 PathTracer::reflected_light(const Surface& surface, glm::vec3 ray_origin,
                                       uint32_t& ray_count) const {
     glm::vec3 irradiance(0.0f);
     for (const Light& light : lights_) {
-        const Illumination possible = illuminate(light, position);
+        const Illumination possible = illuminate(light, surface.position);
         const float cosine = glm::dot(surface.geometric_normal, possible.to_light);
         if (cosine <= 0.0f || possible.irradiance == glm::vec3(0.0f)) continue;
         ++ray_count;
-        if (traced_.is_blocked({position, possible.to_light, possible.distance})) continue;
+        if (traced_.is_blocked({ray_origin, possible.to_light, possible.distance})) continue;
         irradiance += possible.irradiance * cosine;
     }
     return irradiance * std::numbers::inv_pi_v<float>;

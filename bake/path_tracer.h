@@ -40,7 +40,10 @@ class PathTracer {
     [[nodiscard]] const std::vector<Light>& traced_lights() const { return lights_; }
 
   private:
-    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, glm::vec3 position,
+    /// Light of all lights that the surface reflects, over its albedo. Shadow rays start at
+    /// `ray_origin`; the light is that of the surface itself, which is some way off in large
+    /// scenes.
+    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, glm::vec3 ray_origin,
                                             uint32_t& ray_count) const;
 
     const Scene& scene_;

@@ -71,6 +71,12 @@ glm::vec3 shading_normal(const Mesh& mesh, const MeshPoint& point, const glm::ma
     return length > 0.0f ? normal / length : geometric_normal;
 }
 
+/// How much of the base colour light is passed on diffusely: all by dielectrics, and by metals half
+/// of what they reflect times their roughness, because a rough reflection is spread widely.
+float diffuse_share(const Material& material) {
+    return 1.0f - material.metallic * (1.0f - 0.5f * material.roughness);
+}
+
 /// A number in [0, 1) that depends on the ray and the triangle only.
 float hash_of(const Ray& ray, const RayHit& hit) {
     const uint64_t origin_key = probe_key(hit.geometry, glm::dvec3(ray.origin));
@@ -150,7 +156,7 @@ std::optional<Surface> TraceScene::cast(const Ray& ray) const {
     surface.geometric_normal = glm::normalize(hit->normal);
     surface.shading_normal =
         shading_normal(mesh, point, placed.normal_from_mesh, surface.geometric_normal);
-    surface.albedo = glm::vec3(base_color(scene, mesh, point)) * (1.0f - material.metallic);
+    surface.albedo = glm::vec3(base_color(scene, mesh, point)) * diffuse_share(material);
     surface.emission =
         material.emission * glm::vec3(sample_use(scene, material.emission_texture, mesh, point));
     surface.instance = placed.instance;

@@ -11,7 +11,7 @@
 namespace tetralight {
 namespace {
 
-constexpr float kMiddleGrey = 0.2f;
+constexpr float kMiddleGrey = 0.18f;
 
 /// The exposure that brings the log-average luminance to middle grey (Reinhard et al. 2002, eq. 1).
 float automatic_exposure(const ImageF& radiance) {

@@ -18,7 +18,7 @@ struct RenderSettings {
     uint32_t height = 540;
     /// Camera rays a pixel, along each axis.
     uint32_t samples_per_axis = 4;
-    /// Factor before tone mapping; 0 = so that the picture's log-average luminance becomes 0.2.
+    /// Factor before tone mapping; 0 = so that the picture's log-average luminance becomes 0.18.
     float exposure = 0.0f;
     /// 0 = all.
     uint32_t thread_count = 0;

@@ -126,7 +126,7 @@ std::vector<BallInstance> make_mesh_ball(const MeshBallSettings& settings) {
         const double size = settings.instance_size * (0.5 + random.next());
         const float hue = random.next();
         instances.push_back({settings.center + distance * direction, settings.radius * size,
-                             color_from_hue(hue, 0.4f + 0.5f * random.next())});
+                             color_from_hue(hue, 0.1f + 0.4f * random.next())});
     }
     return instances;
 }

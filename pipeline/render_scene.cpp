@@ -15,7 +15,10 @@ namespace {
 
 /// Probe light is looked up this far off a surface, so that a wall takes less of the light behind
 /// it.
-constexpr float kNormalBias = 0.25f;
+constexpr float kNormalBias = 0.4f;
+
+/// A ray through more back faces than this is stuck.
+constexpr int kMaxCulledFaces = 64;
 
 PackedSh light_at(const ProbeVolumeView& volume, const glm::dvec3& position) {
     const CellLocation location = locate(volume, glm::vec3(position));
@@ -66,12 +69,21 @@ glm::vec3 SceneShader::direct_term(const Surface& surface) const {
     return sum;
 }
 
+std::optional<Surface> SceneShader::first_front_face(glm::vec3 origin, glm::vec3 direction) const {
+    std::optional<Surface> surface = traced_.cast({origin, direction});
+    for (int i = 0; surface && surface->is_back_face && i < kMaxCulledFaces; ++i) {
+        const glm::vec3 behind = traced_.ray_origin(surface->position, -surface->geometric_normal);
+        surface = traced_.cast({behind, direction});
+    }
+    return surface;
+}
+
 std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
                                                       glm::vec3 direction) const {
-    const auto surface = traced_.cast({traced_.traced_from_world(origin), direction});
+    const glm::vec3 traced_origin = traced_.traced_from_world(origin);
+    const auto surface = first_front_face(traced_origin, direction);
     if (!surface) return std::nullopt;
-    const float distance = glm::distance(traced_.traced_from_world(origin), surface->position);
-    if (surface->is_back_face) return Shaded{glm::vec3(0.0f), distance};
+    const float distance = glm::distance(traced_origin, surface->position);
     const glm::vec3 reflected = shade_diffuse(surface->albedo, probe_light(*surface),
                                               surface->shading_normal, direct_term(*surface));
     return Shaded{surface->emission + reflected, distance};

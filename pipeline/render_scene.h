@@ -39,6 +39,9 @@ class SceneShader {
   private:
     SceneShader(const Scene& scene, const ProbeVolumeView& volume, TraceScene traced);
 
+    /// Back faces of single-sided materials are culled, as rasterizers do.
+    [[nodiscard]] std::optional<Surface> first_front_face(glm::vec3 origin,
+                                                          glm::vec3 direction) const;
     [[nodiscard]] PackedSh probe_light(const Surface& surface) const;
     [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
 

@@ -23,7 +23,8 @@ struct Layers {
 
 Layers layers_along(const Box& bounds, double spacing, int axis) {
     const double size = bounds.high[axis] - bounds.low[axis];
-    const double count = std::max(2.0, std::floor(size / spacing));
+    // What is short of a whole spacing by rounding only (bounds come from float vertices) is whole.
+    const double count = std::max(2.0, std::floor(size / spacing + 1e-6));
     const double centered = bounds.low[axis] + 0.5 * (size - (count - 1.0) * spacing);
     const double standing = bounds.low[axis] + 0.5 * spacing;
     return {axis == kUp ? std::max(centered, standing) : centered, spacing, count};

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/probe_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "tests/support/scenes.h"
+
+namespace tetralight {
+namespace {
+
+ProbeGridSettings settings_for(const Box& bounds, double spacing) {
+    ProbeGridSettings settings;
+    settings.spacing = glm::dvec3(spacing);
+    settings.bounds = bounds;
+    return settings;
+}
+
+ProbeGrid grid_of(const Scene& scene, const ProbeGridSettings& settings) {
+    auto grid = make_probe_grid(scene, settings);
+    EXPECT_TRUE(grid) << grid.error().message;
+    return std::move(*grid);
+}
+
+std::string error_of(const Scene& scene, const ProbeGridSettings& settings) {
+    const auto grid = make_probe_grid(scene, settings);
+    return grid ? "(no error)" : grid.error().message;
+}
+
+/// Distinct coordinates along one axis.
+std::vector<double> layers(const ProbeGrid& grid, int axis) {
+    std::set<double> found;
+    for (const glm::dvec3& p : grid.group.positions) found.insert(p[axis]);
+    return {found.begin(), found.end()};
+}
+
+const Box kFour{{-2, -2, -2}, {2, 2, 2}};
+
+/// A solid box in the middle of `kFour`.
+Scene solid_in_the_middle() {
+    Scene scene;
+    test::add_box(scene, test::diffuse(glm::vec3(0.5f)), test::Facing::Outward, {-1, -1, -1},
+                  {1, 1, 1});
+    return scene;
+}
+
+TEST(ProbeGrid, StandsHalfASpacingInsideItsBounds) {
+    const ProbeGrid grid = grid_of(Scene{}, settings_for(kFour, 1.0));
+    EXPECT_EQ(grid.candidate_count, 64u);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(layers(grid, axis), (std::vector<double>{-1.5, -0.5, 0.5, 1.5}));
+    }
+}
+
+TEST(ProbeGrid, RoundingOfTheBoundsCostsNoLayer) {
+    // 0.3 / 0.1 is 2.9999999999999996 in double, and 4.2f / 0.6 is 6.9999997.
+    EXPECT_EQ(grid_of(Scene{}, settings_for({{0, 0, 0}, {0.3, 0.3, 0.3}}, 0.1)).candidate_count,
+              27u);
+    const double hall{4.2f};
+    EXPECT_EQ(layers(grid_of(Scene{}, settings_for({{0, 0, 0}, {hall, 1, 1}}, 0.6)), 0).size(), 7u);
+}
+
+TEST(ProbeGrid, SpacingIsPerAxis) {
+    ProbeGridSettings settings = settings_for(kFour, 1.0);
+    settings.spacing = {1.0, 2.0, 0.5};
+    const ProbeGrid grid = grid_of(Scene{}, settings);
+    EXPECT_EQ(layers(grid, 0).size(), 4u);
+    EXPECT_EQ(layers(grid, 1), (std::vector<double>{-1.0, 1.0}));
+    EXPECT_EQ(layers(grid, 2).size(), 8u);
+}
+
+TEST(ProbeGrid, WhatDoesNotDivideEvenlyIsCentered) {
+    // 4 m hold two whole spacings of 1.5 m, around the middle, half a spacing or more inside.
+    const ProbeGrid grid = grid_of(Scene{}, settings_for(kFour, 1.5));
+    EXPECT_EQ(layers(grid, 0), (std::vector<double>{-0.75, 0.75}));
+}
+
+TEST(ProbeGrid, DropsCandidatesInsideASolidAndCountsThem) {
+    // Of 4 x 4 x 4 candidates at ±0.5 and ±1.5 the 2 x 2 x 2 at ±0.5 lie in the box.
+    const ProbeGrid grid = grid_of(solid_in_the_middle(), settings_for(kFour, 1.0));
+    EXPECT_EQ(grid.candidate_count, 64u);
+    EXPECT_EQ(grid.inside_count, 8u);
+    ASSERT_EQ(grid.group.positions.size(), 56u);
+    for (const glm::dvec3& p : grid.group.positions) {
+        EXPECT_GT(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.0);
+    }
+}
+
+TEST(ProbeGrid, OverAnOpenPlaneBothHeightsStay) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 2.0f);
+    const ProbeGrid grid = grid_of(scene, {});  // bounds: the plane itself
+    EXPECT_EQ(grid.inside_count, 0u);
+    EXPECT_EQ(layers(grid, 1), (std::vector<double>{0.5, 1.5}));
+    EXPECT_EQ(grid.group.positions.size(), 32u);
+}
+
+TEST(ProbeGrid, ThinBoundsKeepTwoLayersAroundTheirMiddle) {
+    const ProbeGrid grid = grid_of(Scene{}, settings_for({{0, 0, 0}, {0.2, 4, 4}}, 1.0));
+    EXPECT_EQ(layers(grid, 0), (std::vector<double>{0.1 - 0.5, 0.1 + 0.5}));
+}
+
+TEST(ProbeGrid, ThingsThatMoveNeitherGiveBoundsNorBuryProbes) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 2.0f);
+    test::add_box(scene, test::diffuse(glm::vec3(0.5f)), test::Facing::Outward, {-9, -9, -9},
+                  {9, 9, 9})
+        .contributes_gi = false;
+    EXPECT_EQ(grid_of(scene, {}).group.positions.size(), 32u);
+}
+
+TEST(ProbeGrid, OrderOfMeshesAndThreadsDoNotMatter) {
+    Scene scene = solid_in_the_middle();
+    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 2.0f, -1.9f);
+    ProbeGridSettings settings = settings_for(kFour, 0.25);
+    settings.thread_count = 1;
+    const ProbeGrid grid = grid_of(scene, settings);
+    std::swap(scene.instances[0], scene.instances[1]);
+    settings.thread_count = 2;
+    EXPECT_EQ(grid_of(scene, settings).group, grid.group);
+}
+
+TEST(ProbeGrid, GroupHasTheNameAndWorldSpace) {
+    ProbeGridSettings settings = settings_for(kFour, 1.0);
+    settings.group_name = "hall";
+    const ProbeGroup group = grid_of(Scene{}, settings).group;
+    EXPECT_EQ(group.name, "hall");
+    EXPECT_EQ(group.world_from_group, glm::dmat4(1.0));
+}
+
+TEST(ProbeGrid, RejectsSpacingThatIsNoLength) {
+    EXPECT_EQ(error_of(Scene{}, settings_for(kFour, 0.0)),
+              "spacing 0 along x is not a positive length");
+    EXPECT_EQ(error_of(Scene{}, settings_for(kFour, -1.0)),
+              "spacing -1 along x is not a positive length");
+    EXPECT_EQ(error_of(Scene{}, settings_for(kFour, std::nan(""))),
+              "spacing nan along x is not a positive length");
+    EXPECT_EQ(error_of(Scene{}, settings_for(kFour, std::numeric_limits<double>::infinity())),
+              "spacing inf along x is not a positive length");
+}
+
+TEST(ProbeGrid, RejectsBoundsThatAreEmptyOrNotFinite) {
+    EXPECT_EQ(error_of(Scene{}, settings_for({{0, 1, 0}, {1, 0, 1}}, 1.0)),
+              "bounds 1 to 0 along y are empty or not finite");
+    const double inf = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(error_of(Scene{}, settings_for({{0, 0, 0}, {1, 1, inf}}, 1.0)),
+              "bounds 0 to inf along z are empty or not finite");
+    EXPECT_EQ(error_of(Scene{}, settings_for({{std::nan(""), 0, 0}, {1, 1, 1}}, 1.0)),
+              "bounds nan to 1 along x are empty or not finite");
+}
+
+TEST(ProbeGrid, RejectsASceneWithoutBounds) {
+    EXPECT_EQ(error_of(Scene{}, {}), "the scene has no static geometry to take bounds from");
+}
+
+TEST(ProbeGrid, RejectsTooManyCandidatesAndSaysHowMany) {
+    EXPECT_EQ(error_of(Scene{}, settings_for({{0, 0, 0}, {1e4, 1e3, 1e3}}, 1.0)),
+              "a grid of 1e+10 probes is more than the limit of 10000000");
+    // 1e300 layers on each axis overflow even a double.
+    EXPECT_EQ(error_of(Scene{}, settings_for({{0, 0, 0}, {1, 1, 1}}, 1e-300)),
+              "a grid of inf probes is more than the limit of 10000000");
+}
+
+TEST(ProbeGrid, RejectsAGridThatIsAllInside) {
+    EXPECT_EQ(error_of(solid_in_the_middle(), settings_for({{-1, -1, -1}, {1, 1, 1}}, 1.0)),
+              "all 8 grid positions lie inside geometry");
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/detail/gltf_cameras.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/bake/scene/gltf_builder.h"
+
+namespace tetralight {
+namespace {
+
+using Json = nlohmann::json;
+
+std::vector<Camera> cameras_of(const GltfBuilder& gltf) {
+    const auto scene = gltf.read();
+    EXPECT_TRUE(scene) << scene.error().message;
+    return scene ? scene->cameras : std::vector<Camera>();
+}
+
+Json perspective(double fov_y_radians) {
+    return {{"name", "lens"},
+            {"type", "perspective"},
+            {"perspective", {{"yfov", fov_y_radians}, {"znear", 0.1}}}};
+}
+
+TEST(GltfCameras, StandWhereTheirNodeStands) {
+    GltfBuilder gltf;
+    const double half = std::sqrt(0.5);
+    const size_t child = gltf.add("nodes", {{"name", "eye"},
+                                            {"camera", gltf.add("cameras", perspective(0.5))},
+                                            {"rotation", {0, half, 0, half}}});  // −Z to −X
+    gltf.add_root({{"translation", {1, 2, 3}}, {"children", {child}}});
+    const auto cameras = cameras_of(gltf);
+    ASSERT_EQ(cameras.size(), 1u);
+    EXPECT_EQ(cameras[0].fov_y_radians, 0.5);
+    EXPECT_EQ(glm::dvec3(cameras[0].world_from_camera[3]), glm::dvec3(1, 2, 3));
+    EXPECT_NEAR(cameras[0].world_from_camera[2].x, 1.0, 1e-12);  // it looks along −Z
+}
+
+TEST(GltfCameras, AreNamedAfterTheirNodeOrElseByTheirOwnName) {
+    GltfBuilder gltf;
+    const size_t camera = gltf.add("cameras", perspective(0.5));
+    gltf.add_root({{"name", "eye"}, {"camera", camera}});
+    gltf.add_root({{"camera", camera}});
+    const auto cameras = cameras_of(gltf);
+    ASSERT_EQ(cameras.size(), 2u);
+    EXPECT_EQ(cameras[0].name, "eye");
+    EXPECT_EQ(cameras[1].name, "lens");
+}
+
+TEST(GltfCameras, LoseTheScaleOfTheirNode) {
+    GltfBuilder gltf;
+    gltf.add_root({{"camera", gltf.add("cameras", perspective(0.5))}, {"scale", {2, 3, 4}}});
+    const auto cameras = cameras_of(gltf);
+    ASSERT_EQ(cameras.size(), 1u);
+    EXPECT_EQ(cameras[0].world_from_camera, glm::dmat4(1.0));
+}
+
+TEST(GltfCameras, OrthographicOnesAreLeftOut) {
+    GltfBuilder gltf;
+    const Json lens = {{"xmag", 1.0}, {"ymag", 1.0}, {"znear", 0.1}, {"zfar", 10.0}};
+    gltf.add("cameras", {{"type", "orthographic"}, {"orthographic", lens}});
+    gltf.add_root({{"camera", 0}});
+    EXPECT_TRUE(cameras_of(gltf).empty());
+}
+
+/// A document whose default scene has this sky.
+GltfBuilder with_sky(const Json& radiance) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()}});
+    gltf.json["scenes"][0]["extras"] = {{"sky", {{"radiance", radiance}}}};
+    return gltf;
+}
+
+TEST(GltfSky, IsTheEnvironmentsRadiance) {
+    const auto scene = with_sky({0.5, 1, 2}).read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->environment, (Environment{{0.5f, 1.0f, 2.0f}, {}, 0.0f}));
+}
+
+TEST(GltfSky, IsBlackWhenTheFileDoesNotSay) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()}});
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->environment, Environment{});
+}
+
+TEST(GltfSky, RejectsNegativeRadiance) {
+    EXPECT_EQ(with_sky({0.5, -1, 2}).error(),
+              "scene.glb: scene: extras.sky.radiance (0.5, -1, 2) is negative");
+}
+
+TEST(GltfSky, RejectsWhatIsNotThreeNumbers) {
+    EXPECT_NE(with_sky({1, 2}).error().find("sky"), std::string::npos);
+    EXPECT_NE(with_sky("blue").error().find("sky"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/trace_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/support/scenes.h"
+
+namespace tetralight {
+namespace {
+
+TraceScene traced(const Scene& scene) {
+    auto result = TraceScene::make_static(scene);
+    EXPECT_TRUE(result) << result.error().message;
+    return std::move(*result);
+}
+
+/// What a vertical ray sees that comes from far above (or below) a place in the world.
+std::optional<Surface> look_down(const TraceScene& scene, float x, float z, float from = 100.0f) {
+    const glm::vec3 origin = scene.traced_from_world(glm::dvec3(x, from, z));
+    return scene.cast({origin, {0.0f, from > 0.0f ? -1.0f : 1.0f, 0.0f}});
+}
+
+/// 2 x 2 texels: red, green over blue, white; of the alphas 0, 64 over 128, 255. Its row 0 is at
+/// v = 0. Codes are 0 and 255, so that sRGB decoding is exact.
+Texture four_colors() {
+    Texture texture;
+    texture.image = {
+        2, 2, {{255, 0, 0, 0}, {0, 255, 0, 64}, {0, 0, 255, 128}, {255, 255, 255, 255}}};
+    return texture;
+}
+
+/// A floor over [-1, 1]² whose u runs along +Z and v along +X, with the four colours.
+Scene textured_floor() {
+    Scene scene;
+    scene.textures.push_back(four_colors());
+    Material material = test::diffuse(glm::vec3(1.0f));
+    material.base_color_texture.texture = 0;
+    test::add_floor(scene, material, 1.0f);
+    return scene;
+}
+
+TEST(TraceScene, TracedSpaceIsCenteredOnTheStaticScene) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 2.0f, 5.0f);
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 50.0f, 70.0f).contributes_gi = false;
+    const TraceScene trace = traced(scene);
+    EXPECT_EQ(trace.traced_from_world({0, 5, 0}), glm::vec3(0.0f));
+    EXPECT_EQ(trace.world_from_traced({1, 2, 3}), glm::dvec3(1, 7, 3));
+}
+
+TEST(TraceScene, LightsMoveWithTracedSpace) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 2.0f, 5.0f);
+    Light& light = test::add_point_light(scene, LightMode::Mixed, glm::vec3(1.0f), {1, 6, 2});
+    Light expected = light;
+    expected.position = {1, 1, 2};
+    EXPECT_EQ(traced(scene).traced_from_world(light), expected);
+}
+
+TEST(TraceScene, SeesWhatTheMaterialSays) {
+    Scene scene;
+    Material material = test::diffuse({0.8f, 0.4f, 0.2f}, {1, 2, 3});
+    material.metallic = 0.25f;
+    material.roughness = 0.0f;
+    test::add_floor(scene, material, 1.0f, 2.0f);
+    const auto surface = look_down(traced(scene), 0.5f, 0.25f);
+    ASSERT_TRUE(surface);
+    // Polished metal reflects nothing diffusely: albedo = color (1 − metallic).
+    EXPECT_LT(glm::distance(surface->albedo, glm::vec3(0.6f, 0.3f, 0.15f)), 1e-6f);
+    EXPECT_EQ(surface->emission, glm::vec3(1, 2, 3));
+    EXPECT_LT(glm::distance(surface->position, glm::vec3(0.5f, 0, 0.25f)), 1e-5f);
+    EXPECT_EQ(surface->geometric_normal, glm::vec3(0, 1, 0));
+}
+
+TEST(TraceScene, RoughMetalPassesHalfOfItsColorOnDiffusely) {
+    Scene scene;
+    Material material = test::diffuse({0.8f, 0.4f, 0.2f});
+    material.metallic = 1.0f;
+    material.roughness = 1.0f;
+    test::add_floor(scene, material, 1.0f);
+    const auto surface = look_down(traced(scene), 0, 0);
+    EXPECT_LT(glm::distance(surface->albedo, glm::vec3(0.4f, 0.2f, 0.1f)), 1e-6f);
+}
+
+TEST(TraceScene, OnlyABackFaceOfASingleSidedMaterialIsOne) {
+    for (const bool is_double_sided : {false, true}) {
+        Scene scene;
+        Material material = test::diffuse(glm::vec3(1.0f));
+        material.is_double_sided = is_double_sided;
+        test::add_floor(scene, material, 1.0f);
+        const TraceScene trace = traced(scene);
+        EXPECT_FALSE(look_down(trace, 0, 0)->is_from_behind);
+        EXPECT_FALSE(look_down(trace, 0, 0)->is_back_face);
+        EXPECT_TRUE(look_down(trace, 0, 0, -100.0f)->is_from_behind);
+        EXPECT_EQ(look_down(trace, 0, 0, -100.0f)->is_back_face, !is_double_sided);
+    }
+}
+
+TEST(TraceScene, NormalsAreOnTheSideOfTheRay) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
+    const auto surface = look_down(traced(scene), 0, 0, -100.0f);
+    EXPECT_EQ(surface->geometric_normal, glm::vec3(0, -1, 0));
+    EXPECT_EQ(surface->shading_normal, glm::vec3(0, -1, 0));
+}
+
+TEST(TraceScene, DoesNotSeeWhatMoves) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f, 3.0f).contributes_gi = false;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
+    EXPECT_EQ(look_down(traced(scene), 0, 0)->instance, 1u);
+}
+
+TEST(TraceScene, InstancesShareAMesh) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
+    MeshInstance copy = scene.instances[0];
+    copy.world_from_mesh = glm::translate(glm::dmat4(1.0), glm::dvec3(10, 2, 0));
+    scene.instances.push_back(copy);
+    const TraceScene trace = traced(scene);
+    EXPECT_EQ(look_down(trace, 0, 0)->instance, 0u);
+    EXPECT_EQ(look_down(trace, 10, 0)->instance, 1u);
+    const glm::vec3 position = look_down(trace, 10, 0)->position;
+    EXPECT_NEAR(trace.world_from_traced(position).y, 2.0, 1e-5);
+    EXPECT_FALSE(look_down(trace, 5, 0));
+}
+
+TEST(TraceScene, MirroredInstanceKeepsItsFront) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f).world_from_mesh =
+        glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
+    const auto surface = look_down(traced(scene), 0.5f, 0);
+    EXPECT_FALSE(surface->is_from_behind);
+    EXPECT_EQ(surface->shading_normal, glm::vec3(0, 1, 0));
+}
+
+TEST(TraceScene, InstanceMirroredThroughItsPlaneTurnsItsFrontOver) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f).world_from_mesh =
+        glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1));
+    const TraceScene trace = traced(scene);
+    EXPECT_TRUE(look_down(trace, 0, 0)->is_back_face);
+    EXPECT_FALSE(look_down(trace, 0, 0, -100.0f)->is_back_face);
+    EXPECT_EQ(look_down(trace, 0, 0, -100.0f)->shading_normal, glm::vec3(0, -1, 0));
+}
+
+TEST(TraceScene, NormalsAreRightUnderNonUniformScale) {
+    // The plane x + y = 0 under x' = 2x is x'/2 + y' = 0: normal (1/2, 1, 0).
+    Scene scene;
+    test::add_quad(scene, test::diffuse(glm::vec3(1.0f)), {-1, 1, -1}, {0, 0, 2}, {2, -2, 0})
+        .world_from_mesh = glm::scale(glm::dmat4(1.0), glm::dvec3(2, 1, 1));
+    const auto surface = look_down(traced(scene), 0.1f, 0.2f);
+    ASSERT_TRUE(surface);
+    const glm::vec3 expected = glm::normalize(glm::vec3(0.5f, 1.0f, 0.0f));
+    EXPECT_LT(glm::distance(surface->geometric_normal, expected), 1e-6f);
+    EXPECT_LT(glm::distance(surface->shading_normal, expected), 1e-6f);
+}
+
+TEST(TraceScene, ShadingNormalIsBlendedOverTheTriangle) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
+    Mesh& mesh = scene.meshes[0];
+    for (size_t i = 0; i < 4; ++i)
+        mesh.normals[i] = glm::normalize(mesh.positions[i] + glm::vec3(0, 1, 0));
+    const auto surface = look_down(traced(scene), 0, 0);
+    // The diagonal runs through the middle, between normals that lean out by the same angle.
+    EXPECT_LT(glm::distance(surface->shading_normal, glm::vec3(0, 1, 0)), 1e-5f);
+    EXPECT_GT(look_down(traced(scene), 0.9f, 0.8f)->shading_normal.x, 0.3f);
+}
+
+TEST(TraceScene, TextureIsReadAtItsPlace) {
+    // u = (z + 1)/2, v = (x + 1)/2; texel centres are at 1/4 and 3/4.
+    const Scene scene = textured_floor();
+    const TraceScene trace = traced(scene);
+    EXPECT_LT(glm::distance(look_down(trace, -0.5f, -0.5f)->albedo, glm::vec3(1, 0, 0)), 1e-5f);
+    EXPECT_LT(glm::distance(look_down(trace, -0.5f, 0.5f)->albedo, glm::vec3(0, 1, 0)), 1e-5f);
+    EXPECT_LT(glm::distance(look_down(trace, 0.5f, -0.5f)->albedo, glm::vec3(0, 0, 1)), 1e-5f);
+    EXPECT_LT(glm::distance(look_down(trace, 0.5f, 0.5f)->albedo, glm::vec3(1, 1, 1)), 1e-5f);
+}
+
+TEST(TraceScene, MirroredInstanceMirrorsItsTexture) {
+    Scene scene = textured_floor();
+    scene.instances[0].world_from_mesh = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
+    const TraceScene trace = traced(scene);
+    EXPECT_LT(glm::distance(look_down(trace, 0.5f, 0.5f)->albedo, glm::vec3(0, 1, 0)), 1e-5f);
+    EXPECT_LT(glm::distance(look_down(trace, -0.5f, -0.5f)->albedo, glm::vec3(0, 0, 1)), 1e-5f);
+}
+
+TEST(TraceScene, EmissionTextureHasItsOwnCoordinatesAndTransform) {
+    Scene scene = textured_floor();
+    Mesh& mesh = scene.meshes[0];
+    for (const glm::vec2 uv : mesh.uvs[0]) mesh.uvs[1].emplace_back(uv.y, uv.x);
+    Material& material = scene.materials[0];
+    material.emission = glm::vec3(3.0f);
+    material.emission_texture = {0, 1, glm::mat3(1.0f)};
+    // Swapped axes: green is now where v = (x + 1)/2 is high in u, at (0.5, -0.5).
+    EXPECT_LT(glm::distance(look_down(traced(scene), 0.5f, -0.5f)->emission, glm::vec3(0, 3, 0)),
+              1e-5f);
+    material.emission_texture.image_from_mesh[2] = {0.5f, 0.0f, 1.0f};  // u + 1/2: to red
+    EXPECT_LT(glm::distance(look_down(traced(scene), 0.5f, -0.5f)->emission, glm::vec3(3, 0, 0)),
+              1e-5f);
+}
+
+TEST(TraceScene, MaskLetsRaysThroughBelowItsCutoff) {
+    // Alphas at the texel centres are 0, 0.25, 0.5 and 1.
+    Scene scene = textured_floor();
+    scene.materials[0].alpha_mode = AlphaMode::Mask;
+    scene.materials[0].alpha_cutoff = 0.4f;
+    const TraceScene trace = traced(scene);
+    EXPECT_FALSE(look_down(trace, -0.5f, -0.5f));
+    EXPECT_FALSE(look_down(trace, -0.5f, 0.5f));
+    EXPECT_TRUE(look_down(trace, 0.5f, -0.5f));
+    EXPECT_TRUE(trace.is_blocked({{0.5f, 1, 0.5f}, {0, -1, 0}}));
+    EXPECT_FALSE(trace.is_blocked({{-0.5f, 1, 0.5f}, {0, -1, 0}}));
+}
+
+TEST(TraceScene, OpaqueMaterialIgnoresAlpha) {
+    const Scene scene = textured_floor();
+    EXPECT_TRUE(look_down(traced(scene), -0.5f, -0.5f));
+}
+
+TEST(TraceScene, BlendStopsTheShareAlphaOfRays) {
+    Scene scene;
+    Material glass = test::diffuse(glm::vec3(0.0f));
+    glass.base_color.a = 0.3f;
+    glass.alpha_mode = AlphaMode::Blend;
+    test::add_floor(scene, glass, 1.0f);
+    const TraceScene trace = traced(scene);
+    constexpr int kCount = 10000;
+    int stopped = 0;
+    for (int i = 0; i < kCount; ++i) {
+        const float x = -0.9f + 1.8f * static_cast<float>(i) / kCount;
+        const Ray ray{{x, 1.0f, 0.3f}, {0.0f, -1.0f, 0.0f}};
+        const bool is_stopped = trace.cast(ray).has_value();
+        EXPECT_EQ(trace.is_blocked(ray), is_stopped);
+        stopped += is_stopped;
+    }
+    // Binomial: σ = √(0.3 · 0.7 / 10000) = 0.0046; four of them.
+    EXPECT_NEAR(stopped / static_cast<double>(kCount), 0.3, 0.0184);
+}
+
+TEST(TraceScene, RayOriginIsOffTheSurfaceByMoreThanRounding) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1000.0f);
+    const TraceScene trace = traced(scene);
+    for (int i = 1; i < 1000; ++i) {
+        const glm::vec3 direction = glm::normalize(
+            glm::vec3(static_cast<float>(i) * 0.7f, -300.0f, static_cast<float>(i) * 0.3f));
+        const auto surface = trace.cast({{0, 300, 0}, direction});
+        ASSERT_TRUE(surface);
+        const glm::vec3 origin = trace.ray_origin(surface->position, surface->geometric_normal);
+        EXPECT_FALSE(trace.is_blocked({origin, glm::reflect(direction, glm::vec3(0, 1, 0))}));
+    }
+}
+
+TEST(TraceScene, WithoutGeometryRaysMiss) {
+    const Scene scene;
+    EXPECT_FALSE(look_down(traced(scene), 0, 0));
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/render_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "tests/support/random_probes.h"
+#include "tests/support/scenes.h"
+
+namespace tetralight {
+namespace {
+
+const glm::vec3 kAlbedo(0.8f, 0.4f, 0.2f);
+
+IrradianceSh constant_light(glm::vec3 radiance) {
+    return irradiance_from_radiance(constant_radiance(radiance));
+}
+
+/// Probes all over [-9, 9]³ with the same radiance from everywhere; another one in the sky.
+ProbeVolume constant_volume(glm::vec3 radiance, glm::vec3 sky) {
+    ProbeVolume volume = test::make_lit_volume(test::random_positions(50, 1, 9.0));
+    for (IrradianceSh& sh : volume.irradiance) sh = constant_light(radiance);
+    volume.info.ambient = constant_light(sky);
+    return volume;
+}
+
+/// Radiance that leaves the scene towards an eye.
+glm::vec3 seen(const Scene& scene, const ProbeVolume& volume, const glm::dvec3& eye,
+               const glm::dvec3& target) {
+    RenderSettings settings;
+    settings.width = settings.height = settings.samples_per_axis = 1;
+    const auto image = render_scene(scene, volume.view(), look_at(eye, target, 0.01), settings);
+    EXPECT_TRUE(image);
+    return image->pixels[0];
+}
+
+void expect_near(glm::vec3 actual, glm::vec3 expected) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-4f);
+}
+
+Scene floor_scene(glm::vec3 emission = glm::vec3(0.0f)) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(kAlbedo, emission), 5.0f);
+    return scene;
+}
+
+TEST(RenderScene, SurfaceUnderConstantLightShowsAlbedoTimesRadiance) {
+    const ProbeVolume volume = constant_volume({1, 2, 3}, glm::vec3(9.0f));
+    expect_near(seen(floor_scene(), volume, {1, 3, 0}, {1, 0, 1}), kAlbedo * glm::vec3(1, 2, 3));
+}
+
+TEST(RenderScene, WithoutProbesTheSkyLights) {
+    ProbeVolume volume;
+    volume.info.ambient = constant_light({1, 2, 3});
+    expect_near(seen(floor_scene(), volume, {1, 3, 0}, {1, 0, 1}), kAlbedo * glm::vec3(1, 2, 3));
+}
+
+TEST(RenderScene, EmissionIsAdded) {
+    const ProbeVolume volume = constant_volume(glm::vec3(1.0f), glm::vec3(0.0f));
+    expect_near(seen(floor_scene({5, 6, 7}), volume, {1, 3, 0}, {1, 0, 1}),
+                kAlbedo + glm::vec3(5, 6, 7));
+}
+
+TEST(RenderScene, SkyStandsBehind) {
+    const ProbeVolume volume = constant_volume(glm::vec3(1.0f), {4, 5, 6});
+    expect_near(seen(floor_scene(), volume, {0, 1, 0}, {0, 2, 1}), {4, 5, 6});
+}
+
+TEST(RenderScene, MixedSunAddsItsDirectTerm) {
+    // Straight down on the floor: albedo/π · E on top of the probe light.
+    ProbeVolume volume = constant_volume(glm::vec3(1.0f), glm::vec3(0.0f));
+    Scene lights;
+    test::add_sun(lights, LightMode::Mixed, glm::vec3(std::numbers::pi_v<float>));
+    volume.lights = lights.lights;
+    expect_near(seen(floor_scene(), volume, {1, 3, 0}, {1, 0, 1}), 2.0f * kAlbedo);
+}
+
+TEST(RenderScene, BakedLightIsInTheProbesAlready) {
+    ProbeVolume volume = constant_volume(glm::vec3(1.0f), glm::vec3(0.0f));
+    Scene lights;
+    test::add_sun(lights, LightMode::Baked, glm::vec3(9.0f));
+    volume.lights = lights.lights;
+    expect_near(seen(floor_scene(), volume, {1, 3, 0}, {1, 0, 1}), kAlbedo);
+}
+
+TEST(RenderScene, DirectTermIsShadowedByWhatStandsAndWhatMoves) {
+    for (const bool contributes_gi : {false, true}) {
+        Scene scene = floor_scene();
+        test::add_floor(scene, test::diffuse(kAlbedo), 1.0f, 4.0f).contributes_gi = contributes_gi;
+        ProbeVolume volume = constant_volume(glm::vec3(1.0f), glm::vec3(0.0f));
+        test::add_sun(scene, LightMode::Mixed, glm::vec3(9.0f));
+        volume.lights = scene.lights;
+        expect_near(seen(scene, volume, {0, 3, 0.1}, {0, 0, 0}), kAlbedo);
+        EXPECT_GT(seen(scene, volume, {3, 3, 0.1}, {3, 0, 0}).x, 2.0f * kAlbedo.x);
+    }
+}
+
+TEST(RenderScene, PointLightIsRightFarFromTheOrigin) {
+    // 1 m over the floor, 1e4 m away: albedo/π · I / 1². Lights are floats there: 1 mm.
+    const glm::dvec3 offset(1e4, 0, -1e4);
+    Scene scene = floor_scene();
+    scene.instances[0].world_from_mesh = glm::translate(glm::dmat4(1.0), offset);
+    ProbeVolume volume;
+    test::add_point_light(scene, LightMode::Mixed, glm::vec3(std::numbers::pi_v<float>),
+                          glm::vec3(offset) + glm::vec3(0, 1, 0));
+    volume.lights = scene.lights;
+    const glm::vec3 radiance = seen(scene, volume, offset + glm::dvec3(0, 3, 2), offset);
+    EXPECT_LT(glm::distance(radiance, kAlbedo), 0.01f);
+}
+
+TEST(RenderScene, WhatMovesTakesTheLightOfItsMiddle) {
+    // Light that grows along X: a static floor shows it, one that moves has that of its centre.
+    ProbeVolume volume = constant_volume(glm::vec3(0.0f), glm::vec3(0.0f));
+    for (size_t i = 0; i < volume.positions.size(); ++i) {
+        const auto x = static_cast<float>(volume.exact_positions[i].x);
+        volume.irradiance[i] = constant_light(glm::vec3(10.0f + x));
+    }
+    Scene scene = floor_scene();
+    expect_near(seen(scene, volume, {2, 3, 0.1}, {2, 0, 0}), 12.0f * kAlbedo);
+    scene.instances[0].contributes_gi = false;
+    expect_near(seen(scene, volume, {2, 3, 0.1}, {2, 0, 0}), 10.0f * kAlbedo);
+}
+
+TEST(RenderScene, BackFacesAreCulledUnlessDoubleSided) {
+    const ProbeVolume volume = constant_volume(glm::vec3(1.0f), glm::vec3(7.0f));
+    Scene scene = floor_scene();
+    test::add_ceiling(scene, test::diffuse(glm::vec3(0.1f)), 5.0f, 2.0f);
+    const glm::dvec3 eye(1, 4, 0.1);
+    expect_near(seen(scene, volume, eye, {1, 0, 0}), kAlbedo);  // through the roof's back
+    scene.materials[1].is_double_sided = true;
+    expect_near(seen(scene, volume, eye, {1, 0, 0}), glm::vec3(0.1f));
+}
+
+TEST(SceneShader, TellsDistanceAndWhatIsBlocked) {
+    const Scene scene = floor_scene();
+    const ProbeVolume volume = constant_volume(glm::vec3(1.0f), glm::vec3(0.0f));
+    const auto shader = SceneShader::make(scene, volume.view());
+    ASSERT_TRUE(shader);
+    EXPECT_NEAR(shader->shade({0, 3, 0}, {0, -1, 0})->distance, 3.0f, 1e-5f);
+    EXPECT_FALSE(shader->shade({0, 3, 0}, {0, 1, 0}));
+    EXPECT_TRUE(shader->is_blocked({0, 3, 0}, {0, -1, 0}, 3.1f));
+    EXPECT_FALSE(shader->is_blocked({0, 3, 0}, {0, -1, 0}, 2.9f));
+}
+
+}  // namespace
+}  // namespace tetralight
