@@ -12,7 +12,7 @@ ProbeVolume make_volume(size_t probe_count) {
     ProbeGroup group;
     group.name = "bench";
     group.positions = random_positions(probe_count, 1, 100.0);
-    ProbeVolume volume = *make_probe_volume(*merge(std::span(&group, 1)));
+    ProbeVolume volume = make_probe_volume(*merge(std::span(&group, 1)));
     for (const glm::vec3& p : volume.positions) {
         volume.irradiance.push_back(irradiance_from_radiance(constant_radiance(p)));
     }

@@ -80,23 +80,71 @@ class Walk {
         return 64 + 10 * static_cast<uint32_t>(std::cbrt(volume_.cells.size()));
     }
 
-    /// Every index is tested here, where it is used: the volume may be an unverified file.
-    [[nodiscard]] std::optional<CellWeights> cell_weights(uint32_t index) const {
-        if (index >= volume_.cells.size()) return std::nullopt;
-        const Cell& cell = volume_.cells[index];
-        const int corner_count = index < volume_.info.tetrahedron_count ? 4 : 3;
-        std::array<glm::dvec3, 4> corners{};
-        for (int i = 0; i < corner_count; ++i) {
-            if (cell.vertices[i] >= volume_.positions.size()) return std::nullopt;
-            corners[i] = glm::dvec3(volume_.positions[cell.vertices[i]]) - position_;
+    [[nodiscard]] bool is_inner(uint32_t cell) const {
+        return cell < volume_.info.tetrahedron_count;
+    }
+
+    /// Corners of a cell relative to the position. Every index is tested here, where it is used:
+    /// the volume may be an unverified file.
+    [[nodiscard]] bool find_corners(uint32_t index, std::array<glm::dvec3, 4>& corners) const {
+        if (index >= volume_.cells.size() || volume_.info.dimension > Dimension::Space)
+            return false;
+        const int count = cell_vertex_count(volume_.info.dimension) - (is_inner(index) ? 0 : 1);
+        for (int i = 0; i < count; ++i) {
+            const uint32_t probe = volume_.cells[index].vertices[i];
+            if (probe >= volume_.positions.size()) return false;
+            corners[i] = glm::dvec3(volume_.positions[probe]) - position_;
         }
-        if (corner_count == 4) return tetrahedron_weights(corners);
+        return true;
+    }
+
+    [[nodiscard]] std::optional<CellWeights> cell_weights(uint32_t index) const {
+        std::array<glm::dvec3, 4> corners{};
+        if (!find_corners(index, corners)) return std::nullopt;
+        if (is_inner(index)) return inner_weights(corners);
         const uint32_t hull_index = index - volume_.info.tetrahedron_count;
         if (hull_index >= volume_.hull_rays.size()) return std::nullopt;
-        const auto weights = detail::hull_cell_weights({corners[0], corners[1], corners[2]},
-                                                       volume_.hull_rays[hull_index]);
-        if (!weights) return CellWeights{{0.0, 0.0, 0.0, -1.0}};  // go on into the tetrahedron
-        return CellWeights{{*weights, 0.0}};
+        return hull_weights(corners, volume_.hull_rays[hull_index]);
+    }
+
+    /// A triangle of a plane is a tetrahedron whose fourth corner is far away along the normal; a
+    /// segment is one with two such corners.
+    [[nodiscard]] CellWeights inner_weights(std::array<glm::dvec3, 4> corners) const {
+        const glm::dvec3& axis = volume_.info.axis;
+        switch (volume_.info.dimension) {
+            case Dimension::Space:
+                return tetrahedron_weights(corners);
+            case Dimension::Plane: {
+                corners[3] = axis;
+                const glm::dvec4 weights = tetrahedron_weights(corners).weights;
+                return {{weights.x, weights.y, weights.z, 0.0}};
+            }
+            case Dimension::Line:
+                return {{glm::dot(corners[1], axis), -glm::dot(corners[0], axis), 0.0, 0.0}};
+            default:
+                return {{1.0, 0.0, 0.0, 0.0}};
+        }
+    }
+
+    [[nodiscard]] CellWeights hull_weights(const std::array<glm::dvec3, 4>& corners,
+                                           const HullCellRays& rays) const {
+        constexpr CellWeights kGoOnInside{{0.0, 0.0, 0.0, -1.0}};
+        switch (volume_.info.dimension) {
+            case Dimension::Space: {
+                const auto weights =
+                    detail::hull_cell_weights({corners[0], corners[1], corners[2]}, rays);
+                return weights ? CellWeights{{*weights, 0.0}} : kGoOnInside;
+            }
+            case Dimension::Plane: {
+                const auto weights =
+                    detail::hull_edge_weights({corners[0], corners[1]}, rays, volume_.info.axis);
+                return weights ? CellWeights{{*weights, 0.0, 0.0}} : kGoOnInside;
+            }
+            default: {
+                const bool is_beyond = glm::dot(corners[0], glm::dvec3(rays.rays[0])) <= 0.0;
+                return is_beyond ? CellWeights{{1.0, 0.0, 0.0, 0.0}} : kGoOnInside;
+            }
+        }
     }
 
     /// Each of two neighbors sends the walk to the other. On their shared face that is rounding,

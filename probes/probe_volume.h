@@ -21,12 +21,28 @@
 
 namespace tetralight {
 
-/// A tetrahedron, or a hull cell: the space outside one triangle of the convex hull.
+/// How far the probes of a volume spread, and with it what its cells are.
+enum class Dimension : uint32_t {
+    None = 0,  ///< no probes
+    Point,     ///< one probe: one cell
+    Line,      ///< probes on a line: segments between them; hull cells beyond the two ends
+    Plane,     ///< probes in a plane: triangles; hull cells beyond the edges of their hull
+    Space,     ///< tetrahedra; hull cells beyond the triangles of their hull
+};
+
+/// Vertices of an inner cell of a volume; a hull cell has one less.
+[[nodiscard]] constexpr int cell_vertex_count(Dimension dimension) noexcept {
+    return static_cast<int>(dimension);
+}
+
+/// A tetrahedron, or a hull cell: the space outside one triangle of the convex hull. In volumes of
+/// lower dimension the same with fewer vertices, the unused places holding kNoIndex.
 ///
-/// Tetrahedron: `neighbors[i]` is the cell across the face opposite `vertices[i]`; positively
-/// oriented, i.e. dot(v1 − v0, cross(v2 − v0, v3 − v0)) > 0.
-/// Hull cell: `vertices[3]` is kNoIndex; the triangle is counter-clockwise seen from outside;
-/// `neighbors[0..2]` are the hull cells across the opposite edges, `neighbors[3]` the tetrahedron.
+/// Inner cell: `neighbors[i]` is the cell across the face opposite `vertices[i]`; tetrahedra are
+/// positively oriented, i.e. dot(v1 − v0, cross(v2 − v0, v3 − v0)) > 0, triangles
+/// counter-clockwise around the volume's axis.
+/// Hull cell: the triangle is counter-clockwise seen from outside; `neighbors[i]` is the hull cell
+/// opposite `vertices[i]`, `neighbors[3]` the inner cell.
 struct Cell {
     std::array<uint32_t, 4> vertices{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
     std::array<uint32_t, 4> neighbors{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
@@ -41,7 +57,8 @@ static_assert(sizeof(Cell) == 32 && std::is_trivially_copyable_v<Cell>);
 inline constexpr std::array<std::array<int, 3>, 4> kOutwardFaces{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// Unit rays from the vertices of one hull cell, along which it is extruded to infinity.
+/// Unit rays from the vertices of one hull cell, along which it is extruded to infinity. Unused
+/// places are 0.
 struct HullCellRays {
     std::array<glm::vec3, 3> rays{};
 
@@ -66,7 +83,11 @@ struct VolumeInfo {
     /// World position of the local origin. Arrays of float positions are relative to it, so that a
     /// volume far from the world's origin keeps its precision.
     glm::dvec3 world_origin{0.0};
-    /// Cells [0, tetrahedron_count) are tetrahedra, the rest hull cells.
+    /// Plane: its unit normal; line: its unit direction; otherwise 0. A cell holds all positions
+    /// that lie beside it along the normal, or around it across the direction.
+    glm::dvec3 axis{0.0};
+    Dimension dimension = Dimension::None;
+    /// Cells [0, tetrahedron_count) are inner cells (tetrahedra), the rest hull cells.
     uint32_t tetrahedron_count = 0;
     /// Share of the radial direction in the hull rays (docs/conventions.md).
     float radial_share = 0.0f;
@@ -74,11 +95,12 @@ struct VolumeInfo {
     IrradianceSh ambient;
     /// Distance of the farthest probe from the local origin, metres.
     float extent = 0.0f;
+    uint32_t reserved = 0;
 
     bool operator==(const VolumeInfo&) const = default;
 };
 
-static_assert(sizeof(VolumeInfo) == 144 && std::is_trivially_copyable_v<VolumeInfo>);
+static_assert(sizeof(VolumeInfo) == 176 && std::is_trivially_copyable_v<VolumeInfo>);
 
 /// Read-only spans over a probe volume. Cheap to copy; valid as long as its owner.
 struct ProbeVolumeView {

@@ -24,25 +24,26 @@ struct HullVertex {
     glm::dvec3 ray{0.0};
 };
 
-/// The hull with vertices of its own, in units of its size.
+/// The hull with vertices of its own, in units of its size. Hull cells of lower dimension leave
+/// places of `cells` unused.
 struct Hull {
     std::vector<HullVertex> vertices;
-    std::vector<std::array<uint32_t, 3>> triangles;
+    std::vector<std::array<uint32_t, 3>> cells;
 };
 
-Hull make_hull(std::span<const glm::dvec3> positions, const Tetrahedralization& cells) {
+Hull make_hull(std::span<const glm::dvec3> positions, const Tetrahedralization& source) {
     Hull hull;
     std::unordered_map<uint32_t, uint32_t> hull_index;
-    for (size_t i = cells.tetrahedron_count; i < cells.cells.size(); ++i) {
-        std::array<uint32_t, 3> triangle;
-        for (int k = 0; k < 3; ++k) {
-            const uint32_t probe = cells.cells[i].vertices[k];
+    for (size_t i = source.tetrahedron_count; i < source.cells.size(); ++i) {
+        std::array<uint32_t, 3> cell{kNoIndex, kNoIndex, kNoIndex};
+        for (int k = 0; k < cell_vertex_count(source.dimension) - 1; ++k) {
+            const uint32_t probe = source.cells[i].vertices[k];
             const auto [entry, is_new] =
                 hull_index.try_emplace(probe, static_cast<uint32_t>(hull.vertices.size()));
             if (is_new) hull.vertices.push_back({positions[probe]});
-            triangle[k] = entry->second;
+            cell[k] = entry->second;
         }
-        hull.triangles.push_back(triangle);
+        hull.cells.push_back(cell);
     }
     return hull;
 }
@@ -64,8 +65,15 @@ void normalize(Hull& hull) {
     }
 }
 
-void add_normals(Hull& hull) {
-    for (const auto& triangle : hull.triangles) {
+void normalize_normals(Hull& hull) {
+    for (HullVertex& v : hull.vertices) {
+        const double length = glm::length(v.normal);
+        v.normal = length > 0.0 ? v.normal / length : v.radial;
+    }
+}
+
+void add_triangle_normals(Hull& hull) {
+    for (const auto& triangle : hull.cells) {
         std::array<glm::dvec3, 3> p;
         for (int k = 0; k < 3; ++k) p[k] = hull.vertices[triangle[k]].position;
         const glm::dvec3 area = glm::cross(p[1] - p[0], p[2] - p[0]);
@@ -76,10 +84,19 @@ void add_normals(Hull& hull) {
             hull.vertices[triangle[k]].normal += area * (angle / length);
         }
     }
-    for (HullVertex& v : hull.vertices) {
-        const double length = glm::length(v.normal);
-        v.normal = length > 0.0 ? v.normal / length : v.radial;
+    normalize_normals(hull);
+}
+
+/// In a plane the normals of the edges' ends, weighted alike, halve the angles of the hull: their
+/// rays never meet.
+void add_edge_normals(Hull& hull, const glm::dvec3& axis) {
+    for (const auto& [first, second, unused] : hull.cells) {
+        const glm::dvec3 edge = hull.vertices[second].position - hull.vertices[first].position;
+        const glm::dvec3 outward = glm::normalize(glm::cross(edge, axis));
+        hull.vertices[first].normal += outward;
+        hull.vertices[second].normal += outward;
     }
+    normalize_normals(hull);
 }
 
 void set_rays(Hull& hull, double radial_share) {
@@ -115,7 +132,17 @@ bool folds(const Hull& hull, const std::array<uint32_t, 3>& triangle) {
 }
 
 bool folds_anywhere(const Hull& hull) {
-    return std::ranges::any_of(hull.triangles, [&](const auto& t) { return folds(hull, t); });
+    return std::ranges::any_of(hull.cells, [&](const auto& t) { return folds(hull, t); });
+}
+
+/// Smallest share of the radial direction, in steps, for which no triangle folds.
+int find_radial_steps(Hull& hull) {
+    for (int step = 0; step < kShareSteps; ++step) {
+        set_rays(hull, static_cast<double>(step) / kShareSteps);
+        if (!folds_anywhere(hull)) return step;
+    }
+    set_rays(hull, 1.0);
+    return kShareSteps;
 }
 
 }  // namespace
@@ -123,21 +150,23 @@ bool folds_anywhere(const Hull& hull) {
 HullRays make_hull_rays(std::span<const glm::dvec3> positions,
                         const Tetrahedralization& tetrahedralization) {
     Hull hull = make_hull(positions, tetrahedralization);
-    if (hull.triangles.empty()) return {};
-    normalize(hull);
-    add_normals(hull);
-    int step = 0;
-    set_rays(hull, 0.0);
-    while (step < kShareSteps && folds_anywhere(hull)) {
-        ++step;
-        set_rays(hull, static_cast<double>(step) / kShareSteps);
-    }
+    if (hull.cells.empty()) return {};
     HullRays rays;
-    rays.radial_share = static_cast<float>(step) / kShareSteps;
-    for (const auto& triangle : hull.triangles) {
-        HullCellRays cell;
-        for (int k = 0; k < 3; ++k) cell.rays[k] = glm::vec3(hull.vertices[triangle[k]].ray);
-        rays.cells.push_back(cell);
+    normalize(hull);
+    if (tetrahedralization.dimension == Dimension::Space) {
+        add_triangle_normals(hull);
+        rays.radial_share = static_cast<float>(find_radial_steps(hull)) / kShareSteps;
+    } else {
+        if (tetrahedralization.dimension == Dimension::Plane) {
+            add_edge_normals(hull, tetrahedralization.axis);
+        }
+        set_rays(hull, tetrahedralization.dimension == Dimension::Line ? 1.0 : 0.0);
+    }
+    for (const auto& cell : hull.cells) {
+        HullCellRays& cell_rays = rays.cells.emplace_back();
+        for (int k = 0; k < 3; ++k) {
+            if (cell[k] != kNoIndex) cell_rays.rays[k] = glm::vec3(hull.vertices[cell[k]].ray);
+        }
     }
     return rays;
 }

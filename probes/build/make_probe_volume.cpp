@@ -29,14 +29,16 @@ glm::dvec3 local_origin(std::span<const glm::dvec3> positions) {
 
 }  // namespace
 
-Result<ProbeVolume> make_probe_volume(const MergedProbes& probes) {
-    auto tetrahedralization = tetrahedralize(probes.positions);
-    if (!tetrahedralization) return tetrahedralization.error();
-    HullRays hull = make_hull_rays(probes.positions, *tetrahedralization);
+ProbeVolume make_probe_volume(const MergedProbes& probes) {
+    // Half the radius: positions that stand apart by more than it never fall together in a plane.
+    Tetrahedralization cells = tetrahedralize(probes.positions, 0.5 * probes.weld_radius);
+    HullRays hull = make_hull_rays(probes.positions, cells);
 
     ProbeVolume volume;
     volume.info.world_origin = local_origin(probes.positions);
-    volume.info.tetrahedron_count = tetrahedralization->tetrahedron_count;
+    volume.info.axis = cells.axis;
+    volume.info.dimension = cells.dimension;
+    volume.info.tetrahedron_count = cells.tetrahedron_count;
     volume.info.radial_share = hull.radial_share;
     for (const glm::dvec3& p : probes.positions) {
         const glm::vec3 local(p - volume.info.world_origin);
@@ -44,7 +46,7 @@ Result<ProbeVolume> make_probe_volume(const MergedProbes& probes) {
         volume.info.extent = std::max(volume.info.extent, glm::length(local));
     }
     volume.exact_positions = probes.positions;
-    volume.cells = std::move(tetrahedralization->cells);
+    volume.cells = std::move(cells.cells);
     volume.hull_rays = std::move(hull.cells);
     volume.sources = probes.sources;
     for (const std::string& name : probes.group_names) volume.group_names += name + "\n";

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/result.h"
 #include "probes/build/merge.h"
 #include "probes/probe_volume.h"
 
 namespace tetralight {
 
 /// Tetrahedralizes merged probes and lays out a volume without light: positions, cells, hull rays
-/// and sources are filled, irradiance is empty. Errors are those of `tetrahedralize`.
-[[nodiscard]] Result<ProbeVolume> make_probe_volume(const MergedProbes& probes);
+/// and sources are filled, irradiance is empty.
+[[nodiscard]] ProbeVolume make_probe_volume(const MergedProbes& probes);
 
 }  // namespace tetralight

@@ -141,7 +141,8 @@ double weld_radius(std::span<const glm::dvec3> positions, const MergeSettings& s
 /// Puts the representatives in canonical order and points every source at its probe.
 void weld(std::span<const glm::dvec3> positions, const MergeSettings& settings,
           MergedProbes& merged) {
-    const auto representatives = Welder(positions, weld_radius(positions, settings)).run();
+    merged.weld_radius = weld_radius(positions, settings);
+    const auto representatives = Welder(positions, merged.weld_radius).run();
     std::vector<glm::dvec3> kept;
     std::vector<uint32_t> kept_index(positions.size(), kNoIndex);
     for (uint32_t i = 0; i < positions.size(); ++i) {

@@ -30,6 +30,8 @@ struct MergedProbes {
     std::vector<std::string> group_names;
     /// Every probe of every group, sorted by group, then index.
     std::vector<ProbeSource> sources;
+    /// Positions nearer to each other than this were welded, metres.
+    double weld_radius = 0.0;
     /// One a group: whether it asked for dering.
     std::vector<bool> group_dering;
 

@@ -4,31 +4,31 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "base/text.h"
 #include "probes/build/detail/cgal.h"
+#include "probes/build/detail/spread.h"
 
 namespace tetralight {
 namespace {
 
-class Validator {
-  public:
-    explicit Validator(const ProbeVolumeView& volume) : volume_(volume) {
-        positions_.assign(volume.exact_positions.begin(), volume.exact_positions.end());
-        if (positions_.empty()) {
-            for (const glm::vec3& p : volume.positions) {
-                positions_.push_back(glm::dvec3(p) + volume.info.world_origin);
-            }
-        }
-        if (!positions_.empty()) center_ = positions_[0];
-    }
+/// The vertex of `cell` across its face to `neighbor`.
+uint32_t opposite_vertex(const ProbeVolumeView& volume, uint32_t cell, uint32_t neighbor) {
+    const Cell& c = volume.cells[cell];
+    const auto face = std::ranges::find(c.neighbors, neighbor) - c.neighbors.begin();
+    return c.vertices[static_cast<size_t>(face)];
+}
 
-    ValidationReport run() {
-        for (uint32_t i = 0; i < volume_.cells.size(); ++i) {
-            i < volume_.info.tetrahedron_count ? check_tetrahedron(i) : check_hull_cell(i);
-        }
-        check_probes();
-        return report_;
+/// Tetrahedra, and the triangles of their hull.
+class SpaceValidator {
+  public:
+    SpaceValidator(const ProbeVolumeView& volume, std::span<const glm::dvec3> positions,
+                   ValidationReport& report)
+        : volume_(volume), positions_(positions), report_(report) {}
+
+    void check(uint32_t cell) {
+        cell < volume_.info.tetrahedron_count ? check_tetrahedron(cell) : check_hull_cell(cell);
     }
 
   private:
@@ -36,67 +36,136 @@ class Validator {
         return positions_[volume_.cells[cell].vertices[i]];
     }
 
-    /// Signed volume of the tetrahedron over a triangle, with its apex at the first probe.
-    [[nodiscard]] double volume_over(const glm::dvec3& a, const glm::dvec3& b,
-                                     const glm::dvec3& c) const {
-        return glm::dot(a - center_, glm::cross(b - center_, c - center_)) / 6.0;
-    }
-
     void check_tetrahedron(uint32_t cell) {
         const glm::dvec3 &a = corner(cell, 0), &b = corner(cell, 1);
         const glm::dvec3 &c = corner(cell, 2), &d = corner(cell, 3);
         if (detail::orientation(a, b, c, d) <= 0) {
-            ++report_.inverted_tetrahedra;
+            ++report_.inverted_cells;
             return;
         }
-        report_.cell_volume += glm::dot(b - a, glm::cross(c - a, d - a)) / 6.0;
+        report_.cell_measure += glm::dot(b - a, glm::cross(c - a, d - a)) / 6.0;
         for (const uint32_t neighbor : volume_.cells[cell].neighbors) {
             if (neighbor >= volume_.info.tetrahedron_count || neighbor < cell) continue;
-            if (detail::is_in_circumsphere(a, b, c, d, positions_[opposite(neighbor, cell)])) {
-                ++report_.non_delaunay_faces;
-            }
+            const glm::dvec3& other = positions_[opposite_vertex(volume_, neighbor, cell)];
+            report_.non_delaunay_faces += detail::is_in_circumsphere(a, b, c, d, other);
         }
-    }
-
-    /// The vertex of `cell` across its face to `neighbor`.
-    [[nodiscard]] uint32_t opposite(uint32_t cell, uint32_t neighbor) const {
-        const Cell& c = volume_.cells[cell];
-        const auto face = std::ranges::find(c.neighbors, neighbor) - c.neighbors.begin();
-        return c.vertices[static_cast<size_t>(face)];
     }
 
     void check_hull_cell(uint32_t cell) {
         const glm::dvec3 &a = corner(cell, 0), &b = corner(cell, 1), &c = corner(cell, 2);
-        report_.hull_volume += volume_over(a, b, c);
+        const glm::dvec3& apex = positions_[0];  // near the hull, so that little cancels
+        report_.hull_measure += glm::dot(a - apex, glm::cross(b - apex, c - apex)) / 6.0;
         for (int i = 0; i < 3; ++i) {
             const uint32_t neighbor = volume_.cells[cell].neighbors[i];
             if (neighbor < cell) continue;
-            if (detail::orientation(a, b, c, positions_[opposite(neighbor, cell)]) > 0) {
-                ++report_.concave_hull_edges;
-            }
-        }
-    }
-
-    void check_probes() {
-        std::vector<bool> has_cell(positions_.size(), false);
-        std::vector<bool> has_source(positions_.size(), volume_.sources.empty());
-        for (uint32_t i = 0; i < volume_.info.tetrahedron_count; ++i) {
-            for (const uint32_t probe : volume_.cells[i].vertices) has_cell[probe] = true;
-        }
-        for (const ProbeSource& source : volume_.sources) has_source[source.probe] = true;
-        for (size_t i = 0; i < positions_.size(); ++i) {
-            const glm::vec3 rounded(positions_[i] - volume_.info.world_origin);
-            report_.probes_without_cell += !has_cell[i];
-            report_.probes_without_source += !has_source[i];
-            report_.misplaced_float_probes += rounded != volume_.positions[i];
+            const glm::dvec3& other = positions_[opposite_vertex(volume_, neighbor, cell)];
+            report_.concave_hull_edges += detail::orientation(a, b, c, other) > 0;
         }
     }
 
     const ProbeVolumeView& volume_;
-    std::vector<glm::dvec3> positions_;
-    glm::dvec3 center_{0.0};
-    ValidationReport report_;
+    std::span<const glm::dvec3> positions_;
+    ValidationReport& report_;
 };
+
+/// Triangles, and the edges of their hull.
+class PlaneValidator {
+  public:
+    PlaneValidator(const ProbeVolumeView& volume, std::span<const glm::dvec3> positions,
+                   ValidationReport& report)
+        : volume_(volume),
+          positions_(detail::project(positions, volume.info.axis)),
+          report_(report) {}
+
+    void check(uint32_t cell) {
+        cell < volume_.info.tetrahedron_count ? check_triangle(cell) : check_edge(cell);
+    }
+
+  private:
+    [[nodiscard]] const glm::dvec2& corner(uint32_t cell, int i) const {
+        return positions_[volume_.cells[cell].vertices[i]];
+    }
+
+    static double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+    void check_triangle(uint32_t cell) {
+        const glm::dvec2 &a = corner(cell, 0), &b = corner(cell, 1), &c = corner(cell, 2);
+        if (detail::orientation(a, b, c) <= 0) {
+            ++report_.inverted_cells;
+            return;
+        }
+        report_.cell_measure += cross(b - a, c - a) / 2.0;
+        for (const uint32_t neighbor : volume_.cells[cell].neighbors) {
+            if (neighbor >= volume_.info.tetrahedron_count || neighbor < cell) continue;
+            const glm::dvec2& other = positions_[opposite_vertex(volume_, neighbor, cell)];
+            report_.non_delaunay_faces += detail::is_in_circumcircle(a, b, c, other);
+        }
+    }
+
+    void check_edge(uint32_t cell) {
+        const glm::dvec2 &a = corner(cell, 0), &b = corner(cell, 1);
+        report_.hull_measure += cross(a - positions_[0], b - positions_[0]) / 2.0;
+        const uint32_t next = volume_.cells[cell].neighbors[0];  // shares b
+        const glm::dvec2& other = positions_[opposite_vertex(volume_, next, cell)];
+        report_.concave_hull_edges += detail::orientation(a, b, other) < 0;
+    }
+
+    const ProbeVolumeView& volume_;
+    std::vector<glm::dvec2> positions_;
+    ValidationReport& report_;
+};
+
+void check_line(const ProbeVolumeView& volume, std::span<const glm::dvec3> positions,
+                ValidationReport& report) {
+    const auto along = [&](uint32_t probe) {
+        return glm::dot(positions[probe] - positions[0], volume.info.axis);
+    };
+    for (uint32_t cell = 0; cell < volume.info.tetrahedron_count; ++cell) {
+        const auto& v = volume.cells[cell].vertices;
+        const double length = along(v[1]) - along(v[0]);
+        report.inverted_cells += !(length > 0.0);
+        report.cell_measure += length;
+    }
+    for (uint32_t cell = volume.info.tetrahedron_count; cell < volume.cells.size(); ++cell) {
+        const glm::dvec3 ray(volume.hull_rays[cell - volume.info.tetrahedron_count].rays[0]);
+        const double side = glm::dot(ray, volume.info.axis) > 0.0 ? 1.0 : -1.0;
+        report.hull_measure += side * along(volume.cells[cell].vertices[0]);
+    }
+}
+
+void check_probes(const ProbeVolumeView& volume, std::span<const glm::dvec3> positions,
+                  ValidationReport& report) {
+    std::vector<bool> has_cell(positions.size(), false);
+    std::vector<bool> has_source(positions.size(), volume.sources.empty());
+    for (uint32_t i = 0; i < volume.info.tetrahedron_count; ++i) {
+        for (const uint32_t probe : volume.cells[i].vertices) {
+            if (probe != kNoIndex) has_cell[probe] = true;
+        }
+    }
+    for (const ProbeSource& source : volume.sources) has_source[source.probe] = true;
+    for (size_t i = 0; i < positions.size(); ++i) {
+        const glm::vec3 rounded(positions[i] - volume.info.world_origin);
+        report.probes_without_cell += !has_cell[i];
+        report.probes_without_source += !has_source[i];
+        report.misplaced_float_probes += rounded != volume.positions[i];
+    }
+}
+
+std::vector<glm::dvec3> exact_positions(const ProbeVolumeView& volume) {
+    if (!volume.exact_positions.empty()) {
+        return {volume.exact_positions.begin(), volume.exact_positions.end()};
+    }
+    std::vector<glm::dvec3> positions;
+    for (const glm::vec3& p : volume.positions) {
+        positions.push_back(glm::dvec3(p) + volume.info.world_origin);
+    }
+    return positions;
+}
+
+template <class Validator>
+void check_cells(Validator validator, size_t cell_count) {
+    for (uint32_t cell = 0; cell < cell_count; ++cell) validator.check(cell);
+}
 
 }  // namespace
 
@@ -105,20 +174,30 @@ std::vector<std::string> ValidationReport::problems() const {
     const auto add = [&](uint32_t count, const char* what) {
         if (count > 0) lines.push_back(text(count, " ", what));
     };
-    add(inverted_tetrahedra, "tetrahedra are inverted or flat");
+    add(inverted_cells, "cells are inverted or have no volume");
     add(non_delaunay_faces, "faces break the Delaunay property");
     add(concave_hull_edges, "hull edges are concave");
-    add(probes_without_cell, "probes are in no tetrahedron");
+    add(probes_without_cell, "probes are in no cell");
     add(probes_without_source, "probes are in no group");
     add(misplaced_float_probes, "float positions differ from the exact ones");
-    if (std::abs(cell_volume - hull_volume) > 1e-9 * std::abs(hull_volume)) {
-        lines.push_back(text("the cells fill ", cell_volume, " m³ of the hull's ", hull_volume));
+    if (std::abs(cell_measure - hull_measure) > 1e-9 * std::abs(hull_measure)) {
+        lines.push_back(text("the cells fill ", cell_measure, " of the hull's ", hull_measure));
     }
     return lines;
 }
 
 ValidationReport validate(const ProbeVolumeView& volume) {
-    return Validator(volume).run();
+    ValidationReport report;
+    const std::vector<glm::dvec3> positions = exact_positions(volume);
+    if (volume.info.dimension == Dimension::Space) {
+        check_cells(SpaceValidator(volume, positions, report), volume.cells.size());
+    } else if (volume.info.dimension == Dimension::Plane) {
+        check_cells(PlaneValidator(volume, positions, report), volume.cells.size());
+    } else if (volume.info.dimension == Dimension::Line) {
+        check_line(volume, positions, report);
+    }
+    check_probes(volume, positions, report);
+    return report;
 }
 
 }  // namespace tetralight

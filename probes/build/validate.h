@@ -11,15 +11,16 @@ namespace tetralight {
 
 /// What `validate` counted. A sound volume has only zeros in the first block.
 struct ValidationReport {
-    uint32_t inverted_tetrahedra = 0;     ///< not positively oriented
+    uint32_t inverted_cells = 0;          ///< not positively oriented
     uint32_t non_delaunay_faces = 0;      ///< a neighbor's vertex strictly inside a circumsphere
     uint32_t concave_hull_edges = 0;      ///< hull triangles that see each other from outside
-    uint32_t probes_without_cell = 0;     ///< in no tetrahedron
+    uint32_t probes_without_cell = 0;     ///< in no inner cell
     uint32_t probes_without_source = 0;   ///< in no group
     uint32_t misplaced_float_probes = 0;  ///< float position is not the rounded exact one
 
-    double cell_volume = 0.0;  ///< sum over tetrahedra, m³
-    double hull_volume = 0.0;  ///< enclosed by the hull triangles, m³
+    /// Sum over the inner cells, and what the hull encloses: m³; m² in a plane, m on a line.
+    double cell_measure = 0.0;
+    double hull_measure = 0.0;
 
     /// One line a kind of problem; empty = valid.
     [[nodiscard]] std::vector<std::string> problems() const;
@@ -27,8 +28,8 @@ struct ValidationReport {
 
 /// Checks the geometry of a volume whose structure is sound (see `verify`): the Delaunay property
 /// under exact arithmetic on the stored double positions, orientation, convexity of the hull, every
-/// probe present, sum of the cells = volume of the hull. A volume without exact positions is
-/// checked on its float ones.
+/// probe present, sum of the cells = content of the hull. Flat volumes are checked in their plane.
+/// A volume without exact positions is checked on its float ones.
 [[nodiscard]] ValidationReport validate(const ProbeVolumeView& volume);
 
 }  // namespace tetralight

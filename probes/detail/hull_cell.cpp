@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 namespace tetralight::detail {
 namespace {
@@ -87,27 +88,63 @@ std::optional<glm::dvec3> weights_of_origin(const std::array<glm::dvec3, 3>& q) 
     return glm::dvec3(w0, w1, 1 - w0 - w1);
 }
 
+/// The first t ≥ 0 where the cubic is zero; none where it is negative from the beginning.
+std::optional<double> first_meeting(const Cubic& cubic) {
+    if (cubic[0] < 0) return std::nullopt;
+    return cubic[0] == 0 ? 0.0 : first_root(cubic);
+}
+
+/// Length of the longest corner; none when it is no length to scale by.
+std::optional<double> length_scale(std::span<const glm::dvec3> corners) {
+    double scale = 0;
+    for (const glm::dvec3& corner : corners) scale = std::max(scale, glm::dot(corner, corner));
+    if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
+    return std::sqrt(scale);
+}
+
 }  // namespace
 
 std::optional<glm::dvec3> hull_cell_weights(const std::array<glm::dvec3, 3>& corners,
                                             const HullCellRays& rays) noexcept {
-    double scale = 0;
-    for (const glm::dvec3& corner : corners) scale = std::max(scale, glm::dot(corner, corner));
-    if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
-    scale = std::sqrt(scale);
-
+    const auto scale = length_scale(corners);
+    if (!scale) return std::nullopt;
     std::array<glm::dvec3, 3> p;
     std::array<glm::dvec3, 3> v;
     for (int i = 0; i < 3; ++i) {
-        p[i] = corners[i] / scale;
+        p[i] = corners[i] / *scale;
         v[i] = glm::dvec3(rays.rays[i]);
     }
-    const Cubic cubic = plane_cubic(p, v);
-    if (cubic[0] < 0) return std::nullopt;
-    const std::optional<double> t = cubic[0] == 0 ? 0.0 : first_root(cubic);
+    const std::optional<double> t = first_meeting(plane_cubic(p, v));
     if (!t) return std::nullopt;
     for (int i = 0; i < 3; ++i) p[i] += *t * v[i];
     return weights_of_origin(p);
+}
+
+std::optional<glm::dvec2> hull_edge_weights(const std::array<glm::dvec3, 2>& corners,
+                                            const HullCellRays& rays,
+                                            const glm::dvec3& axis) noexcept {
+    const auto scale = length_scale(corners);
+    if (!scale) return std::nullopt;
+    std::array<glm::dvec3, 2> p;
+    std::array<glm::dvec3, 2> v;
+    for (int i = 0; i < 2; ++i) {
+        p[i] = corners[i] / *scale;
+        v[i] = glm::dvec3(rays.rays[i]);
+    }
+    // The origin lies outside the edge while det[p0 + t v0, p1 + t v1, axis] is negative.
+    const Cubic cubic{-determinant(p[0], p[1], axis),
+                      -determinant(v[0], p[1], axis) - determinant(p[0], v[1], axis),
+                      -determinant(v[0], v[1], axis), 0.0};
+    const std::optional<double> t = first_meeting(cubic);
+    if (!t) return std::nullopt;
+    const glm::dvec3 a = p[0] + *t * v[0];
+    const glm::dvec3 edge = p[1] + *t * v[1] - a;
+    const glm::dvec3 across =
+        glm::cross(axis, glm::cross(edge, axis));  // the edge seen along the axis
+    const double length = glm::dot(across, edge);
+    if (!(length > 0)) return std::nullopt;
+    const double weight = -glm::dot(across, a) / length;
+    return glm::dvec2(1 - weight, weight);
 }
 
 }  // namespace tetralight::detail

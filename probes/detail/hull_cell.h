@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -18,5 +19,11 @@ namespace tetralight::detail {
 /// scaled by the farthest corner.
 [[nodiscard]] std::optional<glm::dvec3> hull_cell_weights(const std::array<glm::dvec3, 3>& corners,
                                                           const HullCellRays& rays) noexcept;
+
+/// The same for an edge of the hull of a plane with the given unit normal: weights of the first two
+/// corners, seen along the normal.
+[[nodiscard]] std::optional<glm::dvec2> hull_edge_weights(const std::array<glm::dvec3, 2>& corners,
+                                                          const HullCellRays& rays,
+                                                          const glm::dvec3& axis) noexcept;
 
 }  // namespace tetralight::detail

@@ -28,6 +28,9 @@ Status check_count(const char* name, size_t count, size_t expected, bool is_opti
 
 Status check_counts(const ProbeVolumeView& v) {
     const size_t probes = v.positions.size();
+    if (v.info.dimension > Dimension::Space) {
+        return Error{text("dimension ", static_cast<uint32_t>(v.info.dimension), " is unknown")};
+    }
     if (v.info.tetrahedron_count > v.cells.size()) {
         return Error{text("tetrahedron count ", v.info.tetrahedron_count, " is more than the ",
                           v.cells.size(), " cells")};
@@ -62,12 +65,15 @@ Status check_numbers(const ProbeVolumeView& v) {
     const auto fractions = [&](const glm::vec4& f) {
         return fraction(f.x) && fraction(f.y) && fraction(f.z) && fraction(f.w);
     };
-    const auto unit_rays = [](const HullCellRays& cell) {
-        return std::ranges::all_of(cell.rays, [](const glm::vec3& ray) {
-            return std::abs(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z - 1.0f) < 1e-3f;
-        });
+    const size_t ray_count =
+        static_cast<size_t>(std::max(cell_vertex_count(v.info.dimension) - 1, 0));
+    const auto unit_rays = [&](const HullCellRays& cell) {
+        return std::all_of(
+            cell.rays.begin(), cell.rays.begin() + ray_count, [](const glm::vec3& ray) {
+                return std::abs(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z - 1.0f) < 1e-3f;
+            });
     };
-    if (!is_finite(v.info.world_origin) || !is_finite(v.info.ambient) ||
+    if (!is_finite(v.info.world_origin) || !is_finite(v.info.axis) || !is_finite(v.info.ambient) ||
         !std::isfinite(v.info.extent)) {
         return Error{"section \"info\": a number is not finite"};
     }
@@ -100,22 +106,46 @@ bool is_neighbor(const ProbeVolumeView& v, uint32_t cell, int face) {
     return true;
 }
 
+/// Which places of a cell hold a vertex, and which a neighbor.
+struct CellShape {
+    int vertex_count = 0;
+    bool has_side_neighbors = false;
+    bool has_inner_neighbor = false;
+
+    CellShape(const VolumeInfo& info, uint32_t cell) {
+        const bool is_inner = cell < info.tetrahedron_count;
+        vertex_count = cell_vertex_count(info.dimension) - (is_inner ? 0 : 1);
+        has_side_neighbors = vertex_count > 1;
+        has_inner_neighbor = !is_inner;
+    }
+
+    [[nodiscard]] bool has_neighbor(int place) const {
+        return place < vertex_count ? has_side_neighbors : place == 3 && has_inner_neighbor;
+    }
+};
+
+/// "vertex 7 is out of range (5 probes)", or nothing when it is in range, or unused as it should
+/// be.
+std::string index_problem(const char* what, uint32_t index, bool is_used, size_t count) {
+    if (is_used ? index < count : index == kNoIndex) return {};
+    return text(what, " ", index, " is out of range (", is_used ? count : 0, ")");
+}
+
 Status check_cell(const ProbeVolumeView& v, uint32_t index) {
     const Cell& cell = v.cells[index];
-    const int corner_count = index < v.info.tetrahedron_count ? 4 : 3;
+    const CellShape shape(v.info, index);
     for (int i = 0; i < 4; ++i) {
-        const uint32_t vertex = cell.vertices[i];
-        if (i < corner_count ? vertex >= v.positions.size() : vertex != kNoIndex) {
-            return cell_error(index, text("vertex ", vertex, " is out of range (",
-                                          v.positions.size(), " probes)"));
+        const bool has_vertex = i < shape.vertex_count;
+        std::string problem =
+            index_problem("vertex", cell.vertices[i], has_vertex, v.positions.size());
+        if (problem.empty()) {
+            problem =
+                index_problem("neighbor", cell.neighbors[i], shape.has_neighbor(i), v.cells.size());
         }
-        if (cell.neighbors[i] >= v.cells.size()) {
-            return cell_error(index, text("neighbor ", cell.neighbors[i], " is out of range (",
-                                          v.cells.size(), " cells)"));
+        if (problem.empty() && shape.has_neighbor(i) && !is_neighbor(v, index, i)) {
+            problem = text("cell ", cell.neighbors[i], " is not its neighbor");
         }
-        if (!is_neighbor(v, index, i)) {
-            return cell_error(index, text("cell ", cell.neighbors[i], " is not its neighbor"));
-        }
+        if (!problem.empty()) return cell_error(index, problem);
     }
     return Ok{};
 }

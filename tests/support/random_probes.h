@@ -41,7 +41,7 @@ inline ProbeVolume make_lit_volume(std::vector<glm::dvec3> positions) {
     ProbeGroup group;
     group.name = "test";
     group.positions = std::move(positions);
-    ProbeVolume volume = *make_probe_volume(*merge(std::span(&group, 1)));
+    ProbeVolume volume = make_probe_volume(*merge(std::span(&group, 1)));
     for (const glm::dvec3& p : volume.exact_positions) {
         volume.irradiance.push_back(linear_light(p));
     }

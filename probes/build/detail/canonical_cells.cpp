@@ -2,6 +2,7 @@
 #include "probes/build/detail/canonical_cells.h"
 
 #include <algorithm>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -14,16 +15,17 @@ void swap_corners(Cell& cell, int a, int b) {
 }
 
 /// Sorts the vertices; an odd permutation is made even by swapping the last two, so that the cell
-/// stays positively oriented.
-void sort_corners(Cell& cell) {
+/// keeps its orientation. (A segment's is that of its axis: it is never odd.)
+void sort_corners(Cell& cell, int count) {
     bool is_odd = false;
-    constexpr std::pair<int, int> kNetwork[] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}, {1, 2}};
-    for (const auto& [a, b] : kNetwork) {
-        if (cell.vertices[a] < cell.vertices[b]) continue;
-        swap_corners(cell, a, b);
-        is_odd = !is_odd;
+    for (int end = count; end > 1; --end) {
+        for (int i = 1; i < end; ++i) {
+            if (cell.vertices[i - 1] < cell.vertices[i]) continue;
+            swap_corners(cell, i - 1, i);
+            is_odd = !is_odd;
+        }
     }
-    if (is_odd) swap_corners(cell, 2, 3);
+    if (is_odd) swap_corners(cell, count - 2, count - 1);
 }
 
 /// Orders cells by their vertices and renames neighbors to match.
@@ -45,70 +47,116 @@ void sort_cells(std::vector<Cell>& cells) {
     cells = std::move(sorted);
 }
 
-/// The hull cell over one face: its smallest vertex first, counter-clockwise seen from outside.
-Cell hull_cell(const Cell& tetrahedron, uint32_t index, int face) {
-    const auto& corners = kOutwardFaces[face];
-    Cell cell;
-    for (int i = 0; i < 3; ++i) cell.vertices[i] = tetrahedron.vertices[corners[i]];
-    std::rotate(cell.vertices.begin(),
-                std::min_element(cell.vertices.begin(), cell.vertices.begin() + 3),
-                cell.vertices.begin() + 3);
-    cell.neighbors[3] = index;
-    return cell;
+/// The corners of the face opposite a corner, seen from outside: counter-clockwise triangles; edges
+/// with the inside on their left; single points.
+std::span<const int> outward_face(Dimension dimension, int corner) {
+    static constexpr int kEdges[3][2] = {{1, 2}, {2, 0}, {0, 1}};
+    static constexpr int kEnds[2][1] = {{1}, {0}};
+    if (dimension == Dimension::Space) return kOutwardFaces[corner];
+    if (dimension == Dimension::Plane) return kEdges[corner];
+    return kEnds[corner];
 }
 
-std::vector<Cell> make_hull_cells(const std::vector<Cell>& tetrahedra) {
-    std::vector<Cell> hull;
-    for (uint32_t i = 0; i < tetrahedra.size(); ++i) {
-        for (int face = 0; face < 4; ++face) {
-            if (tetrahedra[i].neighbors[face] == kNoIndex) {
-                hull.push_back(hull_cell(tetrahedra[i], i, face));
+/// Builds the hull around inner cells.
+class HullBuilder {
+  public:
+    HullBuilder(std::vector<Cell>& inner, Dimension dimension)
+        : inner_(inner), dimension_(dimension), face_size_(cell_vertex_count(dimension) - 1) {}
+
+    std::vector<Cell> run() {
+        if (dimension_ == Dimension::Point) return {};
+        add_cells();
+        link_neighbors();
+        link_inner_cells();
+        return std::move(hull_);
+    }
+
+  private:
+    void add_cells() {
+        for (uint32_t i = 0; i < inner_.size(); ++i) {
+            for (int corner = 0; corner <= face_size_; ++corner) {
+                if (inner_[i].neighbors[corner] == kNoIndex) hull_.push_back(cell_over(i, corner));
+            }
+        }
+        std::ranges::sort(hull_, {}, &Cell::vertices);
+    }
+
+    /// A triangle begins with its smallest vertex.
+    [[nodiscard]] Cell cell_over(uint32_t inner, int corner) const {
+        const std::span<const int> corners = outward_face(dimension_, corner);
+        Cell cell;
+        for (size_t i = 0; i < corners.size(); ++i) {
+            cell.vertices[i] = inner_[inner].vertices[corners[i]];
+        }
+        const auto begin = cell.vertices.begin();
+        if (corners.size() == 3) {
+            std::rotate(begin, std::min_element(begin, begin + 3), begin + 3);
+        }
+        cell.neighbors[3] = inner;
+        return cell;
+    }
+
+    /// What hull cell `cell` has in common with its neighbor opposite `corner`, the same for both.
+    [[nodiscard]] static uint64_t shared_face(const Cell& cell, int corner, int face_size) {
+        uint64_t low = kNoIndex, high = kNoIndex;
+        for (int i = 0; i < face_size; ++i) {
+            if (i == corner) continue;
+            high = low;
+            low = cell.vertices[i];
+        }
+        return uint64_t{std::max(low, high)} << 32 | std::min(low, high);
+    }
+
+    void link_neighbors() {
+        if (face_size_ < 2) return;  // the two ends of a line touch nowhere
+
+        struct Side {
+            uint32_t cell;
+            int corner;
+        };
+
+        std::unordered_map<uint64_t, Side> open;
+        for (uint32_t i = 0; i < hull_.size(); ++i) {
+            for (int corner = 0; corner < face_size_; ++corner) {
+                const uint64_t face = shared_face(hull_[i], corner, face_size_);
+                const auto [other, is_first] = open.try_emplace(face, Side{i, corner});
+                if (is_first) continue;
+                hull_[i].neighbors[corner] = first_hull_index() + other->second.cell;
+                hull_[other->second.cell].neighbors[other->second.corner] = first_hull_index() + i;
             }
         }
     }
-    std::ranges::sort(hull, {}, &Cell::vertices);
-    return hull;
-}
 
-/// Every edge of the hull has one triangle on each side, which run along it in opposite directions.
-void link_hull_cells(std::vector<Cell>& hull, uint32_t first_index) {
-    const auto edge = [](uint32_t from, uint32_t to) { return uint64_t{from} << 32 | to; };
-    std::unordered_map<uint64_t, uint32_t> cell_of_edge;
-    for (uint32_t i = 0; i < hull.size(); ++i) {
-        const auto& v = hull[i].vertices;
-        for (int k = 0; k < 3; ++k) cell_of_edge[edge(v[(k + 1) % 3], v[(k + 2) % 3])] = i;
-    }
-    for (Cell& cell : hull) {
-        const auto& v = cell.vertices;
-        for (int k = 0; k < 3; ++k) {
-            cell.neighbors[k] = first_index + cell_of_edge.at(edge(v[(k + 2) % 3], v[(k + 1) % 3]));
-        }
-    }
-}
-
-void link_tetrahedra_to_hull(std::vector<Cell>& tetrahedra, const std::vector<Cell>& hull) {
-    for (uint32_t i = 0; i < hull.size(); ++i) {
-        Cell& inner = tetrahedra[hull[i].neighbors[3]];
-        for (int face = 0; face < 4; ++face) {
-            const auto first = hull[i].vertices.begin();
-            if (std::find(first, first + 3, inner.vertices[face]) == first + 3) {
-                inner.neighbors[face] = static_cast<uint32_t>(tetrahedra.size()) + i;
+    void link_inner_cells() {
+        for (uint32_t i = 0; i < hull_.size(); ++i) {
+            Cell& inner = inner_[hull_[i].neighbors[3]];
+            for (int corner = 0; corner <= face_size_; ++corner) {
+                const auto first = hull_[i].vertices.begin();
+                const auto last = first + face_size_;
+                if (std::find(first, last, inner.vertices[corner]) == last) {
+                    inner.neighbors[corner] = first_hull_index() + i;
+                }
             }
         }
     }
-}
+
+    [[nodiscard]] uint32_t first_hull_index() const { return static_cast<uint32_t>(inner_.size()); }
+
+    std::vector<Cell>& inner_;
+    std::vector<Cell> hull_;
+    Dimension dimension_;
+    int face_size_;
+};
 
 }  // namespace
 
-Tetrahedralization canonical_cells(std::vector<Cell> tetrahedra) {
-    for (Cell& cell : tetrahedra) sort_corners(cell);
-    sort_cells(tetrahedra);
-    std::vector<Cell> hull = make_hull_cells(tetrahedra);
-    const auto tetrahedron_count = static_cast<uint32_t>(tetrahedra.size());
-    link_hull_cells(hull, tetrahedron_count);
-    link_tetrahedra_to_hull(tetrahedra, hull);
-    tetrahedra.insert(tetrahedra.end(), hull.begin(), hull.end());
-    return {std::move(tetrahedra), tetrahedron_count};
+Tetrahedralization canonical_cells(std::vector<Cell> cells, Dimension dimension) {
+    for (Cell& cell : cells) sort_corners(cell, cell_vertex_count(dimension));
+    sort_cells(cells);
+    const std::vector<Cell> hull = HullBuilder(cells, dimension).run();
+    const auto inner_count = static_cast<uint32_t>(cells.size());
+    cells.insert(cells.end(), hull.begin(), hull.end());
+    return {std::move(cells), inner_count, dimension, glm::dvec3(0.0)};
 }
 
 }  // namespace tetralight::detail

@@ -7,9 +7,9 @@
 
 namespace tetralight::detail {
 
-/// Brings tetrahedra into canonical order and adds one hull cell for each face without a neighbor
-/// (kNoIndex). The result does not depend on the order of the tetrahedra or of their vertices.
-/// Precondition: positively oriented; together they fill a convex hull.
-[[nodiscard]] Tetrahedralization canonical_cells(std::vector<Cell> tetrahedra);
+/// Brings the inner cells of a volume into canonical order and adds one hull cell for each face
+/// without a neighbor (kNoIndex). The result does not depend on the order of the cells or of their
+/// vertices. Precondition: positively oriented; together they fill a convex hull.
+[[nodiscard]] Tetrahedralization canonical_cells(std::vector<Cell> cells, Dimension dimension);
 
 }  // namespace tetralight::detail

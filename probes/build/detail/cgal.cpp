@@ -2,10 +2,13 @@
 // Links CGAL 3D triangulations (GPL-3.0-or-later).
 #include "probes/build/detail/cgal.h"
 
+#include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 namespace tetralight::detail {
@@ -20,8 +23,17 @@ using Delaunay =
     CGAL::Delaunay_triangulation_3<Kernel,
                                    CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
+using Delaunay2 = CGAL::Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<
+                CGAL::Triangulation_vertex_base_with_info_2<uint32_t, Kernel>,
+                CGAL::Triangulation_face_base_with_info_2<uint32_t, Kernel>>>;
+
 Kernel::Point_3 point(const glm::dvec3& p) {
     return {p.x, p.y, p.z};
+}
+
+Kernel::Point_2 point(const glm::dvec2& p) {
+    return {p.x, p.y};
 }
 
 Delaunay triangulate(std::span<const glm::dvec3> positions) {
@@ -32,30 +44,47 @@ Delaunay triangulate(std::span<const glm::dvec3> positions) {
 }
 
 /// Numbers the finite cells 0.. and the infinite ones kNoIndex.
-void number_cells(Delaunay& delaunay) {
+template <class Triangulation, class Handles>
+void number_cells(const Triangulation& triangulation, const Handles& handles) {
     uint32_t next = 0;
-    for (const auto cell : delaunay.all_cell_handles()) {
-        cell->info() = delaunay.is_infinite(cell) ? kNoIndex : next++;
+    for (const auto cell : handles) {
+        cell->info() = triangulation.is_infinite(cell) ? kNoIndex : next++;
     }
 }
 
-}  // namespace
-
-std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions) {
-    Delaunay delaunay = triangulate(positions);
-    if (delaunay.dimension() < 3) return {};
-    number_cells(delaunay);
+/// The finite cells, with the numbers of their vertices and neighbors.
+template <class Handles>
+std::vector<Cell> cells_from(const Handles& finite_handles, int corner_count) {
     std::vector<Cell> cells;
-    cells.reserve(delaunay.number_of_cells());
-    for (const auto handle : delaunay.finite_cell_handles()) {
+    for (const auto handle : finite_handles) {
         Cell cell;
-        for (int i = 0; i < 4; ++i) {
+        for (int i = 0; i < corner_count; ++i) {
             cell.vertices[i] = handle->vertex(i)->info();
             cell.neighbors[i] = handle->neighbor(i)->info();
         }
         cells.push_back(cell);
     }
     return cells;
+}
+
+}  // namespace
+
+std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions) {
+    const Delaunay delaunay = triangulate(positions);
+    if (delaunay.dimension() < 3) return {};
+    number_cells(delaunay, delaunay.all_cell_handles());
+    return cells_from(delaunay.finite_cell_handles(), 4);
+}
+
+std::vector<Cell> delaunay_triangles(std::span<const glm::dvec2> positions) {
+    std::vector<std::pair<Kernel::Point_2, uint32_t>> points;
+    for (uint32_t i = 0; i < positions.size(); ++i) {
+        points.emplace_back(point(positions[i]), i);
+    }
+    const Delaunay2 delaunay(points.begin(), points.end());
+    if (delaunay.dimension() < 2) return {};
+    number_cells(delaunay, delaunay.all_face_handles());
+    return cells_from(delaunay.finite_face_handles(), 3);
 }
 
 int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
@@ -66,6 +95,16 @@ int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
 bool is_in_circumsphere(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                         const glm::dvec3& d, const glm::dvec3& position) {
     return CGAL::side_of_oriented_sphere(point(a), point(b), point(c), point(d), point(position)) ==
+           CGAL::ON_POSITIVE_SIDE;
+}
+
+int orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return CGAL::orientation(point(a), point(b), point(c));
+}
+
+bool is_in_circumcircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                        const glm::dvec2& position) {
+    return CGAL::side_of_oriented_circle(point(a), point(b), point(c), point(position)) ==
            CGAL::ON_POSITIVE_SIDE;
 }
 

@@ -18,7 +18,7 @@ struct Hull {
 
     explicit Hull(std::vector<glm::dvec3> p)
         : positions(std::move(p)),
-          cells(*tetrahedralize(positions)),
+          cells(tetrahedralize(positions)),
           rays(make_hull_rays(positions, cells)) {}
 
     [[nodiscard]] glm::dvec3 extruded(size_t hull_cell, int corner, double t) const {

@@ -23,7 +23,7 @@ TEST(MakeProbeVolume, GivesTheSameBytesForEveryOrderOfTheGroups) {
         groups[i].name = std::string(1, static_cast<char>('a' + i));
         groups[i].positions = test::random_positions(50, i);
     }
-    const auto bytes = [&] { return probe_file_bytes(make_probe_volume(*merge(groups))->view()); };
+    const auto bytes = [&] { return probe_file_bytes(make_probe_volume(*merge(groups)).view()); };
     const auto first = bytes();
     std::swap(groups[0], groups[2]);
     EXPECT_EQ(bytes(), first);
@@ -40,9 +40,8 @@ TEST(MakeProbeVolume, MovesTheLocalOriginOnlyFarAway) {
 
 TEST(MakeProbeVolume, OfNothingHasNoCells) {
     const auto volume = make_probe_volume(MergedProbes{});
-    ASSERT_TRUE(volume);
-    EXPECT_TRUE(volume->cells.empty());
-    EXPECT_TRUE(verify(volume->view()));
+    EXPECT_TRUE(volume.cells.empty());
+    EXPECT_TRUE(verify(volume.view()));
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ TEST(Validate, MeasuresTheVolumeOfTheHull) {
     for (int i = 0; i < 8; ++i) box.emplace_back(i & 1 ? 3 : -1, i & 2 ? 1 : -1, i & 4 ? 2 : -1);
     const ProbeVolume volume = test::make_lit_volume(box);
     const ValidationReport report = validate(volume.view());
-    EXPECT_NEAR(report.hull_volume, 4.0 * 2.0 * 3.0, 1e-12);
-    EXPECT_NEAR(report.cell_volume, 4.0 * 2.0 * 3.0, 1e-12);
+    EXPECT_NEAR(report.hull_measure, 4.0 * 2.0 * 3.0, 1e-12);
+    EXPECT_NEAR(report.cell_measure, 4.0 * 2.0 * 3.0, 1e-12);
     EXPECT_TRUE(report.problems().empty());
 }
 
@@ -24,7 +24,7 @@ TEST(Validate, SeesAProbeThatWasMovedIntoACircumsphere) {
     ProbeVolume volume = test::make_lit_volume(test::random_positions(50, 2));
     volume.exact_positions[20] = volume.exact_positions[21] * 0.99;
     const ValidationReport report = validate(volume.view());
-    EXPECT_GT(report.inverted_tetrahedra + report.non_delaunay_faces, 0u);
+    EXPECT_GT(report.inverted_cells + report.non_delaunay_faces, 0u);
     EXPECT_EQ(report.misplaced_float_probes, 1u);
 }
 
@@ -32,7 +32,7 @@ TEST(Validate, SeesATurnedTetrahedron) {
     ProbeVolume volume = test::make_lit_volume(test::random_positions(50, 3));
     std::swap(volume.cells[5].vertices[0], volume.cells[5].vertices[1]);
     std::swap(volume.cells[5].neighbors[0], volume.cells[5].neighbors[1]);
-    EXPECT_EQ(validate(volume.view()).inverted_tetrahedra, 1u);
+    EXPECT_EQ(validate(volume.view()).inverted_cells, 1u);
 }
 
 TEST(Validate, SeesALostProbe) {
