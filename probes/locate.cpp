@@ -54,6 +54,16 @@ class Walk {
         if (farthest > 0.0 && distance > farthest) position_ *= farthest / distance;
     }
 
+    /// The cell of the seed that comes next along the Hilbert curve.
+    [[nodiscard]] uint32_t start_cell() const {
+        const uint64_t index = volume_.info.seed_cube.index(position_);
+        const auto next = std::ranges::lower_bound(volume_.seeds, index, {}, &Seed::hilbert_index);
+        const uint32_t cell = next != volume_.seeds.end() ? next->cell
+                              : volume_.seeds.empty()     ? 0u
+                                                          : volume_.seeds.back().cell;
+        return cell < volume_.cells.size() ? cell : 0u;
+    }
+
     [[nodiscard]] CellLocation run(uint32_t start) const {
         uint32_t cell = start;
         uint32_t previous = kNoIndex;
@@ -190,7 +200,8 @@ bool is_finite(glm::vec3 v) {
 
 CellLocation locate(const ProbeVolumeView& volume, glm::vec3 position, uint32_t hint) noexcept {
     if (volume.cells.empty() || !is_finite(position)) return {};
-    return Walk(volume, position).run(hint < volume.cells.size() ? hint : 0);
+    const Walk walk(volume, position);
+    return walk.run(hint < volume.cells.size() ? hint : walk.start_cell());
 }
 
 }  // namespace tetralight

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "probes/hilbert.h"
 #include "probes/light.h"
 #include "probes/no_index.h"
 #include "probes/sh.h"
@@ -67,6 +68,17 @@ struct HullCellRays {
 
 static_assert(sizeof(HullCellRays) == 36 && std::is_trivially_copyable_v<HullCellRays>);
 
+/// A cell where a walk can start: of the positions around one probe.
+struct Seed {
+    uint64_t hilbert_index = 0;  ///< of the probe in `VolumeInfo::seed_cube`
+    uint32_t cell = 0;
+    uint32_t reserved = 0;
+
+    bool operator==(const Seed&) const = default;
+};
+
+static_assert(sizeof(Seed) == 16 && std::is_trivially_copyable_v<Seed>);
+
 /// Where a probe came from. Several sources share one probe when they were welded.
 struct ProbeSource {
     uint32_t group = 0;  ///< index into `group_names`
@@ -83,6 +95,8 @@ struct VolumeInfo {
     /// World position of the local origin. Arrays of float positions are relative to it, so that a
     /// volume far from the world's origin keeps its precision.
     glm::dvec3 world_origin{0.0};
+    /// The curve that orders `seeds`, in local positions.
+    HilbertCube seed_cube;
     /// Plane: its unit normal; line: its unit direction; otherwise 0. A cell holds all positions
     /// that lie beside it along the normal, or around it across the direction.
     glm::dvec3 axis{0.0};
@@ -100,7 +114,7 @@ struct VolumeInfo {
     bool operator==(const VolumeInfo&) const = default;
 };
 
-static_assert(sizeof(VolumeInfo) == 176 && std::is_trivially_copyable_v<VolumeInfo>);
+static_assert(sizeof(VolumeInfo) == 208 && std::is_trivially_copyable_v<VolumeInfo>);
 
 /// Read-only spans over a probe volume. Cheap to copy; valid as long as its owner.
 struct ProbeVolumeView {
@@ -115,6 +129,7 @@ struct ProbeVolumeView {
 
     std::span<const Cell> cells;
     std::span<const HullCellRays> hull_rays;  ///< one a hull cell
+    std::span<const Seed> seeds;              ///< sorted by Hilbert index; may be empty
 
     std::span<const ProbeSource> sources;  ///< sorted by group, then index
     std::string_view group_names;          ///< sorted, each ended by '\n'
@@ -137,6 +152,7 @@ struct ProbeVolume {
     std::vector<glm::dvec3> exact_positions;
     std::vector<Cell> cells;
     std::vector<HullCellRays> hull_rays;
+    std::vector<Seed> seeds;
     std::vector<ProbeSource> sources;
     std::string group_names;
     std::vector<Light> lights;

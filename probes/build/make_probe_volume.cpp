@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "probes/build/hull_rays.h"
+#include "probes/build/make_seeds.h"
 #include "probes/build/tetrahedralize.h"
 
 namespace tetralight {
@@ -45,6 +46,10 @@ ProbeVolume make_probe_volume(const MergedProbes& probes) {
         volume.positions.push_back(local);
         volume.info.extent = std::max(volume.info.extent, glm::length(local));
     }
+    const auto inner_cells = std::span(cells.cells).first(cells.tetrahedron_count);
+    Seeds seeds = make_seeds(volume.positions, inner_cells);
+    volume.info.seed_cube = seeds.cube;
+    volume.seeds = std::move(seeds.seeds);
     volume.exact_positions = probes.positions;
     volume.cells = std::move(cells.cells);
     volume.hull_rays = std::move(hull.cells);

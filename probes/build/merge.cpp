@@ -11,7 +11,7 @@
 #include <unordered_map>
 
 #include "base/text.h"
-#include "probes/build/detail/hilbert.h"
+#include "probes/build/detail/hilbert_order.h"
 
 namespace tetralight {
 namespace {

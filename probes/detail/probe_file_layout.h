@@ -83,6 +83,7 @@ void for_each_section(View& view, Visit&& visit) {
     visit("validity", view.validity);
     visit("cells", view.cells);
     visit("hull_rays", view.hull_rays);
+    visit("seeds", view.seeds);
     visit("exact_positions", view.exact_positions);
     visit("sources", view.sources);
     visit("group_names", view.group_names);

@@ -74,7 +74,8 @@ Status check_numbers(const ProbeVolumeView& v) {
             });
     };
     if (!is_finite(v.info.world_origin) || !is_finite(v.info.axis) || !is_finite(v.info.ambient) ||
-        !std::isfinite(v.info.extent)) {
+        !std::isfinite(v.info.extent) || !is_finite(v.info.seed_cube.low) ||
+        !std::isfinite(v.info.seed_cube.scale)) {
         return Error{"section \"info\": a number is not finite"};
     }
     for (const Status& status :
@@ -169,6 +170,11 @@ Status check_tables(const ProbeVolumeView& v) {
     const size_t light_names = split_names(v.light_names).size();
     if (auto status = check_count("light_names", light_names, v.lights.size(), true); !status) {
         return status;
+    }
+    const auto has_cell = [&](const Seed& seed) { return seed.cell < v.cells.size(); };
+    if (auto s = check_each("seeds", v.seeds, "is out of range", has_cell); !s) return s;
+    if (!std::ranges::is_sorted(v.seeds, {}, &Seed::hilbert_index)) {
+        return Error{"section \"seeds\": is not sorted"};
     }
     const auto in_range = [&](const ProbeSource& source) {
         return source.group < groups && source.probe < v.positions.size();

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/build/make_seeds.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <tuple>
+
+namespace tetralight {
+namespace {
+
+/// A walk from the nearest seed then takes about five steps, for two bytes a probe.
+constexpr size_t kProbesPerSeed = 8;
+
+/// For each probe the first cell that has it as a vertex.
+std::vector<uint32_t> first_cells(size_t probe_count, std::span<const Cell> cells) {
+    std::vector<uint32_t> first(probe_count, kNoIndex);
+    for (uint32_t i = 0; i < cells.size(); ++i) {
+        for (const uint32_t probe : cells[i].vertices) {
+            if (probe != kNoIndex) first[probe] = std::min(first[probe], i);
+        }
+    }
+    return first;
+}
+
+}  // namespace
+
+Seeds make_seeds(std::span<const glm::vec3> positions, std::span<const Cell> cells) {
+    if (positions.empty()) return {};
+    glm::vec3 low = positions[0];
+    glm::vec3 high = positions[0];
+    for (const glm::vec3& p : positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    Seeds result{make_hilbert_cube(glm::dvec3(low), glm::dvec3(high)), {}};
+    const std::vector<uint32_t> cell_of_probe = first_cells(positions.size(), cells);
+    for (size_t i = 0; i < positions.size(); i += kProbesPerSeed) {
+        const uint64_t index = result.cube.index(glm::dvec3(positions[i]));
+        result.seeds.push_back({index, cell_of_probe[i]});
+    }
+    std::ranges::sort(result.seeds, [](const Seed& a, const Seed& b) {
+        return std::tie(a.hilbert_index, a.cell) < std::tie(b.hilbert_index, b.cell);
+    });
+    return result;
+}
+
+}  // namespace tetralight

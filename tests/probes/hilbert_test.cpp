@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/hilbert.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+namespace tetralight {
+namespace {
+
+TEST(Hilbert, NeighborsOnTheCurveAreNeighborsInSpace) {
+    // The coarsest 8³ blocks of the curve: consecutive ones share a face.
+    constexpr uint32_t kBlock = 1u << 18;
+    std::map<uint64_t, std::array<uint32_t, 3>> blocks;
+    for (uint32_t x = 0; x < 8; ++x) {
+        for (uint32_t y = 0; y < 8; ++y) {
+            for (uint32_t z = 0; z < 8; ++z) {
+                blocks[hilbert_index({x * kBlock, y * kBlock, z * kBlock}) >> 54] = {x, y, z};
+            }
+        }
+    }
+    ASSERT_EQ(blocks.size(), 512u);
+    for (uint64_t i = 1; i < 512; ++i) {
+        uint32_t steps = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            steps += static_cast<uint32_t>(std::abs(static_cast<int>(blocks[i][axis]) -
+                                                    static_cast<int>(blocks[i - 1][axis])));
+        }
+        EXPECT_EQ(steps, 1u) << i;
+    }
+}
+
+TEST(Hilbert, CubeKeepsItsCornersAndMovesOutsidersToItsSide) {
+    const HilbertCube cube = make_hilbert_cube({1, 1, 1}, {3, 2, 2});
+    EXPECT_EQ(cube.index({1, 1, 1}), hilbert_index({0, 0, 0}));
+    constexpr uint32_t kLast = (1u << kHilbertBits) - 1;
+    EXPECT_EQ(cube.index({3, 3, 3}), hilbert_index({kLast, kLast, kLast}));
+    EXPECT_EQ(cube.index({9, 0, 9}), hilbert_index({kLast, 0, kLast}));
+}
+
+TEST(Hilbert, ACubeWithoutSizeIsOnePoint) {
+    const HilbertCube cube = make_hilbert_cube({5, 5, 5}, {5, 5, 5});
+    EXPECT_EQ(cube.index({5, 5, 5}), cube.index({1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace tetralight
