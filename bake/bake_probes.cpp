@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "bake/parallel.h"
 #include "bake/path_tracer.h"
@@ -24,8 +25,9 @@ class ProgressReporter {
     ProgressReporter(const BakeCallback& callback, size_t probe_count)
         : callback_(callback), probe_count_(probe_count) {}
 
-    void add(uint64_t rays) {
-        probes_done_.fetch_add(1, std::memory_order_relaxed);
+    void add_probe() { probes_done_.fetch_add(1, std::memory_order_relaxed); }
+
+    void add_rays(uint64_t rays) {
         ray_count_.fetch_add(rays, std::memory_order_relaxed);
         if (!callback_) return;
         const std::unique_lock lock(mutex_, std::try_to_lock);
@@ -57,8 +59,10 @@ class ProgressReporter {
 struct BakedProbe {
     RadianceSh radiance;
     float validity = 1.0f;
-    uint64_t ray_count = 0;
 };
+
+/// Rays of a probe between two looks at the clock and at whether the bake was cancelled.
+constexpr uint64_t kRaysBetweenReports = 4096;
 
 /// Everything that the probes of one bake share.
 struct ProbeBaker {
@@ -67,7 +71,8 @@ struct ProbeBaker {
     const BakeSettings& settings;
     std::vector<glm::vec3> directions;
 
-    [[nodiscard]] BakedProbe bake(const glm::dvec3& position) const {
+    /// The result does not count when the bake was cancelled meanwhile.
+    [[nodiscard]] BakedProbe bake(const glm::dvec3& position, ProgressReporter& progress) const {
         const uint64_t key = probe_key(settings.seed, position);
         const glm::vec3 origin = traced.traced_from_world(position);
         RandomStream rotation_stream(key, ~uint64_t{0});
@@ -76,13 +81,18 @@ struct ProbeBaker {
         BakedProbe probe;
         RadianceShSum sum;
         uint32_t behind_count = 0;
-        for (uint32_t i = 0; i < directions.size(); ++i) {
+        uint64_t unreported_rays = 0;
+        for (uint32_t i = 0; i < directions.size() && !progress.is_cancelled(); ++i) {
             const glm::vec3 direction = rotation * directions[i];
             const PathSample sample = tracer.trace(origin, direction, RandomStream(key, i));
             sum.add(direction, sample.radiance);
             behind_count += sample.is_behind_surface;
-            probe.ray_count += sample.ray_count;
+            unreported_rays += sample.ray_count;
+            if (unreported_rays >= kRaysBetweenReports) {
+                progress.add_rays(std::exchange(unreported_rays, 0));
+            }
         }
+        progress.add_rays(unreported_rays);
         const auto count = static_cast<double>(directions.size());
         probe.radiance = radiance_from_sum(sum, 4.0 * std::numbers::pi / count);
         probe.validity = static_cast<float>(1.0 - behind_count / count);
@@ -96,7 +106,6 @@ struct ProbeBaker {
             const Illumination arriving = tracer.visible_light(light, origin);
             probe.radiance +=
                 radiance_from_directional_light(arriving.to_light, arriving.irradiance);
-            ++probe.ray_count;
         }
     }
 };
@@ -153,10 +162,10 @@ void bake_all(const ProbeBaker& baker, std::span<const glm::dvec3> positions,
               ProgressReporter& progress, BakedProbes& baked) {
     parallel_for(positions.size(), baker.settings.thread_count, [&](size_t i) {
         if (progress.is_cancelled()) return;
-        const BakedProbe probe = baker.bake(positions[i]);
+        const BakedProbe probe = baker.bake(positions[i], progress);
         baked.radiance[i] = probe.radiance;
         baked.validity[i] = probe.validity;
-        progress.add(probe.ray_count);
+        progress.add_probe();
     });
 }
 

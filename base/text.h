@@ -15,6 +15,10 @@ inline void append_text(std::string& out, std::string_view part) {
     out += part;
 }
 
+inline void append_text(std::string& out, char part) {
+    out += part;
+}
+
 template <class Number>
 requires std::integral<Number> || std::floating_point<Number>
 

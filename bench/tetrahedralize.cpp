@@ -36,7 +36,7 @@ void build(const std::string& name, std::vector<glm::dvec3> positions, const Opt
     contest.work = static_cast<double>(points.size()) * 1e-6;
     contest.ours = [&] {
         return seconds([&] {
-            our_cells = make_probe_volume(*merge(std::span(&group, 1))).info.tetrahedron_count;
+            our_cells = make_probe_volume(*merge(std::span(&group, 1))).info.inner_cell_count;
         });
     };
     contest.baseline = [&] {

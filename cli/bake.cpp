@@ -95,8 +95,8 @@ struct Bake {
         common.report(
             output, json,
             text(output, ": ", grouped(volume.probe_count()), " probes (",
-                 grouped(bake.welded_count), " welded), ", grouped(volume.info.tetrahedron_count),
-                 " tetrahedra\n  merge ", duration(bake.merge_seconds), ", tetrahedralize ",
+                 grouped(bake.welded_count), " welded), ", cells_text(volume), "\n  merge ",
+                 duration(bake.merge_seconds), ", tetrahedralize ",
                  duration(bake.tetrahedralize_seconds), ", bake ", duration(bake.bake_seconds),
                  " (", magnitude(static_cast<double>(bake.ray_count)), "rays, ",
                  magnitude(rays_per_second), "rays/s)"));

@@ -182,10 +182,22 @@ std::string dump(const Json& json, int indent) {
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+const char* name_of(Dimension dimension) {
+    constexpr const char* kNames[] = {"none", "point", "line", "plane", "space"};
+    return kNames[static_cast<size_t>(dimension)];
+}
+
+std::string cells_text(const ProbeVolumeView& volume) {
+    constexpr const char* kCells[] = {"cells", "cell", "segments", "triangles", "tetrahedra"};
+    return grouped(volume.info.inner_cell_count) + " " +
+           kCells[static_cast<size_t>(volume.info.dimension)];
+}
+
 Json counts(const ProbeVolumeView& volume) {
     return {{"probes", volume.probe_count()},
-            {"tetrahedra", volume.info.tetrahedron_count},
-            {"hull_cells", volume.cells.size() - volume.info.tetrahedron_count},
+            {"dimension", name_of(volume.info.dimension)},
+            {"inner_cells", volume.info.inner_cell_count},
+            {"hull_cells", volume.cells.size() - volume.info.inner_cell_count},
             {"groups", split_names(volume.group_names).size()},
             {"welded",
              volume.sources.size() - std::min(volume.sources.size(), volume.positions.size())}};

@@ -75,6 +75,10 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 [[nodiscard]] std::string printable(std::string text);
 /// JSON on one line, or indented. Bytes that are not UTF-8, in a path for example, are replaced.
 [[nodiscard]] std::string dump(const Json& json, int indent = -1);
+/// "space", "plane", "line", "point", "none".
+[[nodiscard]] const char* name_of(Dimension dimension);
+/// "1 347 tetrahedra", "12 triangles".
+[[nodiscard]] std::string cells_text(const ProbeVolumeView& volume);
 /// What a volume holds, in numbers.
 [[nodiscard]] Json counts(const ProbeVolumeView& volume);
 

@@ -62,7 +62,7 @@ Json to_json(const Answer& answer, const ProbeVolumeView& volume) {
 std::string to_text(const Answer& answer, const ProbeVolumeView& volume) {
     std::string line = text(answer.position.x, " ", answer.position.y, " ", answer.position.z);
     if (answer.location.cell >= volume.cells.size()) return line + ": ambient";
-    const bool is_outside = answer.location.cell >= volume.info.tetrahedron_count;
+    const bool is_outside = answer.location.cell >= volume.info.inner_cell_count;
     line +=
         text(": ", is_outside ? "hull cell " : "tetrahedron ", answer.location.cell, ", probes");
     for (int i = 0; i < 4; ++i) {

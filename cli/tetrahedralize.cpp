@@ -35,14 +35,13 @@ struct Tetrahedralize {
         const auto merged = merge(*groups, merge_settings);
         if (!merged) return merged.error();
         const auto volume = make_probe_volume(*merged);
-        if (!volume) return volume.error();
-        if (auto status = write_probe_file(output, volume->view()); !status) return status;
+        if (auto status = write_probe_file(output, volume.view()); !status) return status;
         Json json{{"output", output}};
-        json.update(counts(volume->view()));
+        json.update(counts(volume.view()));
         common.report(output, json,
-                      text(output, ": ", grouped(volume->positions.size()), " probes (",
-                           grouped(merged->welded_count()), " welded), ",
-                           grouped(volume->info.tetrahedron_count), " tetrahedra, no light"));
+                      text(output, ": ", grouped(volume.positions.size()), " probes (",
+                           grouped(merged->welded_count()), " welded), ", cells_text(volume.view()),
+                           ", no light"));
         return Ok{};
     }
 };

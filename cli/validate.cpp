@@ -19,24 +19,29 @@ struct Validate {
 
     Status run() {
         const auto file = open_probe_file(path);
-        if (!file) return file.error();
+        if (!file) {
+            if (common.is_json) common.print(verdict({file.error().message}), "");
+            return file.error();
+        }
         const ValidationReport report = validate(file->view());
         const std::vector<std::string> problems = report.problems();
-        Json json{{"file", path}, {"is_valid", problems.empty()}, {"problems", problems}};
+        Json json = verdict(problems);
         json.update(counts(file->view()));
-        json["cell_volume"] = report.cell_volume;
-        json["hull_volume"] = report.hull_volume;
-        common.print(json, problems.empty()
-                               ? text(path, ": valid, ", grouped(file->view().probe_count()),
-                                      " probes, ", grouped(file->view().info.tetrahedron_count),
-                                      " Delaunay tetrahedra, ", report.hull_volume, " m³")
-                               : text(path, ": not valid"));
+        json["cell_measure"] = report.cell_measure;
+        json["hull_measure"] = report.hull_measure;
+        common.print(json, text(path, ": ", problems.empty() ? "valid, " : "not valid, ",
+                                grouped(file->view().probe_count()), " probes, Delaunay ",
+                                cells_text(file->view())));
         if (problems.empty()) return Ok{};
         std::string message = path + ": ";
         for (const std::string& problem : problems) {
             message += (&problem == &problems[0] ? "" : "; ") + problem;
         }
         return Error{message};
+    }
+
+    [[nodiscard]] Json verdict(const std::vector<std::string>& problems) const {
+        return {{"file", path}, {"is_valid", problems.empty()}, {"problems", problems}};
     }
 };
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/text.h"
 #include "probes/build/make_probe_volume.h"
 
@@ -29,6 +30,7 @@ std::string metadata(const BakeSettings& settings) {
 }
 
 void store_light(const Scene& scene, const BakedProbes& baked, ProbeVolume& volume) {
+    TETRALIGHT_ASSERT(scene.light_names.size() == scene.lights.size(), "one name for each light");
     for (const RadianceSh& radiance : baked.radiance) {
         volume.irradiance.push_back(irradiance_from_radiance(radiance));
     }
@@ -56,6 +58,14 @@ std::vector<std::string> buried_groups(const MergedProbes& merged,
     return warnings;
 }
 
+void add_dering_warnings(const MergedProbes& merged, std::vector<std::string>& warnings) {
+    for (size_t g = 0; g < merged.group_names.size(); ++g) {
+        if (!merged.group_dering[g]) continue;
+        warnings.push_back(text("group \"", merged.group_names[g],
+                                "\": dering is asked for, which this version does not do"));
+    }
+}
+
 }  // namespace
 
 Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> groups,
@@ -68,18 +78,18 @@ Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> 
     result.report.welded_count = merged->welded_count();
     result.report.merge_seconds = watch.lap();
 
-    auto volume = make_probe_volume(*merged);
-    if (!volume) return volume.error();
+    ProbeVolume volume = make_probe_volume(*merged);
     result.report.tetrahedralize_seconds = watch.lap();
 
     const auto baked = bake_probes(scene, merged->positions, settings, callback);
     if (!baked) return baked.error();
-    store_light(scene, *baked, *volume);
-    volume->metadata = metadata(settings);
+    store_light(scene, *baked, volume);
+    volume.metadata = metadata(settings);
     result.report.bake_seconds = watch.lap();
     result.report.ray_count = baked->ray_count;
-    result.report.warnings = buried_groups(*merged, volume->validity);
-    result.volume = std::move(*volume);
+    result.report.warnings = buried_groups(*merged, volume.validity);
+    add_dering_warnings(*merged, result.report.warnings);
+    result.volume = std::move(volume);
     return result;
 }
 

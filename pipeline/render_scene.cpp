@@ -61,9 +61,9 @@ glm::vec3 SceneShader::direct_term(const Surface& surface) const {
     const glm::vec3 position = traced_.ray_origin(surface.position, surface.geometric_normal);
     glm::vec3 sum(0.0f);
     for (const Light& light : mixed_lights_) {
-        const glm::vec3 direct = direct_light(light, position, surface.shading_normal);
+        const glm::vec3 direct = direct_light(light, surface.position, surface.shading_normal);
         if (direct == glm::vec3(0.0f)) continue;
-        const Illumination arriving = illuminate(light, position);
+        const Illumination arriving = illuminate(light, surface.position);
         if (!traced_.is_blocked({position, arriving.to_light, arriving.distance})) sum += direct;
     }
     return sum;

@@ -91,7 +91,7 @@ class Walk {
     }
 
     [[nodiscard]] bool is_inner(uint32_t cell) const {
-        return cell < volume_.info.tetrahedron_count;
+        return cell < volume_.info.inner_cell_count;
     }
 
     /// Corners of a cell relative to the position. Every index is tested here, where it is used:
@@ -112,7 +112,7 @@ class Walk {
         std::array<glm::dvec3, 4> corners{};
         if (!find_corners(index, corners)) return std::nullopt;
         if (is_inner(index)) return inner_weights(corners);
-        const uint32_t hull_index = index - volume_.info.tetrahedron_count;
+        const uint32_t hull_index = index - volume_.info.inner_cell_count;
         if (hull_index >= volume_.hull_rays.size()) return std::nullopt;
         return hull_weights(corners, volume_.hull_rays[hull_index]);
     }
@@ -183,7 +183,8 @@ class Walk {
 
     [[nodiscard]] static CellLocation finish(uint32_t cell, const CellWeights& cell_weights) {
         const glm::dvec4 clamped = glm::max(cell_weights.weights, glm::dvec4(0.0));
-        const glm::vec4 weights(clamped / (clamped.x + clamped.y + clamped.z + clamped.w));
+        // + 0 turns -0 into 0.
+        const glm::vec4 weights(clamped / (clamped.x + clamped.y + clamped.z + clamped.w) + 0.0);
         if (!std::isfinite(weights.x + weights.y + weights.z + weights.w)) return {};
         return {cell, weights};
     }

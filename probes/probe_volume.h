@@ -101,8 +101,8 @@ struct VolumeInfo {
     /// that lie beside it along the normal, or around it across the direction.
     glm::dvec3 axis{0.0};
     Dimension dimension = Dimension::None;
-    /// Cells [0, tetrahedron_count) are inner cells (tetrahedra), the rest hull cells.
-    uint32_t tetrahedron_count = 0;
+    /// Cells [0, inner_cell_count) are inner cells (tetrahedra), the rest hull cells.
+    uint32_t inner_cell_count = 0;
     /// Share of the radial direction in the hull rays (docs/conventions.md).
     float radial_share = 0.0f;
     /// Light where there is no probe: that of the environment alone.

@@ -34,7 +34,7 @@ struct Hull {
 Hull make_hull(std::span<const glm::dvec3> positions, const Tetrahedralization& source) {
     Hull hull;
     std::unordered_map<uint32_t, uint32_t> hull_index;
-    for (size_t i = source.tetrahedron_count; i < source.cells.size(); ++i) {
+    for (size_t i = source.inner_cell_count; i < source.cells.size(); ++i) {
         std::array<uint32_t, 3> cell{kNoIndex, kNoIndex, kNoIndex};
         for (int k = 0; k < cell_vertex_count(source.dimension) - 1; ++k) {
             const uint32_t probe = source.cells[i].vertices[k];

@@ -39,14 +39,14 @@ ProbeVolume make_probe_volume(const MergedProbes& probes) {
     volume.info.world_origin = local_origin(probes.positions);
     volume.info.axis = cells.axis;
     volume.info.dimension = cells.dimension;
-    volume.info.tetrahedron_count = cells.tetrahedron_count;
+    volume.info.inner_cell_count = cells.inner_cell_count;
     volume.info.radial_share = hull.radial_share;
     for (const glm::dvec3& p : probes.positions) {
         const glm::vec3 local(p - volume.info.world_origin);
         volume.positions.push_back(local);
         volume.info.extent = std::max(volume.info.extent, glm::length(local));
     }
-    const auto inner_cells = std::span(cells.cells).first(cells.tetrahedron_count);
+    const auto inner_cells = std::span(cells.cells).first(cells.inner_cell_count);
     Seeds seeds = make_seeds(volume.positions, inner_cells);
     volume.info.seed_cube = seeds.cube;
     volume.seeds = std::move(seeds.seeds);

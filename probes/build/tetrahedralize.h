@@ -13,7 +13,7 @@ namespace tetralight {
 /// sorted vertices, then hull cells. Structure as documented at `Cell`.
 struct Tetrahedralization {
     std::vector<Cell> cells;
-    uint32_t tetrahedron_count = 0;
+    uint32_t inner_cell_count = 0;
     Dimension dimension = Dimension::None;
     /// As `VolumeInfo::axis`.
     glm::dvec3 axis{0.0};

@@ -28,7 +28,7 @@ class SpaceValidator {
         : volume_(volume), positions_(positions), report_(report) {}
 
     void check(uint32_t cell) {
-        cell < volume_.info.tetrahedron_count ? check_tetrahedron(cell) : check_hull_cell(cell);
+        cell < volume_.info.inner_cell_count ? check_tetrahedron(cell) : check_hull_cell(cell);
     }
 
   private:
@@ -45,7 +45,7 @@ class SpaceValidator {
         }
         report_.cell_measure += glm::dot(b - a, glm::cross(c - a, d - a)) / 6.0;
         for (const uint32_t neighbor : volume_.cells[cell].neighbors) {
-            if (neighbor >= volume_.info.tetrahedron_count || neighbor < cell) continue;
+            if (neighbor >= volume_.info.inner_cell_count || neighbor < cell) continue;
             const glm::dvec3& other = positions_[opposite_vertex(volume_, neighbor, cell)];
             report_.non_delaunay_faces += detail::is_in_circumsphere(a, b, c, d, other);
         }
@@ -78,7 +78,7 @@ class PlaneValidator {
           report_(report) {}
 
     void check(uint32_t cell) {
-        cell < volume_.info.tetrahedron_count ? check_triangle(cell) : check_edge(cell);
+        cell < volume_.info.inner_cell_count ? check_triangle(cell) : check_edge(cell);
     }
 
   private:
@@ -96,7 +96,7 @@ class PlaneValidator {
         }
         report_.cell_measure += cross(b - a, c - a) / 2.0;
         for (const uint32_t neighbor : volume_.cells[cell].neighbors) {
-            if (neighbor >= volume_.info.tetrahedron_count || neighbor < cell) continue;
+            if (neighbor >= volume_.info.inner_cell_count || neighbor < cell) continue;
             const glm::dvec2& other = positions_[opposite_vertex(volume_, neighbor, cell)];
             report_.non_delaunay_faces += detail::is_in_circumcircle(a, b, c, other);
         }
@@ -120,14 +120,14 @@ void check_line(const ProbeVolumeView& volume, std::span<const glm::dvec3> posit
     const auto along = [&](uint32_t probe) {
         return glm::dot(positions[probe] - positions[0], volume.info.axis);
     };
-    for (uint32_t cell = 0; cell < volume.info.tetrahedron_count; ++cell) {
+    for (uint32_t cell = 0; cell < volume.info.inner_cell_count; ++cell) {
         const auto& v = volume.cells[cell].vertices;
         const double length = along(v[1]) - along(v[0]);
         report.inverted_cells += !(length > 0.0);
         report.cell_measure += length;
     }
-    for (uint32_t cell = volume.info.tetrahedron_count; cell < volume.cells.size(); ++cell) {
-        const glm::dvec3 ray(volume.hull_rays[cell - volume.info.tetrahedron_count].rays[0]);
+    for (uint32_t cell = volume.info.inner_cell_count; cell < volume.cells.size(); ++cell) {
+        const glm::dvec3 ray(volume.hull_rays[cell - volume.info.inner_cell_count].rays[0]);
         const double side = glm::dot(ray, volume.info.axis) > 0.0 ? 1.0 : -1.0;
         report.hull_measure += side * along(volume.cells[cell].vertices[0]);
     }
@@ -137,7 +137,7 @@ void check_probes(const ProbeVolumeView& volume, std::span<const glm::dvec3> pos
                   ValidationReport& report) {
     std::vector<bool> has_cell(positions.size(), false);
     std::vector<bool> has_source(positions.size(), volume.sources.empty());
-    for (uint32_t i = 0; i < volume.info.tetrahedron_count; ++i) {
+    for (uint32_t i = 0; i < volume.info.inner_cell_count; ++i) {
         for (const uint32_t probe : volume.cells[i].vertices) {
             if (probe != kNoIndex) has_cell[probe] = true;
         }

@@ -31,11 +31,11 @@ Status check_counts(const ProbeVolumeView& v) {
     if (v.info.dimension > Dimension::Space) {
         return Error{text("dimension ", static_cast<uint32_t>(v.info.dimension), " is unknown")};
     }
-    if (v.info.tetrahedron_count > v.cells.size()) {
-        return Error{text("tetrahedron count ", v.info.tetrahedron_count, " is more than the ",
+    if (v.info.inner_cell_count > v.cells.size()) {
+        return Error{text("tetrahedron count ", v.info.inner_cell_count, " is more than the ",
                           v.cells.size(), " cells")};
     }
-    const size_t hull_cells = v.cells.size() - v.info.tetrahedron_count;
+    const size_t hull_cells = v.cells.size() - v.info.inner_cell_count;
     for (const Status& status :
          {check_count("irradiance", v.irradiance.size(), probes, true),
           check_count("occlusion", v.occlusion.size(), probes, true),
@@ -114,7 +114,7 @@ struct CellShape {
     bool has_inner_neighbor = false;
 
     CellShape(const VolumeInfo& info, uint32_t cell) {
-        const bool is_inner = cell < info.tetrahedron_count;
+        const bool is_inner = cell < info.inner_cell_count;
         vertex_count = cell_vertex_count(info.dimension) - (is_inner ? 0 : 1);
         has_side_neighbors = vertex_count > 1;
         has_inner_neighbor = !is_inner;

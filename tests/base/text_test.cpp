@@ -13,6 +13,10 @@ TEST(Text, JoinsStringsAndNumbers) {
     EXPECT_EQ(text("probe ", 7u, ": ", 0.5, " of ", std::string("hall")), "probe 7: 0.5 of hall");
 }
 
+TEST(Text, WritesACharacterAsItself) {
+    EXPECT_EQ(text('x', 1), "x1");
+}
+
 TEST(Text, SaysNumbersThatAreNotFinite) {
     EXPECT_EQ(text(std::numeric_limits<double>::infinity()), "inf");
     EXPECT_EQ(text(std::numeric_limits<double>::quiet_NaN()), "nan");

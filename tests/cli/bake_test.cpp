@@ -61,9 +61,9 @@ TEST_F(Bake, JsonHasTheDocumentedFields) {
     const Json json = run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    const std::vector<std::string> expected{"bounces", "groups",     "hull_cells",      "output",
-                                            "probes",  "rays",       "rays_per_second", "samples",
-                                            "seconds", "tetrahedra", "welded"};  // sorted
+    const std::vector<std::string> expected{
+        "bounces", "dimension",       "groups",  "hull_cells", "inner_cells", "output", "probes",
+        "rays",    "rays_per_second", "samples", "seconds",    "welded"};  // sorted
     EXPECT_EQ(keys, expected);
 }
 

@@ -78,7 +78,7 @@ TEST_F(Grid, CountsAgreeFromGridToValidate) {
     const Json valid = run_json({"validate", "v.probes"});
     EXPECT_EQ(baked["probes"].get<int>() + baked["welded"].get<int>(),
               grid["probes"].get<int>() + alone["probes"].get<int>());
-    for (const char* count : {"probes", "tetrahedra", "hull_cells", "groups", "welded"}) {
+    for (const char* count : {"probes", "inner_cells", "hull_cells", "groups", "welded"}) {
         EXPECT_EQ(info[count], baked[count]) << count;
         EXPECT_EQ(valid[count], baked[count]) << count;
     }

@@ -13,7 +13,7 @@ TEST_F(Tetrahedralize, JoinsTheProbesOfAGroupFile) {
     const Json json = run_json({"tetrahedralize", "five.json", "-o", "v.probes"});
     // The fifth probe splits the tetrahedron of the others in four.
     EXPECT_EQ(json["probes"], 5);
-    EXPECT_EQ(json["tetrahedra"], 4);
+    EXPECT_EQ(json["inner_cells"], 4);
     EXPECT_EQ(json["hull_cells"], 4);
 }
 
@@ -32,7 +32,7 @@ TEST_F(Tetrahedralize, GivesTheSameBytesForAnyOrderOfFiles) {
 TEST_F(Tetrahedralize, MakesTheVolumeThatABakeMakes) {
     const Json joined = run_json({"tetrahedralize", kCourtyard, "-o", "v.probes"});
     const Json baked = run_json({"bake", kCourtyard, "-o", "b.probes", "-s", "1"});
-    for (const char* count : {"probes", "tetrahedra", "hull_cells", "groups", "welded"}) {
+    for (const char* count : {"probes", "inner_cells", "hull_cells", "groups", "welded"}) {
         EXPECT_EQ(joined[count], baked[count]) << count;
     }
 }
@@ -46,12 +46,13 @@ TEST_F(Tetrahedralize, WeldsProbesThatAreNear) {
     EXPECT_EQ(json["welded"], 1);
 }
 
-TEST_F(Tetrahedralize, RefusesAFlatSet) {
+TEST_F(Tetrahedralize, MakesTrianglesOfAFlatSet) {
     write("flat.json", R"({"groups": [{"name": "flat", "positions":
-        [[0, 1, 0], [1, 1, 0], [0, 1, 1], [1, 1, 1], [3, 1, 7]]}]})");
-    const std::string message =
-        fail_and_keep("old.probes", {"tetrahedralize", "flat.json", "-o", "old.probes"});
-    EXPECT_TRUE(contains(message, "5 probes lie in one plane")) << message;
+        [[0, 1, 0], [4, 1, 0], [0, 1, 4], [4, 1, 4], [1, 1, 2]]}]})");
+    const Json json = run_json({"tetrahedralize", "flat.json", "-o", "v.probes"});
+    EXPECT_EQ(json["dimension"], "plane");
+    EXPECT_EQ(json["inner_cells"], 4);  // a fan around the inner probe
+    EXPECT_TRUE(contains(succeed({"validate", "v.probes"}).out, "4 triangles"));
 }
 
 TEST_F(Tetrahedralize, NamesAGroupThatIsThereTwice) {

@@ -17,7 +17,7 @@ TEST_F(Validate, SaysSoAsJson) {
     const Json json = run_json({"validate", "v.probes"});
     EXPECT_EQ(json["is_valid"], true);
     EXPECT_EQ(json["problems"], Json::array());
-    EXPECT_NEAR(json["cell_volume"].get<double>(), json["hull_volume"].get<double>(), 1e-6);
+    EXPECT_NEAR(json["cell_measure"].get<double>(), json["hull_measure"].get<double>(), 1e-6);
 }
 
 TEST_F(Validate, NamesTheSectionOfAFlippedByte) {
@@ -49,6 +49,15 @@ TEST_F(Validate, NamesAGeometryProblem) {
     EXPECT_EQ(json["is_valid"], false);
     EXPECT_GE(json["problems"].size(), 1u);
     EXPECT_EQ(result.err.find("tetralight: bent.probes: "), 0u) << result.err;
+}
+
+TEST_F(Validate, SaysAsJsonThatAFileIsDamaged) {
+    write("damaged.probes", "TETRAPV");
+    const CommandResult result = run({"validate", "damaged.probes", "--json"});
+    EXPECT_EQ(result.exit_code, 1);
+    const Json json = Json::parse(result.out, nullptr, false);
+    EXPECT_EQ(json["is_valid"], false);
+    EXPECT_EQ(json["problems"].size(), 1u);
 }
 
 TEST_F(Validate, RefusesBadVolumes) {

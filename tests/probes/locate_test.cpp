@@ -34,7 +34,7 @@ void expect_convex_weights(const CellLocation& location) {
 
 /// Whether a location says the position is in a tetrahedron, by an oracle that tests them all.
 bool is_in_some_tetrahedron(const ProbeVolume& volume, const glm::dvec3& p) {
-    for (uint32_t i = 0; i < volume.info.tetrahedron_count; ++i) {
+    for (uint32_t i = 0; i < volume.info.inner_cell_count; ++i) {
         const auto& v = volume.cells[i].vertices;
         bool is_inside = true;
         for (const auto& face : kOutwardFaces) {
@@ -54,9 +54,9 @@ TEST(Locate, WeightsReproduceEveryPositionInsideTheHull) {
     for (const glm::dvec3& p : test::random_positions(5000, 2, 1.0)) {
         const CellLocation location = locate(volume.view(), glm::vec3(p), hint);
         expect_convex_weights(location);
-        ASSERT_EQ(location.cell < volume.info.tetrahedron_count, is_in_some_tetrahedron(volume, p));
+        ASSERT_EQ(location.cell < volume.info.inner_cell_count, is_in_some_tetrahedron(volume, p));
         hint = location.cell;
-        if (location.cell >= volume.info.tetrahedron_count) continue;
+        if (location.cell >= volume.info.inner_cell_count) continue;
         EXPECT_LT(glm::distance(blended_position(volume, location), p), 1e-6);
     }
 }
@@ -87,7 +87,7 @@ TEST(Locate, PositionOnAProbeIsThatProbe) {
 TEST(Locate, BothCellsOfAFaceGiveTheSameAnswer) {
     const ProbeVolume volume = test::make_lit_volume(test::random_positions(100, 6));
     const ProbeVolumeView view = volume.view();
-    for (uint32_t cell = 0; cell < volume.info.tetrahedron_count; ++cell) {
+    for (uint32_t cell = 0; cell < volume.info.inner_cell_count; ++cell) {
         for (int face = 0; face < 4; ++face) {
             glm::vec3 middle(0.0f);
             for (int i = 0; i < 4; ++i) {
@@ -112,7 +112,7 @@ TEST(Locate, HullCellsReachFarAwayWithConvexWeights) {
             for (int i = 0; i < 200; ++i) {
                 const auto location =
                     locate(volume.view(), distance * test::random_direction(engine));
-                ASSERT_GE(location.cell, volume.info.tetrahedron_count) << distance;
+                ASSERT_GE(location.cell, volume.info.inner_cell_count) << distance;
                 expect_convex_weights(location);
             }
         }
@@ -153,7 +153,7 @@ TEST(Locate, KeepsItsPrecisionFarFromTheWorldsOrigin) {
     const ProbeVolume volume = test::make_lit_volume(positions);
     const glm::vec3 query(glm::dvec3(1e5, -2e5, 3e5));
     const CellLocation location = locate(volume.view(), query);
-    ASSERT_LT(location.cell, volume.info.tetrahedron_count);
+    ASSERT_LT(location.cell, volume.info.inner_cell_count);
     EXPECT_LT(glm::distance(blended_position(volume, location), glm::dvec3(query)), 1e-5);
 }
 

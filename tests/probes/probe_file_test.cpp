@@ -161,7 +161,7 @@ TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {
              [](ProbeVolume& v) { v.group_names = "no end"; },
              [](ProbeVolume& v) { v.light_names = "one\n"; },
              [](ProbeVolume& v) { v.lights[0].type = static_cast<LightType>(9); },
-             [](ProbeVolume& v) { v.info.tetrahedron_count = 100000; }}) {
+             [](ProbeVolume& v) { v.info.inner_cell_count = 100000; }}) {
         ProbeVolume broken = volume;
         break_it(broken);
         EXPECT_FALSE(verify(broken.view()));

@@ -22,7 +22,7 @@ struct Hull {
           rays(make_hull_rays(positions, cells)) {}
 
     [[nodiscard]] glm::dvec3 extruded(size_t hull_cell, int corner, double t) const {
-        const uint32_t v = cells.cells[cells.tetrahedron_count + hull_cell].vertices[corner];
+        const uint32_t v = cells.cells[cells.inner_cell_count + hull_cell].vertices[corner];
         return positions[v] + t * glm::dvec3(rays.cells[hull_cell].rays[corner]);
     }
 };

@@ -15,7 +15,7 @@ TEST(MakeSeeds, EverySeedIsACellOfTheProbeItStandsFor) {
     const ProbeVolume volume = test::make_lit_volume(test::random_positions(400, 1));
     ASSERT_EQ(volume.seeds.size(), 50u);
     for (const Seed& seed : volume.seeds) {
-        ASSERT_LT(seed.cell, volume.info.tetrahedron_count);
+        ASSERT_LT(seed.cell, volume.info.inner_cell_count);
         const auto& vertices = volume.cells[seed.cell].vertices;
         EXPECT_TRUE(std::ranges::any_of(vertices, [&](uint32_t probe) {
             const glm::dvec3 position(volume.positions[probe]);

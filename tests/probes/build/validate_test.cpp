@@ -49,7 +49,7 @@ TEST(Validate, SeesTwoTetrahedraThatShouldHaveBeenThree) {
     // moving the apexes of a pair that was.
     const std::vector<glm::dvec3> p{{1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, 2}, {0, 0, -2}};
     ProbeVolume volume = test::make_lit_volume(p);
-    ASSERT_EQ(volume.info.tetrahedron_count, 2u);
+    ASSERT_EQ(volume.info.inner_cell_count, 2u);
     for (size_t i = 0; i < 5; ++i) {
         volume.exact_positions[i].z *= 0.1;
         volume.positions[i] = glm::vec3(volume.exact_positions[i]);
