@@ -12,6 +12,8 @@ function(tetralight_options target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
   if(TETRALIGHT_SANITIZE)
+    # GCC 12 sees uninitialized values in instrumented standard headers.
+    target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     target_compile_options(${target} PUBLIC
       -fsanitize=${TETRALIGHT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${TETRALIGHT_SANITIZE})
