@@ -13,17 +13,18 @@
 namespace tetralight {
 namespace {
 
-/// Weights of a position in one cell. Not normalized: in a tetrahedron they are signed volumes,
-/// and a sliver's volume is never divided by before the walk has ended in it.
+/// Weights of a position in one cell. Not normalized: in a tetrahedron they are signed volumes.
 struct CellWeights {
     glm::dvec4 weights{0.0};
+    /// Sums up to this may be rounding alone: the cell is a sliver that holds no position.
+    double rounding = 0.0;
 
     [[nodiscard]] double sum() const { return weights.x + weights.y + weights.z + weights.w; }
 
     /// Smallest weight as a share of the sum: ≥ 0 inside the cell.
     [[nodiscard]] double inside_measure() const {
         const double total = sum();
-        if (!(total > 0)) return -std::numeric_limits<double>::infinity();
+        if (!(total > rounding)) return -std::numeric_limits<double>::infinity();
         return std::min({weights.x, weights.y, weights.z, weights.w}) / total;
     }
 
@@ -36,11 +37,22 @@ struct CellWeights {
     }
 };
 
+/// Some times the rounding of a determinant whose columns have length 1.
+constexpr double kRounding = 1e-12;
+
+double longest(const std::array<glm::dvec3, 4>& corners, int count) {
+    double square = 0.0;
+    for (int i = 0; i < count; ++i) square = std::max(square, glm::dot(corners[i], corners[i]));
+    return std::sqrt(square);
+}
+
 CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) {
     const auto& [a, b, c, d] = corners;
     const glm::dvec3 cd = glm::cross(c, d);
     const glm::dvec3 ab = glm::cross(a, b);
-    return {{glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)}};
+    const double size = longest(corners, 4);
+    return {{glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)},
+            kRounding * size * size * size};
 }
 
 /// Walks over the cells of one volume towards one position.
@@ -125,14 +137,15 @@ class Walk {
             case Dimension::Space:
                 return tetrahedron_weights(corners);
             case Dimension::Plane: {
+                const double size = longest(corners, 3);
                 corners[3] = axis;
                 const glm::dvec4 weights = tetrahedron_weights(corners).weights;
-                return {{weights.x, weights.y, weights.z, 0.0}};
+                return {{weights.x, weights.y, weights.z, 0.0}, kRounding * size * size};
             }
             case Dimension::Line:
-                return {{glm::dot(corners[1], axis), -glm::dot(corners[0], axis), 0.0, 0.0}};
+                return {{glm::dot(corners[1], axis), -glm::dot(corners[0], axis), 0.0, 0.0}, 0.0};
             default:
-                return {{1.0, 0.0, 0.0, 0.0}};
+                return {{1.0, 0.0, 0.0, 0.0}, 0.0};
         }
     }
 
@@ -161,10 +174,10 @@ class Walk {
     /// and both answers are the same; anything else is a cycle.
     [[nodiscard]] CellLocation settle(uint32_t a, const CellWeights& in_a, uint32_t b,
                                       const CellWeights& in_b) const {
-        constexpr double kRounding = 1e-6;
+        constexpr double kTolerance = 1e-6;
         const bool is_in_a = in_a.inside_measure() >= in_b.inside_measure();
         const CellWeights& best = is_in_a ? in_a : in_b;
-        if (best.inside_measure() < -kRounding) return search_all();
+        if (best.inside_measure() < -kTolerance) return search_all();
         return finish(is_in_a ? a : b, best);
     }
 

@@ -12,8 +12,19 @@ namespace {
 
 constexpr int kShareSteps = 64;
 
+/// What rounding alone can make of numbers of order 1.
+constexpr double kRounding = 1e-12;
+
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+/// Whether a triangle with these edges has no area but what rounding makes: such triangles stand
+/// along the edges of lattices. Their normals mean nothing, and no query ends in their cells.
+bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b) {
+    constexpr double kThinnest = 1e-9;
+    const double longest = std::max(glm::dot(a, a), glm::dot(b, b));
+    return !(glm::length(glm::cross(a, b)) > kThinnest * longest);
 }
 
 /// One vertex of the hull.
@@ -78,7 +89,7 @@ void add_triangle_normals(Hull& hull) {
         for (int k = 0; k < 3; ++k) p[k] = hull.vertices[triangle[k]].position;
         const glm::dvec3 area = glm::cross(p[1] - p[0], p[2] - p[0]);
         const double length = glm::length(area);
-        if (!(length > 0.0)) continue;
+        if (is_degenerate(p[1] - p[0], p[2] - p[0])) continue;
         for (int k = 0; k < 3; ++k) {
             const double angle = angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
             hull.vertices[triangle[k]].normal += area * (angle / length);
@@ -108,7 +119,6 @@ void set_rays(Hull& hull, double radial_share) {
 /// Whether g0 + g1 t + g2 t² stays positive for all t ≥ 0. Slopes that rounding alone can make (of
 /// unit vectors in a hull of size 1) count as zero.
 bool stays_positive(double g0, double g1, double g2) {
-    constexpr double kRounding = 1e-12;
     if (std::abs(g1) < kRounding) g1 = 0.0;
     if (std::abs(g2) < kRounding) g2 = 0.0;
     if (!(g0 > 0.0) || g2 < 0.0) return false;
@@ -124,6 +134,7 @@ bool folds(const Hull& hull, const std::array<uint32_t, 3>& triangle) {
     const glm::dvec3 a = v0.position - v2.position, da = v0.ray - v2.ray;
     const glm::dvec3 b = v1.position - v2.position, db = v1.ray - v2.ray;
     const glm::dvec3 g0 = glm::cross(a, b);
+    if (is_degenerate(a, b)) return false;
     const glm::dvec3 g1 = glm::cross(da, b) + glm::cross(a, db);
     const glm::dvec3 g2 = glm::cross(da, db);
     return !std::ranges::all_of(std::array{v0.ray, v1.ray, v2.ray}, [&](const glm::dvec3& ray) {

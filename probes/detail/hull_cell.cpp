@@ -80,9 +80,13 @@ Cubic plane_cubic(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec
 }
 
 std::optional<glm::dvec3> weights_of_origin(const std::array<glm::dvec3, 3>& q) {
-    const glm::dvec3 normal = glm::cross(q[1] - q[0], q[2] - q[0]);
+    const glm::dvec3 first = q[1] - q[0];
+    const glm::dvec3 second = q[2] - q[0];
+    const glm::dvec3 normal = glm::cross(first, second);
     const double area = glm::dot(normal, normal);
-    if (!(area > 0)) return std::nullopt;
+    const double longest = std::max(glm::dot(first, first), glm::dot(second, second));
+    constexpr double kRounding = 1e-24;  // of the square of an area whose edges have length 1
+    if (!(area > kRounding * longest * longest)) return std::nullopt;
     const double w0 = determinant(q[1], q[2], normal) / area;
     const double w1 = determinant(q[2], q[0], normal) / area;
     return glm::dvec3(w0, w1, 1 - w0 - w1);
