@@ -7,6 +7,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -37,13 +40,25 @@ class FlushDenormals {
 #endif
 };
 
-}  // namespace
+#if defined(__SANITIZE_THREAD__)
 
-void parallel_for(size_t count, uint32_t thread_count, const std::function<void(size_t)>& work) {
-    // TBB has no more threads than the machine, and prints a warning when asked for more.
-    const auto available = static_cast<uint32_t>(tbb::info::default_concurrency());
-    tbb::task_arena arena(
-        static_cast<int>(thread_count == 0 ? available : std::min(thread_count, available)));
+/// ThreadSanitizer cannot see how TBB, which is not instrumented, orders its threads. Under it the
+/// same work runs on threads that it understands.
+void run_on_threads(size_t count, uint32_t threads, const std::function<void(size_t)>& work) {
+    std::atomic<size_t> next = 0;
+    std::vector<std::jthread> pool;
+    for (uint32_t t = 0; t < threads; ++t) {
+        pool.emplace_back([&] {
+            const FlushDenormals flush;
+            for (size_t i = next++; i < count; i = next++) work(i);
+        });
+    }
+}
+
+#else
+
+void run_on_threads(size_t count, uint32_t threads, const std::function<void(size_t)>& work) {
+    tbb::task_arena arena(static_cast<int>(threads));
     arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<size_t>(0, count),
                           [&](const tbb::blocked_range<size_t>& range) {
@@ -51,6 +66,16 @@ void parallel_for(size_t count, uint32_t thread_count, const std::function<void(
                               for (size_t i = range.begin(); i < range.end(); ++i) work(i);
                           });
     });
+}
+
+#endif
+
+}  // namespace
+
+void parallel_for(size_t count, uint32_t thread_count, const std::function<void(size_t)>& work) {
+    // TBB has no more threads than the machine, and prints a warning when asked for more.
+    const auto available = static_cast<uint32_t>(tbb::info::default_concurrency());
+    run_on_threads(count, thread_count == 0 ? available : std::min(thread_count, available), work);
 }
 
 }  // namespace tetralight
