@@ -2,13 +2,14 @@
 #include "probes/build/merge.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "base/text.h"
 #include "probes/build/detail/hilbert_order.h"
@@ -57,24 +58,26 @@ bool is_before(const glm::dvec3& a, const glm::dvec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-/// Joins positions within a radius of each other into clusters, by a hash grid whose cells are as
-/// wide as the radius.
+/// Joins positions within a radius of each other into clusters, by a hash grid. Its cells are wide
+/// against the radius, so that most positions are near no other cell.
 class Welder {
   public:
     Welder(std::span<const glm::dvec3> positions, double radius)
-        : positions_(positions), radius_(radius), parents_(positions.size()) {
+        : positions_(positions),
+          radius_(radius),
+          cell_size_(kRadiiPerCell * radius),
+          parents_(positions.size()),
+          next_in_cell_(positions.size(), kNoIndex) {
         std::iota(parents_.begin(), parents_.end(), 0u);
+        first_in_cell_.reserve(positions.size());
     }
 
     /// For each position the one that stands for its cluster.
     std::vector<uint32_t> run() {
         for (uint32_t i = 0; i < positions_.size(); ++i) {
-            if (radius_ > 0) {
-                join_near(i);
-            } else {
-                join_with_cell(i, positions_[i]);
-            }
-            cells_[cell_of(positions_[i])].push_back(i);
+            join_near(i);
+            const auto [cell, is_new] = first_in_cell_.try_emplace(cell_of(positions_[i]), i);
+            if (!is_new) next_in_cell_[i] = std::exchange(cell->second, i);
         }
         std::vector<uint32_t> representatives(positions_.size());
         for (uint32_t i = 0; i < positions_.size(); ++i) representatives[i] = root(i);
@@ -82,29 +85,43 @@ class Welder {
     }
 
   private:
+    static constexpr double kRadiiPerCell = 64.0;
+
     struct CellHash {
         size_t operator()(const glm::dvec3& cell) const {
-            const std::hash<double> hash;
-            return hash(cell.x) * 73856093u ^ hash(cell.y) * 19349663u ^ hash(cell.z) * 83492791u;
+            uint64_t hash = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+                hash = (hash ^ std::bit_cast<uint64_t>(cell[axis])) * 0x9e3779b97f4a7c15u;
+                hash ^= hash >> 32;
+            }
+            return hash;
         }
     };
 
+    /// Without a radius every position is a cell of its own.
     [[nodiscard]] glm::dvec3 cell_of(const glm::dvec3& position) const {
-        return radius_ > 0 ? glm::floor(position / radius_) + 0.0 : position;
+        return cell_size_ > 0 ? glm::floor(position / cell_size_) + 0.0 : position;
     }
 
     void join_near(uint32_t i) {
-        const glm::dvec3 cell = cell_of(positions_[i]);
-        for (int neighbor = 0; neighbor < 27; ++neighbor) {
-            const glm::dvec3 step(neighbor % 3 - 1, neighbor / 3 % 3 - 1, neighbor / 9 - 1);
-            join_with_cell(i, cell + step);
+        const glm::dvec3 low = cell_of(positions_[i] - radius_);
+        const glm::dvec3 high = cell_of(positions_[i] + radius_);
+        for (const double x : {low.x, high.x}) {
+            for (const double y : {low.y, high.y}) {
+                for (const double z : {low.z, high.z}) {
+                    join_with_cell(i, {x, y, z});
+                    if (low.z == high.z) break;
+                }
+                if (low.y == high.y) break;
+            }
+            if (low.x == high.x) break;
         }
     }
 
     void join_with_cell(uint32_t i, const glm::dvec3& cell) {
-        const auto found = cells_.find(cell);
-        if (found == cells_.end()) return;
-        for (const uint32_t j : found->second) {
+        const auto found = first_in_cell_.find(cell);
+        if (found == first_in_cell_.end()) return;
+        for (uint32_t j = found->second; j != kNoIndex; j = next_in_cell_[j]) {
             if (glm::distance(positions_[i], positions_[j]) <= radius_) join(i, j);
         }
     }
@@ -124,8 +141,10 @@ class Welder {
 
     std::span<const glm::dvec3> positions_;
     double radius_;
+    double cell_size_;
     std::vector<uint32_t> parents_;
-    std::unordered_map<glm::dvec3, std::vector<uint32_t>, CellHash> cells_;
+    std::vector<uint32_t> next_in_cell_;
+    std::unordered_map<glm::dvec3, uint32_t, CellHash> first_in_cell_;
 };
 
 double weld_radius(std::span<const glm::dvec3> positions, const MergeSettings& settings) {

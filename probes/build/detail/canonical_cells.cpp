@@ -2,6 +2,7 @@
 #include "probes/build/detail/canonical_cells.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -28,11 +29,28 @@ void sort_corners(Cell& cell, int count) {
     if (is_odd) swap_corners(cell, count - 2, count - 1);
 }
 
+/// The order of cells by their vertices: a counting sort by the first one, then a comparison sort
+/// of the few cells that share it.
+std::vector<uint32_t> order_by_vertices(const std::vector<Cell>& cells) {
+    uint32_t vertex_count = 0;
+    for (const Cell& cell : cells) vertex_count = std::max(vertex_count, cell.vertices[0] + 1);
+    std::vector<uint32_t> begins(size_t{vertex_count} + 1, 0);
+    for (const Cell& cell : cells) ++begins[cell.vertices[0] + 1];
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+
+    std::vector<uint32_t> order(cells.size());
+    std::vector<uint32_t> next(begins.begin(), begins.end() - 1);
+    for (uint32_t i = 0; i < cells.size(); ++i) order[next[cells[i].vertices[0]]++] = i;
+    for (uint32_t v = 0; v < vertex_count; ++v) {
+        std::sort(order.begin() + begins[v], order.begin() + begins[v + 1],
+                  [&](uint32_t a, uint32_t b) { return cells[a].vertices < cells[b].vertices; });
+    }
+    return order;
+}
+
 /// Orders cells by their vertices and renames neighbors to match.
 void sort_cells(std::vector<Cell>& cells) {
-    std::vector<uint32_t> order(cells.size());
-    for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::sort(order, {}, [&](uint32_t i) { return cells[i].vertices; });
+    const std::vector<uint32_t> order = order_by_vertices(cells);
     std::vector<uint32_t> place(cells.size());
     for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
 
