@@ -75,6 +75,7 @@ class Welder {
     /// For each position the one that stands for its cluster.
     std::vector<uint32_t> run() {
         for (uint32_t i = 0; i < positions_.size(); ++i) {
+            if (join_with_equal(i)) continue;
             join_near(i);
             const auto [cell, is_new] = first_in_cell_.try_emplace(cell_of(positions_[i]), i);
             if (!is_new) next_in_cell_[i] = std::exchange(cell->second, i);
@@ -101,6 +102,19 @@ class Welder {
     /// Without a radius every position is a cell of its own.
     [[nodiscard]] glm::dvec3 cell_of(const glm::dvec3& position) const {
         return cell_size_ > 0 ? glm::floor(position / cell_size_) + 0.0 : position;
+    }
+
+    /// An equal position joins its twin and need not be found again: thousands of them cost
+    /// nothing.
+    bool join_with_equal(uint32_t i) {
+        const auto found = first_in_cell_.find(cell_of(positions_[i]));
+        if (found == first_in_cell_.end()) return false;
+        for (uint32_t j = found->second; j != kNoIndex; j = next_in_cell_[j]) {
+            if (positions_[i] != positions_[j]) continue;
+            join(i, j);
+            return true;
+        }
+        return false;
     }
 
     void join_near(uint32_t i) {

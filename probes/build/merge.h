@@ -15,8 +15,9 @@ namespace tetralight {
 
 struct MergeSettings {
     /// Positions nearer to each other than this share of the set's bounding-box diagonal become one
-    /// probe.
-    double weld_tolerance = 1e-6;
+    /// probe. The default is a few steps of the floats that queries use: nearer positions could not
+    /// be told apart.
+    double weld_tolerance = 4e-7;
 
     bool operator==(const MergeSettings&) const = default;
 };

@@ -61,6 +61,14 @@ TEST(Merge, WeldsDuplicatesAndSaysSo) {
     EXPECT_EQ(merged->sources[1].probe, merged->sources[2].probe);
 }
 
+TEST(Merge, WeldsTensOfThousandsOfEqualProbes) {
+    const ProbeGroup group = make_group("heap", std::vector<glm::dvec3>(50'000, glm::dvec3(1.0)));
+    const auto merged = merge(std::span(&group, 1));
+    ASSERT_TRUE(merged);
+    EXPECT_EQ(merged->positions.size(), 1u);
+    EXPECT_EQ(merged->welded_count(), 49'999u);
+}
+
 TEST(Merge, ClosesClustersTransitivelyAndKeepsTheSmallestPosition) {
     // Each is 0.6 of the radius from the next: one cluster although its ends are far apart.
     std::vector<glm::dvec3> chain{{0, 0, 0}, {1, 0, 0}};
