@@ -103,7 +103,7 @@ std::string final_path(const std::string& path) {
 }  // namespace
 
 Result<std::vector<std::byte>> read_file(const std::string& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     const auto size = regular_file_size(file, path);
     if (!size) return size.error();
     std::vector<std::byte> bytes(*size);
@@ -140,7 +140,7 @@ Status write_file(const std::string& path, std::span<const std::byte> bytes) {
 }
 
 Result<MappedFile> MappedFile::open(const std::string& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     const auto size = regular_file_size(file, path);
     if (!size) return size.error();
     if (*size == 0) return MappedFile();

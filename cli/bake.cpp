@@ -59,8 +59,14 @@ struct Bake {
         return groups;
     }
 
+    [[nodiscard]] std::vector<std::string> inputs() const {
+        std::vector<std::string> paths = group_paths;
+        paths.insert(paths.end(), {scene_options.path, scene_options.sky});
+        return paths;
+    }
+
     Status run() {
-        if (auto status = check_output(output); !status) return status;
+        if (auto status = check_output(output, inputs()); !status) return status;
         auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);

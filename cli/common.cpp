@@ -151,9 +151,13 @@ Result<std::vector<ProbeGroup>> read_groups(const std::vector<std::string>& path
     return all;
 }
 
-Status check_output(const std::string& path) {
+Status check_output(const std::string& path, const std::vector<std::string>& inputs) {
     namespace fs = std::filesystem;
     std::error_code error;
+    for (const std::string& input : inputs) {
+        if (!fs::is_regular_file(input, error) || !fs::equivalent(input, path, error)) continue;
+        return Error{path + ": is an input of this command and would be lost; write elsewhere"};
+    }
     if (path == "-" || fs::is_other(fs::status(path, error))) return Ok{};  // stdout, devices
     if (fs::is_directory(path, error)) return Error{path + ": cannot write (is a folder)"};
     const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";

@@ -67,8 +67,9 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 /// Reads every file and joins the lists. An error when there is no group in a file.
 [[nodiscard]] Result<std::vector<ProbeGroup>> read_groups(const std::vector<std::string>& paths);
 
-/// Says before a long job, not after it, that the output cannot be written.
-[[nodiscard]] Status check_output(const std::string& path);
+/// Says before a long job, not after it, that the output cannot be written, or that it would take
+/// the place of one of the inputs.
+[[nodiscard]] Status check_output(const std::string& path, const std::vector<std::string>& inputs);
 
 [[nodiscard]] Json to_json(const glm::dvec3& value);
 /// Text for a terminal: one line, control characters shown as '?'.

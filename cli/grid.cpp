@@ -42,6 +42,7 @@ struct Grid {
         command
             .add_option("--max-probes", settings.max_probe_count,
                         "Refuse grids with more candidates than this")
+            ->check(CLI::NonNegativeNumber)
             ->capture_default_str();
         common.add_to(command);
         command.parse_complete_callback([this] { check_box(); });
@@ -57,7 +58,7 @@ struct Grid {
     }
 
     Status run() {
-        if (auto status = check_output(output); !status) return status;
+        if (auto status = check_output(output, {scene_path}); !status) return status;
         const auto scene = read_gltf(scene_path);
         if (!scene) return scene.error();
         common.warn(scene->warnings);

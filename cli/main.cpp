@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The `tetralight` command. Exit codes: 0 fine, 1 bad data, 2 wrong usage, 130 interrupted.
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -60,6 +61,7 @@ int run_command(const tetralight::cli::Run& run) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error like any other
     CLI::App app("Baked light probes for things that move: bake a glTF scene, query and render it.",
                  "tetralight");
     tetralight::cli::Run run;

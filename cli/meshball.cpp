@@ -71,7 +71,7 @@ struct MeshBall {
     }
 
     Status run() {
-        if (auto status = check_output(output); !status) return status;
+        if (auto status = check_output(output, {volume_path, scene_path}); !status) return status;
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         std::optional<Scene> scene;

@@ -59,7 +59,7 @@ struct Render {
     }
 
     Status run() {
-        if (auto status = check_output(output); !status) return status;
+        if (auto status = check_output(output, {scene_path, volume_path}); !status) return status;
         const auto scene = read_gltf(scene_path);
         if (!scene) return scene.error();
         common.warn(scene->warnings);

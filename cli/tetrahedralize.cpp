@@ -29,7 +29,7 @@ struct Tetrahedralize {
     }
 
     Status run() {
-        if (auto status = check_output(output); !status) return status;
+        if (auto status = check_output(output, group_paths); !status) return status;
         const auto groups = read_groups(group_paths);
         if (!groups) return groups.error();
         const auto merged = merge(*groups, merge_settings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/bake_volume.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -58,6 +59,19 @@ std::vector<std::string> buried_groups(const MergedProbes& merged,
     return warnings;
 }
 
+/// Probes that no light reaches, as in hollow walls.
+void add_dark_warning(std::span<const RadianceSh> radiance, uint32_t sample_count,
+                      std::vector<std::string>& warnings) {
+    constexpr uint32_t kEnoughSamples = 64;  // with fewer a probe may miss a small opening
+    const auto dark = std::ranges::count_if(
+        radiance, [](const RadianceSh& sh) { return sh.coefficients[0] == glm::vec3(0.0f); });
+    const bool is_all = dark == std::ssize(radiance);  // a scene without light: nothing is odd
+    if (dark == 0 || is_all || sample_count < kEnoughSamples) return;
+    warnings.push_back(text(dark, " of ", radiance.size(),
+                            " probes receive no light at all (in closed hollows?); what they light "
+                            "will be black"));
+}
+
 void add_dering_warnings(const MergedProbes& merged, std::vector<std::string>& warnings) {
     for (size_t g = 0; g < merged.group_names.size(); ++g) {
         if (!merged.group_dering[g]) continue;
@@ -88,6 +102,7 @@ Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> 
     result.report.bake_seconds = watch.lap();
     result.report.ray_count = baked->ray_count;
     result.report.warnings = buried_groups(*merged, volume.validity);
+    add_dark_warning(baked->radiance, settings.sample_count, result.report.warnings);
     add_dering_warnings(*merged, result.report.warnings);
     result.volume = std::move(volume);
     return result;

@@ -63,7 +63,10 @@ class View {
 }  // namespace
 
 Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_radians) {
-    const glm::dvec3 back = glm::normalize(eye - target);
+    // Points that double can hardly part give no direction: look along -Z then.
+    const glm::dvec3 offset = eye - target;
+    const double distance = glm::length(offset);
+    const glm::dvec3 back = distance > 1e-100 ? offset / distance : glm::dvec3(0.0, 0.0, 1.0);
     const glm::dvec3 up(0.0, 1.0, 0.0);
     glm::dvec3 right = glm::cross(up, back);
     right = glm::length(right) > 1e-9 ? glm::normalize(right) : glm::dvec3(1.0, 0.0, 0.0);

@@ -10,7 +10,8 @@
 
 namespace tetralight {
 
-/// A camera at `eye` that looks at `target`, with world Y up.
+/// A camera at `eye` that looks at `target`, with world Y up. Where both are one point it looks
+/// along -Z.
 [[nodiscard]] Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_radians);
 
 struct RenderSettings {

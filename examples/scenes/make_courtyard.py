@@ -452,7 +452,8 @@ def add_probes(gltf):
     xs = [-INNER_X + d, -1.15, 1.15, INNER_X - d]
     zs = [-INNER_Z + d, -0.8, 0.8, INNER_Z - d]
     heights = [FLOOR_TOP + d, 1.7, WALL_TOP - d]
-    add_probe_group(gltf, "interior", grid(xs, heights, zs))
+    # The lowest layer lies near the floor, so that the foot of the walls is lit from inside.
+    add_probe_group(gltf, "interior", grid(xs, [FLOOR_TOP + 0.16] + heights[1:], zs))
 
     # The same places on the other side of the walls and of the roof, and the corners.
     out_x, out_z = HALF_X + d, HALF_Z + d

@@ -19,6 +19,9 @@ namespace {
 
 constexpr double kFarthest = 1e18;
 
+/// Positions nearer to each other than this are one: squares of such lengths leave the floats.
+constexpr double kNearest = 1e-15;
+
 bool is_finite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
@@ -168,7 +171,8 @@ double weld_radius(std::span<const glm::dvec3> positions, const MergeSettings& s
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    return positions.empty() ? 0.0 : settings.weld_tolerance * glm::distance(low, high);
+    if (positions.empty()) return 0.0;
+    return std::max(kNearest, settings.weld_tolerance * glm::distance(low, high));
 }
 
 /// Puts the representatives in canonical order and points every source at its probe.

@@ -55,6 +55,13 @@ TEST_F(Tetrahedralize, MakesTrianglesOfAFlatSet) {
     EXPECT_TRUE(contains(succeed({"validate", "v.probes"}).out, "4 triangles"));
 }
 
+TEST_F(Tetrahedralize, RefusesToWriteOverItsInput) {
+    const std::string before = read("five.json");
+    const std::string message = fail({"tetrahedralize", "five.json", "-o", "./five.json"});
+    EXPECT_TRUE(contains(message, "is an input of this command")) << message;
+    EXPECT_EQ(read("five.json"), before);
+}
+
 TEST_F(Tetrahedralize, NamesAGroupThatIsThereTwice) {
     const std::string message = fail_and_keep(
         "old.probes", {"tetrahedralize", "five.json", "five.json", "-o", "old.probes"});

@@ -131,6 +131,20 @@ TEST(BakeVolume, MetadataTellsHowItWasMade) {
     EXPECT_EQ(metadata.substr(metadata.size() - expected.size()), expected);
 }
 
+TEST(BakeVolume, WarnsOfProbesThatNoLightReaches) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_box(scene, test::diffuse(glm::vec3(0.5f)), test::Facing::Inward, {-1, -1, -1},
+                  {1, 1, 1});
+    BakeSettings settings;
+    settings.sample_count = 64;
+    const std::vector<ProbeGroup> groups{group("a", {{0, 0, 0}, {5, 0, 0}, {0, 5, 0}})};
+    const auto baked = bake_volume(scene, groups, {}, settings);
+    ASSERT_TRUE(baked);
+    ASSERT_EQ(baked->report.warnings.size(), 1u);
+    EXPECT_EQ(baked->report.warnings[0].find("1 of 3 probes receive no light"), 0u);
+}
+
 TEST(BakeVolume, WarnsOfGroupsThatAreHalfBuriedOrMore) {
     Scene scene;
     test::add_box(scene, test::diffuse(glm::vec3(0.5f)), test::Facing::Outward, {-1, -1, -1},

@@ -11,6 +11,15 @@
 namespace tetralight {
 namespace {
 
+TEST(LookAt, IsFiniteWhereEyeAndTargetCanHardlyBeParted) {
+    for (const double distance : {0.0, 1e-300, 1e-160}) {
+        const Camera camera = look_at({0, 1, 0}, {0, 1, distance}, 1.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(glm::length(camera.world_from_camera[axis]), 1.0, 1e-12) << distance;
+        }
+    }
+}
+
 RenderSettings small(uint32_t width, uint32_t height, uint32_t samples_per_axis = 1) {
     RenderSettings settings;
     settings.width = width;

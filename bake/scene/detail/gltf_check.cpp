@@ -141,7 +141,9 @@ Status check_gltf_json(std::string_view json_text, GltfContainer container) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{text("cannot parse JSON (", exception.what(), ")")};
+        const std::string_view why = exception.what();  // after the library's tag
+        return Error{
+            text("is not glTF (", why.substr(std::min(why.find("] ") + 2, why.size())), ")")};
     }
 }
 
