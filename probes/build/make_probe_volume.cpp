@@ -8,7 +8,6 @@
 
 #include "probes/build/hull_rays.h"
 #include "probes/build/make_seeds.h"
-#include "probes/build/tetrahedralize.h"
 
 namespace tetralight {
 namespace {
@@ -31,8 +30,10 @@ glm::dvec3 local_origin(std::span<const glm::dvec3> positions) {
 }  // namespace
 
 ProbeVolume make_probe_volume(const MergedProbes& probes) {
-    // Half the radius: positions that stand apart by more than it never fall together in a plane.
-    Tetrahedralization cells = tetrahedralize(probes.positions, 0.5 * probes.weld_radius);
+    return make_probe_volume(probes, tetrahedralize(probes.positions, flatness(probes)));
+}
+
+ProbeVolume make_probe_volume(const MergedProbes& probes, Tetrahedralization cells) {
     HullRays hull = make_hull_rays(probes.positions, cells);
 
     ProbeVolume volume;

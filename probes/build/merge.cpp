@@ -200,6 +200,10 @@ void weld(std::span<const glm::dvec3> positions, const MergeSettings& settings,
 
 }  // namespace
 
+double flatness(const MergedProbes& probes) {
+    return 0.5 * probes.weld_radius;
+}
+
 Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettings& settings) {
     std::vector<const ProbeGroup*> sorted;
     for (const ProbeGroup& group : groups) sorted.push_back(&group);
