@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "probes/build/tetrahedralize.h"
+
+namespace tetralight::detail {
+
+/// `canonical_cells` of tetrahedra that come from somewhere else, when they are a Delaunay
+/// tetrahedralization of the positions. Nothing is assumed of the numbers in them; kNoIndex
+/// neighbors are outside the hull.
+///
+/// Errors: an index is out of range, tetrahedra are not each other's neighbors, positions are left
+/// out, and what `validate` finds under exact arithmetic: inverted tetrahedra, faces that break the
+/// Delaunay property, a hull that is not convex, or not in one piece.
+[[nodiscard]] Result<Tetrahedralization> check_tetrahedra(std::vector<Cell> tetrahedra,
+                                                          std::span<const glm::dvec3> positions);
+
+}  // namespace tetralight::detail
