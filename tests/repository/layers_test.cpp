@@ -23,7 +23,8 @@ const std::map<std::string, Folders> kMayInclude = [] {
     std::map<std::string, Folders> table{
         {"base", {}},
         {"probes", {"base"}},
-        {"probes/build", {"base", "probes"}},
+        {"probes/build/tetgen", {}},
+        {"probes/build", {"base", "probes", "probes/build/tetgen"}},
         {"runtime", {"base", "probes"}},
         {"bake/image", {"base"}},
         {"bake/scene", {"base", "probes", "bake/image"}},

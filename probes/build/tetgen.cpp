@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/build/tetgen.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "base/text.h"
+#include "probes/build/detail/cgal.h"
+#include "probes/build/detail/check_tetrahedra.h"
+#include "probes/build/detail/child_process.h"
+#include "probes/build/detail/spread.h"
+#include "probes/build/tetgen/stream.h"
+
+namespace tetralight {
+namespace {
+
+using tetgen::StreamHeader;
+using tetgen::StreamTetrahedron;
+
+using Bytes = std::span<const std::byte>;
+
+static_assert(sizeof(glm::dvec3) == 3 * sizeof(double));
+static_assert(sizeof(Cell) == sizeof(StreamTetrahedron) && tetgen::kStreamNoNeighbor == kNoIndex);
+
+/// The position with the largest measure.
+template <class Measure>
+const glm::dvec3& farthest(std::span<const glm::dvec3> positions, Measure measure) {
+    return *std::ranges::max_element(positions, {}, measure);
+}
+
+/// Exact: whether four of the positions span a tetrahedron.
+bool has_tetrahedron(std::span<const glm::dvec3> positions) {
+    const glm::dvec3& a = positions[0];
+    const glm::dvec3& b =
+        farthest(positions, [&](const glm::dvec3& p) { return glm::distance(p, a); });
+    const glm::dvec3& c = farthest(
+        positions, [&](const glm::dvec3& p) { return glm::length(glm::cross(p - a, b - a)); });
+    return std::ranges::any_of(
+        positions, [&](const glm::dvec3& d) { return detail::orientation(a, b, c, d) != 0; });
+}
+
+bool is_flat(std::span<const glm::dvec3> positions, double flatness) {
+    return detail::measure_spread(positions, flatness).dimension != Dimension::Space ||
+           !has_tetrahedron(positions);
+}
+
+/// What the output has to begin with. Precondition: it is long enough.
+StreamHeader header_of(Bytes output) {
+    StreamHeader header;
+    std::memcpy(&header, output.data(), sizeof header);
+    return header;
+}
+
+/// Refuses output that cannot become tetrahedra of so many positions, however it goes on.
+Status check_output(Bytes output, uint64_t position_count) {
+    const size_t magic_size = std::min(output.size(), tetgen::kTetrahedraMagic.size());
+    if (std::memcmp(output.data(), tetgen::kTetrahedraMagic.data(), magic_size) != 0) {
+        return Error{"its output is not of a version that is known here"};
+    }
+    if (output.size() < sizeof(StreamHeader)) return Ok{};
+    const uint64_t count = header_of(output).count;
+    const uint64_t limit = position_count * (position_count - 3) / 2;  // of any tetrahedralization
+    if (count > std::min<uint64_t>(limit, kNoIndex / 4)) {
+        return Error{text("its output has ", count, " tetrahedra over ", position_count,
+                          " probes: more than there can be")};
+    }
+    if (output.size() <= sizeof(StreamHeader) + count * sizeof(StreamTetrahedron)) return Ok{};
+    return Error{text("its output goes on after the ", count, " tetrahedra that it began with")};
+}
+
+Result<std::vector<Cell>> cells_of(Bytes output) {
+    if (output.size() < sizeof(StreamHeader)) {
+        return Error{text("its output ends after ", output.size(), " bytes")};
+    }
+    const uint64_t count = header_of(output).count;
+    const Bytes payload = output.subspan(sizeof(StreamHeader));
+    if (payload.size() != count * sizeof(Cell)) {
+        return Error{text("its output ends after ", payload.size() / sizeof(Cell), " of ", count,
+                          " tetrahedra")};
+    }
+    std::vector<Cell> cells(count);
+    if (count > 0) std::memcpy(cells.data(), payload.data(), payload.size());
+    return cells;
+}
+
+}  // namespace
+
+Result<Tetrahedralization> tetrahedralize_with_tetgen(std::span<const glm::dvec3> positions,
+                                                      double flatness,
+                                                      const TetgenProgram& program) {
+    if (is_flat(positions, flatness)) return tetrahedralize(positions, flatness);
+
+    const detail::ChildCommand command{program.path, program.time_limit, [&](Bytes output) {
+                                           return check_output(output, positions.size());
+                                       }};
+    const StreamHeader header{tetgen::kPositionsMagic, positions.size()};
+    const std::array<Bytes, 2> input{std::as_bytes(std::span(&header, 1)),
+                                     std::as_bytes(positions)};
+    const auto output = detail::run_child(command, input);
+    if (!output) return output.error();
+    auto cells = cells_of(*output);
+    if (!cells) return cells.error().in(command.name());
+    auto result = detail::check_tetrahedra(std::move(*cells), positions);
+    if (!result) return result.error().in(command.name());
+    return result;
+}
+
+}  // namespace tetralight

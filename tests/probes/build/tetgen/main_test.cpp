@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program itself, on input that `tetrahedralize_with_tetgen` never gives it.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+
+#include "probes/build/detail/child_process.h"
+#include "probes/build/tetgen/stream.h"
+#include "tests/support/random_probes.h"
+
+namespace tetralight {
+namespace {
+
+using tetgen::StreamHeader;
+using tetgen::StreamTetrahedron;
+
+using Bytes = std::span<const std::byte>;
+
+Result<std::vector<std::byte>> run(const StreamHeader& header,
+                                   std::span<const glm::dvec3> positions) {
+    const std::array<Bytes, 2> input{std::as_bytes(std::span(&header, 1)),
+                                     std::as_bytes(positions)};
+    return detail::run_child(
+        {TETRALIGHT_TETGEN_PROGRAM, std::chrono::minutes(1), [](Bytes) { return Ok{}; }}, input);
+}
+
+Result<std::vector<std::byte>> run(std::span<const glm::dvec3> positions) {
+    return run({tetgen::kPositionsMagic, positions.size()}, positions);
+}
+
+TEST(TetgenMain, WritesOneTetrahedronPositivelyOriented) {
+    const std::vector<glm::dvec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const auto output = run(positions);
+    ASSERT_TRUE(output) << output.error().message;
+    ASSERT_EQ(output->size(), sizeof(StreamHeader) + sizeof(StreamTetrahedron));
+    StreamTetrahedron tetrahedron;
+    std::memcpy(&tetrahedron, output->data() + sizeof(StreamHeader), sizeof tetrahedron);
+    const auto& v = tetrahedron.vertices;
+    const glm::dvec3& apex = positions[v[0]];
+    EXPECT_GT(glm::dot(positions[v[1]] - apex,
+                       glm::cross(positions[v[2]] - apex, positions[v[3]] - apex)),
+              0.0);
+    for (const uint32_t neighbor : tetrahedron.neighbors) {
+        EXPECT_EQ(neighbor, tetgen::kStreamNoNeighbor);
+    }
+}
+
+TEST(TetgenMain, RefusesInputThatIsNoPositions) {
+    const std::string prefix = "tetralight-tetgen: ended with exit code 1: ";
+    const auto positions = test::random_positions(10, 1);
+    EXPECT_EQ(run({}, {}).error().message, prefix + "stdin holds no positions of this version");
+    EXPECT_EQ(run({tetgen::kPositionsMagic, 11}, positions).error().message,
+              prefix + "stdin ends within the positions");
+    EXPECT_EQ(run({tetgen::kPositionsMagic, uint64_t{1} << 62}, positions).error().message,
+              prefix + "too many positions for TetGen");
+}
+
+TEST(TetgenMain, EndsWithAnErrorWhereTetGenCannotGoOn) {
+    const auto flat = [](const glm::dvec3& scale) {
+        auto positions = test::random_positions(20, 1);
+        for (glm::dvec3& p : positions) p *= scale;
+        return positions;
+    };
+    for (const auto& positions : {flat({1, 1, 0}), flat({1, 0, 0}), flat({0, 0, 0}),
+                                  test::random_positions(0, 1), test::random_positions(1, 1),
+                                  test::random_positions(2, 1), test::random_positions(3, 1)}) {
+        const auto output = run(positions);
+        ASSERT_FALSE(output) << positions.size();
+        EXPECT_TRUE(output.error().message.starts_with("tetralight-tetgen: ended "))
+            << output.error().message;
+    }
+}
+
+}  // namespace
+}  // namespace tetralight
