@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/tetgen_program.h"
 #include "probes/build/make_probe_volume.h"
 #include "probes/probe_file.h"
 
@@ -12,6 +13,7 @@ namespace {
 struct Tetrahedralize {
     std::vector<std::string> group_paths;
     std::string output;
+    std::string backend = "cgal";
     MergeSettings merge_settings;
     CommonOptions common;
 
@@ -25,7 +27,23 @@ struct Tetrahedralize {
                         "Join probes nearer than this share of the set's diagonal")
             ->check(numbers_in(0.0, 0.1))
             ->capture_default_str();
+        command
+            .add_option("--backend", backend,
+                        "What joins the probes. tetgen: the program tetralight-tetgen, taken from\n"
+                        "$TETRALIGHT_TETGEN, this command's folder or PATH; it has 10 minutes")
+            ->check(CLI::IsMember({"cgal", "tetgen"}))
+            ->capture_default_str();
         common.add_to(command);
+    }
+
+    [[nodiscard]] Result<Tetrahedralization> cells_over(const MergedProbes& probes) const {
+        if (backend == "cgal") return tetrahedralize(probes.positions, flatness(probes));
+        return tetrahedralize_with_tetgen(probes.positions, flatness(probes),
+                                          find_tetgen_program());
+    }
+
+    [[nodiscard]] std::string metadata() const {
+        return dump({{"generator", "tetralight " TETRALIGHT_VERSION}, {"backend", backend}});
     }
 
     Status run() {
@@ -34,9 +52,12 @@ struct Tetrahedralize {
         if (!groups) return groups.error();
         const auto merged = merge(*groups, merge_settings);
         if (!merged) return merged.error();
-        const auto volume = make_probe_volume(*merged);
+        auto cells = cells_over(*merged);
+        if (!cells) return cells.error();
+        ProbeVolume volume = make_probe_volume(*merged, std::move(*cells));
+        volume.metadata = metadata();
         if (auto status = write_probe_file(output, volume.view()); !status) return status;
-        Json json{{"output", output}};
+        Json json{{"output", output}, {"backend", backend}};
         json.update(counts(volume.view()));
         common.report(output, json,
                       text(output, ": ", grouped(volume.positions.size()), " probes (",
