@@ -40,8 +40,8 @@ struct MergedProbes {
     [[nodiscard]] size_t welded_count() const { return sources.size() - positions.size(); }
 };
 
-/// What `tetrahedralize` may take for flat: half the weld radius, so that positions that stand apart
-/// never fall together in a plane.
+/// What `tetrahedralize` may take for flat: half the weld radius, so that positions that stand
+/// apart never fall together in a plane.
 [[nodiscard]] double flatness(const MergedProbes& probes);
 
 /// Joins groups into one set. Clusters of near positions are closed transitively; the
