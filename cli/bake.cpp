@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/group_files.h"
+#include "cli/paths.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
 #include "pipeline/bake_volume.h"
@@ -20,10 +22,12 @@ struct Bake {
 
     void add_to(CLI::App& command) {
         scene_options.add_to(command);
-        command.add_option("-o,--output", output, "Probe volume to write (.probes)")->required();
+        add_output(command, output, ".probes", "Probe volume to write");
         auto* groups_option =
-            command.add_option("-g,--groups", group_paths,
-                               "Probe groups beside the scene's own: .json files, or glTF scenes");
+            add_paths(command, "-g,--groups", group_paths,
+                      "Probe groups beside the scene's own: a .json file or a glTF scene; may be "
+                      "given several times");
+        groups_option->allow_extra_args(false);  // what follows is the next argument
         command
             .add_flag("--only-given-groups", only_given_groups,
                       "Leave the scene's own probe groups out")
@@ -36,9 +40,7 @@ struct Bake {
                         "Reflections that light may take (0 = direct light only)")
             ->check(CLI::Range(0u, 1000u))
             ->capture_default_str();
-        command.add_option("--seed", settings.seed, "Seed of the random numbers")
-            ->check(CLI::NonNegativeNumber)
-            ->capture_default_str();
+        add_seed(command, settings.seed, "Seed of the random numbers");
         command
             .add_option("--weld", merge_settings.weld_tolerance,
                         "Join probes nearer than this share of the set's diagonal")
@@ -47,16 +49,16 @@ struct Bake {
         common.add_to(command);
     }
 
-    [[nodiscard]] Result<std::vector<ProbeGroup>> all_groups(Scene& scene) const {
-        auto groups = read_groups(group_paths);
-        if (!groups || only_given_groups) return groups;
-        for (ProbeGroup& group : scene.probe_groups) groups->push_back(std::move(group));
-        if (groups->empty()) {
+    [[nodiscard]] Result<GroupFiles> all_groups(Scene& scene) const {
+        auto files = GroupFiles::read(group_paths);
+        if (!files || only_given_groups) return files;
+        files->add(scene_options.path, std::move(scene.probe_groups));
+        if (files->groups().empty()) {
             return Error{scene_options.path +
                          ": the scene has no probe groups; give some with --groups, made by "
                          "`tetralight grid` for example"};
         }
-        return groups;
+        return files;
     }
 
     [[nodiscard]] std::vector<std::string> inputs() const {
@@ -70,15 +72,15 @@ struct Bake {
         auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
-        const auto groups = all_groups(*scene);
-        if (!groups) return groups.error();
+        const auto files = all_groups(*scene);
+        if (!files) return files.error();
 
         settings.thread_count = common.thread_count;
         BakeProgressDisplay display(common.is_quiet);
         const auto baked =
-            bake_volume(*scene, *groups, merge_settings, settings,
+            bake_volume(*scene, files->groups(), merge_settings, settings,
                         [&](const BakeProgress& progress) { return display.show(progress); });
-        if (!baked) return baked.error();
+        if (!baked) return files->locate(baked.error());
         common.warn(baked->report.warnings);
         const ProbeVolumeView volume = baked->volume.view();
         if (auto status = write_probe_file(output, volume); !status) return status;
@@ -100,7 +102,7 @@ struct Bake {
                        {"bake", bake.bake_seconds}}}});
         common.report(
             output, json,
-            text(output, ": ", grouped(volume.probe_count()), " probes (",
+            text(output, ": ", counted(volume.probe_count(), "probe"), " (",
                  grouped(bake.welded_count), " welded), ", cells_text(volume), "\n  merge ",
                  duration(bake.merge_seconds), ", tetrahedralize ",
                  duration(bake.tetrahedralize_seconds), ", bake ", duration(bake.bake_seconds),

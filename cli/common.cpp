@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
+#include <glm/common.hpp>
 #include <iostream>
 
-#include "bake/scene/probe_groups_json.h"
-#include "bake/scene/read_gltf.h"
 #include "base/text.h"
 
 namespace tetralight::cli {
@@ -55,11 +51,6 @@ CLI::Validator finite() {
     return numbers_in(-1e18, 1e18).description("");
 }
 
-bool is_gltf(const std::string& path) {
-    const auto extension = std::filesystem::path(path).extension();
-    return extension == ".glb" || extension == ".gltf";
-}
-
 }  // namespace
 
 void CommonOptions::add_to(CLI::App& command) {
@@ -84,6 +75,11 @@ void CommonOptions::warn(const std::vector<std::string>& warnings) const {
         std::cerr << "warning: " << printable(warning) << '\n';
 }
 
+void CommonOptions::warn_if_unlit(const std::string& path, const ProbeVolumeView& volume) const {
+    if (volume.positions.empty() || !volume.irradiance.empty()) return;
+    warn({path + ": the volume holds no light (it was not baked); probes light nothing"});
+}
+
 std::optional<glm::dvec3> parse_vec3(const std::string& text) {
     glm::dvec3 value(0.0);
     const char* begin = text.data();
@@ -101,6 +97,19 @@ std::optional<glm::dvec3> parse_vec3(const std::string& text) {
 CLI::Validator numbers_in(double low, double high) {
     return {[low, high](const std::string& input) { return range_error(input, low, high); },
             text("[", low, " - ", high, "]")};
+}
+
+CLI::Option* add_seed(CLI::App& command, uint64_t& seed, const std::string& help) {
+    const auto check = [](const std::string& input) -> std::string {
+        uint64_t value = 0;
+        const char* const end = input.data() + input.size();
+        const auto [next, error] = std::from_chars(input.data(), end, value);
+        if (error == std::errc{} && next == end) return "";
+        return text("\"", input, "\" is not a whole number from 0 to 2^64 - 1");
+    };
+    return command.add_option("--seed", seed, help)
+        ->check(CLI::Validator(check, ""))
+        ->capture_default_str();
 }
 
 CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& value,
@@ -131,45 +140,6 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
         ->type_name("M|X,Y,Z");
 }
 
-Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
-    if (!is_gltf(path)) return read_probe_groups(path);
-    auto scene = read_gltf(path);
-    if (!scene) return scene.error();
-    if (scene->probe_groups.empty()) {
-        return Error{path + ": no node has extras.light_probe_group"};
-    }
-    return std::move(scene->probe_groups);
-}
-
-Result<std::vector<ProbeGroup>> read_groups(const std::vector<std::string>& paths) {
-    std::vector<ProbeGroup> all;
-    for (const std::string& path : paths) {
-        auto groups = read_groups(path);
-        if (!groups) return groups.error();
-        for (ProbeGroup& group : *groups) all.push_back(std::move(group));
-    }
-    return all;
-}
-
-Status check_output(const std::string& path, const std::vector<std::string>& inputs) {
-    namespace fs = std::filesystem;
-    std::error_code error;
-    for (const std::string& input : inputs) {
-        if (!fs::is_regular_file(input, error) || !fs::equivalent(input, path, error)) continue;
-        return Error{path + ": is an input of this command and would be lost; write elsewhere"};
-    }
-    if (path == "-" || fs::is_other(fs::status(path, error))) return Ok{};  // stdout, devices
-    if (fs::is_directory(path, error)) return Error{path + ": cannot write (is a folder)"};
-    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
-    if (!fs::is_directory(folder, error)) {
-        return Error{path + ": cannot write (there is no folder " + folder.string() + ")"};
-    }
-    if (::access(folder.c_str(), W_OK) != 0) {
-        return Error{path + ": cannot write (no permission in " + folder.string() + ")"};
-    }
-    return Ok{};
-}
-
 Json to_json(const glm::dvec3& value) {
     return Json::array({value.x, value.y, value.z});
 }
@@ -192,9 +162,21 @@ const char* name_of(Dimension dimension) {
 }
 
 std::string cells_text(const ProbeVolumeView& volume) {
-    constexpr const char* kCells[] = {"cells", "cell", "segments", "triangles", "tetrahedra"};
-    return grouped(volume.info.inner_cell_count) + " " +
-           kCells[static_cast<size_t>(volume.info.dimension)];
+    constexpr const char* kOne[] = {"cell", "cell", "segment", "triangle", "tetrahedron"};
+    constexpr const char* kMany[] = {"cells", "cells", "segments", "triangles", "tetrahedra"};
+    const uint32_t count = volume.info.inner_cell_count;
+    const auto kind = static_cast<size_t>(volume.info.dimension);
+    return grouped(count) + " " + (count == 1 ? kOne : kMany)[kind];
+}
+
+ProbeBounds probe_bounds(const ProbeVolumeView& volume) {
+    if (volume.positions.empty()) return {};
+    ProbeBounds bounds{volume.positions[0], volume.positions[0]};
+    for (const glm::vec3& p : volume.positions) {
+        bounds.low = glm::min(bounds.low, p);
+        bounds.high = glm::max(bounds.high, p);
+    }
+    return bounds;
 }
 
 Json counts(const ProbeVolumeView& volume) {
@@ -217,6 +199,10 @@ std::string grouped(uint64_t number) {
     std::string digits = std::to_string(number);
     for (size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, 1, ' ');
     return digits;
+}
+
+std::string counted(uint64_t number, const std::string& noun) {
+    return grouped(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
 std::string magnitude(double number) {

@@ -11,7 +11,6 @@
 
 #include "base/result.h"
 #include "cli/commands.h"
-#include "probes/probe_group.h"
 #include "probes/probe_volume.h"
 
 namespace tetralight::cli {
@@ -32,6 +31,8 @@ struct CommonOptions {
     void report(const std::string& output, const Json& json, const std::string& text) const;
     /// Lines on stderr, unless quiet.
     void warn(const std::vector<std::string>& warnings) const;
+    /// Says that a volume was never baked, so that nobody wonders at black answers.
+    void warn_if_unlit(const std::string& path, const ProbeVolumeView& volume) const;
 };
 
 /// Declares a subcommand: its options live in an `Options` with `add_to(command)` and `run()`.
@@ -50,6 +51,9 @@ CLI::App& add_command(CLI::App& app, Run& run, const char* name, const char* des
 /// refuses NaN.
 [[nodiscard]] CLI::Validator numbers_in(double low, double high);
 
+/// A seed: a decimal number below 2^64. CLI11 alone would take the largest one for all beyond it.
+CLI::Option* add_seed(CLI::App& command, uint64_t& seed, const std::string& help);
+
 /// An option whose value is three finite numbers with commas between: `--name 1,2,3`.
 CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& value,
                       const std::string& help);
@@ -61,16 +65,6 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 /// Three numbers with commas between, or none.
 [[nodiscard]] std::optional<glm::dvec3> parse_vec3(const std::string& text);
 
-/// Reads probe groups: a JSON group file, or the groups of a glTF scene.
-[[nodiscard]] Result<std::vector<ProbeGroup>> read_groups(const std::string& path);
-
-/// Reads every file and joins the lists. An error when there is no group in a file.
-[[nodiscard]] Result<std::vector<ProbeGroup>> read_groups(const std::vector<std::string>& paths);
-
-/// Says before a long job, not after it, that the output cannot be written, or that it would take
-/// the place of one of the inputs.
-[[nodiscard]] Status check_output(const std::string& path, const std::vector<std::string>& inputs);
-
 [[nodiscard]] Json to_json(const glm::dvec3& value);
 /// Text for a terminal: one line, control characters shown as '?'.
 [[nodiscard]] std::string printable(std::string text);
@@ -78,8 +72,18 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 [[nodiscard]] std::string dump(const Json& json, int indent = -1);
 /// "space", "plane", "line", "point", "none".
 [[nodiscard]] const char* name_of(Dimension dimension);
-/// "1 347 tetrahedra", "12 triangles".
+/// "1 347 tetrahedra", "1 triangle".
 [[nodiscard]] std::string cells_text(const ProbeVolumeView& volume);
+
+/// The box around a volume's probes, relative to its local origin; a point without probes.
+struct ProbeBounds {
+    glm::vec3 low{0.0f};
+    glm::vec3 high{0.0f};
+
+    [[nodiscard]] glm::vec3 center() const { return 0.5f * low + 0.5f * high; }
+};
+
+[[nodiscard]] ProbeBounds probe_bounds(const ProbeVolumeView& volume);
 /// What a volume holds, in numbers.
 [[nodiscard]] Json counts(const ProbeVolumeView& volume);
 
@@ -87,6 +91,8 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 [[nodiscard]] std::string duration(double seconds);
 /// "1 234 567" with thin grouping.
 [[nodiscard]] std::string grouped(uint64_t number);
+/// "1 probe", "2 probes".
+[[nodiscard]] std::string counted(uint64_t number, const std::string& noun);
 /// "3.4 M", "512 ": a unit can follow.
 [[nodiscard]] std::string magnitude(double number);
 

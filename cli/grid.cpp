@@ -5,6 +5,7 @@
 #include "bake/scene/read_gltf.h"
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/paths.h"
 
 namespace tetralight::cli {
 namespace {
@@ -27,8 +28,8 @@ struct Grid {
     CommonOptions common;
 
     void add_to(CLI::App& command) {
-        command.add_option("SCENE", scene_path, "glTF 2.0 scene")->required();
-        command.add_option("-o,--output", output, "Probe-group file to write (.json)")->required();
+        add_path(command, "SCENE", scene_path, "glTF 2.0 scene")->required();
+        add_output(command, output, ".json", "Probe-group file to write");
         add_vec3_or_number(command, "--spacing", settings.spacing, "Metres between probes")
             ->required()
             ->check(numbers_in(1e-6, 1e9).description(""));
@@ -69,14 +70,14 @@ struct Grid {
         auto status = write_probe_groups(output, std::span(&grid->group, 1));
         if (!status) return status;
         const size_t kept = grid->group.positions.size();
-        common.report(
-            output,
-            {{"output", output},
-             {"probes", kept},
-             {"candidates", grid->candidate_count},
-             {"inside_geometry", grid->inside_count}},
-            text(output, ": ", grouped(kept), " probes of ", grouped(grid->candidate_count),
-                 " candidates (", grouped(grid->inside_count), " inside geometry)"));
+        common.report(output,
+                      {{"output", output},
+                       {"probes", kept},
+                       {"candidates", grid->candidate_count},
+                       {"inside_geometry", grid->inside_count}},
+                      text(output, ": ", counted(kept, "probe"), " of ",
+                           counted(grid->candidate_count, "candidate"), " (",
+                           grouped(grid->inside_count), " inside geometry)"));
         return Ok{};
     }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/paths.h"
 #include "probes/probe_file.h"
 
 #include <glm/common.hpp>
@@ -60,7 +61,7 @@ struct Info {
     CommonOptions common;
 
     void add_to(CLI::App& command) {
-        command.add_option("VOLUME", path, "Probe volume (.probes)")->required();
+        add_path(command, "VOLUME", path, "Probe volume (.probes)")->required();
         common.add_to(command);
     }
 

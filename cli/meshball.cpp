@@ -9,6 +9,7 @@
 #include "bake/scene/read_gltf.h"
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/paths.h"
 #include "cli/view_options.h"
 #include "pipeline/mesh_ball.h"
 #include "probes/probe_file.h"
@@ -27,9 +28,9 @@ struct MeshBall {
     CommonOptions common;
 
     void add_to(CLI::App& command) {
-        command.add_option("VOLUME", volume_path, "Probe volume (.probes)")->required();
-        command.add_option("-o,--output", output, "Picture to write (.png)")->required();
-        command.add_option("--scene", scene_path, "glTF 2.0 scene to show around the ball");
+        add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
+        add_output(command, output, ".png", "Picture to write");
+        add_path(command, "--scene", scene_path, "glTF 2.0 scene to show around the ball");
         command.add_option("--count", settings.instance_count, "Spheres in the ball")
             ->check(CLI::Range(0u, 10'000'000u))
             ->capture_default_str();
@@ -38,9 +39,7 @@ struct MeshBall {
         radius_option = command.add_option("--radius", settings.radius,
                                            "Radius of the ball (default: from the probes)");
         radius_option->check(numbers_in(1e-6, 1e9));
-        command.add_option("--seed", settings.seed, "Seed of places and colours")
-            ->check(CLI::NonNegativeNumber)
-            ->capture_default_str();
+        add_seed(command, settings.seed, "Seed of places and colours");
         view.add_to(command);
         common.add_to(command);
     }
@@ -74,6 +73,7 @@ struct MeshBall {
         if (auto status = check_output(output, {volume_path, scene_path}); !status) return status;
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
+        common.warn_if_unlit(volume_path, file->view());
         std::optional<Scene> scene;
         if (!scene_path.empty()) {
             auto read = read_gltf(scene_path);

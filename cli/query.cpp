@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/paths.h"
 #include "probes/interpolate.h"
 #include "probes/probe_file.h"
 
@@ -79,7 +80,7 @@ struct Query {
     CommonOptions common;
 
     void add_to(CLI::App& command) {
-        command.add_option("VOLUME", volume_path, "Probe volume (.probes)")->required();
+        add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
         command
             .add_option("POSITIONS", positions_path,
                         "Text file with x y z a line (# begins a comment); - = stdin")

@@ -8,6 +8,7 @@
 #include "bake/scene/scene_bounds.h"
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/paths.h"
 #include "cli/view_options.h"
 #include "pipeline/render_scene.h"
 #include "probes/probe_file.h"
@@ -34,19 +35,21 @@ struct Render {
     CommonOptions common;
 
     void add_to(CLI::App& command) {
-        command.add_option("SCENE", scene_path, "glTF 2.0 scene")->required();
-        command.add_option("VOLUME", volume_path, "Probe volume baked from it (.probes)")
+        add_path(command, "SCENE", scene_path, "glTF 2.0 scene")->required();
+        add_path(command, "VOLUME", volume_path, "Probe volume baked from it (.probes)")
             ->required();
-        command.add_option("-o,--output", output, "Picture to write (.png)")->required();
-        command.add_option("--camera", camera_name,
-                           "Camera of the scene by name; otherwise --eye, else the scene's first, "
-                           "else an overview");
+        add_output(command, output, ".png", "Picture to write");
+        auto* camera_option =
+            command.add_option("--camera", camera_name,
+                               "Camera of the scene by name; without it and --eye the scene's "
+                               "first, else an overview");
         view.add_to(command);
+        camera_option->excludes(view.eye_option);
         common.add_to(command);
     }
 
     [[nodiscard]] Result<Camera> camera(const Scene& scene) const {
-        if (view.has_camera && camera_name.empty()) return view.camera();
+        if (view.has_camera) return view.camera();
         for (const Camera& candidate : scene.cameras) {
             if (!camera_name.empty() && candidate.name != camera_name) continue;
             return candidate;
@@ -65,6 +68,7 @@ struct Render {
         common.warn(scene->warnings);
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
+        common.warn_if_unlit(volume_path, file->view());
         const auto chosen = camera(*scene);
         if (!chosen) return chosen.error();
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/scene_options.h"
 
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <optional>
 
 #include "bake/image/read_image.h"
 #include "bake/scene/read_gltf.h"
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/paths.h"
 
 namespace tetralight::cli {
 
@@ -16,10 +19,20 @@ namespace {
 /// Sums over directions and bounces stay far from the largest float, 3e38.
 constexpr double kMaxRadiance = 1e30;
 
-/// A constant sky has radiance ≥ 0; anything else is the name of a file.
+/// A constant sky: R,G,B, or one number for a grey one. Anything else is the name of a file.
+std::optional<glm::dvec3> constant_sky(const std::string& sky) {
+    const auto grey = parse_vec3(sky + "," + sky + "," + sky);
+    return grey ? grey : parse_vec3(sky);
+}
+
+/// A constant sky has radiance ≥ 0; a file that is not there and has commas in its name was meant
+/// to be one.
 CLI::Validator sky_check() {
     const auto check = [](std::string& sky) -> std::string {
-        return parse_vec3(sky) ? numbers_in(0.0, kMaxRadiance)(sky) : "";
+        if (constant_sky(sky)) return numbers_in(0.0, kMaxRadiance)(sky);
+        const bool is_file =
+            !sky.empty() && (sky.find(',') == std::string::npos || std::filesystem::exists(sky));
+        return is_file ? "" : "\"" + sky + "\" is neither R,G,B, nor a number, nor a file";
     };
     return {check, ""};
 }
@@ -36,13 +49,13 @@ CLI::Validator direction_check() {
 }  // namespace
 
 void SceneOptions::add_to(CLI::App& command) {
-    command.add_option("SCENE", path, "glTF 2.0 scene (.glb or .gltf)")->required();
+    add_path(command, "SCENE", path, "glTF 2.0 scene (.glb or .gltf)")->required();
     command
         .add_option("--sky", sky,
-                    "Radiance of the sky: R,G,B for a constant one, or an equirectangular .hdr "
-                    "or .exr file; replaces the scene's own")
+                    "Radiance of the sky: R,G,B or one number for a constant one, or an "
+                    "equirectangular .hdr or .exr file; replaces the scene's own")
         ->check(sky_check())
-        ->type_name("R,G,B|FILE");
+        ->type_name("R,G,B|L|FILE");
     command.add_option("--sky-intensity", sky_intensity, "Factor on the sky")
         ->check(numbers_in(0.0, kMaxRadiance))
         ->capture_default_str();
@@ -63,6 +76,7 @@ void SceneOptions::add_to(CLI::App& command) {
                     "What probes hold of the added sun: its bounces (mixed), or its direct "
                     "light too (baked)")
         ->check(CLI::IsMember({"mixed", "baked"}))
+        ->needs(direction)
         ->capture_default_str();
 }
 
@@ -76,7 +90,7 @@ Result<Scene> SceneOptions::read() const {
 
 Status SceneOptions::add_sky(Scene& scene) const {
     Environment& environment = scene.environment;
-    if (const auto constant = parse_vec3(sky)) {
+    if (const auto constant = constant_sky(sky)) {
         environment = {};
         environment.radiance = glm::vec3(*constant);
     } else if (!sky.empty()) {
@@ -86,8 +100,8 @@ Status SceneOptions::add_sky(Scene& scene) const {
         environment.radiance = glm::vec3(1.0f);
         environment.image = std::move(image->image);
         if (image->mended_pixel_count > 0) {
-            scene.warnings.push_back(text(sky, ": ", image->mended_pixel_count,
-                                          " pixels with NaN, infinite or negative values mended"));
+            scene.warnings.push_back(text(sky, ": ", counted(image->mended_pixel_count, "pixel"),
+                                          " with NaN, infinite or negative values mended"));
         }
     }
     environment.radiance *= static_cast<float>(sky_intensity);

@@ -3,6 +3,8 @@
 
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/group_files.h"
+#include "cli/paths.h"
 #include "cli/tetgen_program.h"
 #include "probes/build/make_probe_volume.h"
 #include "probes/probe_file.h"
@@ -18,10 +20,9 @@ struct Tetrahedralize {
     CommonOptions common;
 
     void add_to(CLI::App& command) {
-        command.add_option("GROUPS", group_paths, "Probe groups: .json files, or glTF scenes")
+        add_paths(command, "GROUPS", group_paths, "Probe groups: .json files, or glTF scenes")
             ->required();
-        command.add_option("-o,--output", output, "Probe volume to write, without light (.probes)")
-            ->required();
+        add_output(command, output, ".probes", "Probe volume to write, without light");
         command
             .add_option("--weld", merge_settings.weld_tolerance,
                         "Join probes nearer than this share of the set's diagonal")
@@ -48,10 +49,10 @@ struct Tetrahedralize {
 
     Status run() {
         if (auto status = check_output(output, group_paths); !status) return status;
-        const auto groups = read_groups(group_paths);
-        if (!groups) return groups.error();
-        const auto merged = merge(*groups, merge_settings);
-        if (!merged) return merged.error();
+        const auto files = GroupFiles::read(group_paths);
+        if (!files) return files.error();
+        const auto merged = merge(files->groups(), merge_settings);
+        if (!merged) return files->locate(merged.error());
         auto cells = cells_over(*merged);
         if (!cells) return cells.error();
         ProbeVolume volume = make_probe_volume(*merged, std::move(*cells));
@@ -60,7 +61,7 @@ struct Tetrahedralize {
         Json json{{"output", output}, {"backend", backend}};
         json.update(counts(volume.view()));
         common.report(output, json,
-                      text(output, ": ", grouped(volume.positions.size()), " probes (",
+                      text(output, ": ", counted(volume.positions.size(), "probe"), " (",
                            grouped(merged->welded_count()), " welded), ", cells_text(volume.view()),
                            ", no light"));
         return Ok{};

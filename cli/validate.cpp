@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "cli/common.h"
+#include "cli/paths.h"
 #include "probes/probe_file.h"
 
 namespace tetralight::cli {
@@ -13,7 +14,7 @@ struct Validate {
     CommonOptions common;
 
     void add_to(CLI::App& command) {
-        command.add_option("VOLUME", path, "Probe volume (.probes)")->required();
+        add_path(command, "VOLUME", path, "Probe volume (.probes)")->required();
         common.add_to(command);
     }
 

@@ -20,12 +20,13 @@ void ViewOptions::add_to(CLI::App& command) {
                     "Factor before tone mapping (Khronos PBR Neutral); 0 = automatic")
         ->check(numbers_in(0.0, 1e9))
         ->capture_default_str();
-    auto* eye_option = add_vec3(command, "--eye", eye, "Camera position");
+    eye_option = add_vec3(command, "--eye", eye, "Camera position");
     auto* target_option = add_vec3(command, "--target", target, "What the camera looks at");
     eye_option->needs(target_option)->each([this](const std::string&) { has_camera = true; });
     target_option->needs(eye_option);
     command.add_option("--fov", fov_degrees, "Vertical field of view of --eye, degrees")
         ->check(numbers_in(1.0, 170.0))
+        ->needs(eye_option)
         ->capture_default_str();
     command.parse_complete_callback([this] {
         if (has_camera && eye == target) {

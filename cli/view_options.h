@@ -16,6 +16,8 @@ struct ViewOptions {
     glm::dvec3 target{0.0};
     double fov_degrees = 45.0;
     bool has_camera = false;
+    /// For what excludes it.
+    CLI::Option* eye_option = nullptr;
 
     void add_to(CLI::App& command);
 

@@ -78,7 +78,7 @@ TEST_F(Bake, GivesTheSameBytesForAnyNumberOfThreads) {
 
 TEST_F(Bake, GivesTheSameBytesForAnyOrderOfGroupFiles) {
     succeed({"grid", kCourtyard, "-o", "grid.json", "--spacing", "8"});
-    EXPECT_TRUE(bytes_of({"-g", "grid.json", "five.json"}) ==
+    EXPECT_TRUE(bytes_of({"-g", "grid.json", "--groups", "five.json"}) ==
                 bytes_of({"-g", "five.json", "-g", "grid.json"}));
 }
 
@@ -100,6 +100,19 @@ TEST_F(Bake, LeavesTheGroupsOfTheSceneOutWhenAsked) {
     EXPECT_EQ(json["probes"], 5);
 }
 
+TEST_F(Bake, TakesOneGroupFileAUseAndLeavesTheSceneAlone) {
+    const Json json =
+        run_json({"bake", "-s", "1", "-g", "five.json", kCourtyard, "-o", "v.probes"});
+    EXPECT_EQ(json["groups"], 6);
+}
+
+TEST_F(Bake, NamesTheFilesOfAGroupThatIsThereTwice) {
+    write("again.json", kFiveProbes);
+    const std::string message = fail_and_keep(
+        "v.probes", {"bake", kCourtyard, "-g", "five.json", "-g", "again.json", "-o", "v.probes"});
+    EXPECT_TRUE(contains(message, "five.json, again.json: group \"five\": ")) << message;
+}
+
 TEST_F(Bake, SaysWhereToGetGroupsWhenThereAreNone) {
     const std::string message = fail_and_keep("v.probes", {"bake", "empty.gltf", "-o", "v.probes"});
     EXPECT_TRUE(contains(message, "empty.gltf: ")) << message;
@@ -108,6 +121,23 @@ TEST_F(Bake, SaysWhereToGetGroupsWhenThereAreNone) {
 
 TEST_F(Bake, TakesAConstantSky) {
     expect_radiance({"--sky", "1,0.5,0.25"}, {1.0, 0.5, 0.25});
+}
+
+TEST_F(Bake, TakesOneNumberForAGreySky) {
+    expect_radiance({"--sky", "0.5"}, {0.5, 0.5, 0.5});
+}
+
+TEST_F(Bake, SaysWhatASkyMayBe) {
+    const std::string message = misuse({"bake", kCourtyard, "-o", "v.probes", "--sky", "1,2"});
+    EXPECT_TRUE(contains(message, "\"1,2\" is neither R,G,B, nor a number, nor a file")) << message;
+}
+
+TEST_F(Bake, CountsOneProbeAsOne) {
+    write("one.json", R"({"groups": [{"name": "one", "positions": [[0, 1, 0]]}]})");
+    const std::string out = succeed({"bake", kCourtyard, "-g", "one.json", "--only-given-groups",
+                                     "-o", "v.probes", "-s", "1"})
+                                .out;
+    EXPECT_TRUE(contains(out, "v.probes: 1 probe (0 welded), 1 cell\n")) << out;
 }
 
 TEST_F(Bake, ScalesTheSky) {

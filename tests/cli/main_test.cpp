@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all subcommands have in common.
+#include <sys/stat.h>
+
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {
@@ -60,6 +62,11 @@ TEST_P(EverySubcommand, RefusesAnUnknownOption) {
                  "--frobnicate"));
 }
 
+TEST_P(EverySubcommand, RefusesAnEmptyPath) {
+    const std::string message = misuse({GetParam(), "", "b", "-o", "c", "--spacing", "1"});
+    EXPECT_TRUE(contains(message, "the path is empty")) << message;
+}
+
 struct BadOption {
     const char* command;
     const char* option;
@@ -85,15 +92,20 @@ constexpr BadOption kBadOptions[] = {{"bake", "--samples", "0"},
                                      {"bake", "--bounces", "-1"},
                                      {"bake", "--seed", "-1"},
                                      {"bake", "--seed", "x"},
+                                     {"bake", "--seed", "18446744073709551616"},
                                      {"bake", "--weld", "nan"},
                                      {"bake", "--weld", "0.5"},
                                      {"bake", "--threads", "-1"},
                                      {"bake", "--sky", "-1,0,0"},
                                      {"bake", "--sky", "nan,0,0"},
+                                     {"bake", "--sky", "-0.5"},
+                                     {"bake", "--sky", "1,2"},
+                                     {"bake", "--sky", "1,2,3,4"},
                                      {"bake", "--sky-intensity", "-1"},
                                      {"bake", "--sky-intensity", "nan"},
                                      {"bake", "--sky-rotation", "inf"},
                                      {"bake", "--sun-mode", "dim"},
+                                     {"bake", "--sun-mode", "baked"},
                                      {"bake", "--sun-direction", "0,-1,0"},
                                      {"bake", "--only-given-groups", ""},
                                      {"grid", "--min", "0,0,0"},
@@ -108,6 +120,7 @@ constexpr BadOption kBadOptions[] = {{"bake", "--samples", "0"},
                                      {"render", "--exposure", "nan"},
                                      {"render", "--exposure", "-1"},
                                      {"render", "--fov", "nan"},
+                                     {"render", "--fov", "60"},
                                      {"render", "--eye", "0,0,0"},
                                      {"render", "--target", "a,b,c"},
                                      {"meshball", "--count", "-1"},
@@ -115,7 +128,9 @@ constexpr BadOption kBadOptions[] = {{"bake", "--samples", "0"},
                                      {"meshball", "--radius", "nan"},
                                      {"meshball", "--center", "nan,0,0"},
                                      {"meshball", "--center", "0,0"},
-                                     {"meshball", "--seed", "-3"}};
+                                     {"meshball", "--fov", "60"},
+                                     {"meshball", "--seed", "-3"},
+                                     {"meshball", "--seed", "99999999999999999999"}};
 
 TEST_F(Main, RefusesOptionsThatAreWrongByThemselves) {
     for (const BadOption& bad : kBadOptions) {
@@ -168,9 +183,30 @@ TEST_P(EveryWriter, NamesAnOutputThatCannotBeWritten) {
     std::filesystem::create_directory(path("folder"));
     write("file", "");
     for (const std::string output :
-         {"none/out", "folder", "file/out", "/proc/tetralight.out", "/dev/full"}) {
+         {"none/out", "folder", "file/out", "/proc/tetralight", "/dev/full"}) {
         EXPECT_TRUE(contains(fail(arguments(output)), output + ": cannot write"));
     }
+}
+
+TEST_P(EveryWriter, RefusesThingsThatAreNoFilesAtOnce) {
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    EXPECT_TRUE(contains(fail(arguments("pipe")), "pipe: cannot write (is a pipe"));
+    for (const std::string name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+        EXPECT_TRUE(contains(fail(arguments(name)), name + ": cannot write (names an open file"));
+    }
+}
+
+TEST_P(EveryWriter, RefusesAnExtensionOfAnotherFormat) {
+    const auto names_before = file_names();
+    for (const std::string name : {"out.jpg", "out.txt"}) {
+        const std::string message = misuse(arguments(name));
+        EXPECT_TRUE(contains(message, "--output: cannot write \"." + name.substr(4))) << message;
+    }
+    EXPECT_EQ(file_names(), names_before);
+}
+
+TEST_P(EveryWriter, RefusesAnEmptyOutput) {
+    EXPECT_TRUE(contains(misuse(arguments("")), "--output: the path is empty"));
 }
 
 TEST_P(EveryWriter, WritesToADevice) {

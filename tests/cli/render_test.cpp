@@ -55,6 +55,19 @@ TEST_F(Render, RefusesToLookFromAPointAtItself) {
     EXPECT_TRUE(contains(misuse(arguments({"--eye", "1,2,3", "--target", "1,2,3"})), "--target"));
 }
 
+TEST_F(Render, RefusesTwoCameras) {
+    const std::string message =
+        misuse(arguments({"--eye", "1,2,3", "--target", "0,0,0", "--camera", "camera"}));
+    EXPECT_TRUE(contains(message, "--camera excludes --eye")) << message;
+}
+
+TEST_F(Render, WarnsOfAVolumeWithoutLight) {
+    succeed({"tetrahedralize", kCourtyard, "-o", "v.probes"});
+    const std::string warning = "warning: v.probes: the volume holds no light";
+    EXPECT_EQ(succeed(arguments({})).err.find(warning), 0u);
+    EXPECT_EQ(succeed(arguments({"--quiet"})).err, "");
+}
+
 TEST_F(Render, ShowsMoreLightAtMoreExposure) {
     const auto dark = decode_picture(picture({"--exposure", "0.1"}));
     const auto light = decode_picture(picture({"--exposure", "10"}));

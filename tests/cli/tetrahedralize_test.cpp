@@ -56,16 +56,23 @@ TEST_F(Tetrahedralize, MakesTrianglesOfAFlatSet) {
 }
 
 TEST_F(Tetrahedralize, RefusesToWriteOverItsInput) {
-    const std::string before = read("five.json");
-    const std::string message = fail({"tetrahedralize", "five.json", "-o", "./five.json"});
+    write("groups", kFiveProbes);
+    const std::string message = fail({"tetrahedralize", "groups", "-o", "./groups"});
     EXPECT_TRUE(contains(message, "is an input of this command")) << message;
-    EXPECT_EQ(read("five.json"), before);
+    EXPECT_EQ(read("groups"), kFiveProbes);
+}
+
+TEST_F(Tetrahedralize, NamesTheFileOfAPositionThatIsTooFar) {
+    write("far.json", R"({"groups": [{"name": "far", "positions": [[0, 0, 0], [1e19, 0, 0]]}]})");
+    const std::string message = fail_and_keep(
+        "old.probes", {"tetrahedralize", "five.json", "far.json", "-o", "old.probes"});
+    EXPECT_TRUE(contains(message, "far.json: group \"far\": probe 1: position")) << message;
 }
 
 TEST_F(Tetrahedralize, NamesAGroupThatIsThereTwice) {
     const std::string message = fail_and_keep(
         "old.probes", {"tetrahedralize", "five.json", "five.json", "-o", "old.probes"});
-    EXPECT_TRUE(contains(message, "group \"five\"")) << message;
+    EXPECT_TRUE(contains(message, "five.json: group \"five\": there are two")) << message;
 }
 
 TEST_F(Tetrahedralize, KeepsToOneLineWhenANameHasTwo) {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/group_files.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bake/scene/probe_groups_json.h"
+#include "bake/scene/read_gltf.h"
+
+namespace tetralight::cli {
+namespace {
+
+bool is_gltf(const std::string& path) {
+    const auto extension = std::filesystem::path(path).extension();
+    return extension == ".glb" || extension == ".gltf";
+}
+
+Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
+    if (!is_gltf(path)) return read_probe_groups(path);
+    auto scene = read_gltf(path);
+    if (!scene) return scene.error();
+    if (scene->probe_groups.empty()) {
+        return Error{path + ": no node has extras.light_probe_group"};
+    }
+    return std::move(scene->probe_groups);
+}
+
+std::string joined(const std::vector<std::string>& paths) {
+    std::string line;
+    for (const std::string& path : paths) line += (line.empty() ? "" : ", ") + path;
+    return line;
+}
+
+}  // namespace
+
+Result<GroupFiles> GroupFiles::read(const std::vector<std::string>& paths) {
+    GroupFiles files;
+    for (const std::string& path : paths) {
+        auto groups = read_groups(path);
+        if (!groups) return groups.error();
+        files.add(path, std::move(*groups));
+    }
+    return files;
+}
+
+void GroupFiles::add(const std::string& path, std::vector<ProbeGroup> groups) {
+    for (ProbeGroup& group : groups) {
+        auto& paths = paths_of_group_[group.name];
+        if (std::ranges::find(paths, path) == paths.end()) paths.push_back(path);
+        groups_.push_back(std::move(group));
+    }
+}
+
+Error GroupFiles::locate(const Error& error) const {
+    for (const auto& [name, paths] : paths_of_group_) {
+        if (error.message.starts_with("group \"" + name + "\": ")) return error.in(joined(paths));
+    }
+    return error;
+}
+
+}  // namespace tetralight::cli

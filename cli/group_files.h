@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "probes/probe_group.h"
+
+namespace tetralight::cli {
+
+/// Probe groups, and the files that they came from.
+class GroupFiles {
+  public:
+    /// Reads every file: JSON group files, or the groups of glTF scenes. An error when there is no
+    /// group in a file.
+    [[nodiscard]] static Result<GroupFiles> read(const std::vector<std::string>& paths);
+
+    /// Adds the groups of one file.
+    void add(const std::string& path, std::vector<ProbeGroup> groups);
+
+    [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
+
+    /// Puts the file, or the files, of the group that an error begins with before it.
+    [[nodiscard]] Error locate(const Error& error) const;
+
+  private:
+    std::vector<ProbeGroup> groups_;
+    std::map<std::string, std::vector<std::string>> paths_of_group_;
+};
+
+}  // namespace tetralight::cli

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/paths.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "base/text.h"
+
+namespace tetralight::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+CLI::Validator not_empty() {
+    return {[](const std::string& path) { return path.empty() ? "the path is empty" : ""; }, ""};
+}
+
+CLI::Validator has_extension(const std::string& extension) {
+    const auto check = [extension](const std::string& path) -> std::string {
+        const std::string found = fs::path(path).extension().string();
+        if (found.empty() || CLI::detail::to_lower(found) == extension) return "";
+        return text("cannot write \"", found, "\" files; the extension may be ", extension,
+                    ", or none");
+    };
+    return {check, ""};
+}
+
+Error cannot_write(const std::string& path, const std::string& why) {
+    return {path + ": cannot write (" + why + ")"};
+}
+
+/// Whether a path is another name of an open file, as /dev/stdout is: a new file renamed over it
+/// would take the place of what the shell redirected to.
+bool names_open_file(const fs::path& path) {
+    std::error_code error;
+    const auto is_in_proc = [](const fs::path& p) { return p.string().starts_with("/proc/"); };
+    return is_in_proc(fs::read_symlink(path, error)) ||
+           is_in_proc(fs::canonical(path.parent_path(), error));
+}
+
+/// What stands at the path and is neither a regular file nor a character device.
+std::string what_is_there(const fs::path& path) {
+    std::error_code error;
+    switch (fs::status(path, error).type()) {
+        case fs::file_type::directory:
+            return "is a folder";
+        case fs::file_type::fifo:
+            return "is a pipe; write to - and let the shell redirect it";
+        case fs::file_type::socket:
+            return "is a socket";
+        case fs::file_type::block:
+            return "is a block device";
+        default:
+            return "";
+    }
+}
+
+}  // namespace
+
+CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& path,
+                      const std::string& help) {
+    return command.add_option(name, path, help)->check(not_empty());
+}
+
+CLI::Option* add_paths(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
+                       const std::string& help) {
+    return command.add_option(name, paths, help)->check(not_empty());
+}
+
+CLI::Option* add_output(CLI::App& command, std::string& path, const std::string& extension,
+                        const std::string& help) {
+    return add_path(command, "-o,--output", path, help + " (" + extension + "; - = stdout)")
+        ->check(has_extension(extension))
+        ->required();
+}
+
+Status check_output(const std::string& path, const std::vector<std::string>& inputs) {
+    std::error_code error;
+    for (const std::string& input : inputs) {
+        if (!fs::is_regular_file(input, error) || !fs::equivalent(input, path, error)) continue;
+        return Error{path + ": is an input of this command and would be lost; write elsewhere"};
+    }
+    if (path == "-") return Ok{};
+    if (names_open_file(path)) {
+        return cannot_write(path, "names an open file; write to - for stdout");
+    }
+    if (const std::string problem = what_is_there(path); !problem.empty()) {
+        return cannot_write(path, problem);
+    }
+    if (fs::is_character_file(path, error)) return Ok{};  // /dev/null, a terminal
+    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+    if (!fs::is_directory(folder, error)) {
+        return cannot_write(path, "there is no folder " + folder.string());
+    }
+    if (::access(folder.c_str(), W_OK) != 0) {
+        return cannot_write(path, "no permission in " + folder.string());
+    }
+    return Ok{};
+}
+
+}  // namespace tetralight::cli

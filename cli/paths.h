@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+// The files that a command reads and writes, as options.
+
+namespace tetralight::cli {
+
+/// An option whose value is a path; an empty one is wrong usage.
+CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& path,
+                      const std::string& help);
+
+/// The same for several paths.
+CLI::Option* add_paths(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
+                       const std::string& help);
+
+/// `-o`: the file that the command is there to write. It may have no extension, or this one:
+/// nobody wants a PNG that is called picture.jpg.
+CLI::Option* add_output(CLI::App& command, std::string& path, const std::string& extension,
+                        const std::string& help);
+
+/// Says before a long job, not after it, that the output cannot be written, or that it would take
+/// the place of one of the inputs. `-` is stdout.
+[[nodiscard]] Status check_output(const std::string& path, const std::vector<std::string>& inputs);
+
+}  // namespace tetralight::cli
