@@ -9,7 +9,6 @@
 
 #include "bake/ray_caster.h"
 #include "bake/sampling.h"
-#include "pipeline/render_scene.h"
 #include "probes/interpolate.h"
 #include "runtime/packed_sh.h"
 #include "runtime/shade.h"
@@ -132,24 +131,17 @@ std::vector<BallInstance> make_mesh_ball(const MeshBallSettings& settings) {
 }
 
 Result<MeshBallPicture> render_mesh_ball(std::span<const BallInstance> instances,
-                                         const Scene* scene, const ProbeVolumeView& volume,
+                                         const SceneShader* scene, const ProbeVolumeView& volume,
                                          const Camera& camera, const RenderSettings& settings) {
-    std::optional<SceneShader> surroundings;
-    if (scene != nullptr) {
-        auto shader = SceneShader::make(*scene, volume);
-        if (!shader) return shader.error();
-        surroundings.emplace(std::move(*shader));
-    }
     MeshBallPicture picture;
-    LitBall ball(instances, surroundings ? &*surroundings : nullptr, volume);
+    LitBall ball(instances, scene, volume);
     if (auto status = ball.build(); !status) return status.error();
     if (auto status = ball.fetch_light(volume, picture); !status) return status.error();
 
     picture.image =
         render_view(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
             const auto sphere = ball.shade(origin, direction);
-            const auto behind =
-                surroundings ? surroundings->shade(origin, direction) : std::nullopt;
+            const auto behind = scene != nullptr ? scene->shade(origin, direction) : std::nullopt;
             if (sphere && (!behind || sphere->distance < behind->distance)) return sphere->radiance;
             return behind ? behind->radiance : sky_radiance(volume, direction);
         });

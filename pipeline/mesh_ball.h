@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "bake/scene/scene.h"
 #include "base/result.h"
 #include "pipeline/image_renderer.h"
+#include "pipeline/render_scene.h"
 #include "probes/probe_volume.h"
 
 namespace tetralight {
@@ -46,7 +46,7 @@ struct MeshBallPicture {
 /// the direct term of the volume's mixed lights with shadow rays among the spheres and into the
 /// scene. `scene` may be null: then the ball hangs in the sky.
 [[nodiscard]] Result<MeshBallPicture> render_mesh_ball(std::span<const BallInstance> instances,
-                                                       const Scene* scene,
+                                                       const SceneShader* scene,
                                                        const ProbeVolumeView& volume,
                                                        const Camera& camera,
                                                        const RenderSettings& settings);

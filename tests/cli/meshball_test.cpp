@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include "tests/cli/command_fixture.h"
 #include "tests/cli/picture.h"
 
@@ -59,6 +61,24 @@ TEST_F(MeshBall, PutsTheBallWhereAsked) {
     here.insert(here.end(), {"--center", "-4,1,0", "--radius", "3"});
     there.insert(there.end(), {"--center", "4,1,0", "--radius", "3"});
     EXPECT_TRUE(picture(here) != picture(there));
+}
+
+TEST_F(MeshBall, StaysInTheRoomWithProbesThatAreInARoom) {
+    // Probes in the courtyard's house: |x| < 4, |z| < 3, its roof at 3.75 m, its open side at +z.
+    write("room.json", R"({"groups": [{"name": "room", "positions":
+        [[-3, 0.5, -2], [3, 0.5, -2], [-3, 2.7, -2], [3, 2.7, -2],
+         [-3, 0.5, 2], [3, 0.5, 2], [-3, 2.7, 2], [3, 2.7, 2]]}]})");
+    succeed({"bake", kCourtyard, "-g", "room.json", "--only-given-groups", "-o", "v.probes", "-s",
+             "16"});
+    const Json eye = run_json(arguments({"--scene", kCourtyard}))["eye"];
+    EXPECT_LT(std::abs(eye[0].get<double>()), 4.0) << eye;
+    EXPECT_LT(eye[1], 3.75) << eye;
+    EXPECT_GT(eye[2], -3.0) << eye;
+}
+
+TEST_F(MeshBall, WarnsOfAVolumeWithoutLight) {
+    succeed({"tetrahedralize", kCourtyard, "-o", "v.probes"});
+    EXPECT_EQ(succeed(arguments({})).err.find("warning: v.probes: the volume holds no light"), 0u);
 }
 
 TEST_F(MeshBall, RefusesBadVolumesAndKeepsTheOldPicture) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
@@ -28,7 +29,10 @@ glm::vec3 seen_from_above(const std::vector<BallInstance>& instances, const Scen
     RenderSettings settings;
     settings.width = settings.height = settings.samples_per_axis = 1;
     const Camera camera = look_at({0, height, 0}, {0, 0, 0}, 0.01);
-    const auto picture = render_mesh_ball(instances, scene, volume.view(), camera, settings);
+    std::optional<SceneShader> shader;
+    if (scene != nullptr) shader.emplace(*SceneShader::make(*scene, volume.view()));
+    const auto picture =
+        render_mesh_ball(instances, shader ? &*shader : nullptr, volume.view(), camera, settings);
     EXPECT_TRUE(picture) << picture.error().message;
     return picture ? picture->image.pixels[0] : glm::vec3(-1.0f);
 }
