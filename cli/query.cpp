@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -12,28 +14,47 @@
 namespace tetralight::cli {
 namespace {
 
-/// Three numbers with blanks or commas between them.
-std::optional<glm::vec3> parse_position(std::string_view line) {
-    glm::vec3 position(0.0f);
-    const auto is_gap = [](char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; };
-    const auto skip_gap = [&] {
-        while (!line.empty() && is_gap(line.front())) line.remove_prefix(1);
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-        skip_gap();
-        const char* const end = line.data() + line.size();
-        const auto [next, error] = std::from_chars(line.data(), end, position[axis]);
-        if (error != std::errc{}) return std::nullopt;
-        line.remove_prefix(static_cast<size_t>(next - line.data()));
-    }
-    skip_gap();
-    return line.empty() ? std::optional(position) : std::nullopt;
+/// A line as messages show it: not too long.
+std::string shown(std::string_view line) {
+    constexpr size_t kLongest = 40;
+    return std::string(line.substr(0, kLongest)) + (line.size() > kLongest ? "..." : "");
 }
 
-/// A line as messages show it: not too long.
-std::string shown(const std::string& line) {
-    constexpr size_t kLongest = 40;
-    return line.size() > kLongest ? line.substr(0, kLongest) + "..." : line;
+/// Takes a number from the front of a line.
+Result<float> take_number(std::string_view& line, char axis) {
+    float number = 0.0f;
+    const auto [next, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+    if (error == std::errc::invalid_argument) return Error{};
+    const std::string digits(line.data(), next);
+    if (error == std::errc::result_out_of_range) {
+        const double value = std::strtod(digits.c_str(), nullptr);
+        if (std::abs(value) > 1.0) {
+            return Error{text(axis, " is ", shown(digits), ", beyond what a float holds (3.4e38)")};
+        }
+        number = static_cast<float>(value);  // nearly 0
+    }
+    line.remove_prefix(digits.size());
+    return number;
+}
+
+/// Three numbers with blanks or commas between them.
+Result<glm::vec3> parse_position(const std::string& whole) {
+    constexpr const char* kGaps = " \t,\r";
+    std::string_view line = whole;
+    const auto skip_gap = [&] {
+        line.remove_prefix(std::min(line.find_first_not_of(kGaps), line.size()));
+    };
+    const Error not_three{text("\"", shown(whole), "\" is not x y z")};
+    glm::vec3 position(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        skip_gap();
+        const auto number = take_number(line, "xyz"[axis]);
+        if (!number) return number.error().message.empty() ? not_three : number.error();
+        position[axis] = *number;
+    }
+    skip_gap();
+    if (!line.empty()) return not_three;
+    return position;
 }
 
 struct Answer {
@@ -81,9 +102,8 @@ struct Query {
 
     void add_to(CLI::App& command) {
         add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
-        command
-            .add_option("POSITIONS", positions_path,
-                        "Text file with x y z a line (# begins a comment); - = stdin")
+        add_path(command, "POSITIONS", positions_path,
+                 "Text file with x y z a line (# begins a comment); - = stdin")
             ->capture_default_str();
         common.add_to(command);
     }
@@ -91,6 +111,7 @@ struct Query {
     Status run() {
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
+        common.warn_if_unlit(volume_path, file->view());
         if (positions_path == "-") return answer_lines(std::cin, file->view());
         std::ifstream stream(positions_path);
         if (!stream) return Error{positions_path + ": cannot open"};
@@ -108,10 +129,7 @@ struct Query {
             line.resize(std::min(line.find('#'), line.size()));
             if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
             const auto position = parse_position(line);
-            if (!position) {
-                return Error{
-                    text(positions_name(), ":", number, ": \"", shown(line), "\" is not x y z")};
-            }
+            if (!position) return position.error().in(text(positions_name(), ":", number));
             const CellLocation location = locate(volume, *position, hint);
             const Answer answer{*position, location, interpolate(volume, location)};
             hint = location.cell;

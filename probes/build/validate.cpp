@@ -171,15 +171,18 @@ void check_cells(Validator validator, size_t cell_count) {
 
 std::vector<std::string> ValidationReport::problems() const {
     std::vector<std::string> lines;
-    const auto add = [&](uint32_t count, const char* what) {
-        if (count > 0) lines.push_back(text(count, " ", what));
+    const auto add = [&](uint32_t count, const char* one, const char* many) {
+        if (count > 0) lines.push_back(text(count, " ", count == 1 ? one : many));
     };
-    add(inverted_cells, "cells are inverted or have no volume");
-    add(non_delaunay_faces, "faces break the Delaunay property");
-    add(concave_hull_edges, "hull edges are concave");
-    add(probes_without_cell, "probes are in no cell");
-    add(probes_without_source, "probes are in no group");
-    add(misplaced_float_probes, "float positions differ from the exact ones");
+    add(inverted_cells, "cell is inverted or has no volume",
+        "cells are inverted or have no volume");
+    add(non_delaunay_faces, "face breaks the Delaunay property",
+        "faces break the Delaunay property");
+    add(concave_hull_edges, "hull edge is concave", "hull edges are concave");
+    add(probes_without_cell, "probe is in no cell", "probes are in no cell");
+    add(probes_without_source, "probe is in no group", "probes are in no group");
+    add(misplaced_float_probes, "float position differs from the exact one",
+        "float positions differ from the exact ones");
     if (std::abs(cell_measure - hull_measure) > 1e-9 * std::abs(hull_measure)) {
         lines.push_back(text("the cells fill ", cell_measure, " of the hull's ", hull_measure));
     }

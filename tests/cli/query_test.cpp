@@ -78,6 +78,25 @@ TEST_F(Query, NamesStdinWhenItsLineIsMalformed) {
     EXPECT_TRUE(contains(message, "stdin:1: \"1 2\"")) << message;
 }
 
+TEST_F(Query, NamesTheLineAndTheNumberThatNoFloatHolds) {
+    const std::string large = fail({"query", "v.probes"}, "# 1e39\n\n0 -1e39 0\n");
+    EXPECT_TRUE(contains(large, "stdin:3: y is -1e39, beyond what a float holds")) << large;
+    const std::string huge = fail({"query", "v.probes"}, "0 0 1e999\n");
+    EXPECT_TRUE(contains(huge, "stdin:1: z is 1e999, beyond")) << huge;
+}
+
+TEST_F(Query, TakesNumbersBelowAllFloatsForZero) {
+    const auto all = answers("1e-60 1e-999 -1e-60\n0 0 0\n");
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[0]["probes"], all[1]["probes"]);
+}
+
+TEST_F(Query, WarnsOfAVolumeWithoutLight) {
+    succeed({"tetrahedralize", "five.json", "-o", "unlit.probes"});
+    const CommandResult result = succeed({"query", "unlit.probes"}, "1 1 1\n");
+    EXPECT_EQ(result.err.find("warning: unlit.probes: the volume holds no light"), 0u);
+}
+
 TEST_F(Query, ShowsOfABinaryLineOnlyWhatATerminalCanTake) {
     write("binary", "\x1b[31m\x07" + std::string(5000, '\x80'));
     const std::string message = fail({"query", "v.probes", "binary"});

@@ -85,13 +85,13 @@ TEST(CheckTetrahedra, CountsPositionsThatAreLeftOut) {
 TEST(CheckTetrahedra, RefusesTetrahedraOfTheOtherOrientation) {
     Cell cell = kOneTetrahedron;
     std::swap(cell.vertices[0], cell.vertices[1]);
-    EXPECT_EQ(problem({cell}, kCorners), "1 cells are inverted or have no volume");
+    EXPECT_EQ(problem({cell}, kCorners), "1 cell is inverted or has no volume");
 }
 
 TEST(CheckTetrahedra, RefusesAFlatTetrahedron) {
     auto positions = kCorners;
     positions[3] = {0.3, 0.3, 0.0};
-    EXPECT_EQ(problem({kOneTetrahedron}, positions), "1 cells are inverted or have no volume");
+    EXPECT_EQ(problem({kOneTetrahedron}, positions), "1 cell is inverted or has no volume");
 }
 
 TEST(CheckTetrahedra, RefusesWhatIsNotDelaunay) {
