@@ -1,99 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/text.h"
+#include <span>
+
+#include "base/file.h"
 #include "cli/common.h"
 #include "cli/paths.h"
+#include "cli/volume_facts.h"
+#include "probes/build/wireframe.h"
 #include "probes/probe_file.h"
-
-#include <glm/common.hpp>
 
 namespace tetralight::cli {
 namespace {
 
-const char* name_of(LightType type) {
-    switch (type) {
-        case LightType::Directional:
-            return "directional";
-        case LightType::Point:
-            return "point";
-        case LightType::Spot:
-            return "spot";
-    }
-    return "unknown";
-}
-
-Json groups_json(const ProbeVolumeView& volume) {
-    const auto names = split_names(volume.group_names);
-    std::vector<size_t> probe_counts(names.size(), 0);
-    for (const ProbeSource& source : volume.sources) ++probe_counts[source.group];
-    Json groups = Json::array();
-    for (size_t i = 0; i < names.size(); ++i) {
-        groups.push_back({{"name", names[i]}, {"probes", probe_counts[i]}});
-    }
-    return groups;
-}
-
-Json lights_json(const ProbeVolumeView& volume) {
-    const auto names = split_names(volume.light_names);
-    Json lights = Json::array();
-    for (size_t i = 0; i < volume.lights.size(); ++i) {
-        const Light& light = volume.lights[i];
-        lights.push_back({{"name", i < names.size() ? names[i] : ""},
-                          {"type", name_of(light.type)},
-                          {"mode", light.mode == LightMode::Baked ? "baked" : "mixed"}});
-    }
-    return lights;
-}
-
-Json bounds_json(const ProbeVolumeView& volume) {
-    if (volume.positions.empty()) return nullptr;
-    glm::vec3 low = volume.positions[0];
-    glm::vec3 high = volume.positions[0];
-    for (const glm::vec3& p : volume.positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    return {{"min", to_json(glm::dvec3(low) + volume.info.world_origin)},
-            {"max", to_json(glm::dvec3(high) + volume.info.world_origin)}};
+Status write_text(const std::string& path, const std::string& text) {
+    return write_file(path, std::as_bytes(std::span(text)));
 }
 
 struct Info {
     std::string path;
+    std::string obj_path;
+    std::string ply_path;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
         add_path(command, "VOLUME", path, "Probe volume (.probes)")->required();
+        add_path(command, "--obj", obj_path,
+                 "Also write the edges of the tetrahedra as line elements, for any viewer "
+                 "(Wavefront OBJ, groups `cells` and `hull`; - = stdout)");
+        add_path(command, "--ply", ply_path, "The same as a PLY file with `edge` elements");
         common.add_to(command);
     }
 
     Status run() {
+        for (const std::string& output : {obj_path, ply_path}) {
+            if (output.empty()) continue;
+            if (auto status = check_output(output, {path}); !status) return status;
+        }
         const auto file = open_probe_file(path);
         if (!file) return file.error();
-        const ProbeVolumeView& volume = file->view();
-        Json json{{"file", path}};
-        json.update(counts(volume));
-        json["is_baked"] = !volume.irradiance.empty();
-        json["bounds"] = bounds_json(volume);
-        json["radial_share"] = volume.info.radial_share;
-        json["group_list"] = groups_json(volume);
-        json["lights"] = lights_json(volume);
-        json["made_with"] = Json::parse(volume.metadata, nullptr, false);
-        if (json["made_with"].is_discarded()) json["made_with"] = nullptr;
-        uint64_t bytes = 0;
-        for (const auto& section : file->sections()) {
-            json["section_bytes"][section.name] = section.size;
-            bytes += section.size;
-        }
-        json["bytes"] = bytes;
-        common.print(json, dump(json, 2));
+        if (auto status = write_wireframe(file->view()); !status) return status;
+        const VolumeFacts facts = make_volume_facts(path, *file);
+        const bool is_stdout_taken = obj_path == "-" || ply_path == "-";
+        common.report(is_stdout_taken ? "-" : "", to_json(facts), to_text(facts, file->view()));
         return Ok{};
+    }
+
+    [[nodiscard]] Status write_wireframe(const ProbeVolumeView& volume) const {
+        if (obj_path.empty() && ply_path.empty()) return Ok{};
+        const Wireframe wireframe = make_wireframe(volume);
+        if (!obj_path.empty()) {
+            if (auto status = write_text(obj_path, obj_text(wireframe)); !status) return status;
+        }
+        return ply_path.empty() ? Status(Ok{}) : write_text(ply_path, ply_text(wireframe));
     }
 };
 
 }  // namespace
 
 void add_info(CLI::App& app, Run& run) {
-    add_command<Info>(app, run, "info", "Say what a probe volume holds",
-                      "tetralight info courtyard.probes");
+    add_command<Info>(app, run, "info", "Say what a probe volume holds, or draw its tetrahedra",
+                      "tetralight info courtyard.probes --obj courtyard_cells.obj");
 }
 
 }  // namespace tetralight::cli

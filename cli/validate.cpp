@@ -9,6 +9,17 @@
 namespace tetralight::cli {
 namespace {
 
+Json to_json(const ValidationReport& report) {
+    return {{"inverted_cells", report.inverted_cells},
+            {"non_delaunay_faces", report.non_delaunay_faces},
+            {"concave_hull_edges", report.concave_hull_edges},
+            {"probes_without_cell", report.probes_without_cell},
+            {"probes_without_source", report.probes_without_source},
+            {"misplaced_float_probes", report.misplaced_float_probes},
+            {"cell_measure", report.cell_measure},
+            {"hull_measure", report.hull_measure}};
+}
+
 struct Validate {
     std::string path;
     CommonOptions common;
@@ -28,11 +39,10 @@ struct Validate {
         const std::vector<std::string> problems = report.problems();
         Json json = verdict(problems);
         json.update(counts(file->view()));
-        json["cell_measure"] = report.cell_measure;
-        json["hull_measure"] = report.hull_measure;
-        common.print(json, text(path, ": ", problems.empty() ? "valid, " : "not valid, ",
-                                grouped(file->view().probe_count()), " probes, Delaunay ",
-                                cells_text(file->view())));
+        json.update(to_json(report));
+        common.print(json, text(path, problems.empty() ? ": valid, " : ": not valid, ",
+                                counted(file->view().probe_count(), "probe"), ", ",
+                                problems.empty() ? "Delaunay " : "", cells_text(file->view())));
         if (problems.empty()) return Ok{};
         std::string message = path + ": ";
         for (const std::string& problem : problems) {
@@ -41,6 +51,7 @@ struct Validate {
         return Error{message};
     }
 
+    /// A file that cannot be opened has this part alone: nothing of it was counted.
     [[nodiscard]] Json verdict(const std::vector<std::string>& problems) const {
         return {{"file", path}, {"is_valid", problems.empty()}, {"problems", problems}};
     }
@@ -51,7 +62,7 @@ struct Validate {
 void add_validate(CLI::App& app, Run& run) {
     add_command<Validate>(app, run, "validate",
                           "Check a probe volume: checksums, structure, Delaunay property",
-                          "tetralight validate courtyard.probes");
+                          "tetralight validate courtyard.probes --json");
 }
 
 }  // namespace tetralight::cli

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {
@@ -45,10 +47,78 @@ TEST_F(Info, TellsWhetherTheVolumeHoldsLight) {
     EXPECT_EQ(run_json({"info", "unlit.probes"})["is_baked"], false);
 }
 
-TEST_F(Info, TextIsTheJsonIndented) {
+TEST_F(Info, TextSaysInAlignedLinesWhatTheVolumeHolds) {
+    write("five.json", kFiveProbes);
+    succeed({"tetrahedralize", "five.json", "-o", "v.probes"});
+    const std::string out = succeed({"info", "v.probes"}).out;
+    for (const char* line : {"v.probes\n", "  probes     5 (0 welded), in 1 group\n",
+                             "  dimension  space\n", "  cells      4 tetrahedra, 4 hull cells\n",
+                             "  slivers    0 of quality < 1e-3 (0.0 %), 0 < 1e-6 (0.0 %)\n",
+                             "  bounds     0 0 0  to  8 8 8\n", "  light      none (not baked)\n",
+                             "probes by group\n  five  5  100.0 %\n", "  exact_positions  120 B"}) {
+        EXPECT_TRUE(contains(out, line)) << line << "\n" << out;
+    }
+    EXPECT_FALSE(Json::accept(out));
+}
+
+TEST_F(Info, TextOfOneProbeHasNoSlivers) {
+    write("one.json", R"({"groups": [{"name": "\u00e9", "positions": [[1, 2, 3]]}]})");
+    succeed({"tetrahedralize", "one.json", "-o", "v.probes"});
+    const std::string out = succeed({"info", "v.probes"}).out;
+    EXPECT_TRUE(contains(out, "  cells      1 cell, 0 hull cells\n")) << out;
+    EXPECT_TRUE(contains(out, "  \xc3\xa9  1  100.0 %\n")) << out;
+    EXPECT_FALSE(contains(out, "slivers")) << out;
+    EXPECT_TRUE(run_json({"info", "v.probes"})["slivers"].is_null());
+}
+
+TEST_F(Info, CountsSlivers) {
+    // Over four corners of a square the fifth probe makes cells of quality 6√2 · V / rms³: about
+    // 1e-3 · 2 · √2 · h for a small height h.
+    write("flat.json", R"({"groups": [{"name": "flat", "positions":
+        [[0, 0, 0], [1, 0, 0], [0, 0, 1], [1, 1e-4, 1], [0.3, 5, 0.4]]}]})");
+    succeed({"tetrahedralize", "flat.json", "-o", "v.probes"});
+    const Json slivers = run_json({"info", "v.probes"})["slivers"];
+    EXPECT_EQ(slivers["below_1e-3"], 1) << slivers;
+    EXPECT_EQ(slivers["below_1e-6"], 0) << slivers;
+}
+
+TEST_F(Info, MemoryAddsUp) {
     bake_courtyard("v.probes");
-    const Json text = Json::parse(succeed({"info", "v.probes"}).out, nullptr, false);
-    EXPECT_EQ(text, run_json({"info", "v.probes"}));
+    const Json info = run_json({"info", "v.probes"});
+    uint64_t sum = 0;
+    for (const auto& [name, bytes] : info["section_bytes"].items()) sum += bytes.get<uint64_t>();
+    EXPECT_EQ(info["bytes"], sum);
+    EXPECT_EQ(info["resident_bytes"].get<uint64_t>() + info["cold_bytes"].get<uint64_t>(), sum);
+    EXPECT_DOUBLE_EQ(info["bytes_per_probe"], static_cast<double>(sum) / 255.0);
+    EXPECT_EQ(info["section_bytes"]["positions"], 255 * 12);
+}
+
+TEST_F(Info, WritesTheTetrahedraAsAWireframe) {
+    write("five.json", kFiveProbes);
+    succeed({"tetrahedralize", "five.json", "-o", "v.probes"});
+    succeed({"info", "v.probes", "--obj", "v.txt", "--ply", "w.txt"});
+    // Five probes, of which each is joined with each: 6 edges of the hull and 4 within.
+    const std::string obj = read("v.txt");
+    const std::string inner =
+        obj.substr(obj.find("g cells\n"), obj.find("g hull\n") - obj.find("g cells\n"));
+    EXPECT_EQ(std::count(inner.begin(), inner.end(), '\n'), 1 + 4);
+    const std::string hull = obj.substr(obj.find("g hull\n"));
+    EXPECT_EQ(std::count(hull.begin(), hull.end(), '\n'), 1 + 6);
+    EXPECT_TRUE(contains(read("w.txt"), "element vertex 5\n"));
+    EXPECT_TRUE(contains(read("w.txt"), "element edge 10\n"));
+}
+
+TEST_F(Info, KeepsStdoutForTheWireframeThatGoesThere) {
+    bake_courtyard("v.probes");
+    succeed({"info", "v.probes", "--obj", "v.obj"});
+    EXPECT_EQ(succeed({"info", "v.probes", "--obj", "-"}).out, read("v.obj"));
+}
+
+TEST_F(Info, NamesAWireframeThatCannotBeWritten) {
+    bake_courtyard("v.probes");
+    EXPECT_TRUE(contains(fail({"info", "v.probes", "--obj", "none/v.obj"}), "none/v.obj: cannot"));
+    EXPECT_TRUE(contains(fail({"info", "v.probes", "--ply", "v.probes"}), "is an input"));
+    EXPECT_TRUE(contains(misuse({"info", "v.probes", "--ply", ""}), "--ply: the path is empty"));
 }
 
 TEST_F(Info, RefusesBadVolumes) {

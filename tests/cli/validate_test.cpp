@@ -1,11 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
 #include "probes/probe_file.h"
 #include "tests/cli/command_fixture.h"
+#include "tests/support/random_probes.h"
 
 namespace tetralight::test {
 namespace {
 
-class Validate : public CommandFixture {};
+class Validate : public CommandFixture {
+  protected:
+    /// The report on a volume that is not valid.
+    [[nodiscard]] Json report_on(const ProbeVolume& volume) const {
+        EXPECT_TRUE(write_probe_file(path("bad.probes"), volume.view()));
+        const CommandResult result = run({"validate", "bad.probes", "--json"});
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_EQ(result.err.find("tetralight: bad.probes: "), 0u) << result.err;
+        Json json = Json::parse(result.out, nullptr, false);
+        EXPECT_EQ(json["is_valid"], false);
+        EXPECT_GE(json["problems"].size(), 1u);
+        return json;
+    }
+};
+
+/// Two tetrahedra, one over and one under a triangle.
+ProbeVolume two_tetrahedra() {
+    return test::make_lit_volume({{1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}, {0, 0, 2}, {0, 0, -2}});
+}
+
+void turn(Cell& cell) {
+    std::swap(cell.vertices[0], cell.vertices[1]);
+    std::swap(cell.neighbors[0], cell.neighbors[1]);
+}
+
+/// Something that a sound structure can have wrong, and the counter that tells.
+struct Corruption {
+    const char* counter;
+    void (*apply)(ProbeVolume& volume);
+};
+
+const Corruption kCorruptions[] = {
+    {"inverted_cells", [](ProbeVolume& v) { turn(v.cells[0]); }},
+    {"non_delaunay_faces",
+     [](ProbeVolume& v) {
+         for (glm::dvec3& p : v.exact_positions) p.z *= 0.1;
+     }},
+    {"concave_hull_edges",
+     [](ProbeVolume& v) {
+         for (size_t i = v.info.inner_cell_count; i < v.cells.size(); ++i) turn(v.cells[i]);
+     }},
+    {"probes_without_cell",
+     [](ProbeVolume& v) {
+         v.positions.emplace_back(0.0f);
+         v.exact_positions.emplace_back(0.0);
+         v.irradiance.emplace_back();
+         v.sources.push_back({0, 5, 5});
+     }},
+    {"probes_without_source", [](ProbeVolume& v) { v.sources.pop_back(); }},
+    {"misplaced_float_probes", [](ProbeVolume& v) { v.positions[2].y += 0.01f; }}};
+
+/// Something that no query could use, and the section that is to blame.
+const Corruption kUnusable[] = {
+    {"info",
+     [](ProbeVolume& v) { v.info.world_origin.x = std::numeric_limits<double>::infinity(); }},
+    {"positions", [](ProbeVolume& v) { v.positions[1].z = NAN; }},
+    {"irradiance", [](ProbeVolume& v) { v.irradiance.pop_back(); }},
+    {"occlusion", [](ProbeVolume& v) { v.occlusion.assign(5, glm::vec4(2.0f)); }},
+    {"validity", [](ProbeVolume& v) { v.validity.assign(5, -1.0f); }},
+    {"cells", [](ProbeVolume& v) { v.cells[0].vertices[0] = 1000; }},
+    {"cells", [](ProbeVolume& v) { std::swap(v.cells[0], v.cells[1]); }},
+    {"hull_rays", [](ProbeVolume& v) { v.hull_rays[0].rays[0] *= 2.0f; }},
+    {"seeds", [](ProbeVolume& v) { v.seeds.at(0).cell = 1000; }},
+    {"exact_positions", [](ProbeVolume& v) { v.exact_positions[0].x = NAN; }},
+    {"sources", [](ProbeVolume& v) { v.sources[0].group = 7; }},
+    {"group_names", [](ProbeVolume& v) { v.group_names.pop_back(); }}};
 
 TEST_F(Validate, FindsABakedVolumeSound) {
     bake_courtyard("v.probes");
@@ -49,6 +117,39 @@ TEST_F(Validate, NamesAGeometryProblem) {
     EXPECT_EQ(json["is_valid"], false);
     EXPECT_GE(json["problems"].size(), 1u);
     EXPECT_EQ(result.err.find("tetralight: bent.probes: "), 0u) << result.err;
+}
+
+TEST_F(Validate, CountsEachKindOfProblem) {
+    for (const Corruption& corruption : kCorruptions) {
+        SCOPED_TRACE(corruption.counter);
+        ProbeVolume volume = two_tetrahedra();
+        corruption.apply(volume);
+        EXPECT_GE(report_on(volume)[corruption.counter], 1);
+    }
+}
+
+TEST_F(Validate, CountsNothingInASoundVolume) {
+    ASSERT_TRUE(write_probe_file(path("v.probes"), two_tetrahedra().view()));
+    const Json json = run_json({"validate", "v.probes"});
+    for (const Corruption& corruption : kCorruptions) {
+        EXPECT_EQ(json[corruption.counter], 0) << corruption.counter;
+    }
+}
+
+TEST_F(Validate, NamesTheSectionThatNoQueryCouldUse) {
+    for (const Corruption& corruption : kUnusable) {
+        SCOPED_TRACE(corruption.counter);
+        ProbeVolume volume = two_tetrahedra();
+        corruption.apply(volume);
+        const std::string problem = report_on(volume)["problems"][0];
+        EXPECT_TRUE(contains(problem, std::string("section \"") + corruption.counter)) << problem;
+    }
+}
+
+TEST_F(Validate, SaysOneProblemOfOneThing) {
+    ProbeVolume volume = two_tetrahedra();
+    turn(volume.cells[0]);
+    EXPECT_EQ(report_on(volume)["problems"][0], "1 cell is inverted or has no volume");
 }
 
 TEST_F(Validate, SaysAsJsonThatAFileIsDamaged) {

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/volume_facts.h"
+
+#include <algorithm>
+
+#include "probes/build/quality.h"
+
+namespace tetralight::cli {
+namespace {
+
+/// Sections that no query reads (docs/file_format.md).
+constexpr const char* kColdSections[] = {"validity", "exact_positions", "sources", "group_names",
+                                         "lights",   "light_names",     "metadata"};
+
+const char* name_of(LightType type) {
+    switch (type) {
+        case LightType::Directional:
+            return "directional";
+        case LightType::Point:
+            return "point";
+        case LightType::Spot:
+            return "spot";
+    }
+    return "unknown";
+}
+
+Json groups_json(const ProbeVolumeView& volume) {
+    const auto names = split_names(volume.group_names);
+    std::vector<size_t> probe_counts(names.size(), 0);
+    for (const ProbeSource& source : volume.sources) ++probe_counts[source.group];
+    Json groups = Json::array();
+    for (size_t i = 0; i < names.size(); ++i) {
+        groups.push_back({{"name", names[i]}, {"probes", probe_counts[i]}});
+    }
+    return groups;
+}
+
+Json lights_json(const ProbeVolumeView& volume) {
+    const auto names = split_names(volume.light_names);
+    Json lights = Json::array();
+    for (size_t i = 0; i < volume.lights.size(); ++i) {
+        const Light& light = volume.lights[i];
+        lights.push_back({{"name", i < names.size() ? names[i] : ""},
+                          {"type", name_of(light.type)},
+                          {"mode", light.mode == LightMode::Baked ? "baked" : "mixed"}});
+    }
+    return lights;
+}
+
+Json bounds_json(const ProbeVolumeView& volume) {
+    if (volume.positions.empty()) return nullptr;
+    const ProbeBounds bounds = probe_bounds(volume);
+    return {{"min", to_json(glm::dvec3(bounds.low) + volume.info.world_origin)},
+            {"max", to_json(glm::dvec3(bounds.high) + volume.info.world_origin)}};
+}
+
+std::optional<Slivers> count_slivers(const ProbeVolumeView& volume) {
+    if (volume.info.dimension != Dimension::Space) return std::nullopt;
+    const bool is_exact = !volume.exact_positions.empty();
+    const auto position = [&](uint32_t probe) {
+        return is_exact ? volume.exact_positions[probe] : glm::dvec3(volume.positions[probe]);
+    };
+    Slivers slivers;
+    for (const Cell& cell : volume.cells.first(volume.info.inner_cell_count)) {
+        const auto& v = cell.vertices;
+        const double quality =
+            tetrahedron_quality(position(v[0]), position(v[1]), position(v[2]), position(v[3]));
+        slivers.below_1e3 += quality < 1e-3;
+        slivers.below_1e6 += quality < 1e-6;
+    }
+    return slivers;
+}
+
+std::vector<SectionFacts> section_facts(const ProbeFile& file) {
+    std::vector<SectionFacts> sections;
+    for (const auto& section : file.sections()) {
+        const bool is_cold =
+            std::ranges::find(kColdSections, section.name) != std::ranges::end(kColdSections);
+        sections.push_back({section.name, section.size, !is_cold});
+    }
+    return sections;
+}
+
+/// NaN, which JSON writes as null, when there is nothing to share among.
+double per(uint64_t bytes, uint64_t probes) {
+    return static_cast<double>(bytes) / static_cast<double>(probes);
+}
+
+Json slivers_json(const VolumeFacts& facts) {
+    if (!facts.slivers) return nullptr;
+    const uint64_t cells = facts.counts["inner_cells"];
+    const Slivers& slivers = *facts.slivers;
+    return {{"below_1e-3", slivers.below_1e3},
+            {"below_1e-6", slivers.below_1e6},
+            {"share_below_1e-3", per(slivers.below_1e3, cells)},
+            {"share_below_1e-6", per(slivers.below_1e6, cells)}};
+}
+
+}  // namespace
+
+uint64_t VolumeFacts::bytes() const {
+    uint64_t sum = 0;
+    for (const SectionFacts& section : sections) sum += section.bytes;
+    return sum;
+}
+
+uint64_t VolumeFacts::resident_bytes() const {
+    uint64_t sum = 0;
+    for (const SectionFacts& section : sections) sum += section.is_resident ? section.bytes : 0;
+    return sum;
+}
+
+VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
+    const ProbeVolumeView& volume = file.view();
+    VolumeFacts facts;
+    facts.path = path;
+    facts.counts = counts(volume);
+    facts.groups = groups_json(volume);
+    facts.lights = lights_json(volume);
+    facts.bounds = bounds_json(volume);
+    facts.made_with = Json::parse(volume.metadata, nullptr, false);
+    if (facts.made_with.is_discarded()) facts.made_with = nullptr;
+    facts.is_baked = !volume.irradiance.empty();
+    facts.radial_share = static_cast<double>(volume.info.radial_share);
+    facts.slivers = count_slivers(volume);
+    facts.sections = section_facts(file);
+    return facts;
+}
+
+Json to_json(const VolumeFacts& facts) {
+    Json json{{"file", facts.path}};
+    json.update(facts.counts);
+    json.update({{"is_baked", facts.is_baked},
+                 {"bounds", facts.bounds},
+                 {"radial_share", facts.radial_share},
+                 {"slivers", slivers_json(facts)},
+                 {"group_list", facts.groups},
+                 {"lights", facts.lights},
+                 {"made_with", facts.made_with}});
+    for (const SectionFacts& section : facts.sections) {
+        json["section_bytes"][section.name] = section.bytes;
+    }
+    const uint64_t probes = facts.counts["probes"];
+    const uint64_t resident = facts.resident_bytes();
+    json.update({{"bytes", facts.bytes()},
+                 {"resident_bytes", resident},
+                 {"cold_bytes", facts.bytes() - resident},
+                 {"bytes_per_probe", per(facts.bytes(), probes)},
+                 {"resident_bytes_per_probe", per(resident, probes)}});
+    return json;
+}
+
+}  // namespace tetralight::cli

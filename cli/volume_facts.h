@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/common.h"
+#include "probes/probe_file.h"
+
+namespace tetralight::cli {
+
+/// Tetrahedra that are nearly flat.
+struct Slivers {
+    uint64_t below_1e3 = 0;  ///< of quality below 1e-3
+    uint64_t below_1e6 = 0;  ///< below 1e-6
+};
+
+/// One section of the file.
+struct SectionFacts {
+    std::string name;
+    uint64_t bytes = 0;
+    /// Queries read it; the others are for tools and may stay on disk.
+    bool is_resident = false;
+};
+
+/// What `info` says of a volume beside the counts that every command gives.
+struct VolumeFacts {
+    std::string path;
+    Json counts;
+    Json groups;
+    Json lights;
+    Json bounds;
+    Json made_with;
+    bool is_baked = false;
+    double radial_share = 0.0;
+    /// None in volumes that have no tetrahedra.
+    std::optional<Slivers> slivers;
+    std::vector<SectionFacts> sections;
+
+    [[nodiscard]] uint64_t bytes() const;
+    [[nodiscard]] uint64_t resident_bytes() const;
+};
+
+[[nodiscard]] VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file);
+
+/// For machines.
+[[nodiscard]] Json to_json(const VolumeFacts& facts);
+
+/// For people: aligned lines without a line break at the end.
+[[nodiscard]] std::string to_text(const VolumeFacts& facts, const ProbeVolumeView& volume);
+
+}  // namespace tetralight::cli

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The form of `info` for people.
+#include <algorithm>
+#include <cstdio>
+
+#include "base/text.h"
+#include "cli/table.h"
+#include "cli/volume_facts.h"
+
+namespace tetralight::cli {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+/// "12.5 %"; "-" of nothing.
+std::string percent(uint64_t part, uint64_t whole) {
+    if (whole == 0) return "-";
+    char buffer[32];
+    const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+    std::snprintf(buffer, sizeof buffer, "%.1f %%", share);
+    return buffer;
+}
+
+std::string bytes_text(uint64_t bytes) {
+    return magnitude(static_cast<double>(bytes)) + "B";
+}
+
+/// "1.5 2 3", at most six digits each.
+std::string corner_text(const Json& corner) {
+    std::string line;
+    for (const Json& number : corner) {
+        char buffer[32];
+        std::snprintf(buffer, sizeof buffer, "%s%.6g", line.empty() ? "" : " ",
+                      number.get<double>());
+        line += buffer;
+    }
+    return line;
+}
+
+std::string name_text(const Json& name) {
+    return printable(name.get<std::string>());
+}
+
+std::string lights_text(const Json& lights) {
+    std::string line;
+    for (const Json& light : lights) {
+        line += text(line.empty() ? "" : ", ", name_text(light["name"]), " (",
+                     name_text(light["type"]), ", ", name_text(light["mode"]), ")");
+    }
+    return line.empty() ? "none" : line;
+}
+
+std::string made_with_text(const Json& made_with) {
+    std::string line;
+    for (const auto& [key, value] : made_with.items()) {
+        const std::string shown = value.is_string() ? value.get<std::string>() : dump(value);
+        line += (line.empty() ? "" : ", ") + (key == "generator" ? shown : key + " " + shown);
+    }
+    return printable(line);
+}
+
+Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
+    const uint64_t welded = facts.counts["welded"];
+    const uint64_t inner = volume.info.inner_cell_count;
+    Rows rows{{"probes", text(grouped(volume.probe_count()), " (", grouped(welded), " welded), in ",
+                              counted(facts.groups.size(), "group"))},
+              {"dimension", name_of(volume.info.dimension)},
+              {"cells",
+               text(cells_text(volume), ", ", counted(volume.cells.size() - inner, "hull cell"))}};
+    if (facts.slivers) {
+        const auto [below_1e3, below_1e6] = *facts.slivers;
+        rows.push_back({"slivers", text(grouped(below_1e3), " of quality < 1e-3 (",
+                                        percent(below_1e3, inner), "), ", grouped(below_1e6),
+                                        " < 1e-6 (", percent(below_1e6, inner), ")")});
+    }
+    if (!facts.bounds.is_null()) {
+        rows.push_back({"bounds", text(corner_text(facts.bounds["min"]), "  to  ",
+                                       corner_text(facts.bounds["max"]))});
+    }
+    rows.push_back({"light", facts.is_baked ? "baked" : "none (not baked)"});
+    rows.push_back({"lights", lights_text(facts.lights)});
+    if (facts.made_with.is_object()) rows.push_back({"made with", made_with_text(facts.made_with)});
+    return rows;
+}
+
+Rows group_rows(const VolumeFacts& facts, size_t source_count) {
+    Rows rows;
+    for (const Json& group : facts.groups) {
+        const uint64_t probes = group["probes"];
+        rows.push_back({name_text(group["name"]), grouped(probes), percent(probes, source_count)});
+    }
+    return rows;
+}
+
+Rows memory_rows(const VolumeFacts& facts) {
+    const uint64_t bytes = facts.bytes();
+    const uint64_t probes = facts.counts["probes"];
+    const auto each = [&](uint64_t sum) {
+        return probes == 0 ? "" : grouped((sum + probes / 2) / probes) + " B a probe";
+    };
+    std::vector<SectionFacts> sections = facts.sections;
+    std::ranges::stable_sort(sections, [](const SectionFacts& a, const SectionFacts& b) {
+        return a.is_resident != b.is_resident ? a.is_resident : a.bytes > b.bytes;
+    });
+    Rows rows;
+    for (const SectionFacts& section : sections) {
+        rows.push_back({printable(section.name), bytes_text(section.bytes),
+                        percent(section.bytes, bytes), section.is_resident ? "resident" : "cold"});
+    }
+    const uint64_t resident = facts.resident_bytes();
+    rows.push_back(
+        {"read by queries", bytes_text(resident), percent(resident, bytes), each(resident)});
+    rows.push_back({"all", bytes_text(bytes), percent(bytes, bytes), each(bytes)});
+    return rows;
+}
+
+}  // namespace
+
+std::string to_text(const VolumeFacts& facts, const ProbeVolumeView& volume) {
+    std::string lines = text(facts.path, "\n", aligned(summary(facts, volume), "ll"));
+    if (!facts.groups.empty()) {
+        lines += "probes by group\n" + aligned(group_rows(facts, volume.sources.size()), "lrr");
+    }
+    lines += "memory by section\n" + aligned(memory_rows(facts), "lrrl");
+    lines.pop_back();
+    return lines;
+}
+
+}  // namespace tetralight::cli
