@@ -10,7 +10,7 @@
 #include "cli/common.h"
 #include "cli/paths.h"
 #include "cli/view_options.h"
-#include "pipeline/render_scene.h"
+#include "pipeline/render_cells.h"
 #include "probes/probe_file.h"
 
 namespace tetralight::cli {
@@ -31,6 +31,7 @@ struct Render {
     std::string volume_path;
     std::string output;
     std::string camera_name;
+    CellOverlay overlay;
     ViewOptions view;
     CommonOptions common;
 
@@ -43,6 +44,12 @@ struct Render {
             command.add_option("--camera", camera_name,
                                "Camera of the scene by name; without it and --eye the scene's "
                                "first, else an overview");
+        command.add_flag("--wireframe", overlay.has_edges,
+                         "Draw the edges of the cells over the scene; those of the hull in orange");
+        command
+            .add_option("--probe-radius", overlay.probe_radius,
+                        "Show the probes as white balls of this radius, lit by what they hold")
+            ->check(numbers_in(1e-6, 1e9));
         view.add_to(command);
         camera_option->excludes(view.eye_option);
         common.add_to(command);
@@ -74,9 +81,9 @@ struct Render {
 
         view.settings.thread_count = common.thread_count;
         const auto start = std::chrono::steady_clock::now();
-        const auto image = render_scene(*scene, file->view(), *chosen, view.settings);
+        const auto image = render_cells(*scene, file->view(), *chosen, view.settings, overlay);
         if (!image) return image.error();
-        auto status = write_png(output, develop(*image, view.settings.exposure));
+        auto status = write_png(output, *image);
         if (!status) return status;
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         common.report(output, {{"output", output}, {"seconds", elapsed.count()}},

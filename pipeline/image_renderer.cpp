@@ -32,7 +32,10 @@ float automatic_exposure(const ImageF& radiance) {
 class View {
   public:
     View(const Camera& camera, const RenderSettings& settings, const TraceView& trace)
-        : camera_(camera), settings_(settings), trace_(trace) {}
+        : eye_(camera.world_from_camera[3]),
+          projection_(camera, settings.width, settings.height),
+          settings_(settings),
+          trace_(trace) {}
 
     [[nodiscard]] glm::vec3 pixel(uint32_t column, uint32_t row) const {
         const uint32_t n = settings_.samples_per_axis;
@@ -40,27 +43,48 @@ class View {
         for (uint32_t i = 0; i < n * n; ++i) {
             const double x = column + (i % n + 0.5) / n;
             const double y = row + (i / n + 0.5) / n;
-            sum += trace_(glm::dvec3(camera_.world_from_camera[3]), direction(x, y));
+            sum += trace_(eye_, projection_.direction(x, y));
         }
         return sum / static_cast<float>(n * n);
     }
 
   private:
-    /// Unit direction through a place in the picture, in pixels from its upper left.
-    [[nodiscard]] glm::vec3 direction(double x, double y) const {
-        const double half_height = std::tan(0.5 * camera_.fov_y_radians);
-        const double pixel_size = 2.0 * half_height / settings_.height;
-        const glm::dvec4 local((x - 0.5 * settings_.width) * pixel_size,
-                               (0.5 * settings_.height - y) * pixel_size, -1.0, 0.0);
-        return glm::vec3(glm::normalize(glm::dvec3(camera_.world_from_camera * local)));
-    }
-
-    const Camera& camera_;
+    glm::dvec3 eye_;
+    Projection projection_;
     const RenderSettings& settings_;
     const TraceView& trace_;
 };
 
 }  // namespace
+
+Projection::Projection(const Camera& camera, uint32_t width, uint32_t height)
+    : camera_(camera),
+      width_(width),
+      height_(height),
+      pixel_size_(2.0 * std::tan(0.5 * camera.fov_y_radians) / height) {}
+
+glm::vec3 Projection::direction(double x, double y) const {
+    const glm::dvec4 local((x - 0.5 * width_) * pixel_size_, (0.5 * height_ - y) * pixel_size_,
+                           -1.0, 0.0);
+    return glm::vec3(glm::normalize(glm::dvec3(camera_.world_from_camera * local)));
+}
+
+glm::dvec3 Projection::view_from_world(const glm::dvec3& position) const {
+    const glm::dmat4& world_from_view = camera_.world_from_camera;
+    const glm::dvec3 offset = position - glm::dvec3(world_from_view[3]);
+    return {glm::dot(offset, glm::dvec3(world_from_view[0])),
+            glm::dot(offset, glm::dvec3(world_from_view[1])),
+            glm::dot(offset, glm::dvec3(world_from_view[2]))};
+}
+
+glm::dvec3 Projection::picture_from_view(const glm::dvec3& position) const {
+    const double pixels = 1.0 / (pixel_size_ * -position.z);
+    return {0.5 * width_ + position.x * pixels, 0.5 * height_ - position.y * pixels, -position.z};
+}
+
+double Projection::depth(glm::vec3 direction, double distance) const {
+    return -distance * glm::dot(glm::dvec3(direction), glm::dvec3(camera_.world_from_camera[2]));
+}
 
 Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_radians) {
     // Points that double can hardly part give no direction: look along -Z then.

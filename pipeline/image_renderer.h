@@ -14,6 +14,32 @@ namespace tetralight {
 /// along -Z.
 [[nodiscard]] Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_radians);
 
+/// Where the world is seen in a picture: a pinhole camera with square pixels. Pixels count from the
+/// upper left corner of the picture; the middle of the first pixel is (0.5, 0.5).
+class Projection {
+  public:
+    Projection(const Camera& camera, uint32_t width, uint32_t height);
+
+    /// Unit world direction through a place in the picture.
+    [[nodiscard]] glm::vec3 direction(double x, double y) const;
+
+    /// Right, up and back from the eye.
+    [[nodiscard]] glm::dvec3 view_from_world(const glm::dvec3& position) const;
+
+    /// Pixels right and down of what lies in front of the eye, and its depth: -z.
+    /// Precondition: z < 0.
+    [[nodiscard]] glm::dvec3 picture_from_view(const glm::dvec3& position) const;
+
+    /// Depth of what is seen in a unit direction at a distance.
+    [[nodiscard]] double depth(glm::vec3 direction, double distance) const;
+
+  private:
+    Camera camera_;
+    double width_;
+    double height_;
+    double pixel_size_;  // at depth 1
+};
+
 struct RenderSettings {
     uint32_t width = 960;
     uint32_t height = 540;

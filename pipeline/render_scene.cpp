@@ -89,6 +89,13 @@ std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
     return Shaded{surface->emission + reflected, distance};
 }
 
+std::optional<float> SceneShader::distance(const glm::dvec3& origin, glm::vec3 direction) const {
+    const glm::vec3 traced_origin = traced_.traced_from_world(origin);
+    const auto surface = first_front_face(traced_origin, direction);
+    if (!surface) return std::nullopt;
+    return glm::distance(traced_origin, surface->position);
+}
+
 bool SceneShader::is_blocked(const glm::dvec3& origin, glm::vec3 direction, float distance) const {
     return traced_.is_blocked({traced_.traced_from_world(origin), direction, distance});
 }

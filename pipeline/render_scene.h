@@ -32,6 +32,10 @@ class SceneShader {
 
     [[nodiscard]] std::optional<Shaded> shade(const glm::dvec3& origin, glm::vec3 direction) const;
 
+    /// Distance to what `shade` would shade.
+    [[nodiscard]] std::optional<float> distance(const glm::dvec3& origin,
+                                                glm::vec3 direction) const;
+
     /// Whether the scene blocks the way from a world position.
     [[nodiscard]] bool is_blocked(const glm::dvec3& origin, glm::vec3 direction,
                                   float distance) const;

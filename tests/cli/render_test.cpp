@@ -61,6 +61,15 @@ TEST_F(Render, RefusesTwoCameras) {
     EXPECT_TRUE(contains(message, "--camera excludes --eye")) << message;
 }
 
+TEST_F(Render, DrawsTheCellsWhenAsked) {
+    const std::string plain = picture({});
+    const std::string edges = picture({"--wireframe", "-j", "1"});
+    const std::string probes = picture({"--probe-radius", "0.5"});
+    EXPECT_TRUE(edges != plain && probes != plain && edges != probes);
+    EXPECT_TRUE(edges == picture({"--wireframe", "-j", "2"}));
+    EXPECT_TRUE(contains(misuse(arguments({"--probe-radius", "0"})), "--probe-radius"));
+}
+
 TEST_F(Render, WarnsOfAVolumeWithoutLight) {
     succeed({"tetrahedralize", kCourtyard, "-o", "v.probes"});
     const std::string warning = "warning: v.probes: the volume holds no light";

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "bake/image/srgb.h"
 
@@ -127,6 +128,18 @@ TEST(Develop, AutomaticExposureDoesNotDependOnTheUnit) {
 TEST(Develop, BlackStaysBlack) {
     const Image8 image = develop({1, 1, {glm::vec3(0.0f)}}, 0.0f);
     EXPECT_EQ(image.pixels[0], (std::array<uint8_t, 4>{0, 0, 0, 255}));
+}
+
+TEST(Projection, FindsThePlaceThatADirectionCameFrom) {
+    const Projection projection(look_at({1, 2, 3}, {-4, 1, 0}, 0.9), 640, 360);
+    for (const glm::dvec2 place : {glm::dvec2(0, 0), glm::dvec2(320, 180), glm::dvec2(600, 20)}) {
+        const glm::vec3 direction = projection.direction(place.x, place.y);
+        const glm::dvec3 seen = glm::dvec3(1, 2, 3) + 7.0 * glm::dvec3(direction);
+        const glm::dvec3 found = projection.picture_from_view(projection.view_from_world(seen));
+        EXPECT_NEAR(found.x, place.x, 1e-3);
+        EXPECT_NEAR(found.y, place.y, 1e-3);
+        EXPECT_NEAR(found.z, projection.depth(direction, 7.0), 1e-5);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/probe_balls.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+namespace tetralight {
+
+Result<ProbeBalls> ProbeBalls::make(const ProbeVolumeView& volume, float radius) {
+    ProbeBalls balls(volume);
+    std::vector<glm::vec4> spheres;
+    for (const glm::vec3& position : volume.positions) spheres.emplace_back(position, radius);
+    balls.caster_.add_spheres(spheres);
+    if (auto status = balls.caster_.commit(); !status) return status.error();
+    return balls;
+}
+
+std::optional<SceneShader::Shaded> ProbeBalls::shade(const glm::dvec3& origin,
+                                                     glm::vec3 direction) const {
+    const auto hit = caster_.cast({glm::vec3(origin - volume_.info.world_origin), direction});
+    if (!hit) return std::nullopt;
+    const IrradianceSh& light = hit->primitive < volume_.irradiance.size()
+                                    ? volume_.irradiance[hit->primitive]
+                                    : volume_.info.ambient;
+    const glm::vec3 irradiance = evaluate_irradiance(light, glm::normalize(hit->normal));
+    return SceneShader::Shaded{glm::max(irradiance, glm::vec3(0.0f)) / std::numbers::pi_v<float>,
+                               hit->distance};
+}
+
+}  // namespace tetralight

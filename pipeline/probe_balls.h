@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "bake/ray_caster.h"
+#include "base/result.h"
+#include "pipeline/render_scene.h"
+#include "probes/probe_volume.h"
+
+namespace tetralight {
+
+/// The probes of a volume as white balls, each lit by what it holds: they show where probes stand
+/// and what light they found.
+class ProbeBalls {
+  public:
+    /// Keeps references. Error: not enough memory.
+    [[nodiscard]] static Result<ProbeBalls> make(const ProbeVolumeView& volume, float radius);
+
+    /// Radiance of the first ball that a ray from a world position in a unit direction hits.
+    [[nodiscard]] std::optional<SceneShader::Shaded> shade(const glm::dvec3& origin,
+                                                           glm::vec3 direction) const;
+
+  private:
+    explicit ProbeBalls(const ProbeVolumeView& volume) : volume_(volume) {}
+
+    ProbeVolumeView volume_;
+    RayCaster caster_;  // in local space
+};
+
+}  // namespace tetralight

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/render_cells.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "pipeline/draw_lines.h"
+#include "pipeline/probe_balls.h"
+#include "probes/build/wireframe.h"
+
+namespace tetralight {
+namespace {
+
+const LineStyle kInnerStyle{{0.85f, 0.96f, 1.00f}, 0.34f, 0.03f, 1.0f};
+const LineStyle kHullStyle{{1.00f, 0.74f, 0.32f}, 0.70f, 0.06f, 1.1f};
+
+/// The scene and, where the user wants them, its probes.
+class Shader {
+  public:
+    [[nodiscard]] static Result<Shader> make(const Scene& scene, const ProbeVolumeView& volume,
+                                             float probe_radius) {
+        auto surfaces = SceneShader::make(scene, volume);
+        if (!surfaces) return surfaces.error();
+        std::optional<ProbeBalls> balls;
+        if (probe_radius > 0.0f) {
+            auto made = ProbeBalls::make(volume, probe_radius);
+            if (!made) return made.error();
+            balls = std::move(*made);
+        }
+        return Shader(std::move(*surfaces), std::move(balls));
+    }
+
+    [[nodiscard]] std::optional<SceneShader::Shaded> shade(const glm::dvec3& origin,
+                                                           glm::vec3 direction) const {
+        const auto surface = surfaces_.shade(origin, direction);
+        const auto ball = balls_ ? balls_->shade(origin, direction) : std::nullopt;
+        if (!ball || (surface && surface->distance < ball->distance)) return surface;
+        return ball;
+    }
+
+    /// To what `shade` shades; infinite where that is nothing.
+    [[nodiscard]] float distance(const glm::dvec3& origin, glm::vec3 direction) const {
+        constexpr float kNone = std::numeric_limits<float>::infinity();
+        const auto ball = balls_ ? balls_->shade(origin, direction) : std::nullopt;
+        return std::min(surfaces_.distance(origin, direction).value_or(kNone),
+                        ball ? ball->distance : kNone);
+    }
+
+  private:
+    Shader(SceneShader surfaces, std::optional<ProbeBalls> balls)
+        : surfaces_(std::move(surfaces)), balls_(std::move(balls)) {}
+
+    SceneShader surfaces_;
+    std::optional<ProbeBalls> balls_;
+};
+
+std::vector<Line> lines(const Wireframe& wireframe, std::span<const ProbeEdge> edges) {
+    std::vector<Line> result;
+    for (const auto [a, b] : edges) {
+        result.push_back({wireframe.positions[a], wireframe.positions[b]});
+    }
+    return result;
+}
+
+}  // namespace
+
+Result<Image8> render_cells(const Scene& scene, const ProbeVolumeView& volume, const Camera& camera,
+                            const RenderSettings& settings, const CellOverlay& overlay) {
+    const auto shader = Shader::make(scene, volume, overlay.probe_radius);
+    if (!shader) return shader.error();
+    const ImageF radiance =
+        render_view(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
+            const auto shaded = shader->shade(origin, direction);
+            return shaded ? shaded->radiance : sky_radiance(volume, direction);
+        });
+    Image8 image = develop(radiance, settings.exposure);
+    if (!overlay.has_edges) return image;
+
+    const DepthImage depth =
+        render_depth(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
+            return shader->distance(origin, direction);
+        });
+    const Wireframe wireframe = make_wireframe(volume);
+    draw_lines(image, depth, camera, lines(wireframe, wireframe.inner_edges), kInnerStyle);
+    draw_lines(image, depth, camera, lines(wireframe, wireframe.hull_edges), kHullStyle);
+    return image;
+}
+
+}  // namespace tetralight
