@@ -28,6 +28,10 @@ struct Info {
                  "(Wavefront OBJ, groups `cells` and `hull`; - = stdout)");
         add_path(command, "--ply", ply_path, "The same as a PLY file with `edge` elements");
         common.add_to(command);
+        command.parse_complete_callback([this] {
+            if (obj_path != "-" || ply_path != "-") return;
+            throw CLI::ValidationError("--ply", "--obj goes to stdout already");
+        });
     }
 
     Status run() {

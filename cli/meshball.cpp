@@ -34,10 +34,10 @@ struct MeshBall {
         command.add_option("--count", settings.instance_count, "Spheres in the ball")
             ->check(CLI::Range(0u, 10'000'000u))
             ->capture_default_str();
-        center_option =
-            add_vec3(command, "--center", settings.center,
-                     "Centre of the ball (default: of the probes, or the probe nearest to "
-                     "it where the scene leaves more room)");
+        center_option = add_vec3(
+            command, "--center", settings.center,
+            "Centre of the ball (default: of the probes, or a probe near it where the scene "
+            "leaves room)");
         radius_option = command.add_option("--radius", settings.radius,
                                            "Radius of the ball (default: from the probes)");
         radius_option->check(numbers_in(1e-6, 1e9));

@@ -117,7 +117,7 @@ Rows memory_rows(const VolumeFacts& facts) {
 }  // namespace
 
 std::string to_text(const VolumeFacts& facts, const ProbeVolumeView& volume) {
-    std::string lines = text(facts.path, "\n", aligned(summary(facts, volume), "ll"));
+    std::string lines = text(printable(facts.path), "\n", aligned(summary(facts, volume), "ll"));
     if (!facts.groups.empty()) {
         lines += "probes by group\n" + aligned(group_rows(facts, volume.sources.size()), "lrr");
     }

@@ -121,23 +121,12 @@ TEST_F(Bake, SaysWhereToGetGroupsWhenThereAreNone) {
 
 TEST_F(Bake, TakesAConstantSky) {
     expect_radiance({"--sky", "1,0.5,0.25"}, {1.0, 0.5, 0.25});
-}
-
-TEST_F(Bake, TakesOneNumberForAGreySky) {
-    expect_radiance({"--sky", "0.5"}, {0.5, 0.5, 0.5});
+    expect_radiance({"--sky", "0.5"}, {0.5, 0.5, 0.5});  // grey
 }
 
 TEST_F(Bake, SaysWhatASkyMayBe) {
     const std::string message = misuse({"bake", kCourtyard, "-o", "v.probes", "--sky", "1,2"});
     EXPECT_TRUE(contains(message, "\"1,2\" is neither R,G,B, nor a number, nor a file")) << message;
-}
-
-TEST_F(Bake, CountsOneProbeAsOne) {
-    write("one.json", R"({"groups": [{"name": "one", "positions": [[0, 1, 0]]}]})");
-    const std::string out = succeed({"bake", kCourtyard, "-g", "one.json", "--only-given-groups",
-                                     "-o", "v.probes", "-s", "1"})
-                                .out;
-    EXPECT_TRUE(contains(out, "v.probes: 1 probe (0 welded), 1 cell\n")) << out;
 }
 
 TEST_F(Bake, ScalesTheSky) {

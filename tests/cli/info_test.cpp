@@ -112,6 +112,7 @@ TEST_F(Info, KeepsStdoutForTheWireframeThatGoesThere) {
     bake_courtyard("v.probes");
     succeed({"info", "v.probes", "--obj", "v.obj"});
     EXPECT_EQ(succeed({"info", "v.probes", "--obj", "-"}).out, read("v.obj"));
+    EXPECT_TRUE(contains(misuse({"info", "v.probes", "--obj", "-", "--ply", "-"}), "--ply"));
 }
 
 TEST_F(Info, NamesAWireframeThatCannotBeWritten) {

@@ -55,6 +55,12 @@ TEST_F(Tetrahedralize, MakesTrianglesOfAFlatSet) {
     EXPECT_TRUE(contains(succeed({"validate", "v.probes"}).out, "4 triangles"));
 }
 
+TEST_F(Tetrahedralize, CountsOneProbeAsOne) {
+    write("one.json", R"({"groups": [{"name": "one", "positions": [[0, 1, 0]]}]})");
+    const std::string out = succeed({"tetrahedralize", "one.json", "-o", "v.probes"}).out;
+    EXPECT_EQ(out, "v.probes: 1 probe (0 welded), 1 cell, no light\n");
+}
+
 TEST_F(Tetrahedralize, RefusesToWriteOverItsInput) {
     write("groups", kFiveProbes);
     const std::string message = fail({"tetrahedralize", "groups", "-o", "./groups"});
