@@ -2,6 +2,7 @@
 #include "probes/hilbert.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tetralight {
 namespace {
@@ -9,36 +10,74 @@ namespace {
 constexpr int kBits = kHilbertBits;
 constexpr double kLargest = (1u << kBits) - 1;
 
-/// Skilling's inverse undo: turns axes into the transposed Hilbert index.
-void transpose_from_axes(std::array<uint32_t, 3>& x) {
-    for (uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1) {
-        const uint32_t below = bit - 1;
-        for (uint32_t& axis : x) {
-            if (axis & bit) {
-                x[0] ^= below;
-            } else {
-                const uint32_t swap = (x[0] ^ axis) & below;
-                x[0] ^= swap;
-                axis ^= swap;
-            }
+constexpr std::array<std::array<uint8_t, 3>, 6> kPermutations = {
+    {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+constexpr uint32_t kTurnCount = 6 * 16;
+
+/// How the curve lies in a cube: which axes take the place of x, y and z, which of them run
+/// backwards, and whether the Gray code before this level ends with its bits inverted.
+struct Turn {
+    std::array<uint8_t, 3> axes{};
+    std::array<bool, 3> is_reversed{};
+    bool is_inverted = false;
+};
+
+constexpr Turn turn_at(uint32_t number) {
+    return {kPermutations[number / 16],
+            {(number & 2) != 0, (number & 4) != 0, (number & 8) != 0},
+            (number & 1) != 0};
+}
+
+constexpr uint32_t number_of(const Turn& turn) {
+    uint32_t number = 0;
+    while (kPermutations[number] != turn.axes) ++number;
+    return number * 16 + turn.is_reversed[0] * 2u + turn.is_reversed[1] * 4u +
+           turn.is_reversed[2] * 8u + turn.is_inverted;
+}
+
+/// One level of Skilling's transform: for an octant of a cube its place along the curve (the lowest
+/// three bits), and how the curve lies in it.
+constexpr uint16_t step(uint32_t number, uint32_t octant) {
+    Turn turn = turn_at(number);
+    std::array<bool, 3> bits{};
+    for (size_t i = 0; i < 3; ++i) {
+        bits[i] = ((octant >> (2 - turn.axes[i]) & 1u) != 0) != turn.is_reversed[i];
+    }
+    uint32_t place = 0;
+    bool gray = turn.is_inverted;
+    for (const bool bit : bits) {
+        gray = gray != bit;
+        place = place << 1 | gray;
+    }
+    turn.is_inverted = gray;
+    for (size_t i = 0; i < 3; ++i) {
+        if (bits[i]) {
+            turn.is_reversed[0] = !turn.is_reversed[0];
+        } else {
+            std::swap(turn.axes[0], turn.axes[i]);
+            std::swap(turn.is_reversed[0], turn.is_reversed[i]);
         }
     }
-    x[1] ^= x[0];
-    x[2] ^= x[1];
-    uint32_t gray = 0;
-    for (uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1) {
-        if (x[2] & bit) gray ^= bit - 1;
-    }
-    for (uint32_t& axis : x) axis ^= gray;
+    return static_cast<uint16_t>(number_of(turn) << 3 | place);
 }
+
+/// `step` for each turn (the upper bits of the index) and octant.
+constexpr std::array<uint16_t, kTurnCount* 8> kSteps = [] {
+    std::array<uint16_t, kTurnCount * 8> steps{};
+    for (uint32_t i = 0; i < steps.size(); ++i) steps[i] = step(i >> 3, i & 7u);
+    return steps;
+}();
 
 }  // namespace
 
 uint64_t hilbert_index(std::array<uint32_t, 3> point) noexcept {
-    transpose_from_axes(point);
     uint64_t index = 0;
+    uint32_t state = 0;
     for (int bit = kBits - 1; bit >= 0; --bit) {
-        for (const uint32_t axis : point) index = index << 1 | (axis >> bit & 1u);
+        const uint32_t octant =
+            (point[0] >> bit & 1u) << 2 | (point[1] >> bit & 1u) << 1 | (point[2] >> bit & 1u);
+        state = kSteps[(state & ~7u) | octant];
+        index = index << 3 | (state & 7u);
     }
     return index;
 }

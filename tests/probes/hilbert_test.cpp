@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 
 namespace tetralight {
 namespace {
@@ -27,6 +28,37 @@ TEST(Hilbert, NeighborsOnTheCurveAreNeighborsInSpace) {
                                                     static_cast<int>(blocks[i - 1][axis])));
         }
         EXPECT_EQ(steps, 1u) << i;
+    }
+}
+
+/// Skilling 2004, "Programming the Hilbert curve", AxestoTranspose, and the bits of the result.
+uint64_t skilling_index(std::array<uint32_t, 3> x) {
+    for (uint32_t bit = 1u << (kHilbertBits - 1); bit > 1; bit >>= 1) {
+        for (uint32_t& axis : x) {
+            const uint32_t swap = axis & bit ? 0u : (x[0] ^ axis) & (bit - 1);
+            x[0] ^= axis & bit ? bit - 1 : swap;
+            axis ^= swap;
+        }
+    }
+    x[1] ^= x[0];
+    x[2] ^= x[1];
+    uint32_t gray = 0;
+    for (uint32_t bit = 1u << (kHilbertBits - 1); bit > 1; bit >>= 1) {
+        if (x[2] & bit) gray ^= bit - 1;
+    }
+    uint64_t index = 0;
+    for (int bit = kHilbertBits - 1; bit >= 0; --bit) {
+        for (const uint32_t axis : x) index = index << 1 | ((axis ^ gray) >> bit & 1u);
+    }
+    return index;
+}
+
+TEST(Hilbert, IsSkillingsCurve) {
+    std::mt19937 engine(1);
+    for (int i = 0; i < 10'000; ++i) {
+        std::array<uint32_t, 3> point;
+        for (uint32_t& axis : point) axis = static_cast<uint32_t>(engine()) >> (32 - kHilbertBits);
+        ASSERT_EQ(hilbert_index(point), skilling_index(point));
     }
 }
 
