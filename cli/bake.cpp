@@ -43,7 +43,7 @@ struct Bake {
         add_seed(command, settings.seed, "Seed of the random numbers");
         command
             .add_option("--weld", merge_settings.weld_tolerance,
-                        "Join probes nearer than this share of the set's diagonal")
+                        "Join probes nearer than this share of the local spacing")
             ->check(numbers_in(0.0, 0.1))
             ->capture_default_str();
         common.add_to(command);

@@ -25,7 +25,7 @@ struct Tetrahedralize {
         add_output(command, output, ".probes", "Probe volume to write, without light");
         command
             .add_option("--weld", merge_settings.weld_tolerance,
-                        "Join probes nearer than this share of the set's diagonal")
+                        "Join probes nearer than this share of the local spacing")
             ->check(numbers_in(0.0, 0.1))
             ->capture_default_str();
         command

@@ -2,33 +2,14 @@
 #include "probes/build/make_probe_volume.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "probes/build/detail/local_origin.h"
 #include "probes/build/hull_rays.h"
 #include "probes/build/make_seeds.h"
 
 namespace tetralight {
-namespace {
-
-/// The world's own origin where that costs no precision, else the centre of the probes.
-glm::dvec3 local_origin(std::span<const glm::dvec3> positions) {
-    if (positions.empty()) return glm::dvec3(0.0);
-    glm::dvec3 low = positions[0];
-    glm::dvec3 high = positions[0];
-    for (const glm::dvec3& p : positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    constexpr double kNear = 16.0;
-    const glm::dvec3 center = (low + high) * 0.5;
-    const bool is_near = glm::length(center) <= kNear * glm::distance(low, high);
-    return is_near ? glm::dvec3(0.0) : glm::dvec3(glm::vec3(center));
-}
-
-}  // namespace
-
 ProbeVolume make_probe_volume(const MergedProbes& probes) {
     return make_probe_volume(probes, tetrahedralize(probes.positions, flatness(probes)));
 }
@@ -37,7 +18,7 @@ ProbeVolume make_probe_volume(const MergedProbes& probes, Tetrahedralization cel
     HullRays hull = make_hull_rays(probes.positions, cells);
 
     ProbeVolume volume;
-    volume.info.world_origin = local_origin(probes.positions);
+    volume.info.world_origin = detail::local_origin(probes.positions);
     volume.info.axis = cells.axis;
     volume.info.dimension = cells.dimension;
     volume.info.inner_cell_count = cells.inner_cell_count;

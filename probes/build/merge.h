@@ -14,10 +14,11 @@
 namespace tetralight {
 
 struct MergeSettings {
-    /// Positions nearer to each other than this share of the set's bounding-box diagonal become one
-    /// probe. The default is a few steps of the floats that queries use: nearer positions could not
-    /// be told apart.
-    double weld_tolerance = 4e-7;
+    /// Probes nearer to each other than this share of the local spacing become one. The spacing at
+    /// a probe is its distance to its seventh nearest neighbor, so that probes far away have no say
+    /// in it. Whatever this is, probes are welded that floats could not tell apart. Precondition:
+    /// not negative.
+    double weld_tolerance = 1e-4;
 
     bool operator==(const MergeSettings&) const = default;
 };
@@ -31,7 +32,7 @@ struct MergedProbes {
     std::vector<std::string> group_names;
     /// Every probe of every group, sorted by group, then index.
     std::vector<ProbeSource> sources;
-    /// Positions nearer to each other than this were welded, metres.
+    /// No two positions are nearer to each other than this, metres.
     double weld_radius = 0.0;
     /// One a group: whether it asked for dering.
     std::vector<bool> group_dering;
@@ -44,8 +45,9 @@ struct MergedProbes {
 /// apart never fall together in a plane.
 [[nodiscard]] double flatness(const MergedProbes& probes);
 
-/// Joins groups into one set. Clusters of near positions are closed transitively; the
-/// lexicographically smallest position stands for its cluster.
+/// Joins groups into one set. Two probes are welded when they are nearer to each other than the
+/// tolerance of both, so that a probe of a sparse part swallows none of a dense one. Clusters are
+/// closed transitively; the lexicographically smallest position stands for its cluster.
 ///
 /// Errors: a group without a name, with a line break in it or with the name of another; a position
 /// that is not finite or beyond 1e18 (they name the group and the index).

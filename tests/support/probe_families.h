@@ -44,6 +44,18 @@ inline std::vector<glm::dvec3> joined(std::vector<glm::dvec3> a, const std::vect
     return a;
 }
 
+/// What is left when a share of the positions is taken out at random.
+inline std::vector<glm::dvec3> with_holes(const std::vector<glm::dvec3>& positions, double share,
+                                          uint64_t seed) {
+    std::mt19937_64 engine(seed);
+    std::bernoulli_distribution is_hole(share);
+    std::vector<glm::dvec3> left;
+    for (const glm::dvec3& p : positions) {
+        if (!is_hole(engine)) left.push_back(p);
+    }
+    return left;
+}
+
 /// Two clusters with a spacing of centimetres, a kilometre apart.
 inline std::vector<glm::dvec3> far_clusters(uint64_t seed) {
     return joined(random_positions(200, seed, 0.05),
@@ -76,7 +88,15 @@ inline std::vector<ProbeFamily> probe_families() {
         {"lattice", [](uint64_t) { return lattice(8, 0.0, 0); }},
         {"turned lattice",
          [](uint64_t s) { return turned(lattice(8, 0.0, 0), 0.1 + static_cast<double>(s)); }},
+        {"lattice with holes",
+         [](uint64_t s) {
+             return turned(with_holes(lattice(8, 0.0, 0), 0.3, s), static_cast<double>(s));
+         }},
         {"jittered lattice", [](uint64_t s) { return lattice(8, 1e-6, s); }},
+        {"outlier",
+         [](uint64_t s) {
+             return joined(random_positions(300, s), {{4e4, 1e4, -3e4}});
+         }},
         {"wide pairs", wide_pairs},
         {"sphere", on_a_sphere},
         {"plane",

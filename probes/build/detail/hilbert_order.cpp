@@ -2,8 +2,9 @@
 #include "probes/build/detail/hilbert_order.h"
 
 #include <algorithm>
-#include <functional>
+#include <compare>
 #include <glm/common.hpp>
+#include <numeric>
 #include <tuple>
 
 #include "probes/hilbert.h"
@@ -11,37 +12,62 @@
 namespace tetralight::detail {
 namespace {
 
+/// A curve through so few positions is not worth its while.
+constexpr size_t kFew = 8;
+
 struct Key {
     uint64_t index;
-    glm::dvec3 position;
     uint32_t probe;
 
-    bool operator<(const Key& other) const {
-        return std::tie(index, position.x, position.y, position.z) <
-               std::tie(other.index, other.position.x, other.position.y, other.position.z);
-    }
+    auto operator<=>(const Key&) const = default;
 };
+
+using Positions = std::span<const glm::dvec3>;
+
+void sort_by_coordinates(Positions positions, std::span<uint32_t> order) {
+    std::ranges::sort(order, [&](uint32_t a, uint32_t b) {
+        const glm::dvec3 &p = positions[a], &q = positions[b];
+        return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
+    });
+}
+
+HilbertCube cube_around(Positions positions, std::span<const uint32_t> order) {
+    glm::dvec3 low = positions[order[0]];
+    glm::dvec3 high = low;
+    for (const uint32_t i : order) {
+        low = glm::min(low, positions[i]);
+        high = glm::max(high, positions[i]);
+    }
+    return make_hilbert_cube(low, high);
+}
+
+/// The corners of a cube with a size have different indices, so each call deals with fewer.
+void sort_along_curve(Positions positions, std::span<uint32_t> order) {
+    const HilbertCube cube = cube_around(positions, order);
+    if (cube.scale == 0.0) return;  // all equal, and in the order of their numbers
+    std::vector<Key> keys;
+    keys.reserve(order.size());
+    for (const uint32_t i : order) keys.push_back({cube.index(positions[i]), i});
+    std::sort(keys.begin(), keys.end());
+    for (size_t i = 0; i < keys.size(); ++i) order[i] = keys[i].probe;
+
+    for (size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+        while (end < keys.size() && keys[end].index == keys[begin].index) ++end;
+        const std::span<uint32_t> same = order.subspan(begin, end - begin);
+        if (same.size() > kFew) {
+            sort_along_curve(positions, same);
+        } else if (same.size() > 1) {
+            sort_by_coordinates(positions, same);
+        }
+    }
+}
 
 }  // namespace
 
-std::vector<uint32_t> hilbert_order(std::span<const glm::dvec3> positions) {
-    if (positions.empty()) return {};
-    glm::dvec3 low = positions[0];
-    glm::dvec3 high = positions[0];
-    for (const glm::dvec3& p : positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    const HilbertCube cube = make_hilbert_cube(low, high);
-    std::vector<Key> keys;
-    keys.reserve(positions.size());
-    for (uint32_t i = 0; i < positions.size(); ++i) {
-        keys.push_back({cube.index(positions[i]), positions[i], i});
-    }
-    std::ranges::sort(keys, std::less<>{});
-    std::vector<uint32_t> order;
-    order.reserve(keys.size());
-    for (const Key& key : keys) order.push_back(key.probe);
+std::vector<uint32_t> hilbert_order(Positions positions) {
+    std::vector<uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    if (!order.empty()) sort_along_curve(positions, order);
     return order;
 }
 

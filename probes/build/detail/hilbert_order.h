@@ -8,8 +8,9 @@
 
 namespace tetralight::detail {
 
-/// The order that visits positions along a Hilbert curve through their bounding cube; equal indices
-/// are ordered by x, y, z.
+/// The order that visits positions along a Hilbert curve through their bounding cube. Those that
+/// share a point of that curve are visited along a curve through their own cube, or by x, y, z when
+/// they are few; equal ones by their numbers.
 [[nodiscard]] std::vector<uint32_t> hilbert_order(std::span<const glm::dvec3> positions);
 
 }  // namespace tetralight::detail

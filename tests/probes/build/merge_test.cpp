@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "tests/support/random_probes.h"
+#include "tests/support/probe_families.h"
 
 namespace tetralight {
 namespace {
@@ -69,17 +70,48 @@ TEST(Merge, WeldsTensOfThousandsOfEqualProbes) {
     EXPECT_EQ(merged->welded_count(), 49'999u);
 }
 
-TEST(Merge, ClosesClustersTransitivelyAndKeepsTheSmallestPosition) {
-    // Each is 0.6 of the radius from the next: one cluster although its ends are far apart.
-    std::vector<glm::dvec3> chain{{0, 0, 0}, {1, 0, 0}};
-    const MergeSettings settings{0.1};  // radius 0.1 × diagonal 1
-    for (int i = 1; i <= 9; ++i) chain.emplace_back(0.06 * i, 0.0, 0.0);
-    std::reverse(chain.begin() + 2, chain.end());
-    const ProbeGroup group = make_group("chain", chain);
-    const auto merged = merge(std::span(&group, 1), settings);
+TEST(Merge, KeepsTheSmallestPositionOfAClusterWhateverItsGroup) {
+    // All within 1e-3 of each other, beside a row that makes the spacing there about 1.
+    std::vector<glm::dvec3> row;
+    for (int i = 1; i <= 10; ++i) row.emplace_back(0.25 * i, 0.1 * i * i, 0.0);
+    std::vector<ProbeGroup> groups{make_group("a", {{1e-4, 0, 0}, {0, 1e-4, 0}}),
+                                   make_group("b", {{0, 0, 1e-4}, {0, 0, 1e-4}}),
+                                   make_group("row", row)};
+    const auto merged = merge(groups, {1e-2});
+    std::swap(groups[0], groups[2]);
+    std::ranges::reverse(groups[2].positions);
+    const auto reordered = merge(groups, {1e-2});
+    ASSERT_TRUE(merged && reordered);
+    EXPECT_EQ(merged->positions.size(), 11u);
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(merged->positions[merged->sources[i].probe], glm::dvec3(0, 0, 1e-4));
+    }
+    EXPECT_EQ(reordered->positions, merged->positions);
+}
+
+TEST(Merge, NoTwoProbesAreWithinTheWeldRadius) {
+    for (const test::ProbeFamily& family : test::probe_families()) {
+        const ProbeGroup group = make_group("a", family.make(1));
+        const auto merged = merge(std::span(&group, 1));
+        ASSERT_TRUE(merged);
+        for (size_t i = 0; i < merged->positions.size(); ++i) {
+            for (size_t j = 0; j < i; ++j) {
+                const double distance = glm::distance(merged->positions[i], merged->positions[j]);
+                ASSERT_GE(distance, merged->weld_radius) << family.name;
+            }
+        }
+    }
+}
+
+TEST(Merge, SourcesAreSortedByGroupThenIndex) {
+    const std::vector<ProbeGroup> groups{make_group("b", {{1, 1, 1}, {0, 0, 0}}),
+                                         make_group("a", {{1, 1, 1}, {1, 1, 1}})};
+    const auto merged = merge(groups);
     ASSERT_TRUE(merged);
-    ASSERT_EQ(merged->positions.size(), 2u);
-    EXPECT_EQ(merged->positions[merged->sources[5].probe], glm::dvec3(0.0));
+    const uint32_t probe = merged->sources[0].probe;
+    EXPECT_EQ(
+        merged->sources,
+        (std::vector<ProbeSource>{{0, 0, probe}, {0, 1, probe}, {1, 0, probe}, {1, 1, 1 - probe}}));
 }
 
 TEST(Merge, NamesTheProbeThatIsNotFinite) {

@@ -27,6 +27,16 @@ TEST(HilbertOrder, DoesNotDependOnTheInputOrder) {
     }
 }
 
+TEST(HilbertOrder, OfARoomDoesNotChangeWithAProbeFarAway) {
+    // The whole room is then one point of the curve through all.
+    std::vector<glm::dvec3> positions = test::random_positions(200, 3);
+    const std::vector<uint32_t> order = hilbert_order(positions);
+    positions.emplace_back(1e12, 1e12, 1e12);
+    std::vector<uint32_t> with_outlier = hilbert_order(positions);
+    std::erase(with_outlier, 200u);
+    EXPECT_EQ(with_outlier, order);
+}
+
 TEST(HilbertOrder, OfOnePlaceIsDefined) {
     EXPECT_EQ(hilbert_order(std::vector<glm::dvec3>(3, glm::dvec3(5.0))).size(), 3u);
     EXPECT_TRUE(hilbert_order({}).empty());
