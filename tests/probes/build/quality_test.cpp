@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace tetralight {
 namespace {
@@ -25,6 +26,21 @@ TEST(TetrahedronQuality, IsZeroWhenFlatAndNegativeWhenTurned) {
     EXPECT_EQ(tetrahedron_quality({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}), 0.0);
     EXPECT_EQ(tetrahedron_quality({1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}), 0.0);
     EXPECT_LT(tetrahedron_quality({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}), 0.0);
+}
+
+TEST(MeasureQuality, CountsSliversAndFlatTetrahedra) {
+    const std::vector<glm::dvec3> positions{{0, 0, 0}, {1, 0, 0},    {0, 1, 0},
+                                            {0, 0, 1}, {1, 1, 1e-4}, {1, 1, 1e-8}};
+    const auto cell = [](uint32_t last) { return Cell{{0, 1, 2, last}, {}}; };
+    const std::vector<Cell> cells{cell(3), cell(4), cell(5), cell(3)};
+    const QualityReport report = measure_quality(positions, cells);
+    EXPECT_EQ(report.tetrahedra, 4u);
+    EXPECT_EQ(report.slivers, 2u);
+    EXPECT_EQ(report.flat, 1u);
+    EXPECT_EQ(report.sliver_share(), 0.5);
+    EXPECT_EQ(report.smallest,
+              tetrahedron_quality(positions[0], positions[1], positions[2], positions[5]));
+    EXPECT_EQ(measure_quality({}, {}).sliver_share(), 0.0);
 }
 
 }  // namespace
