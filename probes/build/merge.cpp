@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "probes/build/detail/hilbert_order.h"
+#include "probes/build/detail/snap_to_lattice.h"
 #include "probes/build/detail/weld.h"
 
 namespace tetralight {
@@ -90,8 +91,11 @@ Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettin
         const ProbeGroup& group = *sorted[g];
         const auto name = check_name(group, g > 0 ? sorted[g - 1] : nullptr);
         if (!name) return name.error();
-        const auto group_positions = world_positions(group);
+        auto group_positions = world_positions(group);
         if (!group_positions) return group_positions.error();
+        const auto snap = detail::snap_to_lattice(*group_positions);
+        merged.group_is_lattice.push_back(snap.has_value());
+        merged.largest_snap = std::max(merged.largest_snap, snap.value_or(0.0));
         merged.group_names.push_back(group.name);
         merged.group_dering.push_back(group.dering);
         for (uint32_t i = 0; i < group_positions->size(); ++i) {

@@ -36,6 +36,11 @@ struct MergedProbes {
     double weld_radius = 0.0;
     /// One a group: whether it asked for dering.
     std::vector<bool> group_dering;
+    /// One a group: whether its probes are part of a lattice. They were moved exactly onto it then.
+    std::vector<bool> group_is_lattice;
+    /// The longest of these moves, metres: a few float steps of the group's largest coordinate, and
+    /// never more than a thousandth of the distance between neighbors in the lattice.
+    double largest_snap = 0.0;
 
     /// Probes that were welded to another one.
     [[nodiscard]] size_t welded_count() const { return sources.size() - positions.size(); }

@@ -114,6 +114,23 @@ TEST(Merge, SourcesAreSortedByGroupThenIndex) {
         (std::vector<ProbeSource>{{0, 0, probe}, {0, 1, probe}, {1, 0, probe}, {1, 1, 1 - probe}}));
 }
 
+TEST(Merge, SnapsEachLatticeByItselfAndSaysWhich) {
+    const auto turned = test::turned(test::lattice(6, 0.0, 0), 0.7);
+    const ProbeGroup lattice = make_group("b", turned);
+    const std::vector<ProbeGroup> groups{make_group("a", test::random_positions(50, 1)), lattice};
+    const auto both = merge(groups);
+    const auto alone = merge(std::span(&lattice, 1));
+    ASSERT_TRUE(both && alone);
+    EXPECT_EQ(both->group_is_lattice, (std::vector<bool>{false, true}));
+    EXPECT_EQ(both->largest_snap, alone->largest_snap);
+    EXPECT_GT(both->largest_snap, 0.0);
+    for (size_t i = 0; i < turned.size(); ++i) {
+        const glm::dvec3& snapped = both->positions[both->sources[50 + i].probe];
+        EXPECT_EQ(snapped, alone->positions[alone->sources[i].probe]);
+        EXPECT_LE(glm::distance(snapped, turned[i]), both->largest_snap);
+    }
+}
+
 TEST(Merge, NamesTheProbeThatIsNotFinite) {
     const ProbeGroup group = make_group("hall", {{0, 0, 0}, {0, std::nan(""), 1}});
     const auto merged = merge(std::span(&group, 1));
