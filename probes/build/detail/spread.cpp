@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "probes/build/detail/snap_to_lattice.h"
+
 namespace tetralight::detail {
 namespace {
 
@@ -91,12 +93,14 @@ std::vector<uint32_t> order_along(std::span<const glm::dvec3> positions,
 std::vector<glm::dvec2> project(std::span<const glm::dvec3> positions, const glm::dvec3& normal) {
     const glm::dvec3 u = tangent_of(normal);
     const glm::dvec3 v = glm::cross(normal, u);
-    std::vector<glm::dvec2> projected;
+    std::vector<glm::dvec3> projected;
     projected.reserve(positions.size());
     for (const glm::dvec3& p : positions) {
-        projected.emplace_back(glm::dot(p - positions[0], u), glm::dot(p - positions[0], v));
+        projected.emplace_back(glm::dot(p - positions[0], u), glm::dot(p - positions[0], v), 0.0);
     }
-    return projected;
+    // Rounding bends the straight lines of a turned lattice; this straightens them again.
+    static_cast<void>(snap_to_lattice(projected));
+    return {projected.begin(), projected.end()};
 }
 
 }  // namespace tetralight::detail
