@@ -1,65 +1,308 @@
 // SPDX-License-Identifier: Apache-2.0
+// Links CGAL's 3D triangulations (GPL-3.0-or-later).
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <thread>
+
 #include "bench/harness.h"
 #include "probes/build/make_probe_volume.h"
+#include "probes/compact_probes.h"
 #include "probes/interpolate.h"
+#include "probes/morton_order.h"
+#include "probes/probe_file.h"
 
 namespace tetralight::bench {
 namespace {
 
-constexpr size_t kQueryCount = 100'000;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
 
-ProbeVolume make_volume(size_t probe_count) {
+constexpr size_t kMillion = 1'000'000;
+
+/// A volume to query, and what is asked.
+struct Subject {
+    std::string name;
+    ProbeVolume volume;
+    glm::vec3 low{0.0f};
+    glm::vec3 high{0.0f};
+    uint64_t seed = 100;
+
+    /// Fresh positions, uniform in the box of the probes grown by 10 %.
+    std::vector<glm::vec3> positions(size_t count) {
+        std::vector<glm::vec3> result;
+        const glm::vec3 size = 1.1f * (high - low);
+        const glm::vec3 corner = 0.5f * (low + high) - 0.5f * size;
+        for (const glm::dvec3& p : random_positions(count, ++seed, 1.0)) {
+            result.push_back(corner + size * glm::vec3(p));
+        }
+        return result;
+    }
+
+    std::vector<glm::vec3> sorted_positions(size_t count) {
+        const std::vector<glm::vec3> any = positions(count);
+        std::vector<uint64_t> memory(2 * count);
+        std::vector<glm::vec3> sorted;
+        for (const uint64_t key : morton_order(any, memory)) {
+            sorted.push_back(any[static_cast<uint32_t>(key)]);
+        }
+        return sorted;
+    }
+};
+
+Subject make_subject(const std::string& name, size_t probe_count) {
     ProbeGroup group;
     group.name = "bench";
     group.positions = random_positions(probe_count, 1, 100.0);
-    ProbeVolume volume = make_probe_volume(*merge(std::span(&group, 1)));
+    Subject subject{name, make_probe_volume(*merge(std::span(&group, 1)))};
+    ProbeVolume& volume = subject.volume;
+    subject.low = subject.high = volume.positions[0];
     for (const glm::vec3& p : volume.positions) {
+        subject.low = glm::min(subject.low, p);
+        subject.high = glm::max(subject.high, p);
         volume.irradiance.push_back(irradiance_from_radiance(constant_radiance(p)));
     }
-    return volume;
+    make_compact_probes(volume);
+    return subject;
 }
 
-/// Objects that stay near the cell of their last query, against the blend alone.
-void moving(const std::string& name, size_t probe_count, const Options& options) {
-    const ProbeVolume volume = make_volume(probe_count);
-    const ProbeVolumeView view = volume.view();
+/// One batch with its answers, and the same answers gathered at known locations.
+struct Race {
+    Subject& subject;
+    ProbeVolumeView view;
     std::vector<glm::vec3> positions;
     std::vector<CellLocation> locations;
     std::vector<uint32_t> hints;
-    for (const glm::dvec3& p : random_positions(kQueryCount, 2, 100.0)) {
-        positions.emplace_back(p);
-        locations.push_back(locate(view, positions.back(), hints.empty() ? 0 : hints.back()));
-        hints.push_back(locations.back().cell);
-    }
-    std::vector<IrradianceSh> answers(kQueryCount);
-    std::vector<IrradianceSh> expected(kQueryCount);
+    std::vector<uint64_t> sort_memory;
+    std::vector<IrradianceSh> answers;
+    std::vector<IrradianceSh> gathered;
 
+    Race(Subject& from, const ProbeVolumeView& volume, size_t count)
+        : subject(from), view(volume), locations(count), answers(count), gathered(count) {}
+
+    void set_positions(std::vector<glm::vec3> fresh) {
+        positions = std::move(fresh);
+        locate(view, positions, locations);
+    }
+
+    [[nodiscard]] double run_batch() {
+        const InterpolationBatch batch{positions, hints, answers, {}, {}, sort_memory};
+        return seconds([&] { require(bool(interpolate(view, batch)), "batch query"); });
+    }
+
+    [[nodiscard]] double run_gather() {
+        return seconds([&] { require(bool(blend(view, locations, gathered, {})), "gather"); });
+    }
+
+    void compare(const std::string& figure) const {
+        for (size_t i = 0; i < answers.size(); ++i) {
+            for (int k = 0; k < kShCoefficientCount; ++k) {
+                const glm::vec3 a = answers[i].coefficients[k];
+                require(glm::distance(a, gathered[i].coefficients[k]) <= 1e-3f * glm::length(a),
+                        figure + ": answers differ from the gathered ones");
+            }
+        }
+    }
+};
+
+Contest contest_of(const std::string& figure, size_t count, const char* baseline) {
     Contest contest;
-    contest.figure = "query.moving." + name;
+    contest.figure = figure;
     contest.unit = "Mq/s";
-    contest.baseline_is = "gather only";
-    contest.work = kQueryCount * 1e-6;
+    contest.baseline_is = baseline;
+    contest.work = static_cast<double>(count) * 1e-6;
+    return contest;
+}
+
+/// Short batches are repeated, so that a run takes milliseconds.
+template <class Run>
+double repeated(size_t count, Run run) {
+    const size_t times = std::max<size_t>(1, 50'000 / count);
+    double sum = 0.0;
+    for (size_t i = 0; i < times; ++i) sum += run();
+    return sum / static_cast<double>(times);
+}
+
+void sorted(Subject& subject, const std::string& figure, const ProbeVolumeView& view, size_t count,
+            const Options& options) {
+    Race race(subject, view, count);
+    Contest contest = contest_of(figure, count, "gather only");
     contest.ours = [&] {
-        return seconds([&] {
-            require(bool(interpolate(view, {positions, hints, answers, {}})), "batch query");
-        });
+        race.set_positions(subject.sorted_positions(count));
+        return repeated(count, [&] { return race.run_batch(); });
+    };
+    contest.baseline = [&] { return repeated(count, [&] { return race.run_gather(); }); };
+    run(contest, options);
+    race.compare(figure);
+}
+
+void unsorted(Subject& subject, const std::string& figure, size_t count, const Options& options) {
+    Race race(subject, subject.volume.view(), count);
+    Race presorted(subject, subject.volume.view(), count);
+    race.sort_memory.resize(2 * count);
+    Contest contest = contest_of(figure, count, "the same batch, sorted before");
+    contest.ours = [&] {
+        race.set_positions(subject.positions(count));
+        return repeated(count, [&] { return race.run_batch(); });
     };
     contest.baseline = [&] {
+        presorted.positions = subject.sorted_positions(count);
+        return repeated(count, [&] { return presorted.run_batch(); });
+    };
+    run(contest, options);
+    require(race.run_gather() >= 0.0, "gather");
+    race.compare(figure);
+}
+
+/// Objects in no order that move a tenth of a cell a frame, with the hints of the last frame.
+void moving(Subject& subject, const std::string& figure, size_t count, const Options& options) {
+    Race race(subject, subject.volume.view(), count);
+    race.hints.assign(count, kNoIndex);
+    race.positions = subject.positions(count);
+    require(race.run_batch() > 0.0, "first frame");
+    const glm::vec3 size = subject.high - subject.low;
+    const float spacing =
+        std::cbrt(size.x * size.y * size.z / static_cast<float>(subject.volume.positions.size()));
+    Contest contest = contest_of(figure, count, "gather only");
+    contest.ours = [&] {
+        const std::vector<glm::dvec3> steps = random_positions(count, ++subject.seed, 1.0);
+        std::vector<glm::vec3> moved = race.positions;
+        for (size_t i = 0; i < count; ++i) {
+            moved[i] += 0.1f * spacing * (2.0f * glm::vec3(steps[i]) - 1.0f);
+        }
+        race.set_positions(std::move(moved));
+        return race.run_batch();
+    };
+    contest.baseline = [&] { return race.run_gather(); };
+    run(contest, options);
+    race.compare(figure);
+}
+
+void location_alone(Subject& subject, const std::string& figure, size_t count,
+                    const Options& options) {
+    std::vector<Kernel::Point_3> points;
+    for (const glm::vec3& p : subject.volume.positions) points.emplace_back(p.x, p.y, p.z);
+    const Delaunay delaunay(points.begin(), points.end());
+    const ProbeVolumeView view = subject.volume.view();
+    std::vector<glm::vec3> positions;
+    std::vector<CellLocation> locations(count);
+    size_t ours_outside = 0;
+    size_t theirs_outside = 0;
+    Contest contest = contest_of(figure, count, "CGAL locate, last cell as hint, sorted");
+    contest.ours = [&] {
+        positions = subject.sorted_positions(count);
+        return seconds([&] { locate(view, positions, locations); });
+    };
+    contest.baseline = [&] {
+        theirs_outside = 0;
         return seconds([&] {
-            for (size_t i = 0; i < kQueryCount; ++i) {
-                expected[i] = interpolate(view, locations[i]).irradiance;
+            Delaunay::Cell_handle cell = delaunay.infinite_cell();
+            for (const glm::vec3& p : positions) {
+                cell = delaunay.locate({p.x, p.y, p.z}, cell);
+                theirs_outside += delaunay.is_infinite(cell);
             }
         });
     };
     run(contest, options);
-    require(answers == expected, contest.figure + ": answers differ from the gathered ones");
+    for (const CellLocation& location : locations) {
+        ours_outside += location.cell >= view.info.inner_cell_count;
+    }
+    const auto difference = static_cast<double>(ours_outside) - static_cast<double>(theirs_outside);
+    require(std::abs(difference) <= 1e-5 * static_cast<double>(count),
+            figure + ": CGAL finds other positions outside");
+}
+
+void steps(Subject& subject, size_t count) {
+    const std::vector<glm::vec3> positions = subject.sorted_positions(count);
+    const ProbeVolumeView view = subject.volume.view();
+    std::vector<uint32_t> counts;
+    uint32_t hint = kNoIndex;
+    double fallbacks = 0.0;
+    double sum = 0.0;
+    for (const glm::vec3& p : positions) {
+        const LocationTrace trace = trace_location(view, p, hint);
+        hint = trace.location.cell;
+        counts.push_back(trace.step_count);
+        fallbacks += trace.is_fallback;
+        sum += trace.step_count;
+    }
+    std::ranges::sort(counts);
+    report("query.steps_p50." + subject.name, counts[count / 2], "cells");
+    report("query.steps_p99." + subject.name, counts[count * 99 / 100], "cells");
+    report("query.steps_max." + subject.name, counts.back(), "cells");
+    report("query.fallbacks." + subject.name, fallbacks, "queries");
+    const double tests = sum / static_cast<double>(count);
+    constexpr double kTestBytes = sizeof(Cell) + 4 * sizeof(glm::vec3);
+    constexpr double kBlendBytes = 4 * sizeof(CompactProbe) + sizeof(IrradianceSh);
+    report("query.bytes." + subject.name, tests * kTestBytes + kBlendBytes, "bytes/query");
+}
+
+void threads(Subject& subject, const Options& options) {
+    const size_t thread_count = std::max(1u, std::thread::hardware_concurrency());
+    Race race(subject, subject.volume.view(), kMillion);
+    const auto parallel_for = [&](size_t count, auto&& task) {
+        std::atomic<size_t> next = 0;
+        std::vector<std::jthread> workers;
+        for (size_t t = 0; t < thread_count; ++t) {
+            workers.emplace_back([&] {
+                for (size_t i = next++; i < count; i = next++) task(i);
+            });
+        }
+    };
+    Contest contest = contest_of("query.threads", kMillion, "one thread, times the threads");
+    contest.ours = [&] {
+        race.set_positions(subject.sorted_positions(kMillion));
+        const InterpolationBatch batch{race.positions, {}, race.answers, {}, {}, {}};
+        return seconds(
+            [&] { require(bool(interpolate(race.view, batch, parallel_for)), "parallel batch"); });
+    };
+    contest.baseline = [&] { return race.run_batch() / static_cast<double>(thread_count); };
+    run(contest, options);
+}
+
+/// Opening a file lazily and asking one question, as a share of the time to read it.
+void open_lazy(const Subject& subject, const Options& options) {
+    const std::string path = "/tmp/tetralight_bench.probes";
+    require(bool(write_probe_file(path, subject.volume.view())), "write");
+    Contest contest = contest_of("query.open_lazy", kMillion, "reading and verifying the file");
+    contest.unit = "1/s";
+    contest.work = 1.0;
+    contest.ours = [&] {
+        return seconds([&] {
+            const auto file = open_probe_file_lazy(path);
+            require(bool(file), "open");
+            const auto location = locate(file->view(), 0.5f * (subject.low + subject.high));
+            require(interpolate(file->view(), location).occlusion.x == 1.0f, "answer");
+        });
+    };
+    contest.baseline = [&] { return seconds([&] { require(bool(read_file(path)), "read"); }); };
+    contest.baseline_is = "reading the file once";
+    run(contest, options);
+    std::remove(path.c_str());
 }
 
 }  // namespace
 
 void bench_query(const Options& options) {
-    moving("2k", 2'000, options);
-    moving("20k", 20'000, options);
+    std::vector<std::pair<std::string, size_t>> sizes{{"2k", 2'000}, {"20k", 20'000}};
+    if (!options.is_quick) sizes.insert(sizes.end(), {{"200k", 200'000}, {"1m", kMillion}});
+    for (const auto& [name, count] : sizes) {
+        Subject subject = make_subject(name, count);
+        const ProbeVolumeView half = subject.volume.view();
+        sorted(subject, "query.sorted." + name, half, kMillion, options);
+        sorted(subject, "query.sorted_10k." + name, half, 10'000, options);
+        sorted(subject, "query.sorted_1023." + name, half, 1'023, options);
+        sorted(subject, "query.sorted_float." + name, half.without_compact(), kMillion, options);
+        unsorted(subject, "query.unsorted." + name, kMillion, options);
+        moving(subject, "query.moving." + name, 100'000, options);
+        location_alone(subject, "query.locate." + name, kMillion, options);
+        steps(subject, kMillion);
+        if (name == sizes.back().first) {
+            threads(subject, options);
+            open_lazy(subject, options);
+        }
+    }
 }
 
 }  // namespace tetralight::bench

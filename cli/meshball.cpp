@@ -118,19 +118,17 @@ struct MeshBall {
     }
 
     void report(const MeshBallPicture& picture, const Camera& camera, double seconds) const {
-        common.report(
-            output,
-            {{"output", output},
-             {"instances", settings.instance_count},
-             {"center", to_json(settings.center)},
-             {"radius", settings.radius},
-             {"eye", to_json(glm::dvec3(camera.world_from_camera[3]))},
-             {"query_seconds", picture.query_seconds},
-             {"pack_seconds", picture.pack_seconds},
-             {"seconds", seconds}},
-            text(output, ": ", counted(settings.instance_count, "instance"),
-                 " lit by one batch query in ", duration(picture.query_seconds), " (+ packing ",
-                 duration(picture.pack_seconds), "), picture in ", duration(seconds)));
+        common.report(output,
+                      {{"output", output},
+                       {"instances", settings.instance_count},
+                       {"center", to_json(settings.center)},
+                       {"radius", settings.radius},
+                       {"eye", to_json(glm::dvec3(camera.world_from_camera[3]))},
+                       {"query_seconds", picture.query_seconds},
+                       {"seconds", seconds}},
+                      text(output, ": ", counted(settings.instance_count, "instance"),
+                           " lit by one batch query in ", duration(picture.query_seconds),
+                           ", picture in ", duration(seconds)));
     }
 };
 

@@ -8,6 +8,7 @@
 #include "base/assert.h"
 #include "base/text.h"
 #include "probes/build/make_probe_volume.h"
+#include "probes/compact_probes.h"
 
 namespace tetralight {
 namespace {
@@ -39,6 +40,7 @@ void store_light(const Scene& scene, const BakedProbes& baked, ProbeVolume& volu
     volume.info.ambient = irradiance_from_radiance(baked.ambient);
     volume.lights = scene.lights;
     for (const std::string& name : scene.light_names) volume.light_names += name + "\n";
+    make_compact_probes(volume);
 }
 
 /// Groups in which half of the probes or more lie inside something.

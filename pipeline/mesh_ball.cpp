@@ -10,7 +10,7 @@
 #include "bake/ray_caster.h"
 #include "bake/sampling.h"
 #include "probes/interpolate.h"
-#include "runtime/packed_sh.h"
+#include "probes/packed_sh.h"
 #include "runtime/shade.h"
 
 namespace tetralight {
@@ -58,14 +58,12 @@ class LitBall {
         for (const BallInstance& instance : instances_) {
             positions.emplace_back(instance.center);
         }
-        std::vector<IrradianceSh> irradiance(positions.size());
-        auto start = std::chrono::steady_clock::now();
-        auto status = interpolate(volume, {positions, {}, irradiance, {}});
+        light_.resize(positions.size());
+        const auto start = std::chrono::steady_clock::now();
+        const auto report = interpolate(volume, {positions, {}, light_});
         picture.query_seconds = seconds_since(start);
-        start = std::chrono::steady_clock::now();
-        for (const IrradianceSh& sh : irradiance) light_.push_back(pack_sh(sh));
-        picture.pack_seconds = seconds_since(start);
-        return status;
+        if (!report) return report.error();
+        return Ok{};
     }
 
     [[nodiscard]] std::optional<SceneShader::Shaded> shade(const glm::dvec3& origin,

@@ -37,9 +37,8 @@ struct BallInstance {
 
 struct MeshBallPicture {
     ImageF image;
-    /// Time of the one batch call that fetched the light of all instances, and of packing it.
+    /// Time of the one batch call that fetched the light of all instances, packed for shading.
     double query_seconds = 0.0;
-    double pack_seconds = 0.0;
 };
 
 /// Lights all instances by one batch query and renders them, each with its own probe light, plus

@@ -9,8 +9,8 @@
 #include "bake/trace_scene.h"
 #include "base/result.h"
 #include "pipeline/image_renderer.h"
+#include "probes/packed_sh.h"
 #include "probes/probe_volume.h"
-#include "runtime/packed_sh.h"
 
 namespace tetralight {
 

@@ -1,78 +1,99 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probes/interpolate.h"
 
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "base/assert.h"
 #include "base/text.h"
+#include "probes/detail/batch_queries.h"
+#include "probes/detail/blend_probes.h"
 
 namespace tetralight {
 namespace {
 
-IrradianceSh blend_irradiance(const ProbeVolumeView& volume, const Cell& cell, glm::vec4 weights) {
-    IrradianceSh blend;
-    for (int i = 0; i < 4; ++i) {
-        const uint32_t probe = cell.vertices[i];
-        if (weights[i] == 0.0f || probe >= volume.irradiance.size()) continue;
-        const IrradianceSh& source = volume.irradiance[probe];
-        for (int k = 0; k < kShCoefficientCount; ++k) {
-            blend.coefficients[k] += weights[i] * source.coefficients[k];
-        }
-    }
-    return blend;
-}
-
-glm::vec4 blend_occlusion(const ProbeVolumeView& volume, const Cell& cell, glm::vec4 weights) {
-    glm::vec4 blend(0.0f);
-    for (int i = 0; i < 4; ++i) {
-        const uint32_t probe = cell.vertices[i];
-        if (weights[i] == 0.0f || probe >= volume.occlusion.size()) continue;
-        blend += weights[i] * volume.occlusion[probe];
-    }
-    return blend;
-}
-
 Status check_length(const char* name, size_t length, size_t needed) {
-    if (length == 0 || length >= needed) return Ok{};
-    return Error{text(name, " holds ", length, " elements, but there are ", needed, " positions")};
+    if (length >= needed) return Ok{};
+    return Error{
+        text(name, " has room for ", length, " answers, but there are ", needed, " positions")};
 }
 
-Status check(const InterpolationBatch& batch) {
-    const size_t count = batch.positions.size();
-    if (count > 0 && batch.irradiance.empty() && batch.occlusion.empty()) {
+Status check_outputs(const InterpolationBatch& batch, size_t count) {
+    const bool has_irradiance = !batch.irradiance.memory.empty();
+    const bool has_occlusion = !batch.occlusion.memory.empty();
+    if (count > 0 && !has_irradiance && !has_occlusion) {
         return Error{"neither irradiance nor occlusion is asked for"};
     }
-    if (auto status = check_length("hints", batch.hints.size(), count); !status) return status;
-    if (auto status = check_length("irradiance", batch.irradiance.size(), count); !status) {
-        return status;
+    if (has_irradiance) {
+        const auto status = check_length("irradiance", batch.irradiance.capacity(), count);
+        if (!status) return status;
     }
-    return check_length("occlusion", batch.occlusion.size(), count);
+    return has_occlusion ? check_length("occlusion", batch.occlusion.capacity(), count)
+                         : Status(Ok{});
 }
 
 }  // namespace
 
 InterpolatedProbe interpolate(const ProbeVolumeView& volume,
                               const CellLocation& location) noexcept {
-    InterpolatedProbe result{volume.info.ambient, glm::vec4(1.0f)};
-    if (location.cell >= volume.cells.size()) return result;
-    const Cell& cell = volume.cells[location.cell];
-    if (!volume.irradiance.empty()) {
-        result.irradiance = blend_irradiance(volume, cell, location.weights);
-    }
-    if (!volume.occlusion.empty()) {
-        result.occlusion = blend_occlusion(volume, cell, location.weights);
-    }
-    return result;
+    return detail::blend_probes(volume, location);
 }
 
-Status interpolate(const ProbeVolumeView& volume, const InterpolationBatch& batch) {
-    if (auto status = check(batch); !status) return status;
-    uint32_t previous = kNoIndex;
-    for (size_t i = 0; i < batch.positions.size(); ++i) {
-        const uint32_t hint = batch.hints.empty() ? previous : batch.hints[i];
-        const CellLocation location = locate(volume, batch.positions[i], hint);
-        const InterpolatedProbe probe = interpolate(volume, location);
-        if (!batch.hints.empty()) batch.hints[i] = location.cell;
-        if (!batch.irradiance.empty()) batch.irradiance[i] = probe.irradiance;
-        if (!batch.occlusion.empty()) batch.occlusion[i] = probe.occlusion;
-        previous = location.cell;
+Status check(const InterpolationBatch& batch) {
+    const size_t count = batch.positions.size();
+    if (!batch.hints.empty()) {
+        const auto status = check_length("hints", batch.hints.size(), count);
+        if (!status) return status;
+    }
+    if (!batch.sort_memory.empty()) {
+        const auto status = check_length("sort_memory", batch.sort_memory.size() / 2, count);
+        if (!status) return status;
+    }
+    return check_outputs(batch, count);
+}
+
+void detail::BatchTasks::run(size_t task) noexcept {
+    const size_t begin = task * kBatchTaskSize;
+    const size_t count = std::min(kBatchTaskSize, batch.positions.size() - begin);
+    const BatchReport report = detail::answer(volume, batch, begin, count);
+    not_finite_count += report.not_finite_count;
+    step_count += report.step_count;
+    fallback_count += report.fallback_count;
+}
+
+Result<BatchReport> interpolate(const ProbeVolumeView& volume, const InterpolationBatch& batch) {
+    if (auto status = check(batch); !status) return status.error();
+    return detail::answer(volume, batch, 0, batch.positions.size());
+}
+
+void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
+            std::span<CellLocation> locations) {
+    TETRALIGHT_ASSERT(locations.size() >= positions.size(), "each position has a location");
+    detail::BatchQueries queries(volume, {positions, {}, {}, {}}, detail::query_kernels());
+    while (queries.locate_block()) {
+        const detail::QueryBlock& block = queries.block();
+        for (size_t query = 0; query < detail::QueryBlock::kSize; ++query) {
+            const size_t stream = query / detail::QueryBlock::kStreamSize;
+            if (query % detail::QueryBlock::kStreamSize >= block.count[stream]) continue;
+            locations[queries.source()[query]] = block.location[query];
+        }
+    }
+}
+
+Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
+             const ShOutput& irradiance, const OcclusionOutput& occlusion) {
+    InterpolationBatch batch;
+    batch.irradiance = irradiance;
+    batch.occlusion = occlusion;
+    if (auto status = check_outputs(batch, locations.size()); !status) return status;
+    constexpr size_t kPart = 256;
+    std::array<uint32_t, kPart> answers;
+    for (size_t begin = 0; begin < locations.size(); begin += kPart) {
+        const size_t count = std::min(kPart, locations.size() - begin);
+        std::iota(answers.begin(), answers.end(), static_cast<uint32_t>(begin));
+        detail::query_kernels().blend(volume, locations.subspan(begin, count),
+                                      {std::span(answers).first(count), irradiance, occlusion});
     }
     return Ok{};
 }

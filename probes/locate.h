@@ -9,14 +9,31 @@
 
 namespace tetralight {
 
-/// A position as a blend of probes: Σ weights[i] · probe(cells[cell].vertices[i]).
+/// A position as a blend: Σ weights[i] · probe(cells[cell].vertices[i]) + ambient · the volume's
+/// ambient light. All are ≥ 0 and their sum is 1.
 struct CellLocation {
     /// kNoIndex: the volume has no cell, or the position is not finite; the answer is ambient.
     uint32_t cell = kNoIndex;
-    /// ≥ 0, sum 1; the fourth is 0 in hull cells. All 0 when there is no cell.
+    float ambient = 1.0f;
+    /// The fourth is 0 in hull cells.
     glm::vec4 weights{0.0f};
 
     bool operator==(const CellLocation&) const = default;
+};
+
+/// What is answered outside the hull of the probes. Every choice is continuous across the hull.
+enum class OutsidePolicy : uint8_t {
+    Extrapolate,  ///< the light of the hull, carried outwards along its normals (hull cells)
+    Clamp,        ///< the light of the closest point of the hull
+    Ambient,      ///< as Clamp, fading to the volume's ambient light
+};
+
+struct OutsideHull {
+    OutsidePolicy policy = OutsidePolicy::Extrapolate;
+    /// Policy Ambient: metres from the hull where only ambient light is left, > 0.
+    float fade_distance = 10.0f;
+
+    bool operator==(const OutsideHull&) const = default;
 };
 
 /// Finds the cell that holds a world position, and the weights of its probes.
@@ -26,6 +43,20 @@ struct CellLocation {
 /// volume's nearest seed. Ends always: after a bounded number of steps all
 /// cells are searched. Cost: the number of cells between the hint and the position. Thread-safe.
 [[nodiscard]] CellLocation locate(const ProbeVolumeView& volume, glm::vec3 position,
-                                  uint32_t hint = kNoIndex) noexcept;
+                                  uint32_t hint = kNoIndex,
+                                  const OutsideHull& outside = {}) noexcept;
+
+/// A location and what finding it took.
+struct LocationTrace {
+    CellLocation location;
+    /// Cells that were tested.
+    uint32_t step_count = 0;
+    /// The walk did not end by itself: all cells were searched.
+    bool is_fallback = false;
+};
+
+/// `locate` with the counters that benchmarks and reports show.
+[[nodiscard]] LocationTrace trace_location(const ProbeVolumeView& volume, glm::vec3 position,
+                                           uint32_t hint = kNoIndex) noexcept;
 
 }  // namespace tetralight

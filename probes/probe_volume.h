@@ -90,6 +90,18 @@ struct ProbeSource {
 
 static_assert(sizeof(ProbeSource) == 12 && std::is_trivially_copyable_v<ProbeSource>);
 
+/// A probe as one cache line of half-precision floats: what the fast queries read.
+struct alignas(64) CompactProbe {
+    /// Irradiance coefficients / `VolumeInfo::compact_scale`: three channels of each in turn.
+    std::array<uint16_t, 27> irradiance{};
+    std::array<uint16_t, 4> occlusion{};
+    uint16_t validity = 0;
+
+    bool operator==(const CompactProbe&) const = default;
+};
+
+static_assert(sizeof(CompactProbe) == 64 && std::is_trivially_copyable_v<CompactProbe>);
+
 /// The fixed-size facts of a volume.
 struct VolumeInfo {
     /// World position of the local origin. Arrays of float positions are relative to it, so that a
@@ -109,7 +121,8 @@ struct VolumeInfo {
     IrradianceSh ambient;
     /// Distance of the farthest probe from the local origin, metres.
     float extent = 0.0f;
-    uint32_t reserved = 0;
+    /// What coefficients of compact probes are multiplied by: a power of two. 0: there are none.
+    float compact_scale = 0.0f;
 
     bool operator==(const VolumeInfo&) const = default;
 };
@@ -121,10 +134,13 @@ struct ProbeVolumeView {
     VolumeInfo info;
 
     // One a probe.
-    std::span<const glm::vec3> positions;         ///< relative to `info.world_origin`
-    std::span<const IrradianceSh> irradiance;     ///< empty: not baked, every answer is ambient
-    std::span<const glm::vec4> occlusion;         ///< empty: (1, 1, 1, 1); 1 = lit
-    std::span<const float> validity;              ///< empty: 1; share of front faces or sky seen
+    std::span<const glm::vec3> positions;      ///< relative to `info.world_origin`
+    std::span<const IrradianceSh> irradiance;  ///< empty: not baked, every answer is ambient
+    std::span<const glm::vec4> occlusion;      ///< empty: (1, 1, 1, 1); 1 = lit
+    std::span<const float> validity;           ///< empty: 1; share of front faces or sky seen
+    /// The three above in half precision (`make_compact_probes`). Queries read these where they are
+    /// there and `irradiance` and `occlusion` are not touched; empty: queries read the floats.
+    std::span<const CompactProbe> compact;
     std::span<const glm::dvec3> exact_positions;  ///< world positions that were tetrahedralized
 
     std::span<const Cell> cells;
@@ -140,6 +156,13 @@ struct ProbeVolumeView {
     [[nodiscard]] uint32_t probe_count() const noexcept {
         return static_cast<uint32_t>(positions.size());
     }
+
+    /// The same volume for queries in full precision.
+    [[nodiscard]] ProbeVolumeView without_compact() const noexcept {
+        ProbeVolumeView full = *this;
+        full.compact = {};
+        return full;
+    }
 };
 
 /// A probe volume in memory.
@@ -149,6 +172,7 @@ struct ProbeVolume {
     std::vector<IrradianceSh> irradiance;
     std::vector<glm::vec4> occlusion;
     std::vector<float> validity;
+    std::vector<CompactProbe> compact;
     std::vector<glm::dvec3> exact_positions;
     std::vector<Cell> cells;
     std::vector<HullCellRays> hull_rays;

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "probes/light.h"
-#include "runtime/packed_sh.h"
+#include "probes/packed_sh.h"
 
 namespace tetralight {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "probes/interpolate.h"
+#include "probes/packed_sh.h"
 #include "probes/probe_file.h"
-#include "runtime/packed_sh.h"
 
 int main(int argc, char** argv) {
     using namespace tetralight;

@@ -52,16 +52,33 @@ double bracketed_root(const Cubic& c, double low, double high) {
     return t;
 }
 
+/// The root of a cubic that is positive at 0 and whose other coefficients are ≤ 0, the first of
+/// them negative. It falls ever faster, so that its root lies before that of its first three terms,
+/// and Newton's steps come down to it from there: the last one doubles the digits that are right.
+double root_of_falling(const Cubic& c) {
+    double t = 2 * c[0] / (std::sqrt(c[1] * c[1] - 4 * c[2] * c[0]) - c[1]);
+    for (int step = 0; step < 100; ++step) {
+        const double next = t - evaluate(c, t) / derivative(c, t);
+        if (!(next < t * (1 - 1e-8))) return next;
+        t = next;
+    }
+    return t;
+}
+
 /// Smallest t ≥ 0 where the cubic, positive at 0, is no longer positive. Lengths are of order 1, so
 /// that a surface farther than 2^20 belongs to another cell.
 std::optional<double> first_root(const Cubic& c) {
+    if (c[1] < 0 && c[2] <= 0 && c[3] <= 0) {
+        const double root = root_of_falling(c);
+        return root <= kFarthestRoot ? std::optional(root) : std::nullopt;
+    }
     double low = 0;
     for (const double extremum : extrema(c)) {
         if (extremum <= low) continue;
         if (evaluate(c, extremum) <= 0) return bracketed_root(c, low, extremum);
         low = extremum;
     }
-    for (double high = std::max(1.0, 2 * low); high <= 0x1p20; high *= 2) {
+    for (double high = std::max(1.0, 2 * low); high <= kFarthestRoot; high *= 2) {
         if (evaluate(c, high) <= 0) return bracketed_root(c, low, high);
     }
     return std::nullopt;
@@ -73,10 +90,12 @@ Cubic plane_cubic(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec
     const glm::dvec3 a = p[0] - p[2], da = v[0] - v[2];
     const glm::dvec3 b = p[1] - p[2], db = v[1] - v[2];
     const glm::dvec3 d = -p[2];
-    return {determinant(a, b, d),
-            determinant(a, db, d) + determinant(da, b, d) - determinant(a, b, v[2]),
-            determinant(da, db, d) - determinant(a, db, v[2]) - determinant(da, b, v[2]),
-            -determinant(da, db, v[2])};
+    // The normal of the moved triangle: n0 + n1 t + n2 t².
+    const glm::dvec3 n0 = glm::cross(a, b);
+    const glm::dvec3 n1 = glm::cross(a, db) + glm::cross(da, b);
+    const glm::dvec3 n2 = glm::cross(da, db);
+    return {glm::dot(n0, d), glm::dot(n1, d) - glm::dot(n0, v[2]),
+            glm::dot(n2, d) - glm::dot(n1, v[2]), -glm::dot(n2, v[2])};
 }
 
 std::optional<glm::dvec3> weights_of_origin(const std::array<glm::dvec3, 3>& q) {
@@ -85,10 +104,10 @@ std::optional<glm::dvec3> weights_of_origin(const std::array<glm::dvec3, 3>& q) 
     const glm::dvec3 normal = glm::cross(first, second);
     const double area = glm::dot(normal, normal);
     const double longest = std::max(glm::dot(first, first), glm::dot(second, second));
-    constexpr double kRounding = 1e-24;  // of the square of an area whose edges have length 1
-    if (!(area > kRounding * longest * longest)) return std::nullopt;
-    const double w0 = determinant(q[1], q[2], normal) / area;
-    const double w1 = determinant(q[2], q[0], normal) / area;
+    if (!(area > kFlatTriangle * longest * longest)) return std::nullopt;
+    const double unit = 1 / area;
+    const double w0 = determinant(q[1], q[2], normal) * unit;
+    const double w1 = determinant(q[2], q[0], normal) * unit;
     return glm::dvec3(w0, w1, 1 - w0 - w1);
 }
 
@@ -114,8 +133,9 @@ std::optional<glm::dvec3> hull_cell_weights(const std::array<glm::dvec3, 3>& cor
     if (!scale) return std::nullopt;
     std::array<glm::dvec3, 3> p;
     std::array<glm::dvec3, 3> v;
+    const double unit = 1 / *scale;
     for (int i = 0; i < 3; ++i) {
-        p[i] = corners[i] / *scale;
+        p[i] = corners[i] * unit;
         v[i] = glm::dvec3(rays.rays[i]);
     }
     const std::optional<double> t = first_meeting(plane_cubic(p, v));

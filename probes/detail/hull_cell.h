@@ -10,6 +10,13 @@
 
 namespace tetralight::detail {
 
+/// A surface that the cells' rays reach later than this, in units of the distance to the farthest
+/// corner, belongs to another cell.
+inline constexpr double kFarthestRoot = 0x1p20;
+
+/// Rounding of the square of an area whose edges have length 1.
+inline constexpr double kFlatTriangle = 1e-24;
+
 /// Barycentric weights of the origin in a hull cell, i.e. of the one triangle (p_i + t v_i), t ≥ 0,
 /// whose plane holds the origin first (Cupisz, GDC 2012). They sum to 1; a negative one says
 /// that the origin lies beyond that edge's wall. None: the origin is behind the hull triangle, or

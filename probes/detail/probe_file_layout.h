@@ -77,13 +77,16 @@ static_assert(sizeof(SectionEntry) == 64 && std::is_trivially_copyable_v<Section
 /// `ProbeVolumeView` or const; spans are passed by reference so that a reader can fill them.
 template <class View, class Visit>
 void for_each_section(View& view, Visit&& visit) {
+    // What queries read.
+    visit("compact", view.compact);
     visit("positions", view.positions);
-    visit("irradiance", view.irradiance);
-    visit("occlusion", view.occlusion);
-    visit("validity", view.validity);
     visit("cells", view.cells);
     visit("hull_rays", view.hull_rays);
     visit("seeds", view.seeds);
+    // The rest.
+    visit("irradiance", view.irradiance);
+    visit("occlusion", view.occlusion);
+    visit("validity", view.validity);
     visit("exact_positions", view.exact_positions);
     visit("sources", view.sources);
     visit("group_names", view.group_names);

@@ -21,6 +21,13 @@ bool is_finite(const IrradianceSh& sh) {
     return std::ranges::all_of(sh.coefficients, [](const glm::vec3& c) { return is_finite(c); });
 }
 
+/// Exponents of all ones are infinities and NaNs.
+bool is_finite(const CompactProbe& probe) {
+    const auto finite = [](uint16_t half) { return (half & 0x7c00) != 0x7c00; };
+    return std::ranges::all_of(probe.irradiance, finite) &&
+           std::ranges::all_of(probe.occlusion, finite) && finite(probe.validity);
+}
+
 Status check_count(const char* name, size_t count, size_t expected, bool is_optional) {
     if (count == expected || (is_optional && count == 0)) return Ok{};
     return Error{text("section \"", name, "\": ", count, " elements instead of ", expected)};
@@ -40,6 +47,7 @@ Status check_counts(const ProbeVolumeView& v) {
          {check_count("irradiance", v.irradiance.size(), probes, true),
           check_count("occlusion", v.occlusion.size(), probes, true),
           check_count("validity", v.validity.size(), probes, true),
+          check_count("compact", v.compact.size(), probes, true),
           check_count("exact_positions", v.exact_positions.size(), probes, true),
           check_count("hull_rays", v.hull_rays.size(), hull_cells, false)}) {
         if (!status) return status;
@@ -78,10 +86,14 @@ Status check_numbers(const ProbeVolumeView& v) {
         !std::isfinite(v.info.seed_cube.scale)) {
         return Error{"section \"info\": a number is not finite"};
     }
+    if (!v.compact.empty() && !(v.info.compact_scale > 0.0f && v.info.compact_scale < 1e38f)) {
+        return Error{text("section \"info\": scale ", v.info.compact_scale, " of compact probes")};
+    }
     for (const Status& status :
          {check_each("positions", v.positions, "is not finite", finite),
           check_each("exact_positions", v.exact_positions, "is not finite", finite),
           check_each("irradiance", v.irradiance, "is not finite", finite),
+          check_each("compact", v.compact, "is not finite", finite),
           check_each("occlusion", v.occlusion, "is not in [0, 1]", fractions),
           check_each("validity", v.validity, "is not in [0, 1]", fraction),
           check_each("hull_rays", v.hull_rays, "is not a unit vector", unit_rays)}) {

@@ -46,50 +46,5 @@ TEST(Interpolate, BlendsOcclusionByTheSameWeights) {
     EXPECT_LT(glm::distance(occlusion, glm::vec4(0.5f + 0.25f * p, 1.0f)), 1e-6f);
 }
 
-/// Positions, and the batch that asks for all of them.
-struct BatchTest : testing::Test {
-    ProbeVolume volume = test::make_lit_volume(test::random_positions(200, 5));
-    std::vector<glm::vec3> positions;
-    std::vector<IrradianceSh> irradiance;
-    std::vector<glm::vec4> occlusion;
-    std::vector<uint32_t> hints;
-
-    BatchTest() {
-        for (const glm::dvec3& p : test::random_positions(1023, 6, 1.5)) positions.emplace_back(p);
-        irradiance.resize(positions.size());
-        occlusion.resize(positions.size());
-        hints.assign(positions.size(), kNoIndex);
-    }
-};
-
-TEST_F(BatchTest, AnswersAsSingleQueriesDo) {
-    ASSERT_TRUE(interpolate(volume.view(), {positions, hints, irradiance, occlusion}));
-    for (size_t i = 0; i < positions.size(); ++i) {
-        const CellLocation location = locate(volume.view(), positions[i]);
-        const InterpolatedProbe single = interpolate(volume.view(), location);
-        EXPECT_EQ(hints[i], location.cell);
-        EXPECT_EQ(irradiance[i], single.irradiance);
-        EXPECT_EQ(occlusion[i], single.occlusion);
-    }
-}
-
-TEST_F(BatchTest, EitherOutputMayBeLeftOut) {
-    EXPECT_TRUE(interpolate(volume.view(), {positions, {}, irradiance, {}}));
-    EXPECT_TRUE(interpolate(volume.view(), {positions, {}, {}, occlusion}));
-    EXPECT_TRUE(interpolate(volume.view(), InterpolationBatch{}));
-}
-
-TEST_F(BatchTest, NoOutputAtAllIsAnError) {
-    EXPECT_FALSE(interpolate(volume.view(), {positions, hints, {}, {}}));
-}
-
-TEST_F(BatchTest, AShortSpanIsAnErrorThatSaysBothLengths) {
-    irradiance.resize(1000);
-    const auto status = interpolate(volume.view(), {positions, {}, irradiance, {}});
-    ASSERT_FALSE(status);
-    EXPECT_NE(status.error().message.find("1000"), std::string::npos);
-    EXPECT_NE(status.error().message.find("1023"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace tetralight

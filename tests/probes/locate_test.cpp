@@ -157,6 +157,24 @@ TEST(Locate, KeepsItsPrecisionFarFromTheWorldsOrigin) {
     EXPECT_LT(glm::distance(blended_position(volume, location), glm::dvec3(query)), 1e-5);
 }
 
+TEST(Locate, TracesTheStepsOfTheWalk) {
+    const ProbeVolume volume = test::make_lit_volume(test::random_positions(500, 16));
+    const ProbeVolumeView view = volume.view();
+    for (const glm::dvec3& p : test::random_positions(200, 17, 1.5)) {
+        const LocationTrace walk = trace_location(view, glm::vec3(p), 0);
+        EXPECT_EQ(walk.location, locate(view, glm::vec3(p), 0));
+        EXPECT_GE(walk.step_count, 1u);
+        EXPECT_FALSE(walk.is_fallback);
+        EXPECT_EQ(trace_location(view, glm::vec3(p), walk.location.cell).step_count, 1u);
+    }
+}
+
+TEST(Locate, AWalkThatCannotGoOnSearchesAllCells) {
+    ProbeVolume volume = test::make_lit_volume(test::random_positions(30, 18));
+    volume.cells[0].vertices[0] = kNoIndex;
+    EXPECT_TRUE(trace_location(volume.view(), {0, 0, 0}, 0).is_fallback);
+}
+
 TEST(Locate, CorruptIndicesGiveTheAmbientResultOrAnotherCell) {
     const ProbeVolume sound = test::make_lit_volume(test::random_positions(30, 14));
     std::mt19937_64 engine(15);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/packed_sh.h"
+#include "probes/packed_sh.h"
 
 #include <array>
 #include <glm/geometric.hpp>

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/compact_probes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+namespace tetralight {
+namespace {
+
+float largest_coefficient(const std::vector<IrradianceSh>& irradiance) {
+    float largest = 0.0f;
+    for (const IrradianceSh& sh : irradiance) {
+        for (const glm::vec3& c : sh.coefficients) {
+            largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+        }
+    }
+    return largest;
+}
+
+/// Smallest power of two that brings `largest` to at most 2^12.
+float compact_scale(float largest) {
+    constexpr int kLargestExponent = 12;
+    int exponent = 0;
+    const float fraction = std::frexp(largest, &exponent);  // largest = fraction · 2^exponent
+    if (fraction == 0.5f) --exponent;
+    constexpr int kSmallestExponent = -126;  // of normal floats
+    return std::ldexp(1.0f, std::max(exponent - kLargestExponent, kSmallestExponent));
+}
+
+}  // namespace
+
+void make_compact_probes(ProbeVolume& volume) {
+    volume.compact.clear();
+    volume.info.compact_scale = 0.0f;
+    if (volume.irradiance.empty()) return;
+    const float scale = compact_scale(largest_coefficient(volume.irradiance));
+    volume.info.compact_scale = scale;
+    volume.compact.resize(volume.irradiance.size());
+    for (size_t i = 0; i < volume.compact.size(); ++i) {
+        CompactProbe& probe = volume.compact[i];
+        for (size_t k = 0; k < probe.irradiance.size(); ++k) {
+            const float value = volume.irradiance[i].coefficients[k / 3][static_cast<int>(k % 3)];
+            probe.irradiance[k] = glm::packHalf1x16(value / scale);
+        }
+        const glm::vec4 occlusion =
+            volume.occlusion.empty() ? glm::vec4(1.0f) : volume.occlusion[i];
+        for (int k = 0; k < 4; ++k) {
+            probe.occlusion[static_cast<size_t>(k)] = glm::packHalf1x16(occlusion[k]);
+        }
+        probe.validity = glm::packHalf1x16(volume.validity.empty() ? 1.0f : volume.validity[i]);
+    }
+}
+
+IrradianceSh compact_irradiance(const CompactProbe& probe, float scale) noexcept {
+    IrradianceSh sh;
+    for (size_t k = 0; k < probe.irradiance.size(); ++k) {
+        sh.coefficients[k / 3][static_cast<int>(k % 3)] =
+            glm::unpackHalf1x16(probe.irradiance[k]) * scale;
+    }
+    return sh;
+}
+
+glm::vec4 compact_occlusion(const CompactProbe& probe) noexcept {
+    return {glm::unpackHalf1x16(probe.occlusion[0]), glm::unpackHalf1x16(probe.occlusion[1]),
+            glm::unpackHalf1x16(probe.occlusion[2]), glm::unpackHalf1x16(probe.occlusion[3])};
+}
+
+}  // namespace tetralight

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "probes/probe_volume.h"
+
+namespace tetralight {
+
+/// Sets `volume.compact` and its scale from irradiance, occlusion and validity. The scale is the
+/// smallest power of two that brings the largest coefficient to at most 2^12. Coefficients keep 11
+/// bits: the error is at most 2^-11 of each, or 2^-37 of the largest one for those near zero.
+/// Without irradiance there are no compact probes.
+void make_compact_probes(ProbeVolume& volume);
+
+/// What a compact probe holds, in floats.
+[[nodiscard]] IrradianceSh compact_irradiance(const CompactProbe& probe, float scale) noexcept;
+[[nodiscard]] glm::vec4 compact_occlusion(const CompactProbe& probe) noexcept;
+
+}  // namespace tetralight

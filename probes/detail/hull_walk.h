@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "probes/detail/query_kernels.h"
+
+namespace tetralight::detail {
+
+/// Walks the open queries of a block over the hull cells of a volume of dimension Space, several at
+/// a time. Those that go back inside, or meet anything unusual, stay open.
+void walk_hull(const ProbeVolumeView& volume, const QueryKernels& kernels, QueryBlock& block);
+
+}  // namespace tetralight::detail

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "probes/locate.h"
+#include "probes/probe_volume.h"
+#include "probes/query_output.h"
+
+// The inner loops of a batch: walking through tetrahedra, weights in hull cells, and blending
+// probes. Each exists as plain C++ (the scalar twin) and, where Highway is found, as vector code
+// that is chosen for the processor at run time. Both do the same arithmetic in the same order and
+// give the same bits.
+
+namespace tetralight::detail {
+
+/// Tetrahedra that a query of a block tests before its walk is left open.
+inline constexpr uint32_t kWalkLimit = 256;
+
+/// Queries that are worked on together. They belong to a few streams; the walks of one stream
+/// follow each other, those of different streams run interleaved so that one computes while
+/// another waits for memory.
+struct QueryBlock {
+    static constexpr size_t kStreamCount = 4;
+    static constexpr size_t kStreamSize = 64;
+    static constexpr size_t kSize = kStreamCount * kStreamSize;
+
+    /// Local positions. Stream s has queries [s · kStreamSize, + count[s]).
+    std::array<double, kSize> x, y, z;
+    /// The tetrahedron where the walk of a query begins; kNoIndex: where the stream is. One more
+    /// may be read.
+    std::array<uint32_t, kSize + 1> start;
+    std::array<size_t, kStreamCount> count{};
+    /// Where each stream is: a tetrahedron.
+    std::array<uint32_t, kStreamCount> cell{};
+
+    /// Out: where queries are.
+    std::array<CellLocation, kSize> location;
+    /// Out: queries whose walk left the tetrahedra, or met anything unusual, and the cell where it
+    /// did.
+    std::array<uint32_t, kSize> open;
+    std::array<uint32_t, kSize> open_cell;
+    size_t open_count = 0;
+    /// Out: cells tested.
+    uint64_t step_count = 0;
+};
+
+/// Hull cells relative to one query each, side by side.
+struct HullLanes {
+    static constexpr size_t kCount = 8;
+
+    template <class T>
+    using Lanes = std::array<T, kCount>;
+
+    /// Corner (ray) i, coordinate k: [i][k].
+    alignas(64) std::array<std::array<Lanes<double>, 3>, 3> corners{};
+    alignas(64) std::array<std::array<Lanes<double>, 3>, 3> rays{};
+    /// Out: as `hull_cell_weights`.
+    alignas(64) std::array<Lanes<double>, 3> weights{};
+    /// Out: false: there are no weights, or only `hull_cell_weights` can find them.
+    Lanes<bool> is_known{};
+};
+
+/// Where blended probes go: location i is answer `answers[i]`.
+struct BlendTarget {
+    std::span<const uint32_t> answers;
+    const ShOutput& irradiance;
+    const OcclusionOutput& occlusion;
+};
+
+struct QueryKernels {
+    /// Walks through the tetrahedra of a volume of dimension Space, until a position is found or
+    /// its walk is left open.
+    void (*walk_tetrahedra)(const ProbeVolumeView& volume, QueryBlock& block);
+    /// Weights of each lane's query in its hull cell.
+    void (*hull_weights)(HullLanes& lanes);
+    /// Blends and writes.
+    void (*blend)(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
+                  const BlendTarget& target);
+};
+
+[[nodiscard]] const QueryKernels& scalar_kernels() noexcept;
+
+/// The fastest of this machine.
+[[nodiscard]] const QueryKernels& query_kernels() noexcept;
+
+}  // namespace tetralight::detail

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/detail/walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "probes/detail/cell_corners.h"
+#include "probes/detail/hull_cell.h"
+
+namespace tetralight::detail {
+namespace {
+
+double longest_square(const std::array<glm::dvec3, 4>& corners, int count) {
+    double square = 0.0;
+    for (int i = 0; i < count; ++i) square = std::max(square, glm::dot(corners[i], corners[i]));
+    return square;
+}
+
+/// Beyond this two neighbors that send the walk to each other are a cycle, not rounding.
+constexpr double kSettleTolerance = 1e-6;
+
+/// Longer walks are counted against the size of the volume.
+constexpr uint32_t kShortWalk = 64;
+
+}  // namespace
+
+double CellWeights::inside_measure() const {
+    const double total = sum();
+    if (!(total > 0.0) || !(total * total > rounding)) {
+        return -std::numeric_limits<double>::infinity();
+    }
+    return std::min({weights.x, weights.y, weights.z, weights.w}) / total;
+}
+
+int CellWeights::most_negative() const {
+    int lowest = 0;
+    for (int i = 1; i < 4; ++i) {
+        if (weights[i] < weights[lowest]) lowest = i;
+    }
+    return lowest;
+}
+
+CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept {
+    const auto& [a, b, c, d] = corners;
+    const glm::dvec3 cd = glm::cross(c, d);
+    const glm::dvec3 ab = glm::cross(a, b);
+    const double square = longest_square(corners, 4);
+    return {{glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)},
+            kSliverRounding * (square * square * square)};
+}
+
+CellLocation finish(uint32_t cell, const CellWeights& cell_weights) noexcept {
+    const CellWeights clamped{glm::max(cell_weights.weights, glm::dvec4(0.0))};
+    // + 0 turns -0 into 0.
+    const glm::vec4 weights(clamped.weights / clamped.sum() + 0.0);
+    if (!std::isfinite(weights.x + weights.y + weights.z + weights.w)) return {};
+    return {cell, 0.0f, weights};
+}
+
+Walk::Walk(const ProbeVolumeView& volume, const glm::vec3& position) noexcept
+    : volume_(volume), position_(local_position(volume.info, position)) {}
+
+uint32_t Walk::start_cell() const noexcept {
+    const uint64_t index = volume_.info.seed_cube.index(position_);
+    const auto next = std::ranges::lower_bound(volume_.seeds, index, {}, &Seed::hilbert_index);
+    const uint32_t cell = next != volume_.seeds.end() ? next->cell
+                          : volume_.seeds.empty()     ? 0u
+                                                      : volume_.seeds.back().cell;
+    return cell < volume_.cells.size() ? cell : 0u;
+}
+
+LocationTrace Walk::run(uint32_t start) const noexcept {
+    uint32_t cell = start;
+    uint32_t previous = kNoIndex;
+    CellWeights previous_weights;
+    uint32_t steps = 1;
+    for (; steps <= kShortWalk || steps <= step_limit(); ++steps) {
+        const auto weights = cell_weights(cell);
+        if (!weights) break;
+        const double measure = weights->inside_measure();
+        if (measure >= 0) return {finish(cell, *weights), steps, false};
+        const uint32_t next = volume_.cells[cell].neighbors[weights->most_negative()];
+        if (next == previous) {
+            // Each of two neighbors sends the walk to the other. On their shared face that is
+            // rounding, and both answers are the same; anything else is a cycle.
+            const double previous_measure = previous_weights.inside_measure();
+            if (std::max(measure, previous_measure) < -kSettleTolerance) break;
+            return {measure >= previous_measure ? finish(cell, *weights)
+                                                : finish(previous, previous_weights),
+                    steps};
+        }
+        previous = cell;
+        previous_weights = *weights;
+        cell = next;
+    }
+    return {search_all(), steps, true};
+}
+
+/// Four times the steps of a random walk (2.5 n^(1/3), measured), so that only a cycle meets it.
+uint32_t Walk::step_limit() const {
+    return kShortWalk +
+           10 * static_cast<uint32_t>(std::cbrt(static_cast<float>(volume_.cells.size())));
+}
+
+std::optional<CellWeights> Walk::cell_weights(uint32_t index) const {
+    std::array<glm::dvec3, 4> corners{};
+    if (!find_corners(volume_, index, position_, corners)) return std::nullopt;
+    if (index < volume_.info.inner_cell_count) return inner_weights(corners);
+    const uint32_t hull_index = index - volume_.info.inner_cell_count;
+    if (hull_index >= volume_.hull_rays.size()) return std::nullopt;
+    return hull_weights(corners, volume_.hull_rays[hull_index]);
+}
+
+/// A triangle of a plane is a tetrahedron whose fourth corner is far away along the normal; a
+/// segment is one with two such corners.
+CellWeights Walk::inner_weights(std::array<glm::dvec3, 4> corners) const {
+    const glm::dvec3& axis = volume_.info.axis;
+    switch (volume_.info.dimension) {
+        case Dimension::Space:
+            return tetrahedron_weights(corners);
+        case Dimension::Plane: {
+            const double square = longest_square(corners, 3);
+            corners[3] = axis;
+            const glm::dvec4 weights = tetrahedron_weights(corners).weights;
+            return {{weights.x, weights.y, weights.z, 0.0}, kSliverRounding * (square * square)};
+        }
+        case Dimension::Line:
+            return {{glm::dot(corners[1], axis), -glm::dot(corners[0], axis), 0.0, 0.0}, 0.0};
+        default:
+            return {{1.0, 0.0, 0.0, 0.0}, 0.0};
+    }
+}
+
+CellWeights Walk::hull_weights(const std::array<glm::dvec3, 4>& corners,
+                               const HullCellRays& rays) const {
+    constexpr CellWeights kGoOnInside{{0.0, 0.0, 0.0, -1.0}};
+    switch (volume_.info.dimension) {
+        case Dimension::Space: {
+            const auto weights = hull_cell_weights({corners[0], corners[1], corners[2]}, rays);
+            return weights ? CellWeights{{*weights, 0.0}} : kGoOnInside;
+        }
+        case Dimension::Plane: {
+            const auto weights =
+                hull_edge_weights({corners[0], corners[1]}, rays, volume_.info.axis);
+            return weights ? CellWeights{{*weights, 0.0, 0.0}} : kGoOnInside;
+        }
+        default: {
+            const bool is_beyond = glm::dot(corners[0], glm::dvec3(rays.rays[0])) <= 0.0;
+            return is_beyond ? CellWeights{{1.0, 0.0, 0.0, 0.0}} : kGoOnInside;
+        }
+    }
+}
+
+/// The fallback that cannot fail: the cell that comes nearest to holding the position.
+CellLocation Walk::search_all() const {
+    CellLocation best;
+    double best_measure = -std::numeric_limits<double>::infinity();
+    for (uint32_t cell = 0; cell < volume_.cells.size(); ++cell) {
+        const auto weights = cell_weights(cell);
+        if (!weights || !(weights->inside_measure() > best_measure)) continue;
+        best_measure = weights->inside_measure();
+        best = finish(cell, *weights);
+    }
+    return best;
+}
+
+}  // namespace tetralight::detail

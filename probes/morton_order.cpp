@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/morton_order.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+#include <utility>
+
+namespace tetralight {
+namespace {
+
+/// Spreads the low 10 bits so that two zero bits follow each.
+uint32_t spread_bits(uint32_t x) {
+    x = (x | x << 16) & 0x030000ffu;
+    x = (x | x << 8) & 0x0300f00fu;
+    x = (x | x << 4) & 0x030c30c3u;
+    return (x | x << 2) & 0x09249249u;
+}
+
+bool is_finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// A bounding box as the lattice of a Morton curve.
+struct MortonBox {
+    glm::vec3 low{std::numeric_limits<float>::max()};
+    glm::vec3 scale{0.0f};
+    int bits = 1;
+
+    explicit MortonBox(std::span<const glm::vec3> positions) {
+        glm::vec3 high(std::numeric_limits<float>::lowest());
+        for (const glm::vec3& p : positions) {
+            if (!is_finite(p)) continue;
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        // About eight lattice points a position.
+        bits = std::clamp(static_cast<int>(std::bit_width(positions.size())) / 3 + 1, 1, 10);
+        const auto steps = static_cast<float>(1 << bits);
+        for (int axis = 0; axis < 3; ++axis) {
+            const float size = high[axis] - low[axis];
+            if (size > 0.0f && std::isfinite(size)) scale[axis] = steps / size;
+        }
+    }
+
+    [[nodiscard]] uint32_t index(const glm::vec3& position) const {
+        const auto last = static_cast<float>((1 << bits) - 1);
+        const glm::vec3 point = glm::min((position - low) * scale, glm::vec3(last));
+        return spread_bits(static_cast<uint32_t>(point.x)) << 2 |
+               spread_bits(static_cast<uint32_t>(point.y)) << 1 |
+               spread_bits(static_cast<uint32_t>(point.z));
+    }
+};
+
+/// One pass of the radix sort by the digit of `digit_bits` bits from bit `shift` on.
+void sort_by_digit(std::span<const uint64_t> from, std::span<uint64_t> to, int shift,
+                   int digit_bits) {
+    std::array<uint32_t, 1 << 12> begins{};
+    const uint64_t mask = (uint64_t{1} << digit_bits) - 1;
+    for (const uint64_t key : from) ++begins[key >> shift & mask];
+    uint32_t begin = 0;
+    for (uint64_t digit = 0; digit <= mask; ++digit) {
+        begin += std::exchange(begins[digit], begin);
+    }
+    for (const uint64_t key : from) to[begins[key >> shift & mask]++] = key;
+}
+
+}  // namespace
+
+std::span<const uint64_t> morton_order(std::span<const glm::vec3> positions,
+                                       std::span<uint64_t> memory) noexcept {
+    const size_t count = positions.size();
+    std::span<uint64_t> keys = memory.first(count);
+    std::span<uint64_t> other = memory.subspan(count, count);
+    const MortonBox box(positions);
+    for (size_t i = 0; i < count; ++i) {
+        const uint64_t index = is_finite(positions[i]) ? box.index(positions[i]) : 0;
+        keys[i] = index << 32 | i;
+    }
+    constexpr int kLargestDigit = 12;
+    const int bits = 3 * box.bits;
+    const int passes = (bits + kLargestDigit - 1) / kLargestDigit;
+    const int digit_bits = (bits + passes - 1) / passes;
+    for (int pass = 0; pass < passes; ++pass) {
+        sort_by_digit(keys, other, 32 + pass * digit_bits, digit_bits);
+        std::swap(keys, other);
+    }
+    return keys;
+}
+
+}  // namespace tetralight

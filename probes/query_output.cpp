@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/query_output.h"
+
+namespace tetralight {
+
+size_t StridedOutput::capacity(size_t count, size_t size) const noexcept {
+    const size_t one = (count - 1) * value_stride + size;
+    if (memory.size() < one) return 0;
+    return answer_stride == 0 ? 1 : (memory.size() - one) / answer_stride + 1;
+}
+
+ShOutput::ShOutput(std::span<IrradianceSh> answers) noexcept
+    : StridedOutput{std::as_writable_bytes(answers), sizeof(IrradianceSh), sizeof(float)} {}
+
+ShOutput::ShOutput(std::span<PackedSh> answers) noexcept
+    : StridedOutput{std::as_writable_bytes(answers), sizeof(PackedSh), sizeof(float)},
+      format(ShFormat::Packed) {}
+
+OcclusionOutput::OcclusionOutput(std::span<glm::vec4> answers) noexcept
+    : StridedOutput{std::as_writable_bytes(answers), sizeof(glm::vec4), sizeof(float)} {}
+
+ShOutput strided(std::span<std::byte> memory, ShFormat format, size_t answer_stride) noexcept {
+    ShOutput output;
+    output.memory = memory;
+    output.answer_stride = answer_stride;
+    output.value_stride = value_size(format);
+    output.format = format;
+    return output;
+}
+
+OcclusionOutput strided_occlusion(std::span<std::byte> memory, size_t answer_stride) noexcept {
+    OcclusionOutput output;
+    output.memory = memory;
+    output.answer_stride = answer_stride;
+    output.value_stride = sizeof(float);
+    return output;
+}
+
+ShOutput arrays(std::span<std::byte> memory, ShFormat format) noexcept {
+    ShOutput output;
+    const size_t size = value_size(format);
+    output.memory = memory;
+    output.answer_stride = size;
+    output.value_stride = memory.size() / value_count(format) / size * size;
+    output.format = format;
+    return output;
+}
+
+}  // namespace tetralight
