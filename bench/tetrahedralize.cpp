@@ -12,6 +12,13 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
 
+ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions) {
+    ProbeGroup group;
+    group.name = std::move(name);
+    group.positions = std::move(positions);
+    return group;
+}
+
 std::vector<glm::dvec3> lattice(int side) {
     std::vector<glm::dvec3> positions;
     for (int i = 0; i < side * side * side; ++i) {
@@ -23,9 +30,7 @@ std::vector<glm::dvec3> lattice(int side) {
 void build(const std::string& name, std::vector<glm::dvec3> positions, const Options& options) {
     std::vector<Kernel::Point_3> points;
     for (const glm::dvec3& p : positions) points.emplace_back(p.x, p.y, p.z);
-    ProbeGroup group;
-    group.name = "bench";
-    group.positions = std::move(positions);
+    const ProbeGroup group = make_group("bench", std::move(positions));
 
     size_t our_cells = 0;
     size_t their_cells = 0;
@@ -47,11 +52,33 @@ void build(const std::string& name, std::vector<glm::dvec3> positions, const Opt
     require(our_cells == their_cells, contest.figure + ": tetrahedra differ from CGAL's");
 }
 
+template <class T>
+size_t byte_count(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+}
+
+/// What a query can touch, with light in half floats, and what stays in the file.
+void bytes_per_probe() {
+    constexpr size_t kHalfFloatProbe = 64;
+    const ProbeGroup group = make_group("bench", random_positions(100'000, 2, 1.0));
+    const ProbeVolume volume = make_probe_volume(*merge(std::span(&group, 1)));
+    const auto count = static_cast<double>(volume.positions.size());
+    const size_t resident = byte_count(volume.positions) + byte_count(volume.cells) +
+                            byte_count(volume.hull_rays) + byte_count(volume.seeds);
+    const size_t cold = byte_count(volume.exact_positions) + byte_count(volume.sources);
+    const size_t cold_light = sizeof(IrradianceSh) + sizeof(glm::vec4) + sizeof(float);
+    report("tetrahedralize.bytes_per_probe",
+           static_cast<double>(resident) / count + kHalfFloatProbe, "B");
+    report("tetrahedralize.cold_bytes_per_probe",
+           static_cast<double>(cold) / count + static_cast<double>(cold_light), "B");
+}
+
 }  // namespace
 
 void bench_tetrahedralize(const Options& options) {
     build("10k", random_positions(10'000, 1, 1.0), options);
     build("100k", random_positions(100'000, 2, 1.0), options);
+    bytes_per_probe();
     if (options.is_quick) return;
     build("1m", random_positions(1'000'000, 3, 1.0), options);
     build("lattice", lattice(100), options);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <unordered_map>
 
 namespace tetralight {
 namespace {
@@ -44,15 +43,17 @@ struct Hull {
 
 Hull make_hull(std::span<const glm::dvec3> positions, const Tetrahedralization& source) {
     Hull hull;
-    std::unordered_map<uint32_t, uint32_t> hull_index;
+    hull.cells.reserve(source.cells.size() - source.inner_cell_count);
+    std::vector<uint32_t> hull_index(positions.size(), kNoIndex);
     for (size_t i = source.inner_cell_count; i < source.cells.size(); ++i) {
         std::array<uint32_t, 3> cell{kNoIndex, kNoIndex, kNoIndex};
         for (int k = 0; k < cell_vertex_count(source.dimension) - 1; ++k) {
             const uint32_t probe = source.cells[i].vertices[k];
-            const auto [entry, is_new] =
-                hull_index.try_emplace(probe, static_cast<uint32_t>(hull.vertices.size()));
-            if (is_new) hull.vertices.push_back({positions[probe]});
-            cell[k] = entry->second;
+            if (hull_index[probe] == kNoIndex) {
+                hull_index[probe] = static_cast<uint32_t>(hull.vertices.size());
+                hull.vertices.push_back({positions[probe]});
+            }
+            cell[k] = hull_index[probe];
         }
         hull.cells.push_back(cell);
     }
@@ -173,6 +174,7 @@ HullRays make_hull_rays(std::span<const glm::dvec3> positions,
         }
         set_rays(hull, tetrahedralization.dimension == Dimension::Line ? 1.0 : 0.0);
     }
+    rays.cells.reserve(hull.cells.size());
     for (const auto& cell : hull.cells) {
         HullCellRays& cell_rays = rays.cells.emplace_back();
         for (int k = 0; k < 3; ++k) {

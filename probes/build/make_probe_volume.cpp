@@ -23,6 +23,7 @@ ProbeVolume make_probe_volume(const MergedProbes& probes, Tetrahedralization cel
     volume.info.dimension = cells.dimension;
     volume.info.inner_cell_count = cells.inner_cell_count;
     volume.info.radial_share = hull.radial_share;
+    volume.positions.reserve(probes.positions.size());
     for (const glm::dvec3& p : probes.positions) {
         const glm::vec3 local(p - volume.info.world_origin);
         volume.positions.push_back(local);

@@ -52,7 +52,9 @@ Tetrahedralization tetrahedralize(std::span<const glm::dvec3> positions, double 
         spread.dimension = static_cast<Dimension>(static_cast<uint32_t>(spread.dimension) - 1);
         cells = inner_cells(positions, spread);
     }
-    auto result = detail::canonical_cells(std::move(cells), spread.dimension);
+    auto result = spread.dimension == Dimension::Space
+                      ? detail::with_hull_cells(std::move(cells), spread.dimension)
+                      : detail::canonical_cells(std::move(cells), spread.dimension);
     result.axis = spread.axis();
     return result;
 }

@@ -12,4 +12,7 @@ namespace tetralight::detail {
 /// vertices. Precondition: positively oriented; together they fill a convex hull.
 [[nodiscard]] Tetrahedralization canonical_cells(std::vector<Cell> cells, Dimension dimension);
 
+/// The same of inner cells that stand in canonical order already.
+[[nodiscard]] Tetrahedralization with_hull_cells(std::vector<Cell> cells, Dimension dimension);
+
 }  // namespace tetralight::detail

@@ -12,12 +12,13 @@
 
 namespace tetralight::detail {
 
-/// Delaunay tetrahedra over distinct positions, positively oriented, in no particular order;
-/// kNoIndex neighbors are outside the hull. Empty when all positions lie in one plane.
+/// Delaunay tetrahedra over distinct positions, positively oriented, in canonical order; kNoIndex
+/// neighbors are outside the hull. Empty when all positions lie in one plane. Fast where positions
+/// that follow each other are near each other.
 [[nodiscard]] std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions);
 
-/// Delaunay triangles over distinct positions that are not all on one line, counter-clockwise; as
-/// above, with three vertices.
+/// Delaunay triangles over distinct positions that are not all on one line, counter-clockwise, with
+/// three vertices, in no particular order.
 [[nodiscard]] std::vector<Cell> delaunay_triangles(std::span<const glm::dvec2> positions);
 
 /// Exact sign of dot(b − a, cross(c − a, d − a)).
