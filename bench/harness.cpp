@@ -13,11 +13,6 @@
 namespace tetralight::bench {
 namespace {
 
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
 double rounded(double value) {
     return std::stod((std::ostringstream() << std::setprecision(4) << value).str());
 }
@@ -43,6 +38,11 @@ void run(const Contest& contest, const Options& options) {
 void report(const std::string& figure, double value, const std::string& unit) {
     const nlohmann::ordered_json line{{"figure", figure}, {"ours", rounded(value)}, {"unit", unit}};
     std::cout << line.dump() << std::endl;
+}
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
 }
 
 double seconds(const std::function<void()>& work) {

@@ -38,6 +38,8 @@ void run(const Contest& contest, const Options& options);
 /// Prints a figure that has no baseline.
 void report(const std::string& figure, double value, const std::string& unit);
 
+[[nodiscard]] double median(std::vector<double> values);
+
 /// Seconds that `work` takes.
 [[nodiscard]] double seconds(const std::function<void()>& work);
 
@@ -46,6 +48,8 @@ void require(bool is_right, const std::string& what);
 
 [[nodiscard]] std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double extent);
 
+/// Adding and removing a group, as shares of a full build.
+void bench_groups(const Options& options);
 void bench_query(const Options& options);
 void bench_tetrahedralize(const Options& options);
 

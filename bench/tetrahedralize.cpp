@@ -79,6 +79,7 @@ void bench_tetrahedralize(const Options& options) {
     build("10k", random_positions(10'000, 1, 1.0), options);
     build("100k", random_positions(100'000, 2, 1.0), options);
     bytes_per_probe();
+    bench_groups(options);
     if (options.is_quick) return;
     build("1m", random_positions(1'000'000, 3, 1.0), options);
     build("lattice", lattice(100), options);

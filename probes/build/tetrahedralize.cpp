@@ -5,6 +5,7 @@
 
 #include "probes/build/detail/canonical_cells.h"
 #include "probes/build/detail/cgal.h"
+#include "probes/build/detail/delaunay.h"
 #include "probes/build/detail/spread.h"
 
 namespace tetralight {

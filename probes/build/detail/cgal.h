@@ -8,14 +8,9 @@
 
 #include "probes/probe_volume.h"
 
-// Everything that is asked of CGAL.
+// Everything that is asked of CGAL but tetrahedra (probes/build/detail/delaunay.h).
 
 namespace tetralight::detail {
-
-/// Delaunay tetrahedra over distinct positions, positively oriented, in canonical order; kNoIndex
-/// neighbors are outside the hull. Empty when all positions lie in one plane. Fast where positions
-/// that follow each other are near each other.
-[[nodiscard]] std::vector<Cell> delaunay_tetrahedra(std::span<const glm::dvec3> positions);
 
 /// Delaunay triangles over distinct positions that are not all on one line, counter-clockwise, with
 /// three vertices, in no particular order.

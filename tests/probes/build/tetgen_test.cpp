@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "base/text.h"
-#include "probes/build/detail/cgal.h"
+#include "probes/build/detail/delaunay.h"
 #include "probes/build/tetgen/stream.h"
 #include "tests/support/fake_program.h"
 #include "tests/support/probe_families.h"

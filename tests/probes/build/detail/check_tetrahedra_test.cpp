@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <random>
 
-#include "probes/build/detail/cgal.h"
+#include "probes/build/detail/delaunay.h"
 #include "tests/support/random_probes.h"
 
 namespace tetralight::detail {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/build/carry_light.h"
+
+#include <span>
+
+#include "base/assert.h"
+#include "probes/build/detail/position_table.h"
+
+namespace tetralight {
+namespace {
+
+/// One value a probe: that of its twin, or `unlit`. Empty stays empty.
+template <class T>
+std::vector<T> carry(std::span<const T> values, std::span<const uint32_t> twins, const T& unlit) {
+    std::vector<T> carried;
+    if (values.empty()) return carried;
+    carried.reserve(twins.size());
+    for (const uint32_t twin : twins) carried.push_back(twin == kNoIndex ? unlit : values[twin]);
+    return carried;
+}
+
+}  // namespace
+
+CarriedLight carry_light(const ProbeVolumeView& from, ProbeVolume& to) {
+    TETRALIGHT_ASSERT(from.exact_positions.size() == from.positions.size(),
+                      "carry_light from a volume without exact positions");
+    TETRALIGHT_ASSERT(to.exact_positions.size() == to.positions.size(),
+                      "carry_light to a volume without exact positions");
+    const detail::PositionTable table(from.exact_positions);
+    CarriedLight result;
+    std::vector<uint32_t> twins;
+    for (uint32_t i = 0; i < to.exact_positions.size(); ++i) {
+        twins.push_back(from.irradiance.empty() ? kNoIndex : table.find(to.exact_positions[i]));
+        if (twins.back() == kNoIndex) result.unlit.push_back(i);
+    }
+    result.carried_count = static_cast<uint32_t>(twins.size() - result.unlit.size());
+    to.irradiance = carry(from.irradiance, twins, IrradianceSh());
+    to.occlusion = carry(from.occlusion, twins, glm::vec4(1.0f));
+    to.validity = carry(from.validity, twins, 0.0f);
+    to.info.ambient = from.info.ambient;
+    to.lights.assign(from.lights.begin(), from.lights.end());
+    to.light_names = from.light_names;
+    return result;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/build/volume_builder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.h"
+#include "probes/build/detail/canonical_cells.h"
+#include "probes/build/detail/delaunay.h"
+#include "probes/build/detail/spread.h"
+#include "probes/build/make_probe_volume.h"
+
+namespace tetralight {
+namespace {
+
+/// `tetrahedralize` with tetrahedra that are kept. Flat sets have few probes and are made anew.
+Tetrahedralization tetrahedralize_next(const MergedProbes& probes,
+                                       detail::DelaunayTetrahedra& kept) {
+    const auto spread = detail::measure_spread(probes.positions, flatness(probes));
+    if (spread.dimension == Dimension::Space) {
+        std::vector<Cell> cells = kept.change_to(probes.positions);
+        if (!cells.empty()) return detail::with_hull_cells(std::move(cells), Dimension::Space);
+    }
+    return tetrahedralize(probes.positions, flatness(probes));
+}
+
+}  // namespace
+
+struct VolumeBuilder::Kept {
+    detail::DelaunayTetrahedra tetrahedra;
+};
+
+VolumeBuilder::VolumeBuilder(const MergeSettings& settings)
+    : settings_(settings), kept_(std::make_unique<Kept>()) {}
+
+VolumeBuilder::~VolumeBuilder() = default;
+VolumeBuilder::VolumeBuilder(VolumeBuilder&&) noexcept = default;
+VolumeBuilder& VolumeBuilder::operator=(VolumeBuilder&&) noexcept = default;
+
+Status VolumeBuilder::add_group(ProbeGroup group) {
+    if (std::ranges::find(groups_, group.name, &ProbeGroup::name) != groups_.end()) {
+        return Error{text("group \"", group.name, "\": there are two groups of this name")};
+    }
+    const auto alone = merge(std::span(&group, 1), settings_);
+    if (!alone) return alone.error();
+    groups_.push_back(std::move(group));
+    return Ok{};
+}
+
+Status VolumeBuilder::remove_group(std::string_view name) {
+    const auto group = std::ranges::find(groups_, name, &ProbeGroup::name);
+    if (group == groups_.end()) return Error{text("group \"", name, "\": there is no such group")};
+    groups_.erase(group);
+    return Ok{};
+}
+
+ProbeVolume VolumeBuilder::build() {
+    const MergedProbes probes = *merge(groups_, settings_);
+    return make_probe_volume(probes, tetrahedralize_next(probes, kept_->tetrahedra));
+}
+
+}  // namespace tetralight

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "probes/build/merge.h"
+#include "probes/probe_volume.h"
+
+namespace tetralight {
+
+/// Builds the volume of a set of probe groups again and again while groups come and go, as in an
+/// editor: it keeps the tetrahedra of the last build and changes them where probes differ.
+///
+///     VolumeBuilder builder;
+///     for (const ProbeGroup& group : groups) require(builder.add_group(group));
+///     ProbeVolume volume = builder.build();
+///     require(builder.remove_group("hall"));
+///     ProbeVolume next = builder.build();
+///     carry_light(volume.view(), next);
+///
+/// A volume depends on the groups alone, not on the way to them: it is
+/// `make_probe_volume(*merge(groups, settings))`, byte for byte.
+class VolumeBuilder {
+  public:
+    explicit VolumeBuilder(const MergeSettings& settings = {});
+    ~VolumeBuilder();
+    VolumeBuilder(VolumeBuilder&&) noexcept;
+    VolumeBuilder& operator=(VolumeBuilder&&) noexcept;
+
+    /// Errors: those of `merge`; nothing changes then.
+    Status add_group(ProbeGroup group);
+
+    /// Error: there is no group of this name; nothing changes then.
+    Status remove_group(std::string_view name);
+
+    [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
+
+    /// A volume without light over the groups that are there now.
+    [[nodiscard]] ProbeVolume build();
+
+  private:
+    struct Kept;
+
+    MergeSettings settings_;
+    std::vector<ProbeGroup> groups_;
+    std::unique_ptr<Kept> kept_;
+};
+
+}  // namespace tetralight
