@@ -28,7 +28,7 @@ std::vector<Cell> sort_cells(std::vector<Cell> cells, Dimension dimension) {
     CellSorter sorter(vertex_count);
     for (const Cell& cell : cells) sorter.count(cell.vertices[0]);
     sorter.reserve_places(hull_cell_count);
-    for (uint32_t i = 0; i < cells.size(); ++i) sorter.add(cells[i], i);
+    for (const Cell& cell : cells) sorter.add(cell);
     return sorter.finish();
 }
 

@@ -7,6 +7,16 @@
 #include <utility>
 
 namespace tetralight::detail {
+namespace {
+
+/// Compares cells that have their first vertex in common by the other three.
+bool is_before(const Cell& a, const Cell& b) {
+    const uint64_t a_key = uint64_t{a.vertices[1]} << 32 | a.vertices[2];
+    const uint64_t b_key = uint64_t{b.vertices[1]} << 32 | b.vertices[2];
+    return a_key != b_key ? a_key < b_key : a.vertices[3] < b.vertices[3];
+}
+
+}  // namespace
 
 void CellSorter::reserve_places(size_t extra_cells) {
     std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
@@ -21,7 +31,7 @@ void CellSorter::insert_in_order(uint32_t begin, uint32_t index) {
     const Cell cell = cells_[index];
     const uint32_t number = numbers_[index];
     uint32_t place = index;
-    for (; place > begin && cell.vertices < cells_[place - 1].vertices; --place) {
+    for (; place > begin && is_before(cell, cells_[place - 1]); --place) {
         cells_[place] = cells_[place - 1];
         numbers_[place] = numbers_[place - 1];
     }

@@ -116,7 +116,7 @@ void add_cells(Delaunay& delaunay, CellSorter& sorter) {
         for (int i = 0; i < 4; ++i) {
             corners[i] = make_corner(cell->vertex(i)->info(), cell->neighbor(i)->info());
         }
-        sorter.add(make_sorted_cell(corners, 4), cell->info());
+        sorter.add(make_sorted_cell(corners, 4));
     });
 }
 

@@ -27,7 +27,7 @@ std::vector<Cell> sort(const std::vector<Cell>& cells, size_t vertex_count) {
     CellSorter sorter(vertex_count);
     for (const Cell& cell : cells) sorter.count(cell.vertices[0]);
     sorter.reserve_places(0);
-    for (uint32_t i = 0; i < cells.size(); ++i) sorter.add(cells[i], i);
+    for (const Cell& cell : cells) sorter.add(cell);
     return sorter.finish();
 }
 
