@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/file_writer.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+
+namespace tetralight {
+namespace {
+
+bool is_special_file(const std::string& path) {
+    struct stat status = {};
+    return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
+           !S_ISDIR(status.st_mode);
+}
+
+/// The permissions that a plain open() would have given a new file, or those of the old one.
+mode_t final_mode(const std::string& path) {
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) == 0) return status.st_mode & 07777;
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    return 0666 & ~mask;
+}
+
+/// Follows a symbolic link, so that the link stays and its target is replaced.
+std::string final_path(const std::string& path) {
+    char* resolved = ::realpath(path.c_str(), nullptr);
+    if (resolved == nullptr) return path;
+    std::string result = resolved;
+    std::free(resolved);
+    return result;
+}
+
+std::string folder_of(const std::string& path) {
+    const size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+/// The name under which the system shows an open file of this process.
+std::string name_of_open_file(const Descriptor& file) {
+    return "/proc/self/fd/" + std::to_string(file.value());
+}
+
+}  // namespace
+
+Result<FileWriter> FileWriter::open(const std::string& path) {
+    FileWriter writer(path);
+    if (path == "-") {
+        writer.file_ = Descriptor(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0));
+    } else if (is_special_file(path)) {
+        writer.file_ = Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    } else {
+        writer.target_ = final_path(path);
+        writer.open_beside();
+    }
+    if (!writer.file_) return system_error(path, "write");
+    return writer;
+}
+
+bool FileWriter::open_beside() {
+    file_ = Descriptor(::open(folder_of(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
+    if (file_ && ::access(name_of_open_file(file_).c_str(), F_OK) == 0) return true;
+    std::string name = target_ + ".XXXXXX";
+    file_ = Descriptor(::mkostemp(name.data(), O_CLOEXEC));
+    if (file_) temporary_ = name;
+    return static_cast<bool>(file_);
+}
+
+FileWriter::~FileWriter() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Status FileWriter::write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(file_.value(), bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return system_error(path_, "write");
+        bytes = bytes.subspan(static_cast<size_t>(written));
+    }
+    return Ok{};
+}
+
+Status FileWriter::commit() {
+    const bool is_done = target_.empty() ? file_.close() : move_into_place();
+    if (!is_done) return system_error(path_, "write");
+    temporary_.clear();
+    return Ok{};
+}
+
+bool FileWriter::move_into_place() {
+    return ::fchmod(file_.value(), final_mode(target_)) == 0 && ::fsync(file_.value()) == 0 &&
+           give_name() && file_.close() && ::rename(temporary_.c_str(), target_.c_str()) == 0;
+}
+
+/// A name that no file has: a link, unlike a rename, does not replace one.
+bool FileWriter::give_name() {
+    if (!temporary_.empty()) return true;
+    constexpr int kMostTries = 1000;
+    const std::string unnamed = name_of_open_file(file_);
+    for (int i = 0; i < kMostTries; ++i) {
+        const std::string name =
+            target_ + "." + std::to_string(::getpid()) + "." + std::to_string(i);
+        if (::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+            temporary_ = name;
+            return true;
+        }
+        if (errno != EEXIST) return false;
+    }
+    return false;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/file_writer.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace tetralight {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileWriterTest : public testing::Test {
+  protected:
+    FileWriterTest()
+        : folder_(fs::temp_directory_path() / ("tetralight_writer_" + std::to_string(getpid()))) {
+        fs::create_directories(folder_);
+        std::ofstream(target()) << "old";
+    }
+
+    ~FileWriterTest() override { fs::remove_all(folder_); }
+
+    [[nodiscard]] std::string target() const { return (folder_ / "a").string(); }
+
+    [[nodiscard]] std::string contents() const {
+        std::ifstream stream(target());
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    [[nodiscard]] auto file_count() const {
+        return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+    }
+
+    static bool write(FileWriter& writer, std::string_view characters) {
+        return static_cast<bool>(writer.write(std::as_bytes(std::span(characters))));
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(FileWriterTest, ReplacesTheFileAtTheEndOnly) {
+    auto writer = FileWriter::open(target());
+    ASSERT_TRUE(writer && write(*writer, "ne") && write(*writer, "w"));
+    EXPECT_EQ(contents(), "old");
+    ASSERT_TRUE(writer->commit());
+    EXPECT_EQ(contents(), "new");
+    EXPECT_EQ(file_count(), 1);
+}
+
+TEST_F(FileWriterTest, KeepsTheOldFileWithoutCommit) {
+    {
+        auto writer = FileWriter::open(target());
+        ASSERT_TRUE(writer && write(*writer, "new"));
+    }
+    EXPECT_EQ(contents(), "old");
+    EXPECT_EQ(file_count(), 1);
+}
+
+TEST_F(FileWriterTest, LeavesNothingOfAKilledProcess) {
+    const pid_t child = fork();
+    if (child == 0) {
+        auto writer = FileWriter::open(target());
+        if (writer) write(*writer, "new");
+        ::kill(::getpid(), SIGKILL);
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(contents(), "old");
+    EXPECT_EQ(file_count(), 1);
+}
+
+TEST_F(FileWriterTest, PassesOverANameThatIsTaken) {
+    const std::string taken = target() + "." + std::to_string(getpid()) + ".0";
+    std::ofstream(taken) << "another's";
+    auto writer = FileWriter::open(target());
+    ASSERT_TRUE(writer && write(*writer, "new") && writer->commit());
+    EXPECT_EQ(contents(), "new");
+    EXPECT_TRUE(fs::exists(taken));
+    EXPECT_EQ(file_count(), 2);
+}
+
+TEST_F(FileWriterTest, NamesWhatCannotBeWritten) {
+    const auto writer = FileWriter::open(target() + "/b");  // "a" is no folder
+    ASSERT_FALSE(writer);
+    EXPECT_NE(writer.error().message.find(target() + "/b: cannot write"), std::string::npos);
+    auto full = FileWriter::open("/dev/full");
+    ASSERT_TRUE(full);
+    EXPECT_FALSE(write(*full, "no room"));
+}
+
+}  // namespace
+}  // namespace tetralight
