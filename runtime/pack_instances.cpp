@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/pack_instances.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+/// An array of `PackedShArrays` and the float4 that goes there.
+struct ShVector {
+    const char* name;
+    std::span<glm::vec4> PackedShArrays::*array;
+    glm::vec4 PackedSh::*vector;
+};
+
+constexpr ShVector kShVectors[] = {
+    {"sha_r", &PackedShArrays::sha_r, &PackedSh::sha_r},
+    {"sha_g", &PackedShArrays::sha_g, &PackedSh::sha_g},
+    {"sha_b", &PackedShArrays::sha_b, &PackedSh::sha_b},
+    {"shb_r", &PackedShArrays::shb_r, &PackedSh::shb_r},
+    {"shb_g", &PackedShArrays::shb_g, &PackedSh::shb_g},
+    {"shb_b", &PackedShArrays::shb_b, &PackedSh::shb_b},
+    {"shc", &PackedShArrays::shc, &PackedSh::shc},
+};
+
+Status check_length(const char* name, size_t length, size_t needed) {
+    if (length >= needed) return Ok{};
+    return Error{
+        text(name, " has room for ", length, " answers, but there are ", needed, " positions")};
+}
+
+/// All lengths, before the first answer is written.
+Status check_lengths(const InstanceBatch& batch) {
+    const size_t count = batch.positions.size();
+    for (const ShVector& vector : kShVectors) {
+        const auto status = check_length(vector.name, (batch.arrays.*vector.array).size(), count);
+        if (!status) return status;
+    }
+    if (!batch.hints.empty()) {
+        const auto status = check_length("hints", batch.hints.size(), count);
+        if (!status) return status;
+    }
+    if (batch.occlusion.memory.empty()) return Ok{};
+    return check_length("occlusion", batch.occlusion.capacity(), count);
+}
+
+void scatter(std::span<const PackedSh> answers, const PackedShArrays& arrays, size_t begin) {
+    for (const ShVector& vector : kShVectors) {
+        glm::vec4* to = (arrays.*vector.array).data() + begin;
+        for (const PackedSh& answer : answers) *to++ = answer.*vector.vector;
+    }
+}
+
+Status check(const InstanceBatch& batch) {
+    if (batch.arrays.empty()) {
+        if (batch.packed.memory.empty() || batch.packed.format == ShFormat::Packed) return Ok{};
+        return Error{"packed is not of the format Packed"};
+    }
+    if (!batch.packed.memory.empty()) return Error{"both arrays and packed are asked for"};
+    return check_lengths(batch);
+}
+
+InterpolationBatch without_arrays(const InstanceBatch& batch) {
+    InterpolationBatch all;
+    all.positions = batch.positions;
+    all.hints = batch.hints;
+    all.irradiance = batch.packed;
+    all.occlusion = batch.occlusion;
+    all.outside = batch.outside;
+    return all;
+}
+
+/// Instances [begin, begin + answers.size()), their light in `answers`.
+InterpolationBatch part_of(const InterpolationBatch& all, size_t begin,
+                           std::span<PackedSh> answers) {
+    InterpolationBatch part = all;
+    part.positions = all.positions.subspan(begin, answers.size());
+    part.irradiance = answers;
+    if (!all.hints.empty()) part.hints = all.hints.subspan(begin, answers.size());
+    if (!all.occlusion.memory.empty()) {
+        part.occlusion.memory = all.occlusion.memory.subspan(begin * all.occlusion.answer_stride);
+    }
+    return part;
+}
+
+void add(BatchReport& sum, const BatchReport& part) {
+    sum.not_finite_count += part.not_finite_count;
+    sum.step_count += part.step_count;
+    sum.fallback_count += part.fallback_count;
+}
+
+/// Answers go through a block on the stack and from there to their arrays.
+Result<BatchReport> pack_arrays(const ProbeVolumeView& volume, const InterpolationBatch& all,
+                                const PackedShArrays& arrays) {
+    constexpr size_t kBlockSize = 128;
+    std::array<PackedSh, kBlockSize> block;
+    BatchReport sum;
+    for (size_t begin = 0; begin < all.positions.size(); begin += kBlockSize) {
+        const size_t count = std::min(kBlockSize, all.positions.size() - begin);
+        const std::span answers = std::span(block).first(count);
+        const auto report = interpolate(volume, part_of(all, begin, answers));
+        if (!report) return report.error();
+        add(sum, *report);
+        scatter(answers, arrays, begin);
+    }
+    return sum;
+}
+
+}  // namespace
+
+bool PackedShArrays::empty() const noexcept {
+    return std::all_of(std::begin(kShVectors), std::end(kShVectors),
+                       [&](const ShVector& vector) { return (this->*vector.array).empty(); });
+}
+
+Result<BatchReport> pack_instances(const ProbeVolumeView& volume, const InstanceBatch& batch) {
+    if (auto status = check(batch); !status) return status.error();
+    const InterpolationBatch all = without_arrays(batch);
+    if (batch.arrays.empty()) return interpolate(volume, all);
+    return pack_arrays(volume, all, batch.arrays);
+}
+
+}  // namespace tetralight
