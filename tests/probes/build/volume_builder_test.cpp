@@ -121,17 +121,20 @@ TEST(VolumeBuilder, GoesThroughFlatSetsAndBack) {
     }
 }
 
-TEST(VolumeBuilder, FollowsAWeldRadiusThatGrowsWithTheSet) {
-    // 1e-4 apart in a box of 2 m: two probes. In a box of 1000 m: one.
-    const auto pairs = test::near_duplicates(1, 1e-4);
+TEST(VolumeBuilder, FollowsALocalSpacingThatChanges) {
+    // 1e-3 m apart where probes are tens of metres apart: one probe. Among probes 0.1 m apart: two.
+    auto sparse = test::moved(test::random_positions(100, 1), glm::dvec3(100.0), {});
+    sparse.insert(sparse.end(), {{0, 0, 0}, {1e-3, 0, 0}});
     VolumeBuilder builder;
-    ASSERT_TRUE(builder.add_group(make_group("pairs", pairs)));
-    EXPECT_EQ(builder.build().positions.size(), 300u);
-    ASSERT_TRUE(builder.add_group(make_group("far", {{1000, 0, 0}})));
-    EXPECT_EQ(builder.build().positions.size(), 151u);
+    ASSERT_TRUE(builder.add_group(make_group("sparse", sparse)));
+    EXPECT_EQ(builder.build().positions.size(), 101u);
+    const auto dense = test::moved(test::random_positions(20, 2), glm::dvec3(0.1), {});
+    ASSERT_TRUE(builder.add_group(make_group("dense", dense)));
+    EXPECT_EQ(builder.build().positions.size(), 122u);
     ASSERT_TRUE(is_from_scratch(builder));
-    ASSERT_TRUE(builder.remove_group("far"));
+    ASSERT_TRUE(builder.remove_group("dense"));
     ASSERT_TRUE(is_from_scratch(builder));
+    EXPECT_EQ(builder.build().positions.size(), 101u);
 }
 
 TEST(VolumeBuilder, TakesTheSettingsOfMerge) {
