@@ -3,8 +3,11 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "bench/harness.h"
 #include "probes/build/make_probe_volume.h"
+#include "probes/build/quality.h"
 
 namespace tetralight::bench {
 namespace {
@@ -73,12 +76,33 @@ void bytes_per_probe() {
            static_cast<double>(cold) / count + static_cast<double>(cold_light), "B");
 }
 
+/// Slivers in a lattice that stands in a scene as artists place it, and what they are where its
+/// positions are taken as a transform has rounded them.
+void slivers(int side) {
+    glm::dmat4 placed = glm::translate(glm::dmat4(1.0), glm::dvec3(123.4, 5.6, -78.9));
+    placed = glm::rotate(placed, 0.7, glm::dvec3(1, 2, 3));
+    std::vector<glm::dvec3> positions = lattice(side);
+    for (glm::dvec3& p : positions) p = glm::dvec3(placed * glm::dvec4(p, 1.0));
+    const auto share = [](const ProbeVolume& volume) {
+        const std::span cells = std::span(volume.cells).first(volume.info.inner_cell_count);
+        return 100.0 * measure_quality(volume.exact_positions, cells).sliver_share();
+    };
+
+    const ProbeGroup group = make_group("bench", positions);
+    const MergedProbes merged = *merge(std::span(&group, 1));
+    MergedProbes as_rounded = merged;
+    as_rounded.positions = std::move(positions);
+    report("tetrahedralize.slivers", share(make_probe_volume(merged)), "%");
+    report("tetrahedralize.slivers_not_snapped", share(make_probe_volume(as_rounded)), "%");
+}
+
 }  // namespace
 
 void bench_tetrahedralize(const Options& options) {
     build("10k", random_positions(10'000, 1, 1.0), options);
     build("100k", random_positions(100'000, 2, 1.0), options);
     bytes_per_probe();
+    slivers(60);
     bench_groups(options);
     if (options.is_quick) return;
     build("1m", random_positions(1'000'000, 3, 1.0), options);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "probes/detail/cell_corners.h"
 #include "probes/detail/closest_hull_point.h"
@@ -60,12 +61,14 @@ void BatchQueries::fill() {
                                      begin + QueryBlock::kStreamSize});
         block_.count[stream] = end > begin ? end - begin : 0;
         for (size_t i = 0; i < block_.count[stream]; ++i) {
-            fill_query(stream * QueryBlock::kStreamSize + i, begin + i, done_ + i == 0);
+            fill_query(stream * QueryBlock::kStreamSize + i, begin + i);
         }
+        choose_starts(stream);
     }
+    prefetch_starts();
 }
 
-void BatchQueries::fill_query(size_t query, size_t index, bool is_first) {
+void BatchQueries::fill_query(size_t query, size_t index) {
     if (!input_.order.empty()) index = static_cast<uint32_t>(input_.order[index]);
     source_[query] = static_cast<uint32_t>(index);
     const glm::vec3& position = input_.positions[index];
@@ -80,11 +83,60 @@ void BatchQueries::fill_query(size_t query, size_t index, bool is_first) {
     block_.x[query] = local.x;
     block_.y[query] = local.y;
     block_.z[query] = local.z;
-    if (!input_.hints.empty() || is_first) {
-        const uint32_t hint = input_.hints.empty() ? kNoIndex : input_.hints[index];
-        const bool has_hint = hint < volume_.cells.size();
-        block_.start[query] = start_near(has_hint ? hint : Walk(volume_, position).start_cell());
+}
+
+/// A walk begins at its hint, else where the one before it ended, else, if that is many cells away,
+/// at a seed.
+void BatchQueries::choose_starts(size_t stream) {
+    const size_t first = stream * QueryBlock::kStreamSize;
+    const auto seed = [&](size_t query) {
+        return start_near(Walk(volume_, input_.positions[source_[query]]).start_cell());
+    };
+    double reach = done_ == 0 ? -1.0 : square_reach(block_.cell[stream]);
+    for (size_t query = first; query < first + block_.count[stream]; ++query) {
+        const uint32_t hint = input_.hints.empty() ? kNoIndex : input_.hints[source_[query]];
+        const glm::dvec3 position(block_.x[query], block_.y[query], block_.z[query]);
+        const glm::dvec3 jump = position - std::exchange(last_[stream], position);
+        if (hint < volume_.cells.size()) {
+            block_.start[query] = start_near(hint);
+        } else if (!input_.hints.empty() || glm::dot(jump, jump) > reach) {
+            block_.start[query] = seed(query);
+        }
+        if (reach < 0.0) reach = square_reach(block_.start[query]);
     }
+}
+
+/// The squared distance beyond which a seed is nearer than this cell, in cells to be tested.
+double BatchQueries::square_reach(uint32_t cell) const {
+    constexpr double kReach = 3.0;  // edges of the cell, measured
+    std::array<glm::dvec3, 4> corners{};
+    if (!find_corners(volume_, cell, glm::dvec3(0.0), corners)) return 0.0;
+    double square = 0.0;
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec3 edge = corner - corners[0];
+        square = std::max(square, glm::dot(edge, edge));
+    }
+    return kReach * kReach * square;
+}
+
+/// Starts that do not follow each other lie anywhere in memory: all are fetched at once.
+void BatchQueries::prefetch_starts() const {
+    const auto for_each_start = [&](const auto& visit) {
+        for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
+            const size_t first = stream * QueryBlock::kStreamSize;
+            for (size_t query = first; query < first + block_.count[stream]; ++query) {
+                if (block_.start[query] < volume_.cells.size()) {
+                    visit(volume_.cells[block_.start[query]]);
+                }
+            }
+        }
+    };
+    for_each_start([](const Cell& cell) { __builtin_prefetch(&cell); });
+    for_each_start([&](const Cell& cell) {
+        for (const uint32_t probe : cell.vertices) {
+            if (probe < volume_.positions.size()) __builtin_prefetch(&volume_.positions[probe]);
+        }
+    });
 }
 
 /// Walks of volumes that have tetrahedra begin in one of them.

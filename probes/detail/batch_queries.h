@@ -39,18 +39,22 @@ class BatchQueries {
 
   private:
     void fill();
-    void fill_query(size_t query, size_t index, bool is_first);
+    void fill_query(size_t query, size_t index);
+    void choose_starts(size_t stream);
+    void prefetch_starts() const;
     void walk();
     void finish_open();
     void apply_policy();
     [[nodiscard]] bool has_tetrahedra() const;
     [[nodiscard]] uint32_t start_near(uint32_t cell) const;
+    [[nodiscard]] double square_reach(uint32_t cell) const;
 
     const ProbeVolumeView& volume_;
     Input input_;
     const QueryKernels& kernels_;
     size_t stream_length_;
-    size_t done_ = 0;  ///< of each stream
+    size_t done_ = 0;                                          ///< of each stream
+    std::array<glm::dvec3, QueryBlock::kStreamCount> last_{};  ///< position of each stream
     BatchReport report_;
     QueryBlock block_;
     std::array<uint32_t, QueryBlock::kSize> source_;

@@ -127,6 +127,14 @@ class StreamWalk {
         previous_ = inside | cell_;
         const uint32_t start = start_or(cell_);
         cell_ = (start & inside) | (next & ~inside);
+        hwy::Prefetch(&cells_[cell_]);
+    }
+
+    /// Asks for the corners that `step` reads: those of all streams come at once.
+    HWY_INLINE void fetch_corners() const {
+        for (const uint32_t probe : cells_[cell_].vertices) {
+            hwy::Prefetch(positions_ + 3 * size_t{probe});
+        }
     }
 
     void finish() const { block_.step_count += test_count_; }
@@ -193,6 +201,10 @@ void walk_tetrahedra(const ProbeVolumeView& volume, QueryBlock& block) {
     StreamWalk c(volume, block, 2);
     StreamWalk d(volume, block, 3);
     while (!a.is_done() && !b.is_done() && !c.is_done() && !d.is_done()) {
+        a.fetch_corners();
+        b.fetch_corners();
+        c.fetch_corners();
+        d.fetch_corners();
         a.step();
         b.step();
         c.step();
