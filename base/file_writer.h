@@ -20,7 +20,7 @@ namespace tetralight {
 /// system has unnamed files (O_TMPFILE) that holds for a killed process, too.
 class FileWriter {
   public:
-    /// `-` (stdout) and devices are written to as they are.
+    /// `-` (stdout, as messages call it) and devices are written to as they are.
     [[nodiscard]] static Result<FileWriter> open(const std::string& path);
 
     FileWriter(FileWriter&& other) noexcept = default;
@@ -33,7 +33,7 @@ class FileWriter {
     [[nodiscard]] Status commit();
 
   private:
-    explicit FileWriter(const std::string& path) : path_(path) {}
+    explicit FileWriter(const std::string& path) : path_(path == "-" ? "stdout" : path) {}
 
     bool open_beside();
     bool move_into_place();
