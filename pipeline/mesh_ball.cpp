@@ -9,8 +9,8 @@
 
 #include "bake/ray_caster.h"
 #include "bake/sampling.h"
-#include "probes/interpolate.h"
 #include "probes/packed_sh.h"
+#include "runtime/pack_instances.h"
 #include "runtime/shade.h"
 
 namespace tetralight {
@@ -60,7 +60,7 @@ class LitBall {
         }
         light_.resize(positions.size());
         const auto start = std::chrono::steady_clock::now();
-        const auto report = interpolate(volume, {positions, {}, light_});
+        const auto report = pack_instances(volume, {.positions = positions, .packed = light_});
         picture.query_seconds = seconds_since(start);
         if (!report) return report.error();
         return Ok{};
