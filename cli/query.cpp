@@ -1,146 +1,152 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <iostream>
+#include <chrono>
+#include <filesystem>
 
 #include "base/text.h"
+#include "cli/answer_writer.h"
 #include "cli/common.h"
 #include "cli/paths.h"
-#include "probes/interpolate.h"
+#include "cli/position_reader.h"
 #include "probes/probe_file.h"
 
 namespace tetralight::cli {
 namespace {
 
-/// A line as messages show it: not too long.
-std::string shown(std::string_view line) {
-    constexpr size_t kLongest = 40;
-    return std::string(line.substr(0, kLongest)) + (line.size() > kLongest ? "..." : "");
-}
-
-/// Takes a number from the front of a line.
-Result<float> take_number(std::string_view& line, char axis) {
-    float number = 0.0f;
-    const auto [next, error] = std::from_chars(line.data(), line.data() + line.size(), number);
-    if (error == std::errc::invalid_argument) return Error{};
-    const std::string digits(line.data(), next);
-    if (error == std::errc::result_out_of_range) {
-        const double value = std::strtod(digits.c_str(), nullptr);
-        if (std::abs(value) > 1.0) {
-            return Error{text(axis, " is ", shown(digits), ", beyond what a float holds (3.4e38)")};
-        }
-        number = static_cast<float>(value);  // nearly 0
-    }
-    line.remove_prefix(digits.size());
-    return number;
-}
-
-/// Three numbers with blanks or commas between them.
-Result<glm::vec3> parse_position(const std::string& whole) {
-    constexpr const char* kGaps = " \t,\r";
-    std::string_view line = whole;
-    const auto skip_gap = [&] {
-        line.remove_prefix(std::min(line.find_first_not_of(kGaps), line.size()));
-    };
-    const Error not_three{text("\"", shown(whole), "\" is not x y z")};
-    glm::vec3 position(0.0f);
-    for (int axis = 0; axis < 3; ++axis) {
-        skip_gap();
-        const auto number = take_number(line, "xyz"[axis]);
-        if (!number) return number.error().message.empty() ? not_three : number.error();
-        position[axis] = *number;
-    }
-    skip_gap();
-    if (!line.empty()) return not_three;
-    return position;
-}
-
-struct Answer {
-    glm::vec3 position;
-    CellLocation location;
-    InterpolatedProbe light;
-};
-
-Json to_json(const Answer& answer, const ProbeVolumeView& volume) {
-    Json probes = Json::array();
-    if (answer.location.cell < volume.cells.size()) {
-        for (int i = 0; i < 4; ++i) {
-            const uint32_t probe = volume.cells[answer.location.cell].vertices[i];
-            if (probe == kNoIndex) continue;
-            probes.push_back({{"probe", probe}, {"weight", answer.location.weights[i]}});
-        }
-    }
-    Json sh = Json::array();
-    for (const glm::vec3& c : answer.light.irradiance.coefficients) sh.push_back({c.x, c.y, c.z});
-    const glm::vec4& o = answer.light.occlusion;
-    Json json{{"position", {answer.position.x, answer.position.y, answer.position.z}}};
-    json["cell"] = answer.location.cell == kNoIndex ? Json() : Json(answer.location.cell);
-    json.update({{"probes", probes}, {"irradiance_sh", sh}, {"occlusion", {o.x, o.y, o.z, o.w}}});
-    return json;
-}
-
-std::string to_text(const Answer& answer, const ProbeVolumeView& volume) {
-    std::string line = text(answer.position.x, " ", answer.position.y, " ", answer.position.z);
-    if (answer.location.cell >= volume.cells.size()) return line + ": ambient";
-    const bool is_outside = answer.location.cell >= volume.info.inner_cell_count;
-    line +=
-        text(": ", is_outside ? "hull cell " : "tetrahedron ", answer.location.cell, ", probes");
-    for (int i = 0; i < 4; ++i) {
-        const uint32_t probe = volume.cells[answer.location.cell].vertices[i];
-        if (probe != kNoIndex) line += text(" ", probe, "×", answer.location.weights[i]);
-    }
-    const glm::vec3 up = evaluate_irradiance(answer.light.irradiance, {0.0f, 1.0f, 0.0f});
-    return line + text(", irradiance from above ", up.x, " ", up.y, " ", up.z);
-}
-
 struct Query {
     std::string volume_path;
     std::string positions_path = "-";
+    std::string output = "-";
+    std::string from;
+    std::string to;
+    std::string outside = "extrapolate";
+    OutsideHull outside_hull;
+    std::string precision = "full";
+    CLI::Option* fade_option = nullptr;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
         add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
         add_path(command, "POSITIONS", positions_path,
-                 "Text file with x y z a line (# begins a comment); - = stdin")
+                 "Positions, by default x y z a line; - = stdin")
+            ->capture_default_str();
+        add_path(command, "-o,--output", output, "File for the answers; - = stdout")
+            ->capture_default_str();
+        add_formats(command);
+        command
+            .add_option("--outside", outside,
+                        "Light outside the hull of the probes: that of the hull carried outwards, "
+                        "that of its closest point, or the latter fading to ambient light")
+            ->check(CLI::IsMember({"extrapolate", "clamp", "ambient"}))
+            ->capture_default_str();
+        fade_option = command.add_option("--fade", outside_hull.fade_distance,
+                                         "Metres over which --outside ambient fades");
+        fade_option->check(numbers_in(1e-6, 1e9))->capture_default_str();
+        command
+            .add_option("--precision", precision,
+                        "Read the probes as floats (full) or as their compact half-precision "
+                        "copies (half)")
+            ->check(CLI::IsMember({"full", "half"}))
             ->capture_default_str();
         common.add_to(command);
+        command.parse_complete_callback([this] { check_options(); });
+    }
+
+    void add_formats(CLI::App& command) {
+        command
+            .add_option("--from", from,
+                        "Format of the positions (default: by the extension, .json, .jsonl, .f32, "
+                        ".raw or .bin; else text)")
+            ->check(CLI::IsMember(position_format_names()));
+        command
+            .add_option("--to", to,
+                        "Format of the answers (default: by the extension, .txt, .jsonl, .csv, "
+                        ".f32, .raw or .bin; else JSON lines with --json, text without)")
+            ->check(CLI::IsMember(answer_format_names()));
+    }
+
+    void check_options() const {
+        if (output == "-" && common.is_json && !to.empty() && to != "jsonl") {
+            throw CLI::ValidationError("--to", "--json makes JSON lines of answers to stdout");
+        }
+        if (fade_option->count() > 0 && outside != "ambient") {
+            throw CLI::ValidationError("--fade", "needs --outside ambient");
+        }
+        check_extension();
+    }
+
+    void check_extension() const {
+        const std::string extension = std::filesystem::path(output).extension().string();
+        if (extension.empty()) return;
+        const auto format = answer_format_of_file(output);
+        if (!format) {
+            throw CLI::ValidationError(
+                "--output", text("cannot write \"", extension,
+                                 "\" files; the extension may be .txt, .jsonl, .csv, .f32, .raw or "
+                                 ".bin, or none"));
+        }
+        if (!to.empty() && answer_format(to) != *format) {
+            throw CLI::ValidationError("--to", text(to, " does not go with \"", extension, "\""));
+        }
+    }
+
+    [[nodiscard]] AnswerSettings settings() const {
+        AnswerSettings settings;
+        settings.format = common.is_json ? AnswerFormat::JsonLines : AnswerFormat::Text;
+        if (const auto format = answer_format_of_file(output)) settings.format = *format;
+        if (!to.empty()) settings.format = answer_format(to);
+        settings.outside = outside_hull;
+        if (outside == "clamp") settings.outside.policy = OutsidePolicy::Clamp;
+        if (outside == "ambient") settings.outside.policy = OutsidePolicy::Ambient;
+        settings.thread_count = common.thread_count;
+        return settings;
     }
 
     Status run() {
+        if (auto status = check_output(output, {volume_path, positions_path}); !status) {
+            return status;
+        }
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         common.warn_if_unlit(volume_path, file->view());
-        if (positions_path == "-") return answer_lines(std::cin, file->view());
-        std::ifstream stream(positions_path);
-        if (!stream) return Error{positions_path + ": cannot open"};
-        return answer_lines(stream, file->view());
-    }
-
-    [[nodiscard]] std::string positions_name() const {
-        return positions_path == "-" ? "stdin" : positions_path;
-    }
-
-    Status answer_lines(std::istream& stream, const ProbeVolumeView& volume) const {
-        std::string line;
-        uint32_t hint = kNoIndex;
-        for (size_t number = 1; std::getline(stream, line); ++number) {
-            line.resize(std::min(line.find('#'), line.size()));
-            if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-            const auto position = parse_position(line);
-            if (!position) return position.error().in(text(positions_name(), ":", number));
-            const CellLocation location = locate(volume, *position, hint);
-            const Answer answer{*position, location, interpolate(volume, location)};
-            hint = location.cell;
-            if (common.is_json) {
-                std::cout << dump(to_json(answer, volume)) << '\n';
-            } else {
-                std::cout << to_text(answer, volume) << '\n';
-            }
+        const bool is_half = precision == "half";
+        if (is_half && file->view().compact.empty()) {
+            return Error{volume_path + ": holds no half-precision probes; use --precision full"};
         }
-        if (stream.bad()) return Error{positions_name() + ": cannot read"};
+        return answer(is_half ? file->view() : file->view().without_compact());
+    }
+
+    Status answer(const ProbeVolumeView& volume) {
+        const auto start = std::chrono::steady_clock::now();
+        auto reader = ByteReader::open(positions_path);
+        if (!reader) return reader.error();
+        auto writer = FileWriter::open(output);
+        if (!writer) return writer.error();
+        AnswerWriter answers(volume, settings(), *writer);
+        PositionChunks chunks([&](auto positions) { return answers.write(positions); });
+        const auto format =
+            from.empty() ? position_format_of_file(positions_path) : position_format(from);
+        if (auto status = read_positions(*reader, format, chunks); !status) return status;
+        if (auto status = answers.finish(); !status) return status;
+        warn_of_not_finite(*reader, answers.not_finite_count());
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        if (output != "-") report(answers, elapsed.count());
         return Ok{};
+    }
+
+    void warn_of_not_finite(const ByteReader& reader, uint64_t count) const {
+        if (count == 0) return;
+        common.warn({text(reader.name(), ": ", counted(count, "position"),
+                          count == 1 ? " is" : " are", " not finite and got the ambient light")});
+    }
+
+    void report(const AnswerWriter& answers, double seconds) const {
+        common.report(output,
+                      {{"output", output},
+                       {"answers", answers.answer_count()},
+                       {"not_finite", answers.not_finite_count()},
+                       {"seconds", seconds}},
+                      text(output, ": ", counted(answers.answer_count(), "answer"), " in ",
+                           duration(seconds)));
     }
 };
 
@@ -148,7 +154,8 @@ struct Query {
 
 void add_query(CLI::App& app, Run& run) {
     add_command<Query>(app, run, "query", "Say what light arrives at positions",
-                       "echo 0 1 0 | tetralight query courtyard.probes --json");
+                       "echo 0 1 0 | tetralight query courtyard.probes --json\n"
+                       "  tetralight query courtyard.probes positions.f32 -o light.csv");
 }
 
 }  // namespace tetralight::cli

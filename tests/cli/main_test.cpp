@@ -82,6 +82,7 @@ Arguments least_arguments(const std::string& command) {
     if (command == "grid") return {"grid", "s.glb", "-o", "g.json", "--spacing", "2"};
     if (command == "render") return {"render", "s.glb", "v.probes", "-o", "r.png"};
     if (command == "meshball") return {"meshball", "v.probes", "-o", "m.png"};
+    if (command == "query") return {"query", "v.probes", "-o", "a.csv"};
     return {command, "s.glb", "-o", "v.probes"};
 }
 
@@ -113,6 +114,14 @@ constexpr BadOption kBadOptions[] = {{"bake", "--samples", "0"},
                                      {"grid", "--max-probes", "few"},
                                      {"grid", "--name", ""},
                                      {"grid", "--name", "two\nlines"},
+                                     {"query", "--from", "csv"},
+                                     {"query", "--to", "json"},
+                                     {"query", "--to", "raw"},
+                                     {"query", "--outside", "nowhere"},
+                                     {"query", "--fade", "0"},
+                                     {"query", "--fade", "nan"},
+                                     {"query", "--fade", "3"},
+                                     {"query", "--precision", "double"},
                                      {"tetrahedralize", "--weld", "-1"},
                                      {"render", "--width", "0"},
                                      {"render", "--height", "16385"},
@@ -150,12 +159,14 @@ class EveryWriter : public CommandFixture, public testing::WithParamInterface<co
     EveryWriter() {
         bake_courtyard("v.probes");
         write("five.json", kFiveProbes);
+        write("positions.jsonl", "[1, 2, 3]\n");
     }
 
     [[nodiscard]] static Arguments arguments(const std::string& output) {
         const std::string command = GetParam();
         if (command == "bake") return {"bake", kCourtyard, "-o", output, "-s", "1"};
         if (command == "grid") return {"grid", kCourtyard, "-o", output, "--spacing", "9"};
+        if (command == "query") return {"query", "v.probes", "positions.jsonl", "-o", output};
         if (command == "tetrahedralize") return {"tetrahedralize", "five.json", "-o", output};
         Arguments picture{command};
         if (command == "render") picture.push_back(kCourtyard);
@@ -168,7 +179,8 @@ class EveryWriter : public CommandFixture, public testing::WithParamInterface<co
 };
 
 INSTANTIATE_TEST_SUITE_P(Main, EveryWriter,
-                         testing::Values("bake", "grid", "meshball", "render", "tetrahedralize"),
+                         testing::Values("bake", "grid", "meshball", "query", "render",
+                                         "tetrahedralize"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(EveryWriter, ReplacesAnOldFileAndLeavesNothingElse) {
@@ -198,7 +210,7 @@ TEST_P(EveryWriter, RefusesThingsThatAreNoFilesAtOnce) {
 
 TEST_P(EveryWriter, RefusesAnExtensionOfAnotherFormat) {
     const auto names_before = file_names();
-    for (const std::string name : {"out.jpg", "out.txt"}) {
+    for (const std::string name : {"out.jpg", "out.obj"}) {
         const std::string message = misuse(arguments(name));
         EXPECT_TRUE(contains(message, "--output: cannot write \"." + name.substr(4))) << message;
     }

@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "probes/probe_file.h"
-#include "tests/cli/command_fixture.h"
+#include "tests/cli/query_fixture.h"
 
 namespace tetralight::test {
 namespace {
 
-class Query : public CommandFixture {
-  protected:
-    Query() {
-        write("five.json", kFiveProbes);
-        succeed({"bake", kCourtyard, "-g", "five.json", "--only-given-groups", "-o", "v.probes",
-                 "-s", "16"});
-    }
-
-    [[nodiscard]] std::vector<Json> answers(const std::string& positions) const {
-        std::istringstream lines(succeed({"query", "v.probes", "--json"}, positions).out);
-        std::vector<Json> result;
-        for (std::string line; std::getline(lines, line);) result.push_back(Json::parse(line));
-        return result;
-    }
-};
+class Query : public QueryFixture {};
 
 double weight_sum(const Json& answer) {
     double sum = 0.0;

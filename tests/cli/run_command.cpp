@@ -2,6 +2,7 @@
 #include "tests/cli/run_command.h"
 
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -82,9 +83,10 @@ RunningCommand::~RunningCommand() {
 
 CommandResult RunningCommand::wait() {
     int status = 0;
-    ::waitpid(std::exchange(process_, -1), &status, 0);
+    rusage usage = {};
+    ::wait4(std::exchange(process_, -1), &status, 0, &usage);
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return {code, contents(out_.get()), contents(err_.get())};
+    return {code, contents(out_.get()), contents(err_.get()), usage.ru_maxrss};
 }
 
 void RunningCommand::send(int signal) const {

@@ -17,6 +17,8 @@ struct CommandResult {
     int exit_code = -1;
     std::string out;
     std::string err;
+    /// The most memory that it held at a time; not less than what this process held at its start.
+    long peak_memory_kib = 0;
 };
 
 /// The built `tetralight` as a child process. Its three streams are files that nobody else sees, so

@@ -30,8 +30,9 @@ TEST(Readme, ShowsTheExampleThatIsCompiled) {
 
 TEST(Readme, LinksAndPicturesExist) {
     const std::regex link("\\]\\(([^)#:]+)\\)");
-    for (const char* page : {"README.md", "docs/architecture.md", "docs/scenes.md",
-                             "docs/conventions.md", "docs/file_format.md", "docs/performance.md"}) {
+    for (const char* page :
+         {"README.md", "docs/architecture.md", "docs/scenes.md", "docs/conventions.md",
+          "docs/file_format.md", "docs/performance.md", "docs/query.md"}) {
         const std::string text = contents(page);
         for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
             EXPECT_TRUE(fs::exists((kRoot / page).parent_path() / (*it)[1].str()))

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/answer.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/text.h"
+
+namespace tetralight::cli {
+namespace {
+
+constexpr int kCoefficientCount = 9;
+
+/// The shortest digits that read back to the same number.
+template <class Number>
+void append_number(std::string& out, Number number) {
+    char digits[32];
+    out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+}
+
+void append_json_number(std::string& out, float number) {
+    if (std::isfinite(number)) {
+        append_number(out, static_cast<double>(number));
+    } else {
+        out += "null";
+    }
+}
+
+/// `[1,2,3]`
+template <class Vector>
+void append_json_vector(std::string& out, const Vector& vector) {
+    for (int i = 0; i < Vector::length(); ++i) {
+        out += i == 0 ? '[' : ',';
+        append_json_number(out, vector[i]);
+    }
+    out += ']';
+}
+
+/// Calls `visit(probe, weight)` for the probes of a location.
+template <class Visit>
+void for_each_probe(const CellLocation& location, const ProbeVolumeView& volume, Visit visit) {
+    if (location.cell >= volume.cells.size()) return;
+    for (int i = 0; i < 4; ++i) {
+        const uint32_t probe = volume.cells[location.cell].vertices[static_cast<size_t>(i)];
+        if (probe != kNoIndex) visit(probe, location.weights[i]);
+    }
+}
+
+void append_json_probes(std::string& out, const CellLocation& location,
+                        const ProbeVolumeView& volume) {
+    const size_t begin = out.size();
+    for_each_probe(location, volume, [&](uint32_t probe, float weight) {
+        out += out.size() == begin ? "" : ",";
+        out += R"({"probe":)";
+        append_number(out, probe);
+        out += R"(,"weight":)";
+        append_json_number(out, weight);
+        out += '}';
+    });
+}
+
+}  // namespace
+
+void append_text(std::string& out, const glm::vec3& position, const CellLocation& location,
+                 const RawAnswer& answer, const ProbeVolumeView& volume) {
+    out += text(position.x, " ", position.y, " ", position.z);
+    if (location.cell >= volume.cells.size()) {
+        out += ": ambient\n";
+        return;
+    }
+    const bool is_outside = location.cell >= volume.info.inner_cell_count;
+    out += text(": ", is_outside ? "hull cell " : "tetrahedron ", location.cell, ", probes");
+    for_each_probe(location, volume,
+                   [&](uint32_t probe, float weight) { out += text(" ", probe, "×", weight); });
+    if (location.ambient > 0.0f) out += text(", ambient×", location.ambient);
+    const glm::vec3 up = evaluate_irradiance(answer.irradiance, {0.0f, 1.0f, 0.0f});
+    out += text(", irradiance from above ", up.x, " ", up.y, " ", up.z, "\n");
+}
+
+void append_json(std::string& out, const glm::vec3& position, const CellLocation& location,
+                 const RawAnswer& answer, const ProbeVolumeView& volume) {
+    out += R"({"position":)";
+    append_json_vector(out, position);
+    out += R"(,"cell":)";
+    if (location.cell == kNoIndex) {
+        out += "null";
+    } else {
+        append_number(out, location.cell);
+    }
+    out += R"(,"probes":[)";
+    append_json_probes(out, location, volume);
+    out += R"(],"ambient":)";
+    append_json_number(out, location.ambient);
+    out += R"(,"irradiance_sh":)";
+    for (int i = 0; i < kCoefficientCount; ++i) {
+        out += i == 0 ? '[' : ',';
+        append_json_vector(out, answer.irradiance.coefficients[static_cast<size_t>(i)]);
+    }
+    out += R"(],"occlusion":)";
+    append_json_vector(out, answer.occlusion);
+    out += "}\n";
+}
+
+void append_csv(std::string& out, const glm::vec3& position, const RawAnswer& answer) {
+    for (int i = 0; i < 3; ++i) {
+        append_number(out, position[i]);
+        out += ',';
+    }
+    if (answer.cell != kNoIndex) append_number(out, answer.cell);
+    for (const glm::vec3& coefficient : answer.irradiance.coefficients) {
+        for (int i = 0; i < 3; ++i) {
+            out += ',';
+            append_number(out, coefficient[i]);
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        out += ',';
+        append_number(out, answer.occlusion[i]);
+    }
+    out += '\n';
+}
+
+std::string csv_header() {
+    std::string header = "x,y,z,cell";
+    for (int i = 0; i < kCoefficientCount; ++i) {
+        for (const char channel : {'r', 'g', 'b'}) header += text(",sh", i, "_", channel);
+    }
+    for (int i = 0; i < 4; ++i) header += text(",occlusion", i);
+    return header + "\n";
+}
+
+}  // namespace tetralight::cli

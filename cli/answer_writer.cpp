@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/answer_writer.h"
+
+#include <algorithm>
+#include <cfenv>
+#include <cstddef>
+
+#include "bake/parallel.h"
+#include "probes/interpolate.h"
+
+namespace tetralight::cli {
+namespace {
+
+/// Enough for some hundred microseconds, and answers that stay in the cache until they are written.
+constexpr size_t kSliceSize = 2048;
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+    return std::as_bytes(std::span(text));
+}
+
+}  // namespace
+
+Status AnswerWriter::write_header() {
+    if (has_header_ || settings_.format != AnswerFormat::Csv) return Ok{};
+    has_header_ = true;
+    return out_.write(bytes_of(csv_header()));
+}
+
+void AnswerWriter::answer(std::span<const glm::vec3> positions, Slice& slice) const {
+    slice.answers.resize(positions.size());
+    // Hints that name no cell: each walk begins at the seed of its own position.
+    slice.cells.assign(positions.size(), kNoIndex);
+    const std::span<std::byte> memory = std::as_writable_bytes(std::span(slice.answers));
+    InterpolationBatch batch;
+    batch.positions = positions;
+    batch.hints = slice.cells;
+    batch.irradiance = strided(memory, ShFormat::Coefficients, sizeof(RawAnswer));
+    batch.occlusion =
+        strided_occlusion(memory.subspan(offsetof(RawAnswer, occlusion)), sizeof(RawAnswer));
+    batch.outside = settings_.outside;
+    const auto report = interpolate(volume_, batch);
+    slice.status = report ? Status(Ok{}) : Status(report.error());
+    slice.not_finite_count = report ? report->not_finite_count : 0;
+    for (size_t i = 0; i < positions.size(); ++i) slice.answers[i].cell = slice.cells[i];
+}
+
+void AnswerWriter::format(std::span<const glm::vec3> positions, Slice& slice) const {
+    slice.text.clear();
+    if (settings_.format == AnswerFormat::Raw) return;
+    for (size_t i = 0; i < positions.size(); ++i) {
+        const RawAnswer& answer = slice.answers[i];
+        if (settings_.format == AnswerFormat::Csv) {
+            append_csv(slice.text, positions[i], answer);
+            continue;
+        }
+        const CellLocation location = locate(volume_, positions[i], answer.cell, settings_.outside);
+        const auto append = settings_.format == AnswerFormat::JsonLines ? append_json : append_text;
+        append(slice.text, positions[i], location, answer, volume_);
+    }
+}
+
+Status AnswerWriter::write(std::span<const glm::vec3> positions) {
+    const size_t slice_count = (positions.size() + kSliceSize - 1) / kSliceSize;
+    slices_.resize(std::max(slices_.size(), slice_count));
+    parallel_for(slice_count, settings_.thread_count, [&](size_t i) {
+        std::fesetenv(FE_DFL_ENV);  // denormal numbers count, as in a query of the library
+        const auto part = positions.subspan(
+            i * kSliceSize, std::min(kSliceSize, positions.size() - i * kSliceSize));
+        answer(part, slices_[i]);
+        format(part, slices_[i]);
+    });
+    if (auto status = write_header(); !status) return status;
+    for (const Slice& slice : std::span(slices_).first(slice_count)) {
+        if (!slice.status) return slice.status;
+        auto status = out_.write(settings_.format == AnswerFormat::Raw
+                                     ? std::as_bytes(std::span(slice.answers))
+                                     : bytes_of(slice.text));
+        if (!status) return status;
+        not_finite_count_ += slice.not_finite_count;
+    }
+    answer_count_ += positions.size();
+    return Ok{};
+}
+
+Status AnswerWriter::finish() {
+    if (auto status = write_header(); !status) return status;
+    return out_.commit();
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/file_writer.h"
+#include "base/result.h"
+#include "cli/answer.h"
+#include "cli/query_formats.h"
+#include "probes/locate.h"
+#include "probes/probe_volume.h"
+
+namespace tetralight::cli {
+
+struct AnswerSettings {
+    AnswerFormat format = AnswerFormat::Text;
+    OutsideHull outside;
+    uint32_t thread_count = 0;  ///< 0 = all
+};
+
+/// Answers positions chunk by chunk, on many threads, and writes the answers in their order.
+/// An answer depends on its position alone, not on those around it.
+class AnswerWriter {
+  public:
+    /// Precondition: `out` outlives this object.
+    AnswerWriter(const ProbeVolumeView& volume, const AnswerSettings& settings, FileWriter& out)
+        : volume_(volume), settings_(settings), out_(out) {}
+
+    [[nodiscard]] Status write(std::span<const glm::vec3> positions);
+
+    /// Ends the output. To be called once, after the last chunk.
+    [[nodiscard]] Status finish();
+
+    [[nodiscard]] uint64_t answer_count() const { return answer_count_; }
+
+    /// Positions that are not finite, and were answered with ambient light.
+    [[nodiscard]] uint64_t not_finite_count() const { return not_finite_count_; }
+
+  private:
+    /// What one call of one thread answers.
+    struct Slice {
+        std::vector<RawAnswer> answers;
+        std::vector<uint32_t> cells;
+        std::string text;
+        uint64_t not_finite_count = 0;
+        Status status = Ok{};
+    };
+
+    [[nodiscard]] Status write_header();
+    void answer(std::span<const glm::vec3> positions, Slice& slice) const;
+    void format(std::span<const glm::vec3> positions, Slice& slice) const;
+
+    ProbeVolumeView volume_;
+    AnswerSettings settings_;
+    FileWriter& out_;
+    std::vector<Slice> slices_;
+    bool has_header_ = false;
+    uint64_t answer_count_ = 0;
+    uint64_t not_finite_count_ = 0;
+};
+
+}  // namespace tetralight::cli

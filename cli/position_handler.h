@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace tetralight::cli {
+
+/// Takes positions out of JSON while it is parsed (nlohmann's SAX interface): none of it is kept.
+class PositionHandler {
+  public:
+    enum class Document : uint8_t { Array, Position };
+
+    /// False: stop.
+    using Take = std::function<bool(const glm::vec3&)>;
+
+    PositionHandler(Document document, Take take) : document_(document), take_(std::move(take)) {}
+
+    /// Why parsing ended early, with the position's place in the array.
+    [[nodiscard]] const Error& error() const { return error_; }
+
+    // What the parser calls. False ends it.
+    bool null() { return value("null"); }
+
+    bool boolean(bool is_true) { return value(is_true ? "true" : "false"); }
+
+    bool number_integer(int64_t number);
+    bool number_unsigned(uint64_t number);
+    bool number_float(double number, const std::string& digits);
+
+    bool string(std::string& characters) { return value("\"" + characters + "\""); }
+
+    bool binary(nlohmann::json::binary_t& /*bytes*/) { return value("bytes"); }
+
+    bool start_object(size_t size);
+    bool key(std::string& name);
+    bool end_object();
+    bool start_array(size_t size);
+    bool end_array();
+    bool parse_error(size_t byte, const std::string& token,
+                     const nlohmann::json::exception& exception);
+
+  private:
+    enum class Place : uint8_t { Document, Array, Object, Coordinates };
+
+    [[nodiscard]] bool is_ignored() const;
+    bool coordinate(float number);
+    bool value(std::string_view shown_value);
+    bool fail(const std::string& message);
+    bool begin_coordinates();
+
+    Document document_;
+    Take take_;
+    Error error_;
+    Place place_ = Place::Document;
+    uint64_t index_ = 0;  ///< of the position
+    /// Arrays and objects that are open inside a value that nobody asked for.
+    uint64_t ignored_depth_ = 0;
+    bool is_in_array_ = false;
+    bool is_in_object_ = false;
+    bool is_position_next_ = false;  ///< the object's next value is its position
+    bool has_position_ = false;      ///< the object
+    int coordinate_count_ = 0;
+    glm::vec3 position_{0.0f};
+};
+
+}  // namespace tetralight::cli

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string_view>
+
+#include "base/result.h"
+#include "cli/byte_reader.h"
+#include "cli/position_chunks.h"
+
+namespace tetralight::cli {
+
+/// Reads an array of positions while it is parsed, in constant memory. A position is [x, y, z] or
+/// an object whose "position" is that; its other keys are left alone. Errors name the input and the
+/// position, counted from 0.
+[[nodiscard]] Status read_json(ByteReader& reader, PositionChunks& chunks);
+
+/// One position.
+[[nodiscard]] Result<glm::vec3> parse_json_position(std::string_view line);
+
+}  // namespace tetralight::cli

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/position_reader.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/text.h"
+#include "cli/position_json.h"
+#include "cli/position_text.h"
+
+namespace tetralight::cli {
+namespace {
+
+constexpr size_t kLongestLine = size_t{1} << 18;
+
+/// A line's position, or none: it is blank.
+using ParsedLine = Result<std::optional<glm::vec3>>;
+
+bool is_blank(std::string_view line) {
+    return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+ParsedLine parse_text_line(std::string_view line) {
+    const std::string_view words = line.substr(0, line.find('#'));
+    if (is_blank(words)) return std::optional<glm::vec3>();
+    const auto position = parse_position(words);
+    return position ? ParsedLine(*position) : position.error();
+}
+
+ParsedLine parse_json_line(std::string_view line) {
+    if (is_blank(line)) return std::optional<glm::vec3>();
+    const auto position = parse_json_position(line);
+    return position ? ParsedLine(*position) : position.error();
+}
+
+Status read_lines(ByteReader& reader, PositionChunks& chunks,
+                  ParsedLine (*parse)(std::string_view line)) {
+    std::vector<char> memory(kLongestLine);
+    size_t held = 0;
+    uint64_t number = 0;
+    const auto place = [&] { return text(reader.name(), ":", number); };
+    while (true) {
+        const auto count = reader.read(std::span(memory).subspan(held));
+        if (!count) return count.error();
+        std::string_view rest(memory.data(), held + *count);
+        const bool is_end = *count == 0;
+        for (size_t search = held; !rest.empty(); search = 0) {
+            const size_t length = rest.find('\n', search);
+            if (length == std::string_view::npos && !is_end) break;
+            ++number;
+            const std::string_view line = rest.substr(0, length);
+            const auto position = parse(line);
+            if (!position) return position.error().in(place());
+            if (*position) {
+                if (auto status = chunks.add(**position); !status) return status;
+            }
+            rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+        }
+        if (is_end) return Ok{};
+        held = rest.size();
+        if (held == kLongestLine) {
+            ++number;
+            return Error{text("the line is longer than ", kLongestLine, " bytes")}.in(place());
+        }
+        std::memmove(memory.data(), rest.data(), held);
+    }
+}
+
+Status read_raw(ByteReader& reader, PositionChunks& chunks) {
+    static_assert(std::endian::native == std::endian::little && sizeof(glm::vec3) == 12);
+    constexpr size_t kRecord = sizeof(glm::vec3);
+    std::vector<char> memory(kRecord << 14);
+    size_t held = 0;
+    uint64_t record = 0;
+    while (true) {
+        const auto count = reader.read(std::span(memory).subspan(held));
+        if (!count) return count.error();
+        if (*count == 0) break;
+        held += *count;
+        size_t done = 0;
+        for (; done + kRecord <= held; done += kRecord, ++record) {
+            glm::vec3 position;
+            std::memcpy(&position, memory.data() + done, kRecord);
+            if (auto status = chunks.add(position); !status) return status;
+        }
+        held -= done;
+        std::memmove(memory.data(), memory.data() + done, held);
+    }
+    if (held == 0) return Ok{};
+    return Error{text(reader.name(), ": ends at byte ", kRecord * record + held, ", ", held,
+                      held == 1 ? " byte" : " bytes", " into record ", record, "; records are ",
+                      kRecord, " bytes, x y z as float32")};
+}
+
+Status read_all(ByteReader& reader, PositionFormat format, PositionChunks& chunks) {
+    switch (format) {
+        case PositionFormat::Json:
+            return read_json(reader, chunks);
+        case PositionFormat::JsonLines:
+            return read_lines(reader, chunks, parse_json_line);
+        case PositionFormat::Raw:
+            return read_raw(reader, chunks);
+        case PositionFormat::Text:
+            break;
+    }
+    return read_lines(reader, chunks, parse_text_line);
+}
+
+}  // namespace
+
+Status read_positions(ByteReader& reader, PositionFormat format, PositionChunks& chunks) {
+    reader.before_wait([&] { return chunks.flush(); });
+    const Status status = read_all(reader, format, chunks);
+    reader.before_wait({});
+    const Status flushed = chunks.flush();
+    return status ? flushed : status;
+}
+
+}  // namespace tetralight::cli
