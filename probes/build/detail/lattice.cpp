@@ -91,9 +91,12 @@ bool is_near_place(const Lattice& lattice, const glm::dvec3& position) {
 
 bool extend(Lattice& lattice, const glm::dvec3& position) {
     const glm::dvec3 offset = position - place_at(lattice, index_of(lattice, position));
-    const glm::dvec3 fraction = lattice.inverse * offset;
+    glm::dvec3 fraction = lattice.inverse * offset;
     for (int i = lattice.rank; i < 3; ++i) {
-        if (lattice.rank > 0 && std::abs(fraction[i]) <= kNearWhole) continue;
+        if (lattice.rank > 0 && std::abs(fraction[i]) <= kNearWhole) {
+            fraction[i] = 0.0;  // there is no step to divide
+            continue;
+        }
         lattice.steps[lattice.rank++] = offset;
         reduce(lattice);
         return true;

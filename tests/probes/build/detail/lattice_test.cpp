@@ -53,6 +53,12 @@ TEST(Lattice, RefusesFractionsOfLessThanASixteenth) {
     EXPECT_FALSE(extend(lattice, {1.0 / 17.0 + 0.06, 1.0 / 3.0, 1.0 / 7.0}));
 }
 
+TEST(Lattice, DividesOnlyStepsThatItHas) {
+    // Fourteenths of all three are near whole numbers, and of the two that count sevenths are.
+    const glm::dvec3 beside(-0.138, 0.279, -0.078);
+    EXPECT_TRUE(is_near_place(through({{1, 0, 0}, {0, 1, 0}, beside}), beside));
+}
+
 TEST(Lattice, IndicesLeadBackToPlaces) {
     const Lattice lattice = through({{1, 2, 0}, {0, 3, 0}, {4, 5, 6}});
     const glm::dvec3 place = place_at(lattice, {3, -4, 5});
