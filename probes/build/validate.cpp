@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <span>
 
 #include "base/text.h"
@@ -18,6 +19,12 @@ uint32_t opposite_vertex(const ProbeVolumeView& volume, uint32_t cell, uint32_t 
     const Cell& c = volume.cells[cell];
     const auto face = std::ranges::find(c.neighbors, neighbor) - c.neighbors.begin();
     return c.vertices[static_cast<size_t>(face)];
+}
+
+/// What rounding can make of a product of lengths like these.
+template <class... Vector>
+double product_rounding(const Vector&... factors) {
+    return 8.0 * std::numeric_limits<double>::epsilon() * (... * glm::length(factors));
 }
 
 /// Tetrahedra, and the triangles of their hull.
@@ -44,6 +51,7 @@ class SpaceValidator {
             return;
         }
         report_.cell_measure += glm::dot(b - a, glm::cross(c - a, d - a)) / 6.0;
+        report_.measure_rounding += product_rounding(b - a, c - a, d - a);
         for (const uint32_t neighbor : volume_.cells[cell].neighbors) {
             if (neighbor >= volume_.info.inner_cell_count || neighbor < cell) continue;
             const glm::dvec3& other = positions_[opposite_vertex(volume_, neighbor, cell)];
@@ -55,6 +63,7 @@ class SpaceValidator {
         const glm::dvec3 &a = corner(cell, 0), &b = corner(cell, 1), &c = corner(cell, 2);
         const glm::dvec3& apex = positions_[0];  // near the hull, so that little cancels
         report_.hull_measure += glm::dot(a - apex, glm::cross(b - apex, c - apex)) / 6.0;
+        report_.measure_rounding += product_rounding(a - apex, b - apex, c - apex);
         for (int i = 0; i < 3; ++i) {
             const uint32_t neighbor = volume_.cells[cell].neighbors[i];
             if (neighbor < cell) continue;
@@ -95,6 +104,7 @@ class PlaneValidator {
             return;
         }
         report_.cell_measure += cross(b - a, c - a) / 2.0;
+        report_.measure_rounding += product_rounding(b - a, c - a);
         for (const uint32_t neighbor : volume_.cells[cell].neighbors) {
             if (neighbor >= volume_.info.inner_cell_count || neighbor < cell) continue;
             const glm::dvec2& other = positions_[opposite_vertex(volume_, neighbor, cell)];
@@ -105,6 +115,7 @@ class PlaneValidator {
     void check_edge(uint32_t cell) {
         const glm::dvec2 &a = corner(cell, 0), &b = corner(cell, 1);
         report_.hull_measure += cross(a - positions_[0], b - positions_[0]) / 2.0;
+        report_.measure_rounding += product_rounding(a - positions_[0], b - positions_[0]);
         const uint32_t next = volume_.cells[cell].neighbors[0];  // shares b
         const glm::dvec2& other = positions_[opposite_vertex(volume_, next, cell)];
         report_.concave_hull_edges += detail::orientation(a, b, other) < 0;
@@ -183,7 +194,8 @@ std::vector<std::string> ValidationReport::problems() const {
     add(probes_without_source, "probe is in no group", "probes are in no group");
     add(misplaced_float_probes, "float position differs from the exact one",
         "float positions differ from the exact ones");
-    if (std::abs(cell_measure - hull_measure) > 1e-9 * std::abs(hull_measure)) {
+    const double tolerance = 1e-9 * std::abs(hull_measure) + measure_rounding;
+    if (std::abs(cell_measure - hull_measure) > tolerance) {
         lines.push_back(text("the cells fill ", cell_measure, " of the hull's ", hull_measure));
     }
     return lines;

@@ -21,6 +21,9 @@ struct ValidationReport {
     /// Sum over the inner cells, and what the hull encloses: m³; m² in a plane, m on a line.
     double cell_measure = 0.0;
     double hull_measure = 0.0;
+    /// What rounding can make of their difference: much where probes are far apart and the hull is
+    /// thin.
+    double measure_rounding = 0.0;
 
     /// One line a kind of problem; empty = valid.
     [[nodiscard]] std::vector<std::string> problems() const;

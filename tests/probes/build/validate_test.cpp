@@ -20,6 +20,15 @@ TEST(Validate, MeasuresTheVolumeOfTheHull) {
     EXPECT_TRUE(report.problems().empty());
 }
 
+TEST(Validate, TakesAThinHullForWhole) {
+    // Clusters of two scales, 1e5 m apart: rounding of the large products is seen in the sum.
+    auto positions = test::random_positions(10, 1, 1e-3);
+    for (const glm::dvec3& p : test::random_positions(10, 2)) positions.push_back(p + 1e5);
+    const ValidationReport report = validate(test::make_lit_volume(positions).view());
+    EXPECT_TRUE(report.problems().empty()) << report.problems()[0];
+    EXPECT_LT(report.measure_rounding, 0.01 * report.hull_measure);
+}
+
 TEST(Validate, SeesAProbeThatWasMovedIntoACircumsphere) {
     ProbeVolume volume = test::make_lit_volume(test::random_positions(50, 2));
     volume.exact_positions[20] = volume.exact_positions[21] * 0.99;
