@@ -9,6 +9,9 @@
 namespace tetralight::detail {
 namespace {
 
+/// More than rounding makes of a cubic whose lengths are of order 1.
+constexpr double kRisen = 1e-12;
+
 /// c[0] + c[1] t + c[2] t² + c[3] t³.
 using Cubic = std::array<double, 4>;
 
@@ -111,10 +114,17 @@ std::optional<glm::dvec3> weights_of_origin(const std::array<glm::dvec3, 3>& q) 
     return glm::dvec3(w0, w1, 1 - w0 - w1);
 }
 
-/// The first t ≥ 0 where the cubic is zero; none where it is negative from the beginning.
+/// The first t ≥ 0 where the cubic is zero; none where it is negative from the beginning. A hull
+/// triangle that is thinner than steps of its float positions may face inwards and turn outwards as
+/// it grows: there the cubic rises above zero first.
 std::optional<double> first_meeting(const Cubic& cubic) {
-    if (cubic[0] < 0) return std::nullopt;
-    return cubic[0] == 0 ? 0.0 : first_root(cubic);
+    if (cubic[0] > 0) return first_root(cubic);
+    if (cubic[0] == 0) return 0.0;
+    const double top = extrema(cubic)[1];
+    if (!(evaluate(cubic, top) > kRisen)) return std::nullopt;
+    double high = std::max(1.0, 2 * top);
+    while (high <= kFarthestRoot && evaluate(cubic, high) > 0) high *= 2;
+    return high <= kFarthestRoot ? std::optional(bracketed_root(cubic, top, high)) : std::nullopt;
 }
 
 /// Length of the longest corner; none when it is no length to scale by.

@@ -20,10 +20,22 @@ double longest_square(const std::array<glm::dvec3, 4>& corners, int count) {
 }
 
 /// Beyond this two neighbors that send the walk to each other are a cycle, not rounding.
-constexpr double kSettleTolerance = 1e-6;
+constexpr double kSettleTolerance = 1e-9;
 
 /// Longer walks are counted against the size of the volume.
 constexpr uint32_t kShortWalk = 64;
+
+/// Of the cells that were considered, the one that comes nearest to holding the position.
+struct Best {
+    CellLocation location;
+    double measure = -std::numeric_limits<double>::infinity();
+
+    void consider(uint32_t cell, const std::optional<CellWeights>& weights) {
+        if (!weights || !(weights->inside_measure() > measure)) return;
+        measure = weights->inside_measure();
+        location = finish(cell, *weights);
+    }
+};
 
 }  // namespace
 
@@ -50,6 +62,19 @@ CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexce
     const double square = longest_square(corners, 4);
     return {{glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)},
             kSliverRounding * (square * square * square)};
+}
+
+CellWeights precise_tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept {
+    using Vector = glm::vec<3, long double>;
+    constexpr double kFinerSteps =
+        static_cast<double>(std::numeric_limits<long double>::epsilon()) /
+        std::numeric_limits<double>::epsilon();
+    const Vector a(corners[0]), b(corners[1]), c(corners[2]), d(corners[3]);
+    const Vector cd = glm::cross(c, d);
+    const Vector ab = glm::cross(a, b);
+    const double square = longest_square(corners, 4);
+    return {glm::dvec4(glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)),
+            kSliverRounding * kFinerSteps * kFinerSteps * (square * square * square)};
 }
 
 CellLocation finish(uint32_t cell, const CellWeights& cell_weights) noexcept {
@@ -96,13 +121,33 @@ LocationTrace Walk::run(uint32_t start) const noexcept {
         previous_weights = *weights;
         cell = next;
     }
+    const LocationTrace near = search_near(cell);
+    steps += near.step_count;
+    if (near.location.cell != kNoIndex) return {near.location, steps, false};
     return {search_all(), steps, true};
 }
 
-/// Four times the steps of a random walk (2.5 n^(1/3), measured), so that only a cycle meets it.
+/// Four times the steps of a random walk (2.5 n^(1/3) in space, measured), so that only a cycle
+/// meets it. On a line a walk may pass every cell.
 uint32_t Walk::step_limit() const {
-    return kShortWalk +
-           10 * static_cast<uint32_t>(std::cbrt(static_cast<float>(volume_.cells.size())));
+    const auto count = static_cast<uint32_t>(volume_.cells.size());
+    switch (volume_.info.dimension) {
+        case Dimension::Line:
+            return kShortWalk + count;
+        case Dimension::Plane:
+            return kShortWalk + 10 * static_cast<uint32_t>(std::sqrt(static_cast<float>(count)));
+        default:
+            return kShortWalk + 10 * static_cast<uint32_t>(std::cbrt(static_cast<float>(count)));
+    }
+}
+
+std::optional<CellWeights> Walk::precise_weights(uint32_t index) const {
+    const bool is_tetrahedron =
+        volume_.info.dimension == Dimension::Space && index < volume_.info.inner_cell_count;
+    if (!is_tetrahedron) return cell_weights(index);
+    std::array<glm::dvec3, 4> corners{};
+    if (!find_corners(volume_, index, position_, corners)) return std::nullopt;
+    return precise_tetrahedron_weights(corners);
 }
 
 std::optional<CellWeights> Walk::cell_weights(uint32_t index) const {
@@ -154,17 +199,35 @@ CellWeights Walk::hull_weights(const std::array<glm::dvec3, 4>& corners,
     }
 }
 
+/// Walks go around where cells are too flat for double, and where probes that stand apart by less
+/// than steps of their floats make cells that fold over their neighbors. However they fold, some
+/// cell that faces the right way holds the position, and it is near.
+LocationTrace Walk::search_near(uint32_t start) const {
+    constexpr size_t kCellCount = 128;
+    if (start >= volume_.cells.size()) return {};  // a broken file
+    std::array<uint32_t, kCellCount> cells{start};
+    size_t found = 1;
+    Best best;
+    for (size_t next = 0; next < found; ++next) {
+        best.consider(cells[next], precise_weights(cells[next]));
+        if (best.measure >= 0.0) break;
+        for (const uint32_t neighbor : volume_.cells[cells[next]].neighbors) {
+            const auto end = cells.begin() + static_cast<std::ptrdiff_t>(found);
+            if (found == kCellCount || neighbor >= volume_.cells.size()) continue;
+            if (std::find(cells.begin(), end, neighbor) == end) cells[found++] = neighbor;
+        }
+    }
+    const bool is_found = best.measure >= -kSettleTolerance;
+    return {is_found ? best.location : CellLocation{}, static_cast<uint32_t>(found)};
+}
+
 /// The fallback that cannot fail: the cell that comes nearest to holding the position.
 CellLocation Walk::search_all() const {
-    CellLocation best;
-    double best_measure = -std::numeric_limits<double>::infinity();
+    Best best;
     for (uint32_t cell = 0; cell < volume_.cells.size(); ++cell) {
-        const auto weights = cell_weights(cell);
-        if (!weights || !(weights->inside_measure() > best_measure)) continue;
-        best_measure = weights->inside_measure();
-        best = finish(cell, *weights);
+        best.consider(cell, precise_weights(cell));
     }
-    return best;
+    return best.location;
 }
 
 }  // namespace tetralight::detail

@@ -35,6 +35,10 @@ struct CellWeights {
 /// Weights of the origin in a tetrahedron. `corners` are relative to the queried position.
 [[nodiscard]] CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept;
 
+/// The same for cells that are too flat for it: in the widest floats that there are.
+[[nodiscard]] CellWeights precise_tetrahedron_weights(
+    const std::array<glm::dvec3, 4>& corners) noexcept;
+
 /// Weights as queries give them: ≥ 0, sum 1.
 [[nodiscard]] CellLocation finish(uint32_t cell, const CellWeights& weights) noexcept;
 
@@ -54,9 +58,11 @@ class Walk {
   private:
     [[nodiscard]] uint32_t step_limit() const;
     [[nodiscard]] std::optional<CellWeights> cell_weights(uint32_t cell) const;
+    [[nodiscard]] std::optional<CellWeights> precise_weights(uint32_t cell) const;
     [[nodiscard]] CellWeights inner_weights(std::array<glm::dvec3, 4> corners) const;
     [[nodiscard]] CellWeights hull_weights(const std::array<glm::dvec3, 4>& corners,
                                            const HullCellRays& rays) const;
+    [[nodiscard]] LocationTrace search_near(uint32_t start) const;
     [[nodiscard]] CellLocation search_all() const;
 
     const ProbeVolumeView& volume_;

@@ -172,6 +172,8 @@ TEST(Locate, TracesTheStepsOfTheWalk) {
 TEST(Locate, AWalkThatCannotGoOnSearchesAllCells) {
     ProbeVolume volume = test::make_lit_volume(test::random_positions(30, 18));
     volume.cells[0].vertices[0] = kNoIndex;
+    EXPECT_FALSE(trace_location(volume.view(), {0, 0, 0}, 0).is_fallback);  // it is near
+    volume.cells[0].neighbors.fill(kNoIndex);
     EXPECT_TRUE(trace_location(volume.view(), {0, 0, 0}, 0).is_fallback);
 }
 
@@ -187,6 +189,16 @@ TEST(Locate, CorruptIndicesGiveTheAmbientResultOrAnotherCell) {
         const auto light = interpolate(volume.view(), location);
         EXPECT_TRUE(std::isfinite(light.irradiance.coefficients[0].x));
     }
+}
+
+TEST(Locate, WalksAlongALineFromOneEndToTheOther) {
+    std::vector<glm::dvec3> positions;
+    for (int i = 0; i < 1000; ++i) positions.emplace_back(i, 2 * i, 0);
+    const ProbeVolume volume = test::make_lit_volume(positions);
+    const uint32_t last = locate(volume.view(), {998.5f, 1997.0f, 0.0f}).cell;
+    const LocationTrace trace = trace_location(volume.view(), {0.5f, 1.0f, 0.0f}, last);
+    EXPECT_FALSE(trace.is_fallback);
+    EXPECT_EQ(trace.location, locate(volume.view(), {0.5f, 1.0f, 0.0f}));
 }
 
 }  // namespace
