@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "tests/bake/image/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace tetralight::test {
 

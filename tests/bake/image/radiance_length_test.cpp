@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bake/image/read_image.h"
-#include "tests/bake/image/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace tetralight {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bake/image/write_image.h"
-#include "tests/bake/image/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace tetralight {
 namespace {

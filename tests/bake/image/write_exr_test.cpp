@@ -3,7 +3,7 @@
 
 #include "bake/image/read_image.h"
 #include "bake/image/write_image.h"
-#include "tests/bake/image/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace tetralight {
 namespace {

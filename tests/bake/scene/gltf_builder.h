@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bake/scene/read_gltf.h"
-#include "tests/bake/image/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace tetralight {
 

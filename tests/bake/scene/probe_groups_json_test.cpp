@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/bake/image/temp_folder.h"
+#include "tests/support/temp_folder.h"
 
 namespace tetralight {
 namespace {
