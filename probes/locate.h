@@ -41,7 +41,8 @@ struct OutsideHull {
 /// Walks from cell to cell, beginning at `hint`: the cell of the last query near by, or of the same
 /// object in the last frame. Any value is allowed; without a cell's index the walk begins at the
 /// volume's nearest seed. Ends always: after a bounded number of steps the
-/// cells around, and at last all cells, are searched. Cost: the number of cells between the hint and the position. Thread-safe.
+/// cells around, and at last all cells, are searched. Cost: the number of cells between the hint
+/// and the position. Thread-safe.
 [[nodiscard]] CellLocation locate(const ProbeVolumeView& volume, glm::vec3 position,
                                   uint32_t hint = kNoIndex,
                                   const OutsideHull& outside = {}) noexcept;
