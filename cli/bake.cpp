@@ -92,7 +92,9 @@ struct Bake {
         const double rays_per_second = static_cast<double>(bake.ray_count) / bake.bake_seconds;
         Json json{{"output", output}};
         json.update(counts(volume));
-        json.update({{"samples", settings.sample_count},
+        json.update({{"lattice_groups", bake.lattice_group_names},
+                     {"largest_snap", bake.largest_snap},
+                     {"samples", settings.sample_count},
                      {"bounces", settings.bounces},
                      {"rays", bake.ray_count},
                      {"rays_per_second", rays_per_second},
@@ -103,11 +105,11 @@ struct Bake {
         common.report(
             output, json,
             text(output, ": ", counted(volume.probe_count(), "probe"), " (",
-                 grouped(bake.welded_count), " welded), ", cells_text(volume), "\n  merge ",
-                 duration(bake.merge_seconds), ", tetrahedralize ",
-                 duration(bake.tetrahedralize_seconds), ", bake ", duration(bake.bake_seconds),
-                 " (", magnitude(static_cast<double>(bake.ray_count)), "rays, ",
-                 magnitude(rays_per_second), "rays/s)"));
+                 merged_text(bake.welded_count, bake.lattice_group_names.size(), bake.largest_snap),
+                 "), ", cells_text(volume), "\n  merge ", duration(bake.merge_seconds),
+                 ", tetrahedralize ", duration(bake.tetrahedralize_seconds), ", bake ",
+                 duration(bake.bake_seconds), " (", magnitude(static_cast<double>(bake.ray_count)),
+                 "rays, ", magnitude(rays_per_second), "rays/s)"));
     }
 };
 

@@ -179,6 +179,14 @@ ProbeBounds probe_bounds(const ProbeVolumeView& volume) {
     return bounds;
 }
 
+std::string merged_text(uint64_t welded_count, uint64_t lattice_count, double largest_snap) {
+    std::string line = grouped(welded_count) + " welded";
+    if (lattice_count == 0) return line;
+    line += ", " + counted(lattice_count, "lattice");
+    return largest_snap > 0.0 ? line + formatted(" snapped by up to %.2g", largest_snap, " m")
+                              : line;
+}
+
 Json counts(const ProbeVolumeView& volume) {
     return {{"probes", volume.probe_count()},
             {"dimension", name_of(volume.info.dimension)},

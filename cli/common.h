@@ -84,6 +84,9 @@ struct ProbeBounds {
 };
 
 [[nodiscard]] ProbeBounds probe_bounds(const ProbeVolumeView& volume);
+/// "3 welded", "3 welded, 2 lattices", "3 welded, 2 lattices snapped by up to 1e-07 m".
+[[nodiscard]] std::string merged_text(uint64_t welded_count, uint64_t lattice_count,
+                                      double largest_snap);
 /// What a volume holds, in numbers.
 [[nodiscard]] Json counts(const ProbeVolumeView& volume);
 

@@ -60,10 +60,13 @@ struct Tetrahedralize {
         if (auto status = write_probe_file(output, volume.view()); !status) return status;
         Json json{{"output", output}, {"backend", backend}};
         json.update(counts(volume.view()));
-        common.report(output, json,
-                      text(output, ": ", counted(volume.positions.size(), "probe"), " (",
-                           grouped(merged->welded_count()), " welded), ", cells_text(volume.view()),
-                           ", no light"));
+        const auto lattices = merged->lattice_group_names();
+        json.update({{"lattice_groups", lattices}, {"largest_snap", merged->largest_snap}});
+        common.report(
+            output, json,
+            text(output, ": ", counted(volume.positions.size(), "probe"), " (",
+                 merged_text(merged->welded_count(), lattices.size(), merged->largest_snap), "), ",
+                 cells_text(volume.view()), ", no light"));
         return Ok{};
     }
 };

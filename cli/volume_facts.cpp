@@ -96,6 +96,23 @@ Json slivers_json(const VolumeFacts& facts) {
             {"share_below_1e-6", per(slivers.below_1e6, cells)}};
 }
 
+Json seeds_json(const VolumeFacts& facts) {
+    if (!facts.walks) return nullptr;
+    return {{"count", facts.seed_count},
+            {"positions", facts.walks->position_count},
+            {"hit_rate", facts.walks->seed_hit_rate},
+            {"mean_steps", facts.walks->steps_from_seed}};
+}
+
+Json walks_json(const VolumeFacts& facts) {
+    if (!facts.walks) return nullptr;
+    return {{"positions", facts.walks->position_count},
+            {"p50_steps", facts.walks->median_steps},
+            {"p99_steps", facts.walks->p99_steps},
+            {"max_steps", facts.walks->most_steps},
+            {"fallbacks", facts.walks->fallback_count}};
+}
+
 }  // namespace
 
 uint64_t VolumeFacts::bytes() const {
@@ -123,6 +140,8 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.is_baked = !volume.irradiance.empty();
     facts.radial_share = static_cast<double>(volume.info.radial_share);
     facts.slivers = count_slivers(volume);
+    if (volume.info.inner_cell_count > 0) facts.walks = measure_walks(volume);
+    facts.seed_count = volume.seeds.size();
     facts.sections = section_facts(file);
     return facts;
 }
@@ -134,6 +153,8 @@ Json to_json(const VolumeFacts& facts) {
                  {"bounds", facts.bounds},
                  {"radial_share", facts.radial_share},
                  {"slivers", slivers_json(facts)},
+                 {"seeds", seeds_json(facts)},
+                 {"walks", walks_json(facts)},
                  {"group_list", facts.groups},
                  {"lights", facts.lights},
                  {"made_with", facts.made_with}});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/walk_facts.h"
 #include "probes/probe_file.h"
 
 namespace tetralight::cli {
@@ -37,6 +38,9 @@ struct VolumeFacts {
     double radial_share = 0.0;
     /// None in volumes that have no tetrahedra.
     std::optional<Slivers> slivers;
+    /// None in volumes without probes.
+    std::optional<WalkFacts> walks;
+    uint64_t seed_count = 0;
     std::vector<SectionFacts> sections;
 
     [[nodiscard]] uint64_t bytes() const;

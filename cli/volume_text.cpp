@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The form of `info` for people.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "base/text.h"
 #include "cli/table.h"
@@ -23,6 +25,21 @@ std::string percent(uint64_t part, uint64_t whole) {
 
 std::string bytes_text(uint64_t bytes) {
     return magnitude(static_cast<double>(bytes)) + "B";
+}
+
+/// Seeds and walks; see `WalkFacts`.
+Rows walk_rows(const VolumeFacts& facts) {
+    const WalkFacts& walks = *facts.walks;
+    char mean[32];
+    std::snprintf(mean, sizeof mean, "%.1f", walks.steps_from_seed);
+    const auto hits =
+        static_cast<uint64_t>(std::lround(walks.seed_hit_rate * walks.position_count));
+    return {{"seeds", text(grouped(facts.seed_count), ", in the cell asked for: ",
+                           percent(hits, walks.position_count), ", ", mean, " steps in the mean")},
+            {"walks", text("p50 ", walks.median_steps, ", p99 ", walks.p99_steps, ", max ",
+                           counted(walks.most_steps, "step"), ", ",
+                           counted(walks.fallback_count, "fallback"), " of ",
+                           grouped(walks.position_count))}};
 }
 
 /// "1.5 2 3", at most six digits each.
@@ -73,6 +90,7 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
                                         percent(below_1e3, inner), "), ", grouped(below_1e6),
                                         " < 1e-6 (", percent(below_1e6, inner), ")")});
     }
+    if (facts.walks) std::ranges::copy(walk_rows(facts), std::back_inserter(rows));
     if (!facts.bounds.is_null()) {
         rows.push_back({"bounds", text(corner_text(facts.bounds["min"]), "  to  ",
                                        corner_text(facts.bounds["max"]))});

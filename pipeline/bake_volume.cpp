@@ -92,6 +92,8 @@ Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> 
     const auto merged = merge(groups, merge_settings);
     if (!merged) return merged.error();
     result.report.welded_count = merged->welded_count();
+    result.report.lattice_group_names = merged->lattice_group_names();
+    result.report.largest_snap = merged->largest_snap;
     result.report.merge_seconds = watch.lap();
 
     ProbeVolume volume = make_probe_volume(*merged);

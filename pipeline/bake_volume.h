@@ -23,6 +23,9 @@ namespace tetralight {
 /// What a bake did, for the user.
 struct BakeReport {
     size_t welded_count = 0;
+    /// Groups whose probes were moved exactly onto a lattice, and the longest move, metres.
+    std::vector<std::string> lattice_group_names;
+    double largest_snap = 0.0;
     uint64_t ray_count = 0;
     double merge_seconds = 0.0;
     double tetrahedralize_seconds = 0.0;

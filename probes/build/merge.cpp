@@ -75,6 +75,14 @@ void weld_sources(std::span<const glm::dvec3> positions, double tolerance, Merge
 
 }  // namespace
 
+std::vector<std::string> MergedProbes::lattice_group_names() const {
+    std::vector<std::string> names;
+    for (size_t group = 0; group < group_names.size(); ++group) {
+        if (group_is_lattice[group]) names.push_back(group_names[group]);
+    }
+    return names;
+}
+
 double flatness(const MergedProbes& probes) {
     return 0.5 * probes.weld_radius;
 }

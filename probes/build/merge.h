@@ -42,6 +42,9 @@ struct MergedProbes {
     /// never more than a thousandth of the distance between neighbors in the lattice.
     double largest_snap = 0.0;
 
+    /// Names of the groups that are lattices.
+    [[nodiscard]] std::vector<std::string> lattice_group_names() const;
+
     /// Probes that were welded to another one.
     [[nodiscard]] size_t welded_count() const { return sources.size() - positions.size(); }
 };

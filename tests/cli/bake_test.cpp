@@ -62,14 +62,16 @@ TEST_F(Bake, JsonHasTheDocumentedFields) {
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
     const std::vector<std::string> expected{
-        "bounces", "dimension",       "groups",  "hull_cells", "inner_cells", "output", "probes",
-        "rays",    "rays_per_second", "samples", "seconds",    "welded"};  // sorted
+        "bounces",         "dimension",      "groups",  "hull_cells", "inner_cells",
+        "largest_snap",    "lattice_groups", "output",  "probes",     "rays",
+        "rays_per_second", "samples",        "seconds", "welded"};  // sorted
     EXPECT_EQ(keys, expected);
 }
 
 TEST_F(Bake, TextSaysWhatWasMade) {
     const std::string out = succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "16"}).out;
     EXPECT_TRUE(contains(out, "v.probes: 255 probes")) << out;
+    EXPECT_TRUE(contains(out, " welded, 1 lattice)")) << out;
 }
 
 TEST_F(Bake, GivesTheSameBytesForAnyNumberOfThreads) {

@@ -71,6 +71,35 @@ TEST_F(Info, TextOfOneProbeHasNoSlivers) {
     EXPECT_TRUE(run_json({"info", "v.probes"})["slivers"].is_null());
 }
 
+TEST_F(Info, SaysHowWalksFindTheirCells) {
+    bake_courtyard("v.probes");
+    const Json info = run_json({"info", "v.probes"});
+    const Json &seeds = info["seeds"], &walks = info["walks"];
+    EXPECT_EQ(seeds["count"], 32);  // one for eight of 255 probes
+    EXPECT_EQ(walks["positions"], 10000);
+    EXPECT_GT(seeds["hit_rate"], 0.0);
+    EXPECT_LT(seeds["hit_rate"], 1.0);
+    EXPECT_GT(seeds["mean_steps"], 1.0);
+    EXPECT_LE(walks["p50_steps"], walks["p99_steps"]);
+    EXPECT_LE(walks["p99_steps"], walks["max_steps"]);
+    EXPECT_EQ(walks["fallbacks"], 0);
+    EXPECT_EQ(run_json({"info", "v.probes"}), info);
+}
+
+TEST_F(Info, SeedOfOneProbeAlwaysHits) {
+    write("one.json", R"({"groups": [{"name": "one", "positions": [[1, 2, 3]]}]})");
+    succeed({"tetrahedralize", "one.json", "-o", "v.probes"});
+    const Json info = run_json({"info", "v.probes"});
+    EXPECT_EQ(info["seeds"]["hit_rate"], 1.0);
+    EXPECT_EQ(info["walks"]["max_steps"], 1);
+    const std::string out = succeed({"info", "v.probes"}).out;
+    for (const char* line :
+         {"  seeds      1, in the cell asked for: 100.0 %, 1.0 steps in the mean\n",
+          "  walks      p50 1, p99 1, max 1 step, 0 fallbacks of 10 000\n"}) {
+        EXPECT_TRUE(contains(out, line)) << out;
+    }
+}
+
 TEST_F(Info, CountsSlivers) {
     // Over four corners of a square the fifth probe makes cells of quality 6√2 · V / rms³: about
     // 1e-3 · 2 · √2 · h for a small height h.

@@ -46,6 +46,22 @@ TEST_F(Tetrahedralize, WeldsProbesThatAreNear) {
     EXPECT_EQ(json["welded"], 1);
 }
 
+TEST_F(Tetrahedralize, SaysWhichGroupsAreLattices) {
+    // 2 × 2 × 2 probes 0.1 m apart, rounded as a file of floats has them.
+    write("grid.json", R"({"groups": [{"name": "grid", "positions":
+        [[0, 0, 0], [0.10000000149, 0, 0], [0, 0.1, 0], [0.1, 0.1, 0],
+         [0, 0, 0.1], [0.1, 0, 0.1], [0, 0.1, 0.1], [0.1, 0.1, 0.1]]}]})");
+    const Json json = run_json({"tetrahedralize", "grid.json", "five.json", "-o", "v.probes"});
+    EXPECT_EQ(json["lattice_groups"], Json{"grid"});
+    EXPECT_GT(json["largest_snap"], 0.0);
+    EXPECT_LT(json["largest_snap"], 1e-7);
+    const std::string out =
+        succeed({"tetrahedralize", "grid.json", "five.json", "-o", "v.probes"}).out;
+    EXPECT_TRUE(contains(out, " welded, 1 lattice snapped by up to ")) << out;
+    const Json none = run_json({"tetrahedralize", "five.json", "-o", "v.probes"});
+    EXPECT_EQ(none["lattice_groups"], Json::array());
+}
+
 TEST_F(Tetrahedralize, MakesTrianglesOfAFlatSet) {
     write("flat.json", R"({"groups": [{"name": "flat", "positions":
         [[0, 1, 0], [4, 1, 0], [0, 1, 4], [4, 1, 4], [1, 1, 2]]}]})");
