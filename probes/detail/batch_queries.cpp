@@ -72,7 +72,6 @@ void BatchQueries::fill_query(size_t query, size_t index) {
     if (!input_.order.empty()) index = static_cast<uint32_t>(input_.order[index]);
     source_[query] = static_cast<uint32_t>(index);
     const glm::vec3& position = input_.positions[index];
-    block_.start[query] = kNoIndex;
     if (!is_finite(position)) {
         // It walks along with the stream; what it finds is not used.
         not_finite_[not_finite_count_++] = static_cast<uint32_t>(query);
@@ -93,16 +92,19 @@ void BatchQueries::choose_starts(size_t stream) {
         return start_near(Walk(volume_, input_.positions[source_[query]]).start_cell());
     };
     double reach = done_ == 0 ? -1.0 : square_reach(block_.cell[stream]);
+    uint32_t* const starts = &block_.start[QueryBlock::start_index(0, stream)];
+    starts[first + block_.count[stream]] = kNoIndex;
     for (size_t query = first; query < first + block_.count[stream]; ++query) {
+        starts[query] = kNoIndex;
         const uint32_t hint = input_.hints.empty() ? kNoIndex : input_.hints[source_[query]];
         const glm::dvec3 position(block_.x[query], block_.y[query], block_.z[query]);
         const glm::dvec3 jump = position - std::exchange(last_[stream], position);
         if (hint < volume_.cells.size()) {
-            block_.start[query] = start_near(hint);
+            starts[query] = start_near(hint);
         } else if (!input_.hints.empty() || glm::dot(jump, jump) > reach) {
-            block_.start[query] = seed(query);
+            starts[query] = seed(query);
         }
-        if (reach < 0.0) reach = square_reach(block_.start[query]);
+        if (reach < 0.0) reach = square_reach(starts[query]);
     }
 }
 
@@ -125,9 +127,8 @@ void BatchQueries::prefetch_starts() const {
         for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
             const size_t first = stream * QueryBlock::kStreamSize;
             for (size_t query = first; query < first + block_.count[stream]; ++query) {
-                if (block_.start[query] < volume_.cells.size()) {
-                    visit(volume_.cells[block_.start[query]]);
-                }
+                const uint32_t start = block_.start[QueryBlock::start_index(query, stream)];
+                if (start < volume_.cells.size()) visit(volume_.cells[start]);
             }
         }
     };
@@ -161,7 +162,8 @@ void BatchQueries::walk() {
         const size_t first = stream * QueryBlock::kStreamSize;
         for (size_t query = first; query < first + block_.count[stream]; ++query) {
             block_.open[block_.open_count] = static_cast<uint32_t>(query);
-            block_.open_cell[block_.open_count++] = block_.start[query];
+            block_.open_cell[block_.open_count++] =
+                block_.start[QueryBlock::start_index(query, stream)];
         }
     }
 }

@@ -89,6 +89,7 @@ class StreamWalk {
   public:
     HWY_INLINE StreamWalk(const ProbeVolumeView& volume, QueryBlock& block, size_t stream)
         : block_(block),
+          starts_(&block.start[QueryBlock::start_index(0, stream)]),
           cells_(volume.cells.data()),
           positions_(&volume.positions.data()->x),
           probe_count_(static_cast<uint32_t>(volume.positions.size())),
@@ -147,7 +148,7 @@ class StreamWalk {
 
     /// Where the walk of the present query begins.
     [[nodiscard]] HWY_INLINE uint32_t start_or(uint32_t cell) const {
-        const uint32_t start = block_.start[query_];
+        const uint32_t start = starts_[query_];
         const uint32_t is_none = 0u - static_cast<uint32_t>(start == kNoIndex);
         return (cell & is_none) | (start & ~is_none);
     }
@@ -183,6 +184,7 @@ class StreamWalk {
     }
 
     QueryBlock& block_;
+    const uint32_t* starts_;
     const Cell* cells_;
     const float* positions_;
     uint32_t probe_count_;

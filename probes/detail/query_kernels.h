@@ -30,12 +30,16 @@ struct QueryBlock {
 
     /// Local positions. Stream s has queries [s · kStreamSize, + count[s]).
     std::array<double, kSize> x, y, z;
-    /// The tetrahedron where the walk of a query begins; kNoIndex: where the stream is. One more
-    /// may be read.
-    std::array<uint32_t, kSize + 1> start;
+    /// The tetrahedron where the walk of a query begins, at `start_index`; kNoIndex: where the
+    /// stream is. Behind the last query of each stream stands one more, kNoIndex, that is read.
+    std::array<uint32_t, kSize + kStreamCount> start;
     std::array<size_t, kStreamCount> count{};
     /// Where each stream is: a tetrahedron.
     std::array<uint32_t, kStreamCount> cell{};
+
+    [[nodiscard]] static constexpr size_t start_index(size_t query, size_t stream) {
+        return query + stream;
+    }
 
     /// Out: where queries are.
     std::array<CellLocation, kSize> location;

@@ -19,14 +19,15 @@ bool find_tetrahedron(const ProbeVolumeView& volume, const Cell& cell, const glm
 }
 
 /// Walks one query from `cell`, which ends up as the last tetrahedron that was tested.
-void walk_query(const ProbeVolumeView& volume, QueryBlock& block, size_t query, uint32_t& cell) {
+void walk_query(const ProbeVolumeView& volume, QueryBlock& block, size_t query, uint32_t start,
+                uint32_t& cell) {
     const glm::dvec3 position(block.x[query], block.y[query], block.z[query]);
     std::array<glm::dvec3, 4> corners;
     const auto leave_open = [&](uint32_t at) {
         block.open[block.open_count] = static_cast<uint32_t>(query);
         block.open_cell[block.open_count++] = at;
     };
-    if (block.start[query] != kNoIndex) cell = block.start[query];
+    if (start != kNoIndex) cell = start;
     uint32_t previous = kNoIndex;
     for (uint32_t steps = 0; steps < kWalkLimit; ++steps) {
         ++block.step_count;
@@ -49,7 +50,8 @@ void walk_tetrahedra(const ProbeVolumeView& volume, QueryBlock& block) {
     for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
         const size_t first = stream * QueryBlock::kStreamSize;
         for (size_t i = 0; i < block.count[stream]; ++i) {
-            walk_query(volume, block, first + i, block.cell[stream]);
+            walk_query(volume, block, first + i,
+                       block.start[QueryBlock::start_index(first + i, stream)], block.cell[stream]);
         }
     }
 }
