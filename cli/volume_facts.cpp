@@ -9,8 +9,8 @@ namespace tetralight::cli {
 namespace {
 
 /// Sections that no query reads (docs/file_format.md).
-constexpr const char* kColdSections[] = {"validity", "exact_positions", "sources", "group_names",
-                                         "lights",   "light_names",     "metadata"};
+constexpr const char* kColdSections[] = {"validity",    "health", "exact_positions", "sources",
+                                         "group_names", "lights", "light_names",     "metadata"};
 
 const char* name_of(LightType type) {
     switch (type) {
@@ -20,6 +20,10 @@ const char* name_of(LightType type) {
             return "point";
         case LightType::Spot:
             return "spot";
+        case LightType::Rectangle:
+            return "rectangle";
+        case LightType::Disc:
+            return "disc";
     }
     return "unknown";
 }

@@ -7,7 +7,22 @@
 
 namespace tetralight {
 
-enum class LightType : uint32_t { Directional = 0, Point = 1, Spot = 2 };
+enum class LightType : uint32_t {
+    Directional = 0,
+    Point = 1,
+    Spot = 2,
+    /// Shine from one side only, brightest along `direction` (Lambert): `extras.shape` of a light.
+    Rectangle = 3,
+    Disc = 4,
+};
+
+/// How the light of point, spot, rectangle and disc lights falls off with distance d.
+enum class LightFalloff : uint32_t {
+    Gltf = 0,                ///< sat(1 − (d/range)⁴) / d², KHR_lights_punctual
+    InverseSquareRange = 1,  ///< sat(1 − (d/range)⁴)² / d²
+    Linear = 2,              ///< sat(1 − d/range)
+    Legacy = 3,              ///< 1 / (1 + 25 (d/range)²), faded to 0 from 0.8 of the range on
+};
 
 /// Which share of a light is baked into the probes (docs/conventions.md).
 enum class LightMode : uint32_t {
@@ -15,12 +30,14 @@ enum class LightMode : uint32_t {
     Baked = 1,  ///< its bounces and its direct light
 };
 
-/// A punctual light with the meaning and units of glTF's KHR_lights_punctual. Stored in probe
-/// volumes as it stands, so that whoever shades can add the direct term of `Mixed` lights.
+/// A light with the meaning and units of glTF's KHR_lights_punctual, and what that leaves out.
+/// Stored in probe volumes as it stands, so that whoever shades can add the direct term of `Mixed`
+/// lights.
 struct Light {
     LightType type = LightType::Directional;
     LightMode mode = LightMode::Mixed;
-    /// Colour × intensity, linear Rec.709: lux for directional lights, candela for the others.
+    /// Colour × intensity, linear Rec.709: lux for directional lights, candela for the others (of
+    /// rectangles and discs: straight ahead).
     glm::vec3 intensity{1.0f};
     /// Unused by directional lights.
     glm::vec3 position{0.0f};
@@ -31,12 +48,22 @@ struct Light {
     /// Cosines of the spot cone's half angles.
     float cos_inner_cone = 1.0f;
     float cos_outer_cone = 0.7071067811865476f;
-    uint32_t reserved = 0;
+    LightFalloff falloff = LightFalloff::Gltf;
+    /// Scales the light's bounces, not its direct light.
+    float indirect_multiplier = 1.0f;
+    /// Soft shadows: radius of a point or spot light's sphere and of a disc, metres; half the angle
+    /// that a directional light covers in the sky, radians. 0 = hard shadows.
+    float radius = 0.0f;
+    /// Rectangles: unit vector along the width, at right angles to `direction`.
+    glm::vec3 tangent{1.0f, 0.0f, 0.0f};
+    /// Rectangles: metres.
+    float width = 0.0f;
+    float height = 0.0f;
 
     bool operator==(const Light&) const = default;
 };
 
-static_assert(sizeof(Light) == 60 && alignof(Light) == 4 && std::is_trivially_copyable_v<Light>);
+static_assert(sizeof(Light) == 88 && alignof(Light) == 4 && std::is_trivially_copyable_v<Light>);
 
 /// Light that arrives at one position from one light, shadows left out.
 struct Illumination {

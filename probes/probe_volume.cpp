@@ -4,9 +4,9 @@
 namespace tetralight {
 
 ProbeVolumeView ProbeVolume::view() const noexcept {
-    return {info,    positions,       irradiance, occlusion,   validity,
-            compact, exact_positions, cells,      hull_rays,   seeds,
-            sources, group_names,     lights,     light_names, metadata};
+    return {info,        positions,       irradiance,  occlusion, validity, health,
+            compact,     exact_positions, cells,       hull_rays, seeds,    sources,
+            group_names, lights,          light_names, metadata};
 }
 
 std::vector<std::string_view> split_names(std::string_view names) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -102,6 +103,22 @@ struct alignas(64) CompactProbe {
 
 static_assert(sizeof(CompactProbe) == 64 && std::is_trivially_copyable_v<CompactProbe>);
 
+/// How far a baked probe can be trusted.
+struct ProbeHealth {
+    /// Of its irradiance, as a share of it: root mean square over all normals. 0: not known.
+    float standard_error = 0.0f;
+    /// To the nearest surface, metres; infinite: there is none.
+    float surface_distance = std::numeric_limits<float>::infinity();
+    /// From the probe to where its light was gathered: out of what it lies in.
+    glm::vec3 capture_offset{0.0f};
+    /// Not zero: its light is that of the healthy probes around it.
+    uint32_t is_dilated = 0;
+
+    bool operator==(const ProbeHealth&) const = default;
+};
+
+static_assert(sizeof(ProbeHealth) == 24 && std::is_trivially_copyable_v<ProbeHealth>);
+
 /// The fixed-size facts of a volume.
 struct VolumeInfo {
     /// World position of the local origin. Arrays of float positions are relative to it, so that a
@@ -138,6 +155,7 @@ struct ProbeVolumeView {
     std::span<const IrradianceSh> irradiance;  ///< empty: not baked, every answer is ambient
     std::span<const glm::vec4> occlusion;      ///< empty: (1, 1, 1, 1); 1 = lit
     std::span<const float> validity;           ///< empty: 1; share of front faces or sky seen
+    std::span<const ProbeHealth> health;       ///< empty: not known
     /// The three above in half precision (`make_compact_probes`). Queries read these where they are
     /// there and `irradiance` and `occlusion` are not touched; empty: queries read the floats.
     std::span<const CompactProbe> compact;
@@ -172,6 +190,7 @@ struct ProbeVolume {
     std::vector<IrradianceSh> irradiance;
     std::vector<glm::vec4> occlusion;
     std::vector<float> validity;
+    std::vector<ProbeHealth> health;
     std::vector<CompactProbe> compact;
     std::vector<glm::dvec3> exact_positions;
     std::vector<Cell> cells;

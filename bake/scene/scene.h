@@ -58,6 +58,11 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool is_double_sided = false;
+    /// KHR_materials_unlit: shows its base colour whatever the light. A bake takes that for
+    /// emission and reflects nothing.
+    bool is_unlit = false;
+    /// Whether a bake sees what the material emits (`extras.bake_emission`).
+    bool bakes_emission = true;
 
     bool operator==(const Material&) const = default;
 };

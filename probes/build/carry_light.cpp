@@ -37,6 +37,7 @@ CarriedLight carry_light(const ProbeVolumeView& from, ProbeVolume& to) {
     to.irradiance = carry(from.irradiance, twins, IrradianceSh());
     to.occlusion = carry(from.occlusion, twins, glm::vec4(1.0f));
     to.validity = carry(from.validity, twins, 0.0f);
+    to.health = carry(from.health, twins, ProbeHealth());
     to.info.ambient = from.info.ambient;
     to.lights.assign(from.lights.begin(), from.lights.end());
     to.light_names = from.light_names;

@@ -87,6 +87,7 @@ void for_each_section(View& view, Visit&& visit) {
     visit("irradiance", view.irradiance);
     visit("occlusion", view.occlusion);
     visit("validity", view.validity);
+    visit("health", view.health);
     visit("exact_positions", view.exact_positions);
     visit("sources", view.sources);
     visit("group_names", view.group_names);

@@ -47,6 +47,7 @@ Status check_counts(const ProbeVolumeView& v) {
          {check_count("irradiance", v.irradiance.size(), probes, true),
           check_count("occlusion", v.occlusion.size(), probes, true),
           check_count("validity", v.validity.size(), probes, true),
+          check_count("health", v.health.size(), probes, true),
           check_count("compact", v.compact.size(), probes, true),
           check_count("exact_positions", v.exact_positions.size(), probes, true),
           check_count("hull_rays", v.hull_rays.size(), hull_cells, false)}) {
@@ -73,6 +74,10 @@ Status check_numbers(const ProbeVolumeView& v) {
     const auto fractions = [&](const glm::vec4& f) {
         return fraction(f.x) && fraction(f.y) && fraction(f.z) && fraction(f.w);
     };
+    const auto plausible = [](const ProbeHealth& health) {
+        return std::isfinite(health.standard_error) && health.standard_error >= 0.0f &&
+               health.surface_distance >= 0.0f && is_finite(health.capture_offset);
+    };
     const size_t ray_count =
         static_cast<size_t>(std::max(cell_vertex_count(v.info.dimension) - 1, 0));
     const auto unit_rays = [&](const HullCellRays& cell) {
@@ -96,6 +101,7 @@ Status check_numbers(const ProbeVolumeView& v) {
           check_each("compact", v.compact, "is not finite", finite),
           check_each("occlusion", v.occlusion, "is not in [0, 1]", fractions),
           check_each("validity", v.validity, "is not in [0, 1]", fraction),
+          check_each("health", v.health, "is not in range", plausible),
           check_each("hull_rays", v.hull_rays, "is not a unit vector", unit_rays)}) {
         if (!status) return status;
     }

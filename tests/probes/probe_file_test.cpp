@@ -21,6 +21,7 @@ ProbeVolume make_full_volume() {
     ProbeVolume volume = test::make_lit_volume(test::random_positions(12, 1));
     volume.occlusion.assign(volume.positions.size(), glm::vec4(0.25f));
     volume.validity.assign(volume.positions.size(), 0.75f);
+    volume.health.assign(volume.positions.size(), {0.01f, 2.0f, {0.1f, 0, 0}, 1});
     volume.info.ambient = test::linear_light({1, 2, 3});
     volume.lights.resize(2);
     volume.light_names = "sun\nlamp\n";
@@ -156,6 +157,7 @@ TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {
              [](ProbeVolume& v) { v.irradiance.pop_back(); },
              [](ProbeVolume& v) { v.occlusion[0].x = 1.5f; },
              [](ProbeVolume& v) { v.validity[0] = -0.1f; },
+             [](ProbeVolume& v) { v.health[0].standard_error = -0.1f; },
              [](ProbeVolume& v) { v.sources[0].probe = 99; },
              [](ProbeVolume& v) { v.sources[0].group = 1; },
              [](ProbeVolume& v) { v.group_names = "no end"; },
