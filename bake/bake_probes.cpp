@@ -7,10 +7,10 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
-#include <utility>
 
 #include "bake/parallel.h"
 #include "bake/path_tracer.h"
+#include "bake/probe_estimator.h"
 #include "bake/sampling.h"
 #include "bake/scene/environment.h"
 #include "bake/trace_scene.h"
@@ -54,60 +54,6 @@ class ProgressReporter {
     std::atomic<bool> is_cancelled_ = false;
     std::mutex mutex_;
     std::chrono::steady_clock::time_point last_report_{};
-};
-
-struct BakedProbe {
-    RadianceSh radiance;
-    float validity = 1.0f;
-};
-
-/// Rays of a probe between two looks at the clock and at whether the bake was cancelled.
-constexpr uint64_t kRaysBetweenReports = 4096;
-
-/// Everything that the probes of one bake share.
-struct ProbeBaker {
-    const TraceScene& traced;
-    const PathTracer& tracer;
-    const BakeSettings& settings;
-    std::vector<glm::vec3> directions;
-
-    /// The result does not count when the bake was cancelled meanwhile.
-    [[nodiscard]] BakedProbe bake(const glm::dvec3& position, ProgressReporter& progress) const {
-        const uint64_t key = probe_key(settings.seed, position);
-        const glm::vec3 origin = traced.traced_from_world(position);
-        RandomStream rotation_stream(key, ~uint64_t{0});
-        const glm::mat3 rotation = sample_rotation(rotation_stream);
-
-        BakedProbe probe;
-        RadianceShSum sum;
-        uint32_t behind_count = 0;
-        uint64_t unreported_rays = 0;
-        for (uint32_t i = 0; i < directions.size() && !progress.is_cancelled(); ++i) {
-            const glm::vec3 direction = rotation * directions[i];
-            const PathSample sample = tracer.trace(origin, direction, RandomStream(key, i));
-            sum.add(direction, sample.radiance);
-            behind_count += sample.is_behind_surface;
-            unreported_rays += sample.ray_count;
-            if (unreported_rays >= kRaysBetweenReports) {
-                progress.add_rays(std::exchange(unreported_rays, 0));
-            }
-        }
-        progress.add_rays(unreported_rays);
-        const auto count = static_cast<double>(directions.size());
-        probe.radiance = radiance_from_sum(sum, 4.0 * std::numbers::pi / count);
-        probe.validity = static_cast<float>(1.0 - behind_count / count);
-        add_baked_lights(origin, probe);
-        return probe;
-    }
-
-    void add_baked_lights(glm::vec3 origin, BakedProbe& probe) const {
-        for (const Light& light : tracer.traced_lights()) {
-            if (light.mode != LightMode::Baked) continue;
-            const Illumination arriving = tracer.visible_light(light, origin);
-            probe.radiance +=
-                radiance_from_directional_light(arriving.to_light, arriving.irradiance);
-        }
-    }
 };
 
 /// Sum over one row of the sky, whose samples all have the same solid angle.
@@ -158,17 +104,6 @@ Status check(std::span<const glm::dvec3> positions, const BakeSettings& settings
     return Ok{};
 }
 
-void bake_all(const ProbeBaker& baker, std::span<const glm::dvec3> positions,
-              ProgressReporter& progress, BakedProbes& baked) {
-    parallel_for(positions.size(), baker.settings.thread_count, [&](size_t i) {
-        if (progress.is_cancelled()) return;
-        const BakedProbe probe = baker.bake(positions[i], progress);
-        baked.radiance[i] = probe.radiance;
-        baked.validity[i] = probe.validity;
-        progress.add_probe();
-    });
-}
-
 }  // namespace
 
 Result<BakedProbes> bake_probes(const Scene& scene, std::span<const glm::dvec3> positions,
@@ -177,14 +112,23 @@ Result<BakedProbes> bake_probes(const Scene& scene, std::span<const glm::dvec3> 
     const auto traced = TraceScene::make_static(scene);
     if (!traced) return traced.error();
     const PathTracer tracer(scene, *traced, settings.bounces);
-    const ProbeBaker baker{*traced, tracer, settings, spherical_fibonacci(settings.sample_count)};
 
     BakedProbes baked;
     baked.radiance.resize(positions.size());
     baked.validity.resize(positions.size());
     baked.ambient = project_environment(scene.environment, settings.thread_count);
     ProgressReporter progress(callback, positions.size());
-    bake_all(baker, positions, progress, baked);
+    parallel_for(positions.size(), settings.thread_count, [&](size_t i) {
+        if (progress.is_cancelled()) return;
+        const ProbeEstimate probe =
+            estimate_probe(tracer, traced->traced_from_world(positions[i]),
+                           probe_key(settings.seed, positions[i]), settings.sample_count);
+        baked.radiance[i] = probe.radiance;
+        baked.validity[i] = static_cast<float>(1.0 - static_cast<double>(probe.behind_count) /
+                                                         probe.direction_count);
+        progress.add_rays(probe.ray_count);
+        progress.add_probe();
+    });
     if (progress.is_cancelled()) return Error{"cancelled"};
     progress.finish();
     baked.ray_count = progress.ray_count();

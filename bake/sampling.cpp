@@ -52,16 +52,18 @@ glm::vec2 RandomStream::next2() noexcept {
     return {x, next()};
 }
 
+glm::vec3 spherical_fibonacci(uint32_t i, uint32_t count) noexcept {
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const double turn = i * (std::numbers::phi - 1.0);
+    const double angle = 2.0 * std::numbers::pi * (turn - std::floor(turn));
+    const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
 std::vector<glm::vec3> spherical_fibonacci(uint32_t count) {
     std::vector<glm::vec3> directions;
     directions.reserve(count);
-    for (uint32_t i = 0; i < count; ++i) {
-        const double z = 1.0 - (2.0 * i + 1.0) / count;
-        const double turn = i * (std::numbers::phi - 1.0);
-        const double angle = 2.0 * std::numbers::pi * (turn - std::floor(turn));
-        const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
-        directions.push_back(glm::vec3(radius * std::cos(angle), radius * std::sin(angle), z));
-    }
+    for (uint32_t i = 0; i < count; ++i) directions.push_back(spherical_fibonacci(i, count));
     return directions;
 }
 

@@ -26,8 +26,11 @@ class RandomStream {
     uint64_t state_;
 };
 
-/// `count` directions spread evenly over the sphere (spherical Fibonacci lattice: Marques et al.
-/// 2013, "Spherical Fibonacci Point Sets for Illumination Integrals").
+/// Direction `i` of `count` that are spread evenly over the sphere (spherical Fibonacci lattice:
+/// Marques et al. 2013, "Spherical Fibonacci Point Sets for Illumination Integrals").
+[[nodiscard]] glm::vec3 spherical_fibonacci(uint32_t i, uint32_t count) noexcept;
+
+/// All of them.
 [[nodiscard]] std::vector<glm::vec3> spherical_fibonacci(uint32_t count);
 
 /// A rotation that is uniform over all rotations for uniform numbers (Shoemake 1992, "Uniform

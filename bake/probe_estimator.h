@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "bake/path_tracer.h"
+#include "bake/trace_scene.h"
+#include "probes/sh.h"
+
+namespace tetralight {
+
+/// One estimate of the light that arrives at a position, from a set of directions of its own.
+/// Estimates with different keys are independent.
+struct ProbeEstimate {
+    RadianceSh radiance;
+    uint32_t direction_count = 0;
+    /// Directions that met the back of a single-sided surface first.
+    uint32_t behind_count = 0;
+    uint64_t ray_count = 0;
+};
+
+/// Gathers the light at `origin` (traced space) over `direction_count` directions: sky, emission,
+/// the bounces of all lights, and the direct light of those whose mode is `Baked`. Unbiased for any
+/// count; a pure function of its arguments. Precondition: at least one direction.
+[[nodiscard]] ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
+                                           uint32_t direction_count);
+
+}  // namespace tetralight
