@@ -26,12 +26,18 @@ void run(const Contest& contest, const Options& options) {
         ours.push_back(contest.work / contest.ours());
         baseline.push_back(contest.work / contest.baseline());
     }
-    const nlohmann::ordered_json line{{"figure", contest.figure},
-                                      {"ours", rounded(median(ours))},
-                                      {"baseline", rounded(median(baseline))},
-                                      {"unit", contest.unit},
-                                      {"ratio", rounded(median(ours) / median(baseline))},
-                                      {"baseline_is", contest.baseline_is}};
+    report_contest(contest.figure, median(ours), median(baseline), contest.unit,
+                   contest.baseline_is);
+}
+
+void report_contest(const std::string& figure, double ours, double baseline,
+                    const std::string& unit, const std::string& baseline_is) {
+    const nlohmann::ordered_json line{{"figure", figure},
+                                      {"ours", rounded(ours)},
+                                      {"baseline", rounded(baseline)},
+                                      {"unit", unit},
+                                      {"ratio", rounded(ours / baseline)},
+                                      {"baseline_is", baseline_is}};
     std::cout << line.dump() << std::endl;
 }
 

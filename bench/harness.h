@@ -35,6 +35,10 @@ struct Contest {
 /// Runs both alternately and prints one JSON line with the medians of their rates.
 void run(const Contest& contest, const Options& options);
 
+/// Prints the rates of a contest that was held elsewhere.
+void report_contest(const std::string& figure, double ours, double baseline,
+                    const std::string& unit, const std::string& baseline_is);
+
 /// Prints a figure that has no baseline.
 void report(const std::string& figure, double value, const std::string& unit);
 
@@ -48,6 +52,9 @@ void require(bool is_right, const std::string& what);
 
 [[nodiscard]] std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double extent);
 
+void bench_bake(const Options& options);
+/// Sets of directions against random ones.
+void bench_direction_sets();
 /// Adding and removing a group, as shares of a full build.
 void bench_groups(const Options& options);
 void bench_query(const Options& options);

@@ -7,7 +7,7 @@
 int main(int argc, char** argv) {
     using namespace tetralight::bench;
     const std::map<std::string, void (*)(const Options&)> benches{
-        {"query", bench_query}, {"tetrahedralize", bench_tetrahedralize}};
+        {"bake", bench_bake}, {"query", bench_query}, {"tetrahedralize", bench_tetrahedralize}};
 
     CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");
     Options options;

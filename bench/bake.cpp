@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "bake/bake_probes.h"
+#include "bake/path_tracer.h"
+#include "bake/probe_estimator.h"
+#include "bake/sampling.h"
+#include "bench/bake_scenes.h"
+#include "bench/harness.h"
+#include "bench/plain_tracer.h"
+
+namespace tetralight::bench {
+namespace {
+
+constexpr uint32_t kBounces = 4;
+
+/// Towards the faces, edges and corners of a cube.
+std::vector<glm::vec3> normals() {
+    std::vector<glm::vec3> result;
+    for (int i = 0; i < 27; ++i) {
+        const glm::vec3 n(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        if (i != 13) result.push_back(glm::normalize(n));
+    }
+    return result;
+}
+
+struct Moments {
+    double error = 0.0;  ///< mean square of the difference in irradiance
+    double light = 0.0;  ///< mean irradiance
+};
+
+Moments compare(const RadianceSh& a, const RadianceSh& reference) {
+    static const std::vector<glm::vec3> kNormals = normals();
+    const IrradianceSh ea = irradiance_from_radiance(a);
+    const IrradianceSh er = irradiance_from_radiance(reference);
+    Moments moments;
+    const double weight = 1.0 / (3.0 * static_cast<double>(kNormals.size()));
+    for (const glm::vec3& n : kNormals) {
+        const glm::dvec3 light = evaluate_irradiance(er, n);
+        const glm::dvec3 error = glm::dvec3(evaluate_irradiance(ea, n)) - light;
+        moments.error += weight * glm::dot(error, error);
+        moments.light += weight * (light.x + light.y + light.z);
+    }
+    return moments;
+}
+
+double relative_rmse(const RadianceSh& a, const RadianceSh& reference) {
+    const Moments moments = compare(a, reference);
+    return moments.light > 0.0 ? std::sqrt(moments.error) / moments.light : 0.0;
+}
+
+/// Everything that estimates share.
+struct Traced {
+    const BakeSubject& subject;
+    TraceScene scene;
+    PathTracer tracer;
+
+    explicit Traced(const BakeSubject& from)
+        : subject(from),
+          scene(*TraceScene::make_static(from.scene)),
+          tracer(from.scene, scene, kBounces) {}
+
+    /// As a bake does: eight independent sets.
+    [[nodiscard]] RadianceSh estimate(const glm::dvec3& probe, uint64_t seed,
+                                      uint32_t direction_count) const {
+        RadianceSh sum;
+        for (uint64_t set = 0; set < 8; ++set) {
+            const uint64_t key = probe_key(8 * seed + set, probe);
+            sum += estimate_probe(tracer, scene.traced_from_world(probe), key, direction_count / 8)
+                       .radiance;
+        }
+        return 0.125f * sum;
+    }
+};
+
+/// Seconds until the error of every probe is 1 %, from the error and the time of a fixed number of
+/// directions: the error falls with the square root of the time.
+void time_to_1_percent(const Traced& traced, const Options& options) {
+    constexpr uint32_t kDirections = 1024;
+    const uint32_t reference_directions = options.is_quick ? 16'384 : 131'072;
+    PlainTracer plain(traced.subject.scene, traced.scene, kBounces);
+    double ours = 0.0, baseline = 0.0;
+    for (const glm::dvec3& probe : traced.subject.probes) {
+        const RadianceSh reference = traced.estimate(probe, 1000, reference_directions);
+        if (compare(reference, reference).light <= 0.0) continue;
+        for (uint64_t seed = 0; seed < 4; ++seed) {
+            RadianceSh a, b;
+            const double a_seconds =
+                seconds([&] { a = traced.estimate(probe, seed, kDirections); });
+            const double b_seconds = seconds([&] {
+                b = plain.gather(traced.scene.traced_from_world(probe), kDirections, seed);
+            });
+            const double a_error = relative_rmse(a, reference) / 0.01;
+            const double b_error = relative_rmse(b, reference) / 0.01;
+            ours += a_seconds * a_error * a_error;
+            baseline += b_seconds * b_error * b_error;
+        }
+    }
+    const double count = 4.0 * static_cast<double>(traced.subject.probes.size());
+    report_contest("bake.time_to_1_percent." + traced.subject.name, count / ours, count / baseline,
+                   "probes/s", "plain path tracer");
+}
+
+/// Whole bakes at default settings against one that is 64 times as long.
+void noise(const BakeSubject& subject) {
+    BakeSettings settings;
+    settings.bounces = kBounces;
+    const auto baked = bake_probes(subject.scene, subject.probes, settings);
+    settings.sample_count *= 64;
+    settings.seed = 1;
+    const auto reference = bake_probes(subject.scene, subject.probes, settings);
+    require(baked && reference, "bake");
+    std::vector<double> errors;
+    for (size_t i = 0; i < subject.probes.size(); ++i) {
+        errors.push_back(100.0 * relative_rmse(baked->radiance[i], reference->radiance[i]));
+    }
+    std::ranges::sort(errors);
+    report("bake.noise.median." + subject.name, median(errors), "%");
+    report("bake.noise.p99." + subject.name, errors[(errors.size() - 1) * 99 / 100], "%");
+}
+
+void threads(const BakeSubject& subject, const Options& options) {
+    Contest contest;
+    contest.figure = "bake.threads." + subject.name;
+    contest.unit = "probes/s";
+    contest.baseline_is = "one thread, times two";
+    contest.work = static_cast<double>(subject.probes.size());
+    const auto bake = [&](uint32_t thread_count) {
+        BakeSettings settings;
+        settings.thread_count = thread_count;
+        return seconds(
+            [&] { require(bool(bake_probes(subject.scene, subject.probes, settings)), "bake"); });
+    };
+    contest.ours = [&] { return bake(2); };
+    contest.baseline = [&] { return bake(1) / 2.0; };
+    run(contest, options);
+}
+
+}  // namespace
+
+void bench_bake(const Options& options) {
+    bench_direction_sets();
+    for (const BakeSubject& subject : bake_subjects(options)) {
+        const Traced traced(subject);
+        time_to_1_percent(traced, options);
+        noise(subject);
+        threads(subject, options);
+    }
+}
+
+}  // namespace tetralight::bench

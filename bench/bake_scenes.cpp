@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/bake_scenes.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "bake/scene/read_gltf.h"
+#include "bake/scene/scene_bounds.h"
+#include "bake/survey.h"
+
+namespace tetralight::bench {
+namespace {
+
+constexpr size_t kProbeCount = 64;
+
+/// Appends a quad whose front is where u × v points to.
+void append_quad(Mesh& mesh, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    for (const glm::vec3& p : {corner, corner + u, corner + u + v, corner + v}) {
+        mesh.positions.push_back(p);
+    }
+    for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
+}
+
+void add_mesh(Scene& scene, Mesh mesh, glm::vec3 albedo, glm::vec3 emission) {
+    Material material;
+    material.base_color = glm::vec4(albedo, 1.0f);
+    material.metallic = 0.0f;
+    material.emission = emission;
+    material.is_double_sided = true;
+    mesh.material = static_cast<uint32_t>(scene.materials.size());
+    scene.materials.push_back(material);
+    MeshInstance instance;
+    instance.mesh = static_cast<uint32_t>(scene.meshes.size());
+    scene.meshes.push_back(std::move(mesh));
+    scene.instances.push_back(instance);
+}
+
+Mesh room_walls(glm::vec3 size) {
+    Mesh walls;
+    const glm::vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+    append_quad(walls, glm::vec3(0.0f), z, x);
+    append_quad(walls, y, x, z);
+    append_quad(walls, glm::vec3(0.0f), x, y);
+    append_quad(walls, z, y, x);
+    append_quad(walls, glm::vec3(0.0f), y, z);
+    append_quad(walls, x, z, y);
+    return walls;
+}
+
+/// Positions in the scene's box that are not inside of anything.
+std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
+    const auto everything = [](const MeshInstance&) { return true; };
+    const Box bounds = scene_bounds(scene, everything).value_or(Box{});
+    std::vector<glm::dvec3> candidates = random_positions(4 * count, 1, 1.0);
+    for (glm::dvec3& p : candidates) p = bounds.low + p * bounds.size();
+    const auto surroundings = survey(scene, candidates);
+    require(bool(surroundings), "survey");
+    std::vector<glm::dvec3> free;
+    for (size_t i = 0; i < candidates.size() && free.size() < count; ++i) {
+        if ((*surroundings)[i].behind_share < 0.1f) free.push_back(candidates[i]);
+    }
+    return free;
+}
+
+/// Every n-th probe of the scene's groups.
+std::vector<glm::dvec3> group_positions(const Scene& scene, size_t count) {
+    std::vector<glm::dvec3> all;
+    for (const ProbeGroup& group : scene.probe_groups) {
+        for (const glm::dvec3& p : group.positions) {
+            all.emplace_back(group.world_from_group * glm::dvec4(p, 1.0));
+        }
+    }
+    std::vector<glm::dvec3> chosen;
+    for (size_t i = 0; i < std::min(count, all.size()); ++i) {
+        chosen.push_back(all[i * all.size() / std::min(count, all.size())]);
+    }
+    return chosen;
+}
+
+BakeSubject read_subject(const std::string& name, const std::string& path) {
+    auto scene = read_gltf(path);
+    require(bool(scene), scene ? "" : scene.error().message);
+    BakeSubject subject{name, std::move(*scene), {}};
+    subject.probes = group_positions(subject.scene, kProbeCount);
+    if (subject.probes.empty()) subject.probes = free_positions(subject.scene, kProbeCount);
+    if (subject.scene.lights.empty() && subject.scene.environment.radiance == glm::vec3(0.0f)) {
+        subject.scene.environment.radiance = glm::vec3(1.0f);
+        Light sun;
+        sun.intensity = glm::vec3(10.0f);
+        sun.direction = glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f));
+        subject.scene.lights.push_back(sun);
+        subject.scene.light_names.push_back("sun");
+    }
+    return subject;
+}
+
+}  // namespace
+
+Scene emitter_room() {
+    constexpr glm::vec3 kSize(20.0f, 6.0f, 20.0f);
+    constexpr size_t kColors = 10;
+    Scene scene;
+    add_mesh(scene, room_walls(kSize), glm::vec3(0.6f), glm::vec3(0.0f));
+    const std::vector<glm::dvec3> places = random_positions(10'000, 2, 1.0);
+    std::array<Mesh, kColors> emitters;
+    for (size_t i = 0; i < places.size(); ++i) {
+        append_quad(emitters[i % kColors], glm::vec3(places[i]) * (kSize - 0.1f) + 0.04f,
+                    {0.02f, 0, 0}, {0, 0, 0.02f});
+    }
+    for (size_t i = 0; i < kColors; ++i) {
+        const auto share = static_cast<float>(i + 1) / kColors;
+        add_mesh(scene, std::move(emitters[i]), glm::vec3(0.0f),
+                 100.0f * share * share * glm::vec3(1.0f, share, 1.5f - share));
+    }
+    return scene;
+}
+
+std::vector<BakeSubject> bake_subjects(const Options& options) {
+    std::vector<BakeSubject> subjects;
+    subjects.push_back(
+        read_subject("courtyard", TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb"));
+    if (options.scene) subjects.push_back(read_subject("scene", *options.scene));
+    subjects.push_back({"emitters", emitter_room(), {}});
+    subjects.back().probes = free_positions(subjects.back().scene, kProbeCount);
+    return subjects;
+}
+
+}  // namespace tetralight::bench

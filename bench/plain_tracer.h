@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <random>
+#include <vector>
+
+#include "bake/trace_scene.h"
+#include "probes/sh.h"
+
+namespace tetralight::bench {
+
+/// What a path tracer is without any of the baker's sampling: independent uniform directions, one
+/// emitter chosen uniformly at each vertex, no weighting of one way to find light against another.
+/// It has the same expected light.
+class PlainTracer {
+  public:
+    /// Keeps references.
+    PlainTracer(const Scene& scene, const TraceScene& traced, uint32_t bounces);
+
+    [[nodiscard]] RadianceSh gather(glm::vec3 origin, uint32_t direction_count, uint64_t seed);
+
+  private:
+    using Triangle = std::array<glm::vec3, 3>;
+
+    [[nodiscard]] glm::vec3 trace(Ray ray);
+    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, glm::vec3 origin);
+    [[nodiscard]] glm::vec3 light_of(const Triangle& triangle, const Surface& surface,
+                                     glm::vec3 origin);
+
+    [[nodiscard]] float next() { return uniform_(engine_); }
+
+    const Scene& scene_;
+    const TraceScene& traced_;
+    uint32_t bounces_;
+    std::vector<Light> lights_;
+    std::vector<Triangle> emitters_;
+    std::mt19937_64 engine_;
+    std::uniform_real_distribution<float> uniform_{0.0f, 1.0f};
+};
+
+}  // namespace tetralight::bench
