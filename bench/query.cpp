@@ -7,10 +7,9 @@
 #include <thread>
 
 #include "bench/harness.h"
-#include "probes/build/make_probe_volume.h"
+#include "bench/query_subject.h"
 #include "probes/compact_probes.h"
 #include "probes/interpolate.h"
-#include "probes/morton_order.h"
 #include "probes/probe_file.h"
 
 namespace tetralight::bench {
@@ -20,52 +19,6 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
 
 constexpr size_t kMillion = 1'000'000;
-
-/// A volume to query, and what is asked.
-struct Subject {
-    std::string name;
-    ProbeVolume volume;
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
-    uint64_t seed = 100;
-
-    /// Fresh positions, uniform in the box of the probes grown by 10 %.
-    std::vector<glm::vec3> positions(size_t count) {
-        std::vector<glm::vec3> result;
-        const glm::vec3 size = 1.1f * (high - low);
-        const glm::vec3 corner = 0.5f * (low + high) - 0.5f * size;
-        for (const glm::dvec3& p : random_positions(count, ++seed, 1.0)) {
-            result.push_back(corner + size * glm::vec3(p));
-        }
-        return result;
-    }
-
-    std::vector<glm::vec3> sorted_positions(size_t count) {
-        const std::vector<glm::vec3> any = positions(count);
-        std::vector<uint64_t> memory(2 * count);
-        std::vector<glm::vec3> sorted;
-        for (const uint64_t key : morton_order(any, memory)) {
-            sorted.push_back(any[static_cast<uint32_t>(key)]);
-        }
-        return sorted;
-    }
-};
-
-Subject make_subject(const std::string& name, size_t probe_count) {
-    ProbeGroup group;
-    group.name = "bench";
-    group.positions = random_positions(probe_count, 1, 100.0);
-    Subject subject{name, make_probe_volume(*merge(std::span(&group, 1)))};
-    ProbeVolume& volume = subject.volume;
-    subject.low = subject.high = volume.positions[0];
-    for (const glm::vec3& p : volume.positions) {
-        subject.low = glm::min(subject.low, p);
-        subject.high = glm::max(subject.high, p);
-        volume.irradiance.push_back(irradiance_from_radiance(constant_radiance(p)));
-    }
-    make_compact_probes(volume);
-    return subject;
-}
 
 /// One batch with its answers, and the same answers gathered at known locations.
 struct Race {
@@ -124,6 +77,23 @@ double repeated(size_t count, Run run) {
     return sum / static_cast<double>(times);
 }
 
+/// Ticks of the time stamp counter, which on this decade's processors is the nominal clock.
+uint64_t ticks() {
+#if defined(__x86_64__)
+    return __builtin_ia32_rdtsc();
+#else
+    return 0;
+#endif
+}
+
+void report_cycles(const std::string& name, Race& race) {
+    const uint64_t begin = ticks();
+    require(race.run_batch() > 0.0, "batch");
+    const auto cycles = static_cast<double>(ticks() - begin);
+    report("query.cycles." + name, cycles / static_cast<double>(race.positions.size()),
+           "cycles/query");
+}
+
 void sorted(Subject& subject, const std::string& figure, const ProbeVolumeView& view, size_t count,
             const Options& options) {
     Race race(subject, view, count);
@@ -135,6 +105,7 @@ void sorted(Subject& subject, const std::string& figure, const ProbeVolumeView& 
     contest.baseline = [&] { return repeated(count, [&] { return race.run_gather(); }); };
     run(contest, options);
     race.compare(figure);
+    if (count == kMillion && view.compact.size() > 0) report_cycles(subject.name, race);
 }
 
 void unsorted(Subject& subject, const std::string& figure, size_t count, const Options& options) {
@@ -282,27 +253,30 @@ void open_lazy(const Subject& subject, const Options& options) {
     std::remove(path.c_str());
 }
 
+/// All figures of one volume.
+void ask(Subject subject, const Options& options) {
+    const ProbeVolumeView half = subject.volume.view();
+    const std::string& name = subject.name;
+    sorted(subject, "query.sorted." + name, half, kMillion, options);
+    sorted(subject, "query.sorted_10k." + name, half, 10'000, options);
+    sorted(subject, "query.sorted_1023." + name, half, 1'023, options);
+    sorted(subject, "query.sorted_float." + name, half.without_compact(), kMillion, options);
+    unsorted(subject, "query.unsorted." + name, kMillion, options);
+    moving(subject, "query.moving." + name, 100'000, options);
+    location_alone(subject, "query.locate." + name, kMillion, options);
+    steps(subject, kMillion);
+    if (name != "1m" && !(options.is_quick && name == "20k")) return;
+    threads(subject, options);
+    open_lazy(subject, options);
+}
+
 }  // namespace
 
 void bench_query(const Options& options) {
     std::vector<std::pair<std::string, size_t>> sizes{{"2k", 2'000}, {"20k", 20'000}};
     if (!options.is_quick) sizes.insert(sizes.end(), {{"200k", 200'000}, {"1m", kMillion}});
-    for (const auto& [name, count] : sizes) {
-        Subject subject = make_subject(name, count);
-        const ProbeVolumeView half = subject.volume.view();
-        sorted(subject, "query.sorted." + name, half, kMillion, options);
-        sorted(subject, "query.sorted_10k." + name, half, 10'000, options);
-        sorted(subject, "query.sorted_1023." + name, half, 1'023, options);
-        sorted(subject, "query.sorted_float." + name, half.without_compact(), kMillion, options);
-        unsorted(subject, "query.unsorted." + name, kMillion, options);
-        moving(subject, "query.moving." + name, 100'000, options);
-        location_alone(subject, "query.locate." + name, kMillion, options);
-        steps(subject, kMillion);
-        if (name == sizes.back().first) {
-            threads(subject, options);
-            open_lazy(subject, options);
-        }
-    }
+    for (const auto& [name, count] : sizes) ask(make_random_subject(name, count), options);
+    ask(make_scene_subject(options), options);
 }
 
 }  // namespace tetralight::bench

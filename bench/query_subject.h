@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/harness.h"
+#include "probes/probe_volume.h"
+
+namespace tetralight::bench {
+
+/// A volume to query, and what is asked.
+struct Subject {
+    std::string name;
+    ProbeVolume volume;
+    /// Box of the probes.
+    glm::vec3 low{0.0f};
+    glm::vec3 high{0.0f};
+    uint64_t seed = 100;
+
+    /// Fresh positions, uniform in the box of the probes grown by 10 %.
+    [[nodiscard]] std::vector<glm::vec3> positions(size_t count);
+
+    /// The same in Morton order.
+    [[nodiscard]] std::vector<glm::vec3> sorted_positions(size_t count);
+};
+
+/// Uniform random probes in a box of 100 m.
+[[nodiscard]] Subject make_random_subject(const std::string& name, size_t probe_count);
+
+/// A baked scene, "scene": that of the options with a lattice of some 20 000 probes, else the
+/// courtyard with its own.
+[[nodiscard]] Subject make_scene_subject(const Options& options);
+
+}  // namespace tetralight::bench
