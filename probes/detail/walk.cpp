@@ -2,6 +2,7 @@
 #include "probes/detail/walk.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -21,9 +22,6 @@ double longest_square(const std::array<glm::dvec3, 4>& corners, int count) {
 
 /// Beyond this two neighbors that send the walk to each other are a cycle, not rounding.
 constexpr double kSettleTolerance = 1e-9;
-
-/// Longer walks are counted against the size of the volume.
-constexpr uint32_t kShortWalk = 64;
 
 /// Of the cells that were considered, the one that comes nearest to holding the position.
 struct Best {
@@ -97,12 +95,17 @@ uint32_t Walk::start_cell() const noexcept {
     return cell < volume_.cells.size() ? cell : 0u;
 }
 
+/// Where a walk goes on depends on nothing but the cell: one that comes back to a cell goes round
+/// for ever. It is caught by waiting for it at a cell that is chosen anew after 1, 2, 4... steps
+/// (Brent 1980, "An Improved Monte Carlo Factorization Algorithm").
 LocationTrace Walk::run(uint32_t start) const noexcept {
     uint32_t cell = start;
+    uint32_t landmark = kNoIndex;
     uint32_t previous = kNoIndex;
     CellWeights previous_weights;
     uint32_t steps = 1;
-    for (; steps <= kShortWalk || steps <= step_limit(); ++steps) {
+    for (; cell != landmark; ++steps) {
+        if (std::has_single_bit(steps)) landmark = cell;
         const auto weights = cell_weights(cell);
         if (!weights) break;
         const double measure = weights->inside_measure();
@@ -125,20 +128,6 @@ LocationTrace Walk::run(uint32_t start) const noexcept {
     steps += near.step_count;
     if (near.location.cell != kNoIndex) return {near.location, steps, false};
     return {search_all(), steps, true};
-}
-
-/// Four times the steps of a random walk (2.5 n^(1/3) in space, measured), so that only a cycle
-/// meets it. On a line a walk may pass every cell.
-uint32_t Walk::step_limit() const {
-    const auto count = static_cast<uint32_t>(volume_.cells.size());
-    switch (volume_.info.dimension) {
-        case Dimension::Line:
-            return kShortWalk + count;
-        case Dimension::Plane:
-            return kShortWalk + 10 * static_cast<uint32_t>(std::sqrt(static_cast<float>(count)));
-        default:
-            return kShortWalk + 10 * static_cast<uint32_t>(std::cbrt(static_cast<float>(count)));
-    }
 }
 
 std::optional<CellWeights> Walk::precise_weights(uint32_t index) const {

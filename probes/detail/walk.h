@@ -56,7 +56,6 @@ class Walk {
     [[nodiscard]] LocationTrace run(uint32_t start) const noexcept;
 
   private:
-    [[nodiscard]] uint32_t step_limit() const;
     [[nodiscard]] std::optional<CellWeights> cell_weights(uint32_t cell) const;
     [[nodiscard]] std::optional<CellWeights> precise_weights(uint32_t cell) const;
     [[nodiscard]] CellWeights inner_weights(std::array<glm::dvec3, 4> corners) const;
