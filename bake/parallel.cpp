@@ -44,27 +44,19 @@ class FlushDenormals {
 
 /// ThreadSanitizer cannot see how TBB, which is not instrumented, orders its threads. Under it the
 /// same work runs on threads that it understands.
-void run_on_threads(size_t count, uint32_t threads, const std::function<void(size_t)>& work) {
-    std::atomic<size_t> next = 0;
+void run_on_threads(uint32_t threads, const std::function<void()>& run) {
     std::vector<std::jthread> pool;
-    for (uint32_t t = 0; t < threads; ++t) {
-        pool.emplace_back([&] {
-            const FlushDenormals flush;
-            for (size_t i = next++; i < count; i = next++) work(i);
-        });
-    }
+    for (uint32_t t = 0; t < threads; ++t) pool.emplace_back(run);
 }
 
 #else
 
-void run_on_threads(size_t count, uint32_t threads, const std::function<void(size_t)>& work) {
+void run_on_threads(uint32_t threads, const std::function<void()>& run) {
     tbb::task_arena arena(static_cast<int>(threads));
     arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<size_t>(0, count),
-                          [&](const tbb::blocked_range<size_t>& range) {
-                              const FlushDenormals flush;
-                              for (size_t i = range.begin(); i < range.end(); ++i) work(i);
-                          });
+        tbb::parallel_for(
+            tbb::blocked_range<uint32_t>(0, threads),
+            [&](const tbb::blocked_range<uint32_t>&) { run(); }, tbb::simple_partitioner());
     });
 }
 
@@ -75,7 +67,14 @@ void run_on_threads(size_t count, uint32_t threads, const std::function<void(siz
 void parallel_for(size_t count, uint32_t thread_count, const std::function<void(size_t)>& work) {
     // TBB has no more threads than the machine, and prints a warning when asked for more.
     const auto available = static_cast<uint32_t>(tbb::info::default_concurrency());
-    run_on_threads(count, thread_count == 0 ? available : std::min(thread_count, available), work);
+    const uint32_t threads = thread_count == 0 ? available : std::min(thread_count, available);
+    // One counter instead of ranges: a range that one thread is left with at the end is time in
+    // which the others wait, and calls here are worth far more than a step of the counter.
+    std::atomic<size_t> next = 0;
+    run_on_threads(threads, [&] {
+        const FlushDenormals flush;
+        for (size_t i = next++; i < count; i = next++) work(i);
+    });
 }
 
 }  // namespace tetralight

@@ -55,7 +55,7 @@ void expect_equal_light(const RadianceSh& actual, const RadianceSh& expected, fl
 TEST(LightTransport, ConstantSkyGivesIrradiancePiForEveryNormal) {
     Scene scene;
     scene.environment.radiance = glm::vec3(1.0f);
-    const RadianceSh light = bake(scene, {1, 2, 3}, 1024, 4);
+    const RadianceSh light = bake(scene, {1, 2, 3}, 8192, 4);
     std::mt19937_64 engine(1);
     for (int i = 0; i < 1000; ++i) {
         EXPECT_NEAR(irradiance(light, test::random_direction(engine)).y, kPi, 1e-3);

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/bake_progress.h"
+
+#include <algorithm>
+
+namespace tetralight {
+
+void ProgressReporter::begin_with(uint64_t directions, uint64_t expected, bool is_done) {
+    if (directions == 0) return;
+    ++probes_begun_;
+    probes_done_ += is_done;
+    directions_ += directions;
+    expected_directions_ += expected;
+}
+
+void ProgressReporter::add_round(const Round& round) {
+    probes_begun_ += round.is_first;
+    probes_done_ += round.is_done;
+    directions_ += round.directions;
+    expected_directions_ += round.expected - (round.is_first ? 0 : round.expected_before);
+    float worst = worst_error_;
+    while (round.standard_error > worst &&
+           !worst_error_.compare_exchange_weak(worst, round.standard_error)) {
+    }
+}
+
+void ProgressReporter::add_rays(uint64_t rays) {
+    ray_count_.fetch_add(rays, std::memory_order_relaxed);
+    if (!callback_) return;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock.owns_lock() || is_cancelled_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_report_ < std::chrono::milliseconds(50)) return;
+    last_report_ = now;
+    if (!callback_(progress())) is_cancelled_ = true;
+}
+
+void ProgressReporter::finish() {
+    if (callback_ && !is_cancelled_) callback_(progress());
+}
+
+BakeProgress ProgressReporter::progress() const {
+    // Probes that have not begun will take what the others do.
+    const size_t begun = std::max<size_t>(probes_begun_, 1);
+    const double expected = static_cast<double>(expected_directions_) *
+                            static_cast<double>(probe_count_) / static_cast<double>(begun);
+    const double share = expected > 0.0 ? static_cast<double>(directions_) / expected : 0.0;
+    const bool is_done = probes_done_ == probe_count_;
+    return {probes_done_, probe_count_, ray_count_, is_done ? 1.0 : std::min(share, 1.0),
+            worst_error_};
+}
+
+}  // namespace tetralight

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/bake_tallies.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "bake/parallel.h"
+#include "bake/path_tracer.h"
+#include "bake/probe_estimator.h"
+#include "bake/round_plan.h"
+#include "bake/sampling.h"
+#include "bake/trace_scene.h"
+#include "base/assert.h"
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Status check_positions(std::span<const glm::dvec3> positions) {
+    for (size_t i = 0; i < positions.size(); ++i) {
+        const glm::dvec3& p = positions[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            return Error{
+                text("probe ", i, ": position is not finite (", p.x, ", ", p.y, ", ", p.z, ")")};
+        }
+    }
+    return Ok{};
+}
+
+/// What to bake, and where to.
+struct Work {
+    const TraceScene& traced;
+    const PathTracer& tracer;
+    std::span<const glm::dvec3> positions;
+    std::span<ProbeTally> tallies;
+};
+
+class TallyBaker {
+  public:
+    TallyBaker(const Work& work, const BakeSettings& settings, const BakeHooks& hooks)
+        : work_(work),
+          settings_(settings),
+          plan_(settings),
+          hooks_(hooks),
+          progress_(hooks.progress, work.positions.size()) {
+        for (const ProbeTally& tally : work.tallies) {
+            progress_.begin_with(tally.direction_count, plan_.expected_directions(tally),
+                                 plan_.is_done(tally));
+        }
+    }
+
+    Status run() {
+        for (std::vector<uint32_t> probes = next_round(); !probes.empty(); probes = next_round()) {
+            const uint64_t round = work_.tallies[probes[0]].round_count;
+            const size_t step = probes_at_once(round);
+            for (size_t begin = 0; begin < probes.size(); begin += step) {
+                const size_t count = std::min(step, probes.size() - begin);
+                bake_round(std::span(probes).subspan(begin, count), round);
+                if (progress_.is_cancelled()) return Error{"cancelled"};
+                if (is_time_over(round)) return Ok{};
+                save_now_and_then();
+            }
+        }
+        progress_.finish();
+        return Ok{};
+    }
+
+  private:
+    /// The probes that have had the fewest rounds of those that need one more.
+    [[nodiscard]] std::vector<uint32_t> next_round() const {
+        std::vector<uint32_t> probes;
+        uint64_t round = ~uint64_t{0};
+        for (uint32_t i = 0; i < work_.tallies.size(); ++i) {
+            const ProbeTally& tally = work_.tallies[i];
+            if (tally.round_count > round || plan_.is_done(tally)) continue;
+            if (tally.round_count < round) probes.clear();
+            round = tally.round_count;
+            probes.push_back(i);
+        }
+        return probes;
+    }
+
+    /// Some seconds of work, and a few megabytes of estimates.
+    [[nodiscard]] size_t probes_at_once(uint64_t round) const {
+        constexpr uint64_t kDirections = 1u << 20;
+        return std::clamp<size_t>(kDirections / plan_.directions_of(round), 16, 4096);
+    }
+
+    void bake_round(std::span<const uint32_t> probes, uint64_t round) {
+        const uint32_t estimates_each = plan_.estimates_of(round);
+        std::vector<ProbeEstimate> estimates(probes.size() * estimates_each);
+        std::vector<std::atomic<uint32_t>> missing(probes.size());
+        for (auto& count : missing) count.store(estimates_each, std::memory_order_relaxed);
+        progress_.set_worst_error(worst_error_beside(probes));
+
+        parallel_for(estimates.size(), settings_.thread_count, [&](size_t item) {
+            if (progress_.is_cancelled() || is_time_over(round)) return;
+            const size_t place = item / estimates_each;
+            estimates[item] = estimate(probes[place], round,
+                                       static_cast<uint32_t>(item - place * estimates_each));
+            if (missing[place].fetch_sub(1, std::memory_order_acq_rel) == 1) {
+                const auto all =
+                    std::span(estimates).subspan(place * estimates_each, estimates_each);
+                end_round(work_.tallies[probes[place]], all);
+            }
+            progress_.add_rays(estimates[item].ray_count);
+        });
+    }
+
+    [[nodiscard]] ProbeEstimate estimate(uint32_t probe, uint64_t round, uint32_t number) const {
+        const glm::dvec3& position = work_.positions[probe];
+        const uint64_t key = estimate_key(probe_key(settings_.seed, position), round, number);
+        return estimate_probe(work_.tracer, work_.traced.traced_from_world(position), key,
+                              plan_.directions_of_estimate(round, number));
+    }
+
+    void end_round(ProbeTally& tally, std::span<const ProbeEstimate> estimates) {
+        const uint64_t expected_before = plan_.expected_directions(tally);
+        const uint64_t directions_before = tally.direction_count;
+        tally.add_round(estimates);
+        progress_.add_round({.directions = tally.direction_count - directions_before,
+                             .expected = plan_.expected_directions(tally),
+                             .expected_before = expected_before,
+                             .is_first = tally.round_count == 1,
+                             .is_done = plan_.is_done(tally),
+                             .standard_error = tally.standard_error()});
+    }
+
+    /// Of the probes that are not among `probes`, which are sorted.
+    [[nodiscard]] float worst_error_beside(std::span<const uint32_t> probes) const {
+        float worst = 0.0f;
+        auto next = probes.begin();
+        for (uint32_t i = 0; i < work_.tallies.size(); ++i) {
+            if (next != probes.end() && *next == i) {
+                ++next;
+            } else {
+                worst = std::max(worst, work_.tallies[i].standard_error());
+            }
+        }
+        return worst;
+    }
+
+    /// A volume without the first round would have holes.
+    [[nodiscard]] bool is_time_over(uint64_t round) const {
+        if (settings_.time_budget_seconds == 0.0 || round == 0) return false;
+        return std::chrono::duration<double>(Clock::now() - start_).count() >
+               settings_.time_budget_seconds;
+    }
+
+    void save_now_and_then() {
+        const auto now = Clock::now();
+        if (!hooks_.save || now - last_save_ < save_interval_) return;
+        hooks_.save();
+        last_save_ = Clock::now();
+        // Large volumes take their time to write; the bake is to go on for most of it.
+        save_interval_ = std::max(save_interval_, 20 * (last_save_ - now));
+    }
+
+    const Work work_;
+    const BakeSettings& settings_;
+    const RoundPlan plan_;
+    const BakeHooks& hooks_;
+    ProgressReporter progress_;
+    const Clock::time_point start_ = Clock::now();
+    Clock::time_point last_save_ = start_;
+    Clock::duration save_interval_ = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(hooks_.save_seconds));
+};
+
+}  // namespace
+
+Status bake_tallies(const Scene& scene, std::span<const glm::dvec3> positions,
+                    const BakeSettings& settings, std::span<ProbeTally> tallies,
+                    const BakeHooks& hooks) {
+    TETRALIGHT_ASSERT(tallies.size() == positions.size(), "one tally for each position");
+    if (auto status = RoundPlan::check(settings); !status) return status;
+    if (auto status = check_positions(positions); !status) return status;
+    const auto traced = TraceScene::make_static(scene);
+    if (!traced) return traced.error();
+    const PathTracer tracer(scene, *traced, settings.bounces);
+    return TallyBaker({*traced, tracer, positions, tallies}, settings, hooks).run();
+}
+
+}  // namespace tetralight

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "bake/scene/scene.h"
+#include "probes/sh.h"
+
+namespace tetralight {
+
+/// Light of the environment alone, without noise: a midpoint rule with one sample a texel, each
+/// with its own solid angle, so that the smallest sun counts as what it is. Texels of a small image
+/// are split, as the light varies within them. `thread_count` 0 = all; same bits for any.
+[[nodiscard]] RadianceSh project_environment(const Environment& environment,
+                                             uint32_t thread_count = 0);
+
+}  // namespace tetralight

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/round_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace tetralight {
+namespace {
+
+BakeSettings settings(uint32_t samples, double target_error = 0.0, uint64_t max_samples = 0) {
+    BakeSettings result;
+    result.sample_count = samples;
+    result.target_error = target_error;
+    result.max_sample_count = max_samples;
+    return result;
+}
+
+std::vector<uint64_t> rounds(const RoundPlan& plan) {
+    std::vector<uint64_t> directions;
+    for (uint64_t round = 0; plan.directions_of(round) > 0; ++round) {
+        directions.push_back(plan.directions_of(round));
+    }
+    return directions;
+}
+
+/// A probe after one round whose relative standard error is this.
+ProbeTally with_error(const RoundPlan& plan, double error) {
+    ProbeTally tally;
+    tally.direction_count = plan.directions_of(0);
+    tally.round_count = 1;
+    const auto count = static_cast<double>(tally.direction_count);
+    tally.radiance_sum[0].x = count;
+    tally.variance_sum = std::pow(error * count * 3.14159265358979, 2.0);
+    return tally;
+}
+
+TEST(RoundPlan, WithoutATargetThereIsOneRoundOfEightEstimates) {
+    const RoundPlan plan(settings(1024));
+    EXPECT_EQ(rounds(plan), std::vector<uint64_t>{1024});
+    EXPECT_EQ(plan.estimates_of(0), 8u);
+    EXPECT_EQ(plan.directions_of_estimate(0, 7), 128u);
+}
+
+TEST(RoundPlan, EstimatesShareAllDirections) {
+    for (const uint32_t samples : {1u, 15u, 16u, 31u, 32u, 100u, 127u, 128u, 1000u, 1u << 24}) {
+        const RoundPlan plan(settings(samples));
+        uint64_t sum = 0;
+        for (uint32_t i = 0; i < plan.estimates_of(0); ++i) {
+            EXPECT_GT(plan.directions_of_estimate(0, i), 0u);
+            sum += plan.directions_of_estimate(0, i);
+        }
+        EXPECT_EQ(sum, samples);
+    }
+}
+
+TEST(RoundPlan, FewSamplesAreFewerEstimates) {
+    EXPECT_EQ(RoundPlan(settings(1)).estimates_of(0), 1u);
+    EXPECT_EQ(RoundPlan(settings(31)).estimates_of(0), 1u);
+    EXPECT_EQ(RoundPlan(settings(32)).estimates_of(0), 2u);
+    EXPECT_EQ(RoundPlan(settings(128)).estimates_of(0), 8u);
+}
+
+TEST(RoundPlan, RoundsDoubleWhatIsThereUpToTheMaximum) {
+    EXPECT_EQ(rounds(RoundPlan(settings(1024, 0.01, 5000))),
+              (std::vector<uint64_t>{1024, 1024, 2048, 904}));
+    EXPECT_EQ(rounds(RoundPlan(settings(1024, 0.01, 4100))),  // 4 are too few for a round
+              (std::vector<uint64_t>{1024, 1024, 2048}));
+    EXPECT_EQ(RoundPlan(settings(1024, 0.01)).directions_before(100), 65536u);
+}
+
+TEST(RoundPlan, ATargetBeginsWithDirectionsForErrorBars) {
+    EXPECT_EQ(RoundPlan(settings(1, 0.01)).directions_of(0), 128u);
+}
+
+TEST(RoundPlan, AProbeIsDoneBelowTheTargetOrAtTheMaximum) {
+    const RoundPlan plan(settings(1024, 0.01, 2048));
+    EXPECT_FALSE(plan.is_done({}));
+    EXPECT_FALSE(plan.is_done(with_error(plan, 0.0101)));
+    EXPECT_TRUE(plan.is_done(with_error(plan, 0.0099)));
+    ProbeTally last = with_error(plan, 0.5);
+    last.round_count = 2;
+    EXPECT_TRUE(plan.is_done(last));
+}
+
+TEST(RoundPlan, ATimeBudgetAloneGoesOnToTheMaximum) {
+    BakeSettings with_budget = settings(1024);
+    with_budget.time_budget_seconds = 1.0;
+    const RoundPlan plan(with_budget);
+    EXPECT_FALSE(plan.is_done(with_error(plan, 1e-6)));
+}
+
+TEST(RoundPlan, ExpectsErrorsToFallWithTheRootOfTheDirections) {
+    const RoundPlan plan(settings(1024, 0.01));
+    EXPECT_EQ(plan.expected_directions({}), 1024u);
+    EXPECT_EQ(plan.expected_directions(with_error(plan, 0.005)), 1024u);
+    EXPECT_EQ(plan.expected_directions(with_error(plan, 0.0199)), 4096u);
+    EXPECT_EQ(plan.expected_directions(with_error(plan, 5.0)), 65536u);
+}
+
+TEST(RoundPlan, RefusesSettingsThatMeanNothing) {
+    EXPECT_EQ(RoundPlan::check(settings(0)).error().message,
+              "samples: 0 is not a number of directions");
+    EXPECT_EQ(RoundPlan::check(settings(1, -1.0)).error().message,
+              "target error: -1 is not a share");
+    EXPECT_FALSE(RoundPlan::check(settings(1, std::nan(""))));
+    EXPECT_EQ(RoundPlan::check(settings(1024, 0.01, 1000)).error().message,
+              "max samples: 1000 are fewer than the 1024 of the first round");
+    EXPECT_TRUE(RoundPlan::check(settings(1024, 0.0, 1000)));  // no rounds, no maximum
+}
+
+TEST(RoundPlan, EveryEstimateHasAKeyOfItsOwn) {
+    std::set<uint64_t> keys;
+    for (uint64_t probe = 0; probe < 100; ++probe) {
+        for (uint64_t round = 0; round < 8; ++round) {
+            for (uint32_t i = 0; i < 8; ++i) keys.insert(estimate_key(probe, round, i));
+        }
+    }
+    EXPECT_EQ(keys.size(), 6400u);
+}
+
+}  // namespace
+}  // namespace tetralight
