@@ -5,8 +5,12 @@
 #include <chrono>
 #include <utility>
 
+#include "bake/bake_tallies.h"
+#include "bake/project_environment.h"
+#include "bake/round_plan.h"
 #include "base/assert.h"
 #include "base/text.h"
+#include "pipeline/bake_key.h"
 #include "probes/build/make_probe_volume.h"
 #include "probes/compact_probes.h"
 
@@ -25,21 +29,40 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// What is left at its default that changes no byte is left out.
 std::string metadata(const BakeSettings& settings) {
-    return text("{\"generator\":\"tetralight ", TETRALIGHT_VERSION,
-                "\",\"samples\":", settings.sample_count, ",\"bounces\":", settings.bounces,
-                ",\"seed\":", settings.seed, "}");
+    std::string json = text("{\"generator\":\"tetralight ", TETRALIGHT_VERSION,
+                            "\",\"samples\":", settings.sample_count,
+                            ",\"bounces\":", settings.bounces, ",\"seed\":", settings.seed);
+    const auto add = [&](const char* name, auto value) {
+        if (value != 0) json += text(",\"", name, "\":", value);
+    };
+    add("target_error", settings.target_error);
+    add("max_samples", settings.max_sample_count);
+    add("time_budget_seconds", settings.time_budget_seconds);
+    add("clamp", settings.clamp);
+    return json + "}";
 }
 
-void store_light(const Scene& scene, const BakedProbes& baked, ProbeVolume& volume) {
+/// What every part of the volume is lit by, known before the bake.
+void store_lights(const Scene& scene, const BakeSettings& settings, ProbeVolume& volume) {
     TETRALIGHT_ASSERT(scene.light_names.size() == scene.lights.size(), "one name for each light");
+    volume.info.ambient =
+        irradiance_from_radiance(project_environment(scene.environment, settings.thread_count));
+    volume.lights = scene.lights;
+    for (const std::string& name : scene.light_names) volume.light_names += name + "\n";
+    volume.metadata = metadata(settings);
+}
+
+void store_light(const BakedProbes& baked, ProbeVolume& volume) {
     for (const RadianceSh& radiance : baked.radiance) {
         volume.irradiance.push_back(irradiance_from_radiance(radiance));
     }
     volume.validity = baked.validity;
-    volume.info.ambient = irradiance_from_radiance(baked.ambient);
-    volume.lights = scene.lights;
-    for (const std::string& name : scene.light_names) volume.light_names += name + "\n";
+    volume.health.resize(baked.radiance.size());
+    for (size_t i = 0; i < volume.health.size(); ++i) {
+        volume.health[i].standard_error = baked.standard_error[i];
+    }
     make_compact_probes(volume);
 }
 
@@ -84,32 +107,58 @@ void add_dering_warnings(const MergedProbes& merged, std::vector<std::string>& w
 
 }  // namespace
 
+Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup> groups,
+                                  const MergeSettings& merge_settings,
+                                  const BakeSettings& settings) {
+    if (auto status = RoundPlan::check(settings); !status) return status.error();
+    PreparedBake prepared;
+    prepared.settings = settings;
+    Stopwatch watch;
+    auto merged = merge(groups, merge_settings);
+    if (!merged) return merged.error();
+    prepared.merged = std::move(*merged);
+    prepared.report.welded_count = prepared.merged.welded_count();
+    prepared.report.lattice_group_names = prepared.merged.lattice_group_names();
+    prepared.report.largest_snap = prepared.merged.largest_snap;
+    prepared.report.merge_seconds = watch.lap();
+
+    prepared.volume = make_probe_volume(prepared.merged);
+    prepared.report.tetrahedralize_seconds = watch.lap();
+
+    prepared.capture_positions = prepared.merged.positions;
+    store_lights(scene, settings, prepared.volume);
+    prepared.key = bake_key(scene, prepared);
+    return prepared;
+}
+
+BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies) {
+    TETRALIGHT_ASSERT(tallies.size() == prepared.volume.positions.size(), "one for each probe");
+    const BakedProbes baked = baked_probes(tallies);
+    store_light(baked, prepared.volume);
+
+    const BakeSettings& settings = prepared.settings;
+    BakeReport& report = prepared.report;
+    report.ray_count = baked.ray_count;
+    report.statistics = bake_statistics(baked, settings.target_error);
+    report.warnings = buried_groups(prepared.merged, prepared.volume.validity);
+    add_dark_warning(baked.radiance, settings.sample_count, report.warnings);
+    add_dering_warnings(prepared.merged, report.warnings);
+    return {std::move(prepared.volume), std::move(prepared.report)};
+}
+
 Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> groups,
                                 const MergeSettings& merge_settings, const BakeSettings& settings,
                                 const BakeCallback& callback) {
-    BakedVolume result;
+    auto prepared = prepare_bake(scene, groups, merge_settings, settings);
+    if (!prepared) return prepared.error();
     Stopwatch watch;
-    const auto merged = merge(groups, merge_settings);
-    if (!merged) return merged.error();
-    result.report.welded_count = merged->welded_count();
-    result.report.lattice_group_names = merged->lattice_group_names();
-    result.report.largest_snap = merged->largest_snap;
-    result.report.merge_seconds = watch.lap();
-
-    ProbeVolume volume = make_probe_volume(*merged);
-    result.report.tetrahedralize_seconds = watch.lap();
-
-    const auto baked = bake_probes(scene, merged->positions, settings, callback);
-    if (!baked) return baked.error();
-    store_light(scene, *baked, volume);
-    volume.metadata = metadata(settings);
-    result.report.bake_seconds = watch.lap();
-    result.report.ray_count = baked->ray_count;
-    result.report.warnings = buried_groups(*merged, volume.validity);
-    add_dark_warning(baked->radiance, settings.sample_count, result.report.warnings);
-    add_dering_warnings(*merged, result.report.warnings);
-    result.volume = std::move(volume);
-    return result;
+    std::vector<ProbeTally> tallies(prepared->capture_positions.size());
+    const auto status =
+        bake_tallies(scene, prepared->capture_positions, settings, tallies, {.progress = callback});
+    if (!status) return status.error();
+    BakedVolume baked = finish_bake(std::move(*prepared), tallies);
+    baked.report.bake_seconds = watch.lap();
+    return baked;
 }
 
 }  // namespace tetralight

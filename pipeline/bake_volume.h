@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bake/bake_probes.h"
+#include "bake/bake_statistics.h"
 #include "bake/scene/scene.h"
 #include "base/result.h"
 #include "probes/build/merge.h"
@@ -17,6 +18,10 @@
 //
 //     groups → merge → positions → bake_probes → irradiance ┐
 //                          └→ make_probe_volume ────────────┴→ ProbeVolume
+//
+// and in its three steps, for bakes that are put aside, or shared by several machines:
+//
+//     prepare_bake → bake_tallies → finish_bake
 
 namespace tetralight {
 
@@ -26,7 +31,9 @@ struct BakeReport {
     /// Groups whose probes were moved exactly onto a lattice, and the longest move, metres.
     std::vector<std::string> lattice_group_names;
     double largest_snap = 0.0;
+    /// Of all runs, when the bake was put aside in between.
     uint64_t ray_count = 0;
+    BakeStatistics statistics;
     double merge_seconds = 0.0;
     double tetrahedralize_seconds = 0.0;
     double bake_seconds = 0.0;
@@ -38,6 +45,29 @@ struct BakedVolume {
     ProbeVolume volume;
     BakeReport report;
 };
+
+/// A bake before its light: the same for every part of it.
+struct PreparedBake {
+    /// Whole but for the light of its probes; ambient light, lights and metadata are there.
+    ProbeVolume volume;
+    MergedProbes merged;
+    /// Where the light of each probe is gathered, world space.
+    std::vector<glm::dvec3> capture_positions;
+    BakeSettings settings;
+    /// Hash of all that the light depends on, and of the volume: what has another key is no part of
+    /// the same bake.
+    uint64_t key = 0;
+    BakeReport report;
+};
+
+[[nodiscard]] Result<PreparedBake> prepare_bake(const Scene& scene,
+                                                std::span<const ProbeGroup> groups,
+                                                const MergeSettings& merge_settings,
+                                                const BakeSettings& settings);
+
+/// Puts the light of all probes into the volume. A function of the volume, `merged`, the settings
+/// and the tallies alone. Precondition: one tally for each probe.
+[[nodiscard]] BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies);
 
 /// Bakes a scene's light at the probes of all `groups` and joins them in one volume. The scene's
 /// own groups count only if they are among `groups`. No group at all gives a volume that answers

@@ -43,13 +43,17 @@ uint64_t aligned(uint64_t offset) {
 }
 
 /// Empty sections are left out; "info" is always there.
-std::vector<Part> make_parts(const ProbeVolumeView& volume) {
+std::vector<Part> make_parts(const ProbeVolumeView& volume, std::span<const ExtraSection> extra) {
     const std::span info(&volume.info, 1);
     std::vector<Part> parts{make_part("info", std::as_bytes(info), sizeof(VolumeInfo))};
     detail::for_each_section(volume, [&](std::string_view name, const auto& elements) {
         if (elements.empty()) return;
         parts.push_back(make_part(name, bytes_of(elements), sizeof elements[0]));
     });
+    for (const ExtraSection& section : extra) {
+        if (section.bytes.empty()) continue;
+        parts.push_back(make_part(section.name, section.bytes, section.element_size));
+    }
     uint64_t offset = sizeof(FileHeader) + parts.size() * sizeof(SectionEntry);
     for (Part& part : parts) {
         part.entry.offset = aligned(offset);
@@ -96,7 +100,7 @@ struct ProbeFileReader {
     Status read(const SectionEntry& entry) {
         const std::string name = detail::section_name(entry);
         const auto bytes = file.mapping_.bytes().subspan(entry.offset, entry.size());
-        file.sections_.push_back({name, entry.offset, entry.size()});
+        file.sections_.push_back({name, entry.offset, entry.size(), entry.element_size});
         Status status = Ok{};
         if (name == "info") {
             status = read_info(entry, bytes, file.view_.info);
@@ -149,8 +153,18 @@ Status verify(const ProbeFile& file) {
     return ProbeFileReader::verify(file);
 }
 
-std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume) {
-    const std::vector<Part> parts = make_parts(volume);
+std::optional<std::span<const std::byte>> ProbeFile::section_bytes(
+    std::string_view name, uint64_t element_size) const noexcept {
+    for (const Section& section : sections_) {
+        if (section.name != name || section.element_size != element_size) continue;
+        return mapping_.bytes().subspan(section.offset, section.size);
+    }
+    return std::nullopt;
+}
+
+std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume,
+                                        std::span<const ExtraSection> extra) {
+    const std::vector<Part> parts = make_parts(volume, extra);
     std::vector<SectionEntry> table;
     for (const Part& part : parts) table.push_back(part.entry);
 
@@ -168,8 +182,9 @@ std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume) {
     return file;
 }
 
-Status write_probe_file(const std::string& path, const ProbeVolumeView& volume) {
-    return write_file(path, probe_file_bytes(volume));
+Status write_probe_file(const std::string& path, const ProbeVolumeView& volume,
+                        std::span<const ExtraSection> extra) {
+    return write_file(path, probe_file_bytes(volume, extra));
 }
 
 }  // namespace tetralight

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/file.h"
@@ -30,9 +32,15 @@ class ProbeFile {
         std::string name;
         uint64_t offset = 0;
         uint64_t size = 0;
+        uint64_t element_size = 1;
     };
 
     [[nodiscard]] const std::vector<Section>& sections() const noexcept { return sections_; }
+
+    /// The bytes of a section whose elements have this size, aligned to 64 bytes; for those that
+    /// are no part of the volume. Nothing when it is not there, or of another element size.
+    [[nodiscard]] std::optional<std::span<const std::byte>> section_bytes(
+        std::string_view name, uint64_t element_size) const noexcept;
 
   private:
     friend struct ProbeFileReader;
@@ -60,11 +68,20 @@ class ProbeFile {
 /// range, neighbors that are each other's neighbors, finite numbers.
 [[nodiscard]] Status verify(const ProbeVolumeView& volume);
 
+/// A section that is no part of the volume: what a tool keeps beside it. Readers skip it.
+struct ExtraSection {
+    std::string_view name;  ///< at most 24 bytes, none of a section of the volume
+    std::span<const std::byte> bytes;
+    uint64_t element_size = 1;
+};
+
 /// Writes a volume; the old file stays whole on failure. The same volume gives the same bytes.
 /// Precondition: `verify(volume)` holds.
-[[nodiscard]] Status write_probe_file(const std::string& path, const ProbeVolumeView& volume);
+[[nodiscard]] Status write_probe_file(const std::string& path, const ProbeVolumeView& volume,
+                                      std::span<const ExtraSection> extra = {});
 
 /// The bytes that `write_probe_file` writes.
-[[nodiscard]] std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume);
+[[nodiscard]] std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume,
+                                                      std::span<const ExtraSection> extra = {});
 
 }  // namespace tetralight

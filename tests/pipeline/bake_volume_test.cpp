@@ -131,6 +131,32 @@ TEST(BakeVolume, MetadataTellsHowItWasMade) {
     EXPECT_EQ(metadata.substr(metadata.size() - expected.size()), expected);
 }
 
+TEST(BakeVolume, MetadataNamesWhatIsNotTheDefault) {
+    BakeSettings settings;
+    settings.target_error = 0.02;
+    settings.max_sample_count = 4096;
+    settings.clamp = 2.5f;
+    const std::string metadata = bake(Scene{}, {}, settings).volume.metadata;
+    const std::string expected =
+        "\"seed\":0,\"target_error\":0.02,\"max_samples\":4096,\"clamp\":2.5}";
+    ASSERT_GE(metadata.size(), expected.size());
+    EXPECT_EQ(metadata.substr(metadata.size() - expected.size()), expected);
+}
+
+TEST(BakeVolume, KeepsTheErrorOfEachProbe) {
+    BakeSettings settings = few_samples();
+    settings.sample_count = 128;
+    const BakedVolume baked = bake(room(), three_groups(), settings);
+    const auto light = bake_probes(room(), baked.volume.exact_positions, settings);
+    ASSERT_TRUE(light);
+    ASSERT_EQ(baked.volume.health.size(), 45u);
+    for (size_t i = 0; i < 45; ++i) {
+        EXPECT_GT(baked.volume.health[i].standard_error, 0.0f);
+        EXPECT_EQ(baked.volume.health[i].standard_error, light->standard_error[i]);
+    }
+    EXPECT_EQ(baked.report.statistics, bake_statistics(*light, 0.0));
+}
+
 TEST(BakeVolume, WarnsOfProbesThatNoLightReaches) {
     Scene scene;
     scene.environment.radiance = glm::vec3(1.0f);

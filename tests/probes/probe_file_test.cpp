@@ -77,6 +77,20 @@ TEST_F(ProbeFileTest, HasAlignedSectionsAndAHeaderOf64Bytes) {
     for (const auto& entry : *table) EXPECT_EQ(entry.offset % 64, 0u);
 }
 
+TEST_F(ProbeFileTest, KeepsSectionsBesideTheVolume) {
+    const std::vector<uint32_t> numbers{1, 2, 3};
+    const ExtraSection extra[] = {{"numbers", std::as_bytes(std::span(numbers)), 4}, {"none", {}}};
+    ASSERT_TRUE(write_probe_file(path, volume.view(), extra));
+    const auto file = open_probe_file(path);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(probe_file_bytes(file->view()), probe_file_bytes(volume.view()));
+    const auto bytes = file->section_bytes("numbers", 4);
+    ASSERT_TRUE(bytes && bytes->size() == 12);
+    EXPECT_EQ(std::memcmp(bytes->data(), numbers.data(), 12), 0);
+    EXPECT_FALSE(file->section_bytes("numbers", 12));
+    EXPECT_FALSE(file->section_bytes("none", 1));
+}
+
 TEST_F(ProbeFileTest, AnEmptyVolumeIsAFileToo) {
     ASSERT_TRUE(write_probe_file(path, ProbeVolume{}.view()));
     const auto file = open_probe_file(path);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/bake_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tetralight {
+namespace {
+
+/// The smallest value that a share of all do not exceed.
+template <class T>
+T quantile(const std::vector<T>& sorted, double share) {
+    if (sorted.empty()) return T(0);
+    const double rank = std::ceil(share * static_cast<double>(sorted.size()));
+    return sorted[std::max<size_t>(static_cast<size_t>(rank), 1) - 1];
+}
+
+template <class T>
+std::vector<T> sorted(std::vector<T> values) {
+    std::ranges::sort(values);
+    return values;
+}
+
+}  // namespace
+
+BakeStatistics bake_statistics(const BakedProbes& baked, double target_error) {
+    const auto directions = sorted(baked.direction_count);
+    const auto errors = sorted(baked.standard_error);
+    BakeStatistics statistics;
+    statistics.fewest_directions = quantile(directions, 0.0);
+    statistics.median_directions = quantile(directions, 0.5);
+    statistics.most_directions = quantile(directions, 1.0);
+    statistics.median_error = quantile(errors, 0.5);
+    statistics.p99_error = quantile(errors, 0.99);
+    statistics.worst_error = quantile(errors, 1.0);
+    if (target_error > 0.0) {
+        statistics.over_target_count = static_cast<size_t>(
+            std::ranges::count_if(errors, [&](float error) { return error > target_error; }));
+    }
+    return statistics;
+}
+
+}  // namespace tetralight

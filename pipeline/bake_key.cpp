@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/bake_key.h"
+
+#include "probes/content_hash.h"
+#include "probes/probe_file.h"
+
+// Every struct is taken apart by a structured binding: a member that is added to it does not
+// compile here until someone says whether the bake depends on it.
+
+namespace tetralight {
+namespace {
+
+void add(ContentHash& hash, const TextureUse& use) {
+    const auto& [texture, uv_set, image_from_mesh] = use;
+    hash.add(texture);
+    hash.add(uv_set);
+    hash.add(image_from_mesh);
+}
+
+void add(ContentHash& hash, const Material& material) {
+    const auto& [name, base_color, base_color_texture, metallic, roughness, emission,
+                 emission_texture, alpha_mode, alpha_cutoff, is_double_sided, is_unlit,
+                 bakes_emission] = material;
+    hash.add(base_color);
+    add(hash, base_color_texture);
+    hash.add(metallic);
+    hash.add(roughness);
+    hash.add(emission);
+    add(hash, emission_texture);
+    hash.add(alpha_mode);
+    hash.add(alpha_cutoff);
+    hash.add(is_double_sided);
+    hash.add(is_unlit);
+    hash.add(bakes_emission);
+}
+
+void add(ContentHash& hash, const Texture& texture) {
+    const auto& [name, image, wrap_u, wrap_v] = texture;
+    hash.add(image.width);
+    hash.add(image.height);
+    hash.add(image.pixels);
+    hash.add(wrap_u);
+    hash.add(wrap_v);
+}
+
+void add(ContentHash& hash, const Mesh& mesh) {
+    const auto& [positions, normals, uvs, indices, material] = mesh;
+    hash.add(positions);
+    hash.add(normals);
+    for (const auto& set : uvs) hash.add(set);
+    hash.add(indices);
+    hash.add(material);
+}
+
+void add(ContentHash& hash, const MeshInstance& instance) {
+    const auto& [mesh, world_from_mesh, name, contributes_gi] = instance;
+    hash.add(mesh);
+    hash.add(world_from_mesh);
+    hash.add(contributes_gi);
+}
+
+void add(ContentHash& hash, const Environment& environment) {
+    const auto& [radiance, image, rotation_radians] = environment;
+    hash.add(radiance);
+    hash.add(image.width);
+    hash.add(image.height);
+    hash.add(image.pixels);
+    hash.add(rotation_radians);
+}
+
+template <class T>
+void add_each(ContentHash& hash, const std::vector<T>& elements) {
+    hash.add(static_cast<uint64_t>(elements.size()));
+    for (const T& element : elements) add(hash, element);
+}
+
+void add(ContentHash& hash, const Scene& scene) {
+    const auto& [textures, materials, meshes, instances, lights, light_names, environment, cameras,
+                 probe_groups, warnings] = scene;
+    add_each(hash, textures);
+    add_each(hash, materials);
+    add_each(hash, meshes);
+    add_each(hash, instances);
+    hash.add(lights);
+    add(hash, environment);
+}
+
+void add(ContentHash& hash, const BakeSettings& settings) {
+    const auto& [sample_count, target_error, max_sample_count, time_budget_seconds, clamp, bounces,
+                 seed, thread_count] = settings;
+    hash.add(sample_count);
+    hash.add(target_error);
+    hash.add(max_sample_count);
+    hash.add(time_budget_seconds);
+    hash.add(clamp);
+    hash.add(bounces);
+    hash.add(seed);
+}
+
+}  // namespace
+
+uint64_t bake_key(const Scene& scene, const PreparedBake& prepared) {
+    ContentHash hash;
+    add(hash, scene);
+    add(hash, prepared.settings);
+    hash.add(probe_file_bytes(prepared.volume.view()));
+    hash.add(prepared.capture_positions);
+    for (const bool dering : prepared.merged.group_dering) hash.add(dering);
+    return hash.value();
+}
+
+}  // namespace tetralight

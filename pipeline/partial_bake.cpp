@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/partial_bake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+#include "bake/round_plan.h"
+#include "base/assert.h"
+#include "base/text.h"
+#include "probes/probe_file.h"
+
+namespace tetralight {
+namespace {
+
+/// Section "part".
+struct PartInfo {
+    uint64_t key = 0;
+    uint32_t begin = 0;
+    uint32_t end = 0;
+    double target_error = 0.0;
+    double time_budget_seconds = 0.0;
+    uint64_t max_sample_count = 0;
+    uint32_t sample_count = 0;
+    uint32_t is_finished = 0;
+};
+
+static_assert(sizeof(PartInfo) == 48 && std::is_trivially_copyable_v<PartInfo>);
+
+/// The elements of a section; none when it is not there.
+template <class T>
+std::vector<T> read_section(const ProbeFile& file, std::string_view name) {
+    const auto bytes = file.section_bytes(name, sizeof(T));
+    if (!bytes) return {};
+    std::vector<T> elements(bytes->size() / sizeof(T));
+    std::memcpy(elements.data(), bytes->data(), bytes->size());
+    return elements;
+}
+
+template <class T>
+std::vector<T> copy(std::span<const T> elements) {
+    return {elements.begin(), elements.end()};
+}
+
+ProbeVolume unlit_volume(const ProbeVolumeView& view) {
+    ProbeVolume volume;
+    volume.info = view.info;
+    volume.positions = copy(view.positions);
+    volume.health = copy(view.health);
+    volume.exact_positions = copy(view.exact_positions);
+    volume.cells = copy(view.cells);
+    volume.hull_rays = copy(view.hull_rays);
+    volume.seeds = copy(view.seeds);
+    volume.sources = copy(view.sources);
+    volume.group_names = view.group_names;
+    volume.lights = copy(view.lights);
+    volume.light_names = view.light_names;
+    volume.metadata = view.metadata;
+    return volume;
+}
+
+MergedProbes merged_probes(const ProbeVolume& volume, const std::vector<uint8_t>& dering) {
+    MergedProbes merged;
+    merged.positions = volume.exact_positions;
+    for (const std::string_view name : split_names(volume.group_names)) {
+        merged.group_names.emplace_back(name);
+    }
+    merged.sources = volume.sources;
+    for (const uint8_t flag : dering) merged.group_dering.push_back(flag != 0);
+    return merged;
+}
+
+BakeSettings settings_of(const PartInfo& info) {
+    BakeSettings settings;
+    settings.sample_count = info.sample_count;
+    settings.target_error = info.target_error;
+    settings.time_budget_seconds = info.time_budget_seconds;
+    settings.max_sample_count = info.max_sample_count;
+    return settings;
+}
+
+/// Whether rounds of this plan can leave such a tally.
+bool is_possible(const ProbeTally& tally, const RoundPlan& plan) {
+    for (const glm::dvec3& c : tally.radiance_sum) {
+        if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) return false;
+    }
+    const uint64_t rounds = tally.round_count;
+    return std::isfinite(tally.variance_sum) && tally.variance_sum >= 0.0 &&
+           (rounds == 0 || plan.directions_of(rounds - 1) > 0) &&
+           tally.direction_count == plan.directions_before(rounds) &&
+           tally.behind_count <= tally.direction_count;
+}
+
+Status check_tallies(const PartFile& part) {
+    const RoundPlan plan(part.prepared.settings);
+    const auto& [range, tallies, is_finished] = part.partial;
+    const size_t probe_count = part.prepared.volume.positions.size();
+    if (range.begin > range.end || range.end > probe_count) {
+        return Error{text("probes ", range.begin, "..", range.end, " are out of range (there are ",
+                          probe_count, ")")};
+    }
+    if (tallies.size() != range.count()) {
+        return Error{text(tallies.size(), " tallies for ", range.count(), " probes")};
+    }
+    for (size_t i = 0; i < tallies.size(); ++i) {
+        const bool has_light = tallies[i].round_count > 0 || !is_finished;
+        if (has_light && is_possible(tallies[i], plan)) continue;
+        return Error{text("the tally of probe ", range.begin + i, " is not in range")};
+    }
+    return Ok{};
+}
+
+Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
+    const auto infos = read_section<PartInfo>(file, "part");
+    if (infos.size() != 1 || !file.view().irradiance.empty()) {
+        return Error{
+            "is no part of a bake (parts come from bake --probes, or from interrupted "
+            "bakes)"};
+    }
+    const PartInfo& info = infos[0];
+    PartFile part;
+    part.path = path;
+    part.partial.range = {info.begin, info.end};
+    part.partial.tallies = read_section<ProbeTally>(file, "tallies");
+    part.partial.is_finished = info.is_finished != 0;
+    part.prepared.key = info.key;
+    part.prepared.settings = settings_of(info);
+    if (auto status = RoundPlan::check(part.prepared.settings); !status) return status.error();
+    part.prepared.volume = unlit_volume(file.view());
+    const auto dering = read_section<uint8_t>(file, "group_dering");
+    part.prepared.merged = merged_probes(part.prepared.volume, dering);
+    if (dering.size() != part.prepared.merged.group_names.size()) {
+        return Error{
+            text(dering.size(), " flags for ", part.prepared.merged.group_names.size(), " groups")};
+    }
+    if (part.prepared.volume.exact_positions.size() != part.prepared.volume.positions.size()) {
+        return Error{"section \"exact_positions\" is missing"};
+    }
+    if (auto status = check_tallies(part); !status) return status.error();
+    return part;
+}
+
+}  // namespace
+
+size_t PartialBake::begun_count() const {
+    return static_cast<size_t>(std::ranges::count_if(
+        tallies, [](const ProbeTally& tally) { return tally.round_count > 0; }));
+}
+
+Status write_part(const std::string& path, const PreparedBake& prepared,
+                  const PartialBake& partial) {
+    const auto& [range, tallies, is_finished] = partial;
+    TETRALIGHT_ASSERT(tallies.size() == range.count(), "one tally for each probe of the range");
+    const BakeSettings& settings = prepared.settings;
+    const PartInfo info{prepared.key,
+                        range.begin,
+                        range.end,
+                        settings.target_error,
+                        settings.time_budget_seconds,
+                        settings.max_sample_count,
+                        settings.sample_count,
+                        is_finished};
+    std::vector<uint8_t> dering;
+    for (const bool flag : prepared.merged.group_dering) dering.push_back(flag);
+    const ExtraSection sections[] = {
+        {"part", std::as_bytes(std::span(&info, 1)), sizeof info},
+        {"group_dering", std::as_bytes(std::span(dering)), 1},
+        {"tallies", std::as_bytes(std::span(tallies)), sizeof(ProbeTally)},
+    };
+    return write_probe_file(path, prepared.volume.view(), sections);
+}
+
+Result<PartFile> read_part(const std::string& path) {
+    const auto file = open_probe_file(path);
+    if (!file) return file.error();
+    auto part = make_part(path, *file);
+    if (!part) return part.error().in(path);
+    return part;
+}
+
+}  // namespace tetralight

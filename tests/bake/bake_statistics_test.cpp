@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/bake_statistics.h"
+
+#include <gtest/gtest.h>
+
+namespace tetralight {
+namespace {
+
+TEST(BakeStatistics, OfNothingIsZero) {
+    EXPECT_EQ(bake_statistics({}, 0.01), BakeStatistics{});
+}
+
+TEST(BakeStatistics, TakesQuantilesOfAllProbes) {
+    BakedProbes baked;
+    for (int i = 200; i > 0; --i) {
+        baked.standard_error.push_back(static_cast<float>(i));
+        baked.direction_count.push_back(10u * static_cast<unsigned>(i));
+    }
+    const BakeStatistics statistics = bake_statistics(baked, 150.5);
+    EXPECT_EQ(statistics.fewest_directions, 10u);
+    EXPECT_EQ(statistics.median_directions, 1000u);
+    EXPECT_EQ(statistics.most_directions, 2000u);
+    EXPECT_EQ(statistics.median_error, 100.0f);
+    EXPECT_EQ(statistics.p99_error, 198.0f);
+    EXPECT_EQ(statistics.worst_error, 200.0f);
+    EXPECT_EQ(statistics.over_target_count, 50u);
+}
+
+TEST(BakeStatistics, WithoutATargetNoProbeIsOverIt) {
+    BakedProbes baked;
+    baked.standard_error = {0.5f};
+    baked.direction_count = {1};
+    EXPECT_EQ(bake_statistics(baked, 0.0).over_target_count, 0u);
+}
+
+}  // namespace
+}  // namespace tetralight

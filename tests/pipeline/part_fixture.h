@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bake/bake_tallies.h"
+#include "pipeline/partial_bake.h"
+#include "probes/probe_file.h"
+#include "tests/support/random_probes.h"
+#include "tests/support/scenes.h"
+
+namespace tetralight::test {
+
+/// A small bake, whole or in parts, in a folder that goes away with the test.
+class PartFixture : public testing::Test {
+  protected:
+    PartFixture() {
+        test::add_box(scene, test::diffuse({0.8f, 0.6f, 0.4f}), test::Facing::Inward, {-2, -2, -2},
+                      {2, 2, 2});
+        test::add_point_light(scene, LightMode::Baked, {3, 2, 1}, {0.5f, 1.5f, 0.5f});
+        scene.environment.radiance = {1, 2, 3};
+        groups.resize(2);
+        groups[0].name = "hall";
+        groups[0].positions = test::random_positions(20, 1);
+        groups[1].name = "attic";
+        groups[1].positions = test::random_positions(15, 2);
+        groups[1].dering = true;
+        settings.sample_count = 128;
+        std::filesystem::create_directory(folder);
+    }
+
+    ~PartFixture() override { std::filesystem::remove_all(folder); }
+
+    [[nodiscard]] PreparedBake prepare() const {
+        auto prepared = prepare_bake(scene, groups, {}, settings);
+        EXPECT_TRUE(prepared) << prepared.error().message;
+        return std::move(*prepared);
+    }
+
+    /// Bakes a range to its end.
+    [[nodiscard]] PartialBake bake(const PreparedBake& prepared, ProbeRange range) const {
+        PartialBake partial{range, std::vector<ProbeTally>(range.count()), true};
+        const auto positions =
+            std::span(prepared.capture_positions).subspan(range.begin, range.count());
+        const Status status = bake_tallies(scene, positions, settings, partial.tallies);
+        EXPECT_TRUE(status) << status.error().message;
+        return partial;
+    }
+
+    /// Bakes a range into a file of the folder and returns its path.
+    std::string bake_part(const std::string& name, ProbeRange range) const {
+        const PreparedBake prepared = prepare();
+        const Status status = write_part(path(name), prepared, bake(prepared, range));
+        EXPECT_TRUE(status) << status.error().message;
+        return path(name);
+    }
+
+    [[nodiscard]] std::vector<std::byte> whole() const {
+        const auto baked = bake_volume(scene, groups, {}, settings);
+        EXPECT_TRUE(baked);
+        return probe_file_bytes(baked->volume.view());
+    }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return folder / name; }
+
+    static constexpr uint32_t kProbeCount = 35;
+
+  public:  // for the lambdas of tests
+    Scene scene;
+    std::vector<ProbeGroup> groups;
+    BakeSettings settings;
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("tetralight_parts_" + std::to_string(::getpid()));
+};
+
+}  // namespace tetralight::test

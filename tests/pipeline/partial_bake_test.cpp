@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/partial_bake.h"
+
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include "tests/pipeline/part_fixture.h"
+
+namespace tetralight {
+namespace {
+
+class PartialBakes : public test::PartFixture {
+  protected:
+    /// Writes a part that was changed, and returns why it cannot be read.
+    [[nodiscard]] std::string refusal(const std::function<void(PartialBake&)>& change) const {
+        const PreparedBake prepared = prepare();
+        PartialBake partial = bake(prepared, {3, 9});
+        change(partial);
+        EXPECT_TRUE(write_part(path("bad"), prepared, partial));
+        const auto part = read_part(path("bad"));
+        EXPECT_FALSE(part);
+        return part ? "" : part.error().message;
+    }
+};
+
+TEST_F(PartialBakes, ReadsBackWhatWasWritten) {
+    const PreparedBake prepared = prepare();
+    PartialBake partial = bake(prepared, {3, 9});
+    partial.tallies[2] = {};
+    partial.is_finished = false;
+    ASSERT_TRUE(write_part(path("part"), prepared, partial));
+    const auto part = read_part(path("part"));
+    ASSERT_TRUE(part) << part.error().message;
+    EXPECT_EQ(part->partial, partial);
+    EXPECT_EQ(part->partial.begun_count(), 5u);
+    EXPECT_EQ(part->prepared.key, prepared.key);
+    EXPECT_EQ(part->prepared.volume, prepared.volume);
+    EXPECT_EQ(part->prepared.merged.group_dering, prepared.merged.group_dering);
+}
+
+TEST_F(PartialBakes, InterruptedAndResumedGivesTheBytesOfOneBake) {
+    PreparedBake prepared = prepare();
+    PartialBake partial{{0, kProbeCount}, std::vector<ProbeTally>(kProbeCount), false};
+    std::atomic<int> reports = 0;
+    const BakeHooks hooks{.progress = [&](const BakeProgress&) { return ++reports < 2; }};
+    settings.thread_count = 1;
+    static_cast<void>(
+        bake_tallies(scene, prepared.capture_positions, settings, partial.tallies, hooks));
+    ASSERT_TRUE(write_part(path("part"), prepared, partial));
+
+    auto part = read_part(path("part"));
+    ASSERT_TRUE(part) << part.error().message;
+    auto& tallies = part->partial.tallies;
+    ASSERT_TRUE(bake_tallies(scene, prepared.capture_positions, settings, tallies));
+    const BakedVolume baked = finish_bake(std::move(prepared), tallies);
+    EXPECT_EQ(probe_file_bytes(baked.volume.view()), whole());
+}
+
+TEST_F(PartialBakes, IsAProbeFileWithoutLight) {
+    const auto file = open_probe_file(bake_part("part", {3, 9}));
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->view().probe_count(), kProbeCount);
+    EXPECT_TRUE(file->view().irradiance.empty());
+}
+
+TEST_F(PartialBakes, RefusesTalliesThatNoRoundsLeave) {
+    const std::string where = path("bad") + ": the tally of probe 4 is not in range";
+    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].radiance_sum[8].z = NAN; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].variance_sum = -1.0; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].variance_sum = INFINITY; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].direction_count = 127; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].behind_count = 129; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].round_count = 2; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].round_count = ~uint64_t{0}; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.tallies[1] = {}; }), where);  // of a finished part
+}
+
+TEST_F(PartialBakes, RefusesRangesThatAreNone) {
+    EXPECT_EQ(refusal([](auto& p) {
+                  p.range = {30, 36};
+              }),
+              path("bad") + ": probes 30..36 are out of range (there are 35)");
+}
+
+TEST_F(PartialBakes, RefusesAFileCutOrChangedAnywhere) {
+    const std::string sound = bake_part("sound", {3, 9});
+    std::ifstream stream(sound, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+    for (size_t i = 0; i < bytes.size(); i += 61) {
+        std::ofstream(path("cut"), std::ios::binary) << bytes.substr(0, i);
+        EXPECT_FALSE(read_part(path("cut"))) << i;
+        std::string changed = bytes;
+        changed[i] = static_cast<char>(~changed[i]);
+        std::ofstream(path("changed"), std::ios::binary) << changed;
+        EXPECT_FALSE(read_part(path("changed"))) << i;
+    }
+}
+
+}  // namespace
+}  // namespace tetralight
