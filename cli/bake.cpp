@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
 #include "base/text.h"
+#include "cli/amounts.h"
+#include "cli/bake_report.h"
 #include "cli/common.h"
 #include "cli/group_files.h"
 #include "cli/paths.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
 #include "pipeline/bake_volume.h"
+#include "pipeline/resumable_bake.h"
 #include "probes/probe_file.h"
 
 namespace tetralight::cli {
@@ -18,11 +25,13 @@ struct Bake {
     std::string output;
     MergeSettings merge_settings;
     BakeSettings settings;
+    std::optional<IndexRange> probes;
+    bool is_resumed = false;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
         scene_options.add_to(command);
-        add_output(command, output, ".probes", "Probe volume to write");
+        add_output(command, output, ".probes,.part", "Probe volume to write, or part of it");
         auto* groups_option =
             add_paths(command, "-g,--groups", group_paths,
                       "Probe groups beside the scene's own: a .json file or a glTF scene; may be "
@@ -32,21 +41,60 @@ struct Bake {
             .add_flag("--only-given-groups", only_given_groups,
                       "Leave the scene's own probe groups out")
             ->needs(groups_option);
-        command.add_option("-s,--samples", settings.sample_count, "Directions a probe")
-            ->check(CLI::Range(1u, 1u << 24))
-            ->capture_default_str();
         command
             .add_option("-b,--bounces", settings.bounces,
                         "Reflections that light may take (0 = direct light only)")
             ->check(CLI::Range(0u, 1000u))
             ->capture_default_str();
+        command
+            .add_option("--clamp", settings.clamp,
+                        "Largest radiance that a path may bring (0 = not clamped)")
+            ->check(numbers_in(0.0, 1e30))
+            ->capture_default_str();
+        add_sampling(command);
         add_seed(command, settings.seed, "Seed of the random numbers");
         command
             .add_option("--weld", merge_settings.weld_tolerance,
                         "Join probes nearer than this share of the local spacing")
             ->check(numbers_in(0.0, 0.1))
             ->capture_default_str();
+        add_range(command, "--probes", probes,
+                  "Bake this range of the probes only, into a part for `tetralight merge`");
+        command.add_flag("--resume", is_resumed,
+                         "Go on with what an interrupted bake left beside the output");
         common.add_to(command);
+        command.parse_complete_callback([this] { check_usage(); });
+    }
+
+    void add_sampling(CLI::App& command) {
+        command.add_option("-s,--samples", settings.sample_count, "Directions a probe")
+            ->check(CLI::Range(1u, 1u << 24))
+            ->capture_default_str();
+        add_share(command, "--target-error", settings.target_error,
+                  "Double the samples of a probe until its standard error is below this");
+        command
+            .add_option("--max-samples", settings.max_sample_count,
+                        "Directions a probe at most then (default 64 times --samples)")
+            ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 32));
+        add_time(command, "--time-budget", settings.time_budget_seconds,
+                 "Double no samples after this time; not reproducible");
+    }
+
+    /// What no option can tell of itself.
+    void check_usage() const {
+        const bool has_rounds = settings.target_error > 0.0 || settings.time_budget_seconds > 0.0;
+        if (settings.max_sample_count > 0 && !has_rounds) {
+            throw CLI::ValidationError("--max-samples", "needs --target-error or --time-budget");
+        }
+        if (is_resumed && output == "-") {
+            throw CLI::ValidationError("--resume", "nothing is left beside stdout");
+        }
+        const std::string extension = std::filesystem::path(output).extension().string();
+        if (extension == (probes ? ".probes" : ".part")) {
+            throw CLI::ValidationError(
+                "--output",
+                text("with --probes a .part is written, without it .probes, not \"", output, "\""));
+        }
     }
 
     [[nodiscard]] Result<GroupFiles> all_groups(Scene& scene) const {
@@ -76,40 +124,72 @@ struct Bake {
         if (!files) return files.error();
 
         settings.thread_count = common.thread_count;
-        BakeProgressDisplay display(common.is_quiet);
-        const auto baked =
-            bake_volume(*scene, files->groups(), merge_settings, settings,
-                        [&](const BakeProgress& progress) { return display.show(progress); });
-        if (!baked) return files->locate(baked.error());
-        common.warn(baked->report.warnings);
-        const ProbeVolumeView volume = baked->volume.view();
-        if (auto status = write_probe_file(output, volume); !status) return status;
-        report(volume, baked->report);
+        auto prepared = prepare_bake(*scene, files->groups(), merge_settings, settings);
+        if (!prepared) return files->locate(prepared.error());
+        return bake(*scene, std::move(*prepared));
+    }
+
+    /// Beside the output, where there can be something.
+    [[nodiscard]] BakeKeeping keeping() const {
+        std::error_code error;
+        const auto type = std::filesystem::status(output, error).type();
+        const bool is_file = type == std::filesystem::file_type::regular ||
+                             type == std::filesystem::file_type::not_found;
+        if (output == "-" || !is_file) return {};
+        const BakeKeeping keeping{output + ".part", is_resumed};
+        if (!is_resumed && std::filesystem::exists(keeping.path, error)) {
+            common.warn({keeping.path + ": an interrupted bake that --resume may go on with is "
+                                        "lost when this one is kept"});
+        }
+        return keeping;
+    }
+
+    [[nodiscard]] ProbeRange range_of(const PreparedBake& prepared) const {
+        const auto count = static_cast<uint32_t>(prepared.capture_positions.size());
+        if (!probes) return {0, count};
+        return {probes->begin, probes->end == IndexRange{}.end ? count : probes->end};
+    }
+
+    /// Bakes, writes and reports, and then drops what was kept on the way.
+    Status bake(const Scene& scene, PreparedBake prepared) {
+        const BakeKeeping kept = keeping();
+        const auto start = std::chrono::steady_clock::now();
+        const auto baked = bake_with_progress(scene, prepared, kept);
+        if (!baked) return baked.error();
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        if (!baked->warning.empty()) common.warn({baked->warning});
+        const Status status = probes ? write_range(prepared, *baked, seconds.count())
+                                     : write_whole(std::move(prepared), *baked, seconds.count());
+        std::error_code error;
+        if (status && baked->is_kept) std::filesystem::remove(kept.path, error);
+        return status;
+    }
+
+    [[nodiscard]] Result<RangeBake> bake_with_progress(const Scene& scene,
+                                                       const PreparedBake& prepared,
+                                                       const BakeKeeping& kept) const {
+        BakeProgressDisplay display(common.is_quiet, settings.time_budget_seconds);
+        auto baked =
+            bake_range(scene, prepared, range_of(prepared), kept,
+                       [&](const BakeProgress& progress) { return display.show(progress); });
+        if (baked || baked.error().message != "cancelled") return baked;
+        if (kept.path.empty()) return Error{"interrupted"};
+        return Error{"interrupted; " + kept.path + " keeps what is done, --resume goes on with it"};
+    }
+
+    Status write_range(const PreparedBake& prepared, const RangeBake& baked, double seconds) const {
+        if (auto status = write_part(output, prepared, baked.partial); !status) return status;
+        report_range(common, {output, settings, seconds, baked.earlier_ray_count}, baked.partial,
+                     prepared.capture_positions.size());
         return Ok{};
     }
 
-    void report(const ProbeVolumeView& volume, const BakeReport& bake) const {
-        const double rays_per_second = static_cast<double>(bake.ray_count) / bake.bake_seconds;
-        Json json{{"output", output}};
-        json.update(counts(volume));
-        json.update({{"lattice_groups", bake.lattice_group_names},
-                     {"largest_snap", bake.largest_snap},
-                     {"samples", settings.sample_count},
-                     {"bounces", settings.bounces},
-                     {"rays", bake.ray_count},
-                     {"rays_per_second", rays_per_second},
-                     {"seconds",
-                      {{"merge", bake.merge_seconds},
-                       {"tetrahedralize", bake.tetrahedralize_seconds},
-                       {"bake", bake.bake_seconds}}}});
-        common.report(
-            output, json,
-            text(output, ": ", counted(volume.probe_count(), "probe"), " (",
-                 merged_text(bake.welded_count, bake.lattice_group_names.size(), bake.largest_snap),
-                 "), ", cells_text(volume), "\n  merge ", duration(bake.merge_seconds),
-                 ", tetrahedralize ", duration(bake.tetrahedralize_seconds), ", bake ",
-                 duration(bake.bake_seconds), " (", magnitude(static_cast<double>(bake.ray_count)),
-                 "rays, ", magnitude(rays_per_second), "rays/s)"));
+    Status write_whole(PreparedBake prepared, const RangeBake& baked, double seconds) const {
+        const BakedVolume result = finish_bake(std::move(prepared), baked.partial.tallies);
+        common.warn(result.report.warnings);
+        if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
+        report_volume(common, {output, settings, seconds, baked.earlier_ray_count}, result);
+        return Ok{};
     }
 };
 

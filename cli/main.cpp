@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `tetralight` command. Exit codes: 0 fine, 1 bad data, 2 wrong usage, 130 interrupted.
+// The `tetralight` command. Exit codes: 0 fine, 1 bad data, 2 wrong usage, 130 and 143
+// interrupted by Ctrl-C and SIGTERM.
 #include <csignal>
 #include <iostream>
 #include <new>
@@ -13,7 +14,7 @@ namespace {
 constexpr int kExitFine = 0;
 constexpr int kExitBadData = 1;
 constexpr int kExitUsage = 2;
-constexpr int kExitInterrupted = 130;
+constexpr int kExitSignal = 128;  // plus its number, as shells have it
 
 /// What is wrong with the arguments, and where to read on.
 std::string usage_message(const CLI::App* app, const CLI::Error& error) {
@@ -34,6 +35,7 @@ void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
     app.failure_message(usage_message);
     add_grid(app, run);
     add_bake(app, run);
+    add_merge(app, run);
     add_tetrahedralize(app, run);
     add_query(app, run);
     add_render(app, run);
@@ -44,13 +46,10 @@ void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
 
 int run_command(const tetralight::cli::Run& run) {
     const tetralight::Status status = run();
-    if (!status && tetralight::cli::BakeProgressDisplay::is_interrupted()) {
-        std::cerr << "tetralight: interrupted\n";
-        return kExitInterrupted;
-    }
     if (!status) {
         std::cerr << "tetralight: " << tetralight::cli::printable(status.error().message) << '\n';
-        return kExitBadData;
+        const int signal = tetralight::cli::BakeProgressDisplay::interrupting_signal();
+        return signal == 0 ? kExitBadData : kExitSignal + signal;
     }
     std::cout.flush();
     if (std::cout) return kExitFine;

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/text.h"
@@ -19,7 +20,9 @@ CLI::Validator not_empty() {
 CLI::Validator has_extension(const std::string& extension) {
     const auto check = [extension](const std::string& path) -> std::string {
         const std::string found = fs::path(path).extension().string();
-        if (found.empty() || CLI::detail::to_lower(found) == extension) return "";
+        const auto known = CLI::detail::split(extension, ',');
+        const bool is_known = std::ranges::count(known, CLI::detail::to_lower(found)) > 0;
+        if (found.empty() || is_known) return "";
         return text("cannot write \"", found, "\" files; the extension may be ", extension,
                     ", or none");
     };

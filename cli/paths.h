@@ -19,8 +19,8 @@ CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& p
 CLI::Option* add_paths(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
                        const std::string& help);
 
-/// `-o`: the file that the command is there to write. It may have no extension, or this one:
-/// nobody wants a PNG that is called picture.jpg.
+/// `-o`: the file that the command is there to write. It may have no extension, or this one (or one
+/// of several with commas between): nobody wants a PNG that is called picture.jpg.
 CLI::Option* add_output(CLI::App& command, std::string& path, const std::string& extension,
                         const std::string& help);
 

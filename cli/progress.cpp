@@ -3,9 +3,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 
+#include "cli/amounts.h"
 #include "cli/common.h"
 
 namespace tetralight::cli {
@@ -13,45 +15,52 @@ namespace {
 
 constexpr int kBarWidth = 32;
 
-volatile std::sig_atomic_t g_is_interrupted = 0;  // a signal handler can reach nothing else
+volatile std::sig_atomic_t g_signal = 0;  // a signal handler can reach nothing else
 
-extern "C" void on_interrupt(int) {
-    g_is_interrupted = 1;
-    std::signal(SIGINT, SIG_DFL);  // a second Ctrl-C ends the program at once
-}
-
-double share_done(const BakeProgress& progress) {
-    if (progress.probe_count == 0) return 1.0;
-    return static_cast<double>(progress.probes_done) / static_cast<double>(progress.probe_count);
-}
-
-std::string summary(const BakeProgress& progress, double seconds) {
-    const double share = share_done(progress);
-    const double rate = static_cast<double>(progress.ray_count) / std::max(seconds, 1e-9);
-    std::string line = grouped(progress.probes_done) + "/" + grouped(progress.probe_count) +
-                       " probes, " + magnitude(rate) + "rays/s";
-    if (share > 0.0 && share < 1.0)
-        line += ", " + duration(seconds * (1.0 / share - 1.0)) + " left";
-    return line;
+extern "C" void on_interrupt(int signal) {
+    g_signal = signal;
+    std::signal(signal, SIG_DFL);  // a second one ends the program at once
 }
 
 }  // namespace
 
-BakeProgressDisplay::BakeProgressDisplay(bool is_quiet)
-    : is_quiet_(is_quiet), is_terminal_(::isatty(STDERR_FILENO) == 1) {
-    std::signal(SIGINT, on_interrupt);
+BakeProgressDisplay::BakeProgressDisplay(bool is_quiet, double time_budget_seconds)
+    : is_quiet_(is_quiet),
+      time_budget_seconds_(time_budget_seconds),
+      is_terminal_(::isatty(STDERR_FILENO) == 1) {
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_interrupt);
 }
 
 BakeProgressDisplay::~BakeProgressDisplay() {
     if (is_bar_drawn_) std::cerr << '\n';
-    std::signal(SIGINT, SIG_DFL);
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
 }
 
-bool BakeProgressDisplay::is_interrupted() {
-    return g_is_interrupted != 0;
+int BakeProgressDisplay::interrupting_signal() {
+    return g_signal;
+}
+
+double BakeProgressDisplay::share_done(const BakeProgress& progress, double seconds) const {
+    if (progress.probe_count == 0) return 1.0;
+    if (time_budget_seconds_ == 0.0) return progress.share_done;
+    return std::min(std::max(progress.share_done, seconds / time_budget_seconds_), 1.0);
+}
+
+std::string BakeProgressDisplay::summary(const BakeProgress& progress, double seconds) const {
+    const double share = share_done(progress, seconds);
+    const double rate = static_cast<double>(progress.ray_count) / std::max(seconds, 1e-9);
+    std::string line = grouped(progress.probes_done) + "/" + grouped(progress.probe_count) +
+                       " probes, " + magnitude(rate) + "rays/s";
+    if (progress.worst_error > 0.0f) line += ", worst error " + percent(progress.worst_error);
+    if (share > first_share_ && share < 1.0) {
+        const double left = seconds * (1.0 - share) / (share - first_share_);
+        line += ", " + duration(left) + " left";
+    }
+    return line;
 }
 
 bool BakeProgressDisplay::show(const BakeProgress& progress) {
+    if (first_share_ < 0.0) first_share_ = progress.share_done;
     if (!is_quiet_) {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         if (is_terminal_) {
@@ -60,19 +69,19 @@ bool BakeProgressDisplay::show(const BakeProgress& progress) {
             print_line(progress, elapsed.count());
         }
     }
-    return !is_interrupted();
+    return interrupting_signal() == 0;
 }
 
 void BakeProgressDisplay::draw_bar(const BakeProgress& progress, double seconds) {
     if (seconds < 1.0 && !is_bar_drawn_) return;
     is_bar_drawn_ = true;
-    const int filled = static_cast<int>(share_done(progress) * kBarWidth);
+    const int filled = static_cast<int>(share_done(progress, seconds) * kBarWidth);
     std::cerr << "\r[" << std::string(filled, '#') << std::string(kBarWidth - filled, '.') << "] "
               << summary(progress, seconds) << "\x1b[K" << std::flush;
 }
 
 void BakeProgressDisplay::print_line(const BakeProgress& progress, double seconds) {
-    const int tenth = static_cast<int>(share_done(progress) * 10.0);
+    const int tenth = static_cast<int>(share_done(progress, seconds) * 10.0);
     if (seconds < 1.0 || tenth == last_tenth_) return;
     last_tenth_ = tenth;
     std::cerr << "Progress: " << tenth * 10 << "%, " << summary(progress, seconds) << '\n';

@@ -9,25 +9,31 @@
 namespace tetralight::cli {
 
 /// Shows how a bake goes on, on stderr: a bar on a terminal once it takes longer than a second, a
-/// plain line for each tenth elsewhere, nothing when quiet. Ctrl-C cancels the bake.
+/// plain line for each tenth elsewhere, nothing when quiet. Ctrl-C and SIGTERM cancel the bake.
 class BakeProgressDisplay {
   public:
-    explicit BakeProgressDisplay(bool is_quiet);
+    /// `time_budget_seconds` 0: none.
+    BakeProgressDisplay(bool is_quiet, double time_budget_seconds);
     ~BakeProgressDisplay();
     BakeProgressDisplay(const BakeProgressDisplay&) = delete;
     BakeProgressDisplay& operator=(const BakeProgressDisplay&) = delete;
 
-    /// To be called by the bake; false after Ctrl-C.
+    /// To be called by the bake; false after a signal.
     bool show(const BakeProgress& progress);
 
-    /// Whether the user pressed Ctrl-C since the program began.
-    [[nodiscard]] static bool is_interrupted();
+    /// SIGINT or SIGTERM if one of them came since the program began, or else 0.
+    [[nodiscard]] static int interrupting_signal();
 
   private:
+    /// How far a bake is, in [0, 1], `seconds` after it began.
+    [[nodiscard]] double share_done(const BakeProgress& progress, double seconds) const;
+    [[nodiscard]] std::string summary(const BakeProgress& progress, double seconds) const;
     void draw_bar(const BakeProgress& progress, double seconds);
     void print_line(const BakeProgress& progress, double seconds);
 
     bool is_quiet_;
+    double time_budget_seconds_;
+    double first_share_ = -1.0;  ///< what an earlier run left done; negative: not known yet
     bool is_terminal_;
     bool is_bar_drawn_ = false;
     int last_tenth_ = 0;

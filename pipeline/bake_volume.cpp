@@ -97,6 +97,15 @@ void add_dark_warning(std::span<const RadianceSh> radiance, uint32_t sample_coun
                             "will be black"));
 }
 
+/// Probes that took all samples that they may, or all the time, and have not the error asked for.
+void add_target_warning(const BakeStatistics& statistics, double target_error, size_t probe_count,
+                        std::vector<std::string>& warnings) {
+    if (statistics.over_target_count == 0) return;
+    warnings.push_back(text(statistics.over_target_count, " of ", probe_count,
+                            " probes have a standard error above ", target_error, " (the worst ",
+                            statistics.worst_error, ") with the samples and the time they had"));
+}
+
 void add_dering_warnings(const MergedProbes& merged, std::vector<std::string>& warnings) {
     for (size_t g = 0; g < merged.group_names.size(); ++g) {
         if (!merged.group_dering[g]) continue;
@@ -142,6 +151,7 @@ BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> talli
     report.statistics = bake_statistics(baked, settings.target_error);
     report.warnings = buried_groups(prepared.merged, prepared.volume.validity);
     add_dark_warning(baked.radiance, settings.sample_count, report.warnings);
+    add_target_warning(report.statistics, settings.target_error, tallies.size(), report.warnings);
     add_dering_warnings(prepared.merged, report.warnings);
     return {std::move(prepared.volume), std::move(prepared.report)};
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <csignal>
 #include <numbers>
-#include <thread>
 
 #include "bake/image/write_image.h"
 #include "tests/cli/command_fixture.h"
@@ -62,9 +60,10 @@ TEST_F(Bake, JsonHasTheDocumentedFields) {
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
     const std::vector<std::string> expected{
-        "bounces",         "dimension",      "groups",  "hull_cells", "inner_cells",
-        "largest_snap",    "lattice_groups", "output",  "probes",     "rays",
-        "rays_per_second", "samples",        "seconds", "welded"};  // sorted
+        "bounces",        "dimension",       "groups",  "hull_cells",        "inner_cells",
+        "largest_snap",   "lattice_groups",  "output",  "over_target",       "probes",
+        "rays",           "rays_per_second", "samples", "samples_per_probe", "seconds",
+        "standard_error", "welded"};  // sorted
     EXPECT_EQ(keys, expected);
 }
 
@@ -232,18 +231,62 @@ TEST_F(Bake, PrintsNoProgressWhenQuiet) {
     EXPECT_EQ(long_bake({"--quiet"}).err, "");
 }
 
-TEST_F(Bake, EndsAtCtrlCAndKeepsTheOldVolume) {
-    write("old.probes", "old");
-    const auto names_before = file_names();
-    RunningCommand bake(
-        folder(), {"bake", kCourtyard, "-o", "old.probes", "-s", "262144", "-j", "1", "-q"}, "");
-    while (!bake.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    bake.send(SIGINT);
-    const CommandResult result = bake.wait();
-    EXPECT_EQ(result.exit_code, 130);
-    EXPECT_EQ(result.err, "tetralight: interrupted\n");
-    EXPECT_EQ(read("old.probes"), "old");
-    EXPECT_EQ(file_names(), names_before);
+TEST_F(Bake, SamplesUntilEveryProbeIsBelowTheTarget) {
+    const Json json = run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "128", "--target-error",
+                                "10%", "--max-samples", "1000000"});
+    EXPECT_EQ(json["over_target"], 0);
+    EXPECT_LE(json["standard_error"]["worst"], 0.1);
+    EXPECT_EQ(json["samples_per_probe"]["min"], 128);
+    EXPECT_GT(json["samples_per_probe"]["max"], 128);
+}
+
+TEST_F(Bake, SaysWhichProbesAreAboveTheTarget) {
+    const CommandResult result = succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "128",
+                                          "--target-error", "1e-9", "--max-samples", "256"});
+    EXPECT_TRUE(contains(result.err, "of 255 probes have a standard error above 1e-09 (the worst "))
+        << result.err;
+    EXPECT_TRUE(contains(result.out, "above the target")) << result.out;
+}
+
+TEST_F(Bake, StopsRoundsWhenTheTimeIsSpent) {
+    const Json json =
+        run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "128", "--time-budget", "0.5s"});
+    EXPECT_EQ(json["over_target"], 0);
+    EXPECT_GT(json["samples_per_probe"]["max"], 128);
+}
+
+TEST_F(Bake, GivesTheSameBytesForAnyNumberOfThreadsWithATarget) {
+    EXPECT_TRUE(bytes_of({"-j", "1", "--target-error", "0.2", "--max-samples", "512"}) ==
+                bytes_of({"-j", "2", "--target-error", "20%", "--max-samples", "512"}));
+}
+
+TEST_F(Bake, RecordsThatItWasClamped) {
+    succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "1", "--clamp", "2.5"});
+    EXPECT_EQ(run_json({"info", "v.probes"})["made_with"]["clamp"], 2.5);
+}
+
+TEST_F(Bake, SaysHowAmountsAreWritten) {
+    const auto message = [&](const Arguments& more) {
+        Arguments arguments{"bake", kCourtyard, "-o", "v.probes"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return misuse(arguments);
+    };
+    for (const char* share : {"0", "-1%", "101%", "2", "%", "1 %", "nan", "x", "1%%"}) {
+        EXPECT_TRUE(contains(message({"--target-error", share}), "such as 1% or 0.01")) << share;
+    }
+    for (const char* time : {"0", "-1s", "s", "1d", "1e99h", "nan", "5 m", "inf"}) {
+        EXPECT_TRUE(contains(message({"--time-budget", time}), "such as 30s, 5m or 2h")) << time;
+    }
+    for (const char* range : {"0", "..", "..5", "5..5", "6..5", "-1..5", "0..5x", "0...5"}) {
+        EXPECT_TRUE(contains(message({"--probes", range}), "such as 0..100 or 100..")) << range;
+    }
+    EXPECT_TRUE(contains(message({"--max-samples", "4096"}), "--target-error or --time-budget"));
+}
+
+TEST_F(Bake, RefusesAMaximumBelowTheFirstRound) {
+    EXPECT_TRUE(contains(fail({"bake", kCourtyard, "-o", "v.probes", "--target-error", "1%",
+                               "--max-samples", "1000"}),
+                         "max samples: 1000 are fewer than the 1024 of the first round"));
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/bake_report.h"
+
+#include "base/text.h"
+#include "cli/amounts.h"
+
+namespace tetralight::cli {
+namespace {
+
+/// Rays a second of this run.
+double ray_rate(uint64_t ray_count, const BakeRun& run) {
+    return static_cast<double>(ray_count - run.earlier_ray_count) / run.seconds;
+}
+
+/// What was asked for, and the rays that it took.
+Json work(uint64_t ray_count, const BakeRun& run) {
+    return {{"samples", run.settings.sample_count},
+            {"bounces", run.settings.bounces},
+            {"rays", ray_count},
+            {"rays_per_second", ray_rate(ray_count, run)}};
+}
+
+/// "2.3 s (3.4 Mrays, 1.5 Mrays/s)".
+std::string work_text(uint64_t ray_count, const BakeRun& run) {
+    return text(duration(run.seconds), " (", magnitude(static_cast<double>(ray_count)), "rays, ",
+                magnitude(ray_rate(ray_count, run)), "rays/s)");
+}
+
+}  // namespace
+
+void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked) {
+    const ProbeVolumeView volume = baked.volume.view();
+    const BakeReport& report = baked.report;
+    Json json{{"output", run.output}};
+    json.update(counts(volume));
+    json.update(
+        {{"lattice_groups", report.lattice_group_names}, {"largest_snap", report.largest_snap}});
+    json.update(work(report.ray_count, run));
+    json.update(to_json(report.statistics));
+    json["seconds"] = {{"merge", report.merge_seconds},
+                       {"tetrahedralize", report.tetrahedralize_seconds},
+                       {"bake", run.seconds}};
+    common.report(run.output, json,
+                  text(run.output, ": ", counted(volume.probe_count(), "probe"), " (",
+                       merged_text(report.welded_count, report.lattice_group_names.size(),
+                                   report.largest_snap),
+                       "), ", cells_text(volume), "\n  merge ", duration(report.merge_seconds),
+                       ", tetrahedralize ", duration(report.tetrahedralize_seconds), ", bake ",
+                       work_text(report.ray_count, run), "\n  ", to_text(report.statistics)));
+}
+
+void report_range(const CommonOptions& common, const BakeRun& run, const PartialBake& part,
+                  size_t probe_count) {
+    const BakedProbes light = baked_probes(part.tallies);
+    const BakeStatistics statistics = bake_statistics(light, run.settings.target_error);
+    Json json{{"output", run.output},
+              {"range", {part.range.begin, part.range.end}},
+              {"probes", part.range.count()},
+              {"all_probes", probe_count}};
+    json.update(work(light.ray_count, run));
+    json.update(to_json(statistics));
+    json["seconds"] = {{"bake", run.seconds}};
+    common.report(run.output, json,
+                  text(run.output, ": probes ", part.range.begin, "..", part.range.end, " of ",
+                       grouped(probe_count), "\n  bake ", work_text(light.ray_count, run), "\n  ",
+                       to_text(statistics)));
+}
+
+Json to_json(const BakeStatistics& statistics) {
+    return {{"samples_per_probe",
+             {{"min", statistics.fewest_directions},
+              {"median", statistics.median_directions},
+              {"max", statistics.most_directions}}},
+            {"standard_error",
+             {{"median", statistics.median_error},
+              {"p99", statistics.p99_error},
+              {"worst", statistics.worst_error}}},
+            {"over_target", statistics.over_target_count}};
+}
+
+std::string to_text(const BakeStatistics& statistics) {
+    std::string directions = grouped(statistics.median_directions);
+    if (statistics.fewest_directions != statistics.most_directions) {
+        directions = text(grouped(statistics.fewest_directions), " to ",
+                          grouped(statistics.most_directions), " (median ", directions, ")");
+    }
+    return text(
+        directions, " samples a probe; standard error: median ", percent(statistics.median_error),
+        ", 99 % below ", percent(statistics.p99_error), ", worst ", percent(statistics.worst_error),
+        statistics.over_target_count == 0
+            ? ""
+            : text("; ", counted(statistics.over_target_count, "probe"), " above the target"));
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bake/bake_statistics.h"
+#include "cli/common.h"
+#include "pipeline/bake_volume.h"
+#include "pipeline/partial_bake.h"
+
+namespace tetralight::cli {
+
+/// One run of `tetralight bake`.
+struct BakeRun {
+    std::string output;
+    BakeSettings settings;
+    /// Of sampling, in this run.
+    double seconds = 0.0;
+    /// Rays of the runs that this one went on with.
+    uint64_t earlier_ray_count = 0;
+};
+
+/// Says what a bake of all probes made.
+void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked);
+
+/// Says what a bake of a range made; `probe_count` is that of the volume.
+void report_range(const CommonOptions& common, const BakeRun& run, const PartialBake& part,
+                  size_t probe_count);
+
+/// Directions a probe and standard errors, as fields of a bake's JSON.
+[[nodiscard]] Json to_json(const BakeStatistics& statistics);
+
+/// The same as one line for people.
+[[nodiscard]] std::string to_text(const BakeStatistics& statistics);
+
+}  // namespace tetralight::cli

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/text.h"
+#include "cli/bake_report.h"
+#include "cli/common.h"
+#include "cli/paths.h"
+#include "pipeline/merge_parts.h"
+#include "probes/probe_file.h"
+
+namespace tetralight::cli {
+namespace {
+
+struct Merge {
+    std::vector<std::string> parts;
+    std::string output;
+    CommonOptions common;
+
+    void add_to(CLI::App& command) {
+        add_paths(command, "PARTS", parts,
+                  "Parts of one bake, made by bake --probes, that hold all of its probes")
+            ->required();
+        add_output(command, output, ".probes", "Probe volume to write");
+        common.add_to(command);
+    }
+
+    Status run() {
+        if (auto status = check_output(output, parts); !status) return status;
+        const auto merged = merge_parts(parts);
+        if (!merged) return merged.error();
+        common.warn(merged->report.warnings);
+        const ProbeVolumeView volume = merged->volume.view();
+        if (auto status = write_probe_file(output, volume); !status) return status;
+
+        Json json{{"output", output}, {"parts", parts.size()}};
+        json.update(counts(volume));
+        json.update({{"rays", merged->report.ray_count}});
+        json.update(to_json(merged->report.statistics));
+        common.report(output, json,
+                      text(output, ": ", counted(volume.probe_count(), "probe"), " of ",
+                           counted(parts.size(), "part"), ", ", cells_text(volume), "\n  ",
+                           to_text(merged->report.statistics)));
+        return Ok{};
+    }
+};
+
+}  // namespace
+
+void add_merge(CLI::App& app, Run& run) {
+    add_command<Merge>(app, run, "merge", "Join ranges of a bake (bake --probes) in one volume",
+                       "tetralight merge first.part second.part -o courtyard.probes");
+}
+
+}  // namespace tetralight::cli

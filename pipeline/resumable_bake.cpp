@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/resumable_bake.h"
+
+#include <filesystem>
+#include <span>
+
+#include "bake/bake_tallies.h"
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+std::string name(const ProbeRange& range) {
+    return text("probes ", range.begin, "..", range.end);
+}
+
+/// What the kept file holds, if it is of this bake.
+Result<PartialBake> resume(const std::string& path, const PreparedBake& prepared,
+                           const ProbeRange& range) {
+    auto part = read_part(path);
+    if (!part) return part.error();
+    if (part->prepared.key != prepared.key) {
+        return Error{path +
+                     ": is of another bake (scene, groups, settings or program version differ); "
+                     "bake without --resume to begin anew"};
+    }
+    if (part->partial.range != range) {
+        return Error{text(path, ": is of ", name(part->partial.range), ", not of ", name(range))};
+    }
+    return std::move(part->partial);
+}
+
+uint64_t ray_count(std::span<const ProbeTally> tallies) {
+    uint64_t sum = 0;
+    for (const ProbeTally& tally : tallies) sum += tally.ray_count;
+    return sum;
+}
+
+}  // namespace
+
+Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, ProbeRange range,
+                             const BakeKeeping& keeping, const BakeCallback& callback) {
+    const size_t probe_count = prepared.capture_positions.size();
+    if (range.begin > range.end || range.end > probe_count) {
+        return Error{text(name(range), ": there are ", probe_count, " probes")};
+    }
+    RangeBake bake;
+    bake.partial = {range, std::vector<ProbeTally>(range.count()), false};
+    if (keeping.is_resumed && std::filesystem::exists(keeping.path)) {
+        auto kept = resume(keeping.path, prepared, range);
+        if (!kept) return kept.error();
+        bake.partial = std::move(*kept);
+        bake.partial.is_finished = false;
+        bake.is_kept = true;
+    }
+    std::vector<ProbeTally>& tallies = bake.partial.tallies;
+    bake.earlier_ray_count = ray_count(tallies);
+
+    const auto keep = [&] {
+        const Status status = write_part(keeping.path, prepared, bake.partial);
+        bake.warning = status ? "" : status.error().message;
+        bake.is_kept = bake.is_kept || status;
+    };
+    BakeHooks hooks{.progress = callback, .save_seconds = keeping.save_seconds};
+    if (!keeping.path.empty()) hooks.save = keep;
+    const auto positions =
+        std::span(prepared.capture_positions).subspan(range.begin, range.count());
+    const Status status = bake_tallies(scene, positions, prepared.settings, tallies, hooks);
+    if (!status) {
+        if (hooks.save) keep();
+        return bake.warning.empty() ? status.error() : Error{bake.warning};
+    }
+    bake.partial.is_finished = true;
+    return bake;
+}
+
+}  // namespace tetralight

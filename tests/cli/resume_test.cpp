@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bakes that are interrupted, and what --resume makes of them.
+#include <csignal>
+#include <thread>
+
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+const std::string kPart = "v.probes.part";
+
+class Resume : public CommandFixture {
+  protected:
+    /// A bake that is not over before a signal comes.
+    const Arguments kLong{"bake", kCourtyard, "-o", "v.probes", "-s", "262144", "-j", "1", "-q"};
+
+    [[nodiscard]] CommandResult interrupted(const Arguments& arguments, int signal = SIGINT) const {
+        RunningCommand bake(folder(), arguments, "");
+        while (!bake.handles(signal)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        bake.send(signal);
+        return bake.wait();
+    }
+
+    /// Interrupts a bake of some seconds when it has got somewhere, and resumes it.
+    void interrupt_and_resume(Arguments arguments) const {
+        RunningCommand bake(folder(), arguments, "");
+        while (!bake.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        bake.send(SIGINT);
+        EXPECT_EQ(bake.wait().exit_code, 130);
+        arguments.emplace_back("--resume");
+        succeed(arguments);
+    }
+};
+
+TEST_F(Resume, CtrlCKeepsThePartAndTheOldVolume) {
+    write("v.probes", "old");
+    const CommandResult result = interrupted(kLong);
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_EQ(
+        result.err,
+        "tetralight: interrupted; v.probes.part keeps what is done, --resume goes on with it\n");
+    EXPECT_EQ(read("v.probes"), "old");
+    EXPECT_EQ(file_names(), (std::vector<std::string>{"v.probes", kPart}));
+}
+
+TEST_F(Resume, SigtermDoesTheSame) {
+    EXPECT_EQ(interrupted(kLong, SIGTERM).exit_code, 143);
+    EXPECT_EQ(file_names(), std::vector<std::string>{kPart});
+}
+
+TEST_F(Resume, BakesToStdoutKeepNothing) {
+    const CommandResult result =
+        interrupted({"bake", kCourtyard, "-o", "-", "-s", "262144", "-j", "1", "-q"});
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_EQ(result.err, "tetralight: interrupted\n");
+    EXPECT_EQ(file_names(), std::vector<std::string>{});
+    EXPECT_TRUE(contains(misuse({"bake", kCourtyard, "-o", "-", "--resume"}), "--resume"));
+}
+
+TEST_F(Resume, GoesOnToTheSameBytesAndDropsThePart) {
+    interrupt_and_resume({"bake", kCourtyard, "-o", "v.probes", "-s", "16384", "-q"});
+    EXPECT_EQ(file_names(), std::vector<std::string>{"v.probes"});
+    succeed({"bake", kCourtyard, "-o", "whole.probes", "-s", "16384", "-q"});
+    EXPECT_TRUE(read("v.probes") == read("whole.probes"));
+}
+
+TEST_F(Resume, OfARangeGivesTheSamePart) {
+    interrupt_and_resume(
+        {"bake", kCourtyard, "-o", "v.part", "-s", "32768", "-q", "--probes", "50..150"});
+    EXPECT_EQ(file_names(), std::vector<std::string>{"v.part"});
+    succeed({"bake", kCourtyard, "-o", "again.part", "-s", "32768", "-q", "--probes", "50..150"});
+    EXPECT_TRUE(read("v.part") == read("again.part"));
+}
+
+TEST_F(Resume, OfNothingBeginsAnew) {
+    succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--resume"});
+    EXPECT_EQ(file_names(), std::vector<std::string>{"v.probes"});
+}
+
+TEST_F(Resume, RefusesAPartOfAnotherBake) {
+    static_cast<void>(interrupted(kLong));
+    const std::string part = read(kPart);
+    for (const Arguments& other :
+         {Arguments{"--seed", "1"}, Arguments{"--sky", "1"}, Arguments{"--clamp", "1"}}) {
+        Arguments arguments = kLong;
+        arguments.insert(arguments.end(), other.begin(), other.end());
+        arguments.emplace_back("--resume");
+        EXPECT_TRUE(contains(fail(arguments), kPart + ": is of another bake"));
+        EXPECT_TRUE(read(kPart) == part);
+    }
+}
+
+TEST_F(Resume, RefusesABadPartAndKeepsTheOldVolume) {
+    succeed({"bake", kCourtyard, "-o", "sound.part", "-s", "16", "--probes", "0.."});
+    for (const BadFile& bad : bad_volumes(read("sound.part"))) {
+        write(kPart, bad.bytes);
+        const std::string message = fail_and_keep(
+            "v.probes", {"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--resume"});
+        EXPECT_TRUE(contains(message, kPart + ": ")) << message;
+    }
+}
+
+TEST_F(Resume, SaysThatAPartIsLeftAloneWithoutIt) {
+    static_cast<void>(interrupted(kLong));
+    const CommandResult result = succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
+    EXPECT_TRUE(contains(result.err, "warning: " + kPart + ": ")) << result.err;
+    EXPECT_EQ(file_names(), (std::vector<std::string>{"v.probes", kPart}));
+}
+
+}  // namespace
+}  // namespace tetralight::test
