@@ -10,7 +10,7 @@ namespace {
 
 class ResumableBake : public test::PartFixture {
   protected:
-    ResumableBake() { settings.sample_count = 1 << 14; }  // 64 probes at a time: three chunks
+    ResumableBake() { settings.sample_count = 1 << 14; }
 
     const ProbeRange all{0, kProbeCount};
 
@@ -19,12 +19,12 @@ class ResumableBake : public test::PartFixture {
         EXPECT_EQ(probe_file_bytes(volume.volume.view()), whole());
     }
 
-    /// Cancels a bake at its first report, and again and again until it ends by itself.
+    /// Cancels a bake again and again, until it ends by itself.
     RangeBake bake_in_many_runs(const PreparedBake& prepared, const std::string& file) const {
         for (int run = 0;; ++run) {
-            int reports = 0;
+            int left = run == 0 ? 1 : 3;  // the first one gets nowhere on a machine of any speed
             auto baked = bake_range(scene, prepared, all, {file, true},
-                                    [&](const BakeProgress&) { return ++reports < 3; });
+                                    [&](const BakeProgress&) { return --left > 0; });
             if (baked) {
                 EXPECT_GT(run, 0);
                 return std::move(*baked);
@@ -45,9 +45,9 @@ TEST_F(ResumableBake, CancelledAndResumedGivesTheBytesOfOneBake) {
 }
 
 TEST_F(ResumableBake, AdaptiveOnesToo) {
-    settings.sample_count = 4096;
+    settings.sample_count = 1024;
     settings.target_error = 0.001;
-    settings.max_sample_count = 1 << 16;
+    settings.max_sample_count = 1 << 14;
     PreparedBake prepared = prepare();
     const RangeBake baked = bake_in_many_runs(prepared, path("kept"));
     expect_whole(std::move(prepared), baked);
