@@ -28,6 +28,18 @@ const char* name_of(LightType type) {
     return "unknown";
 }
 
+const char* name_of(LightMode mode) {
+    switch (mode) {
+        case LightMode::Mixed:
+            return "mixed";
+        case LightMode::Baked:
+            return "baked";
+        case LightMode::Realtime:
+            return "realtime";
+    }
+    return "unknown";
+}
+
 Json groups_json(const ProbeVolumeView& volume) {
     const auto names = split_names(volume.group_names);
     std::vector<size_t> probe_counts(names.size(), 0);
@@ -46,7 +58,7 @@ Json lights_json(const ProbeVolumeView& volume) {
         const Light& light = volume.lights[i];
         lights.push_back({{"name", i < names.size() ? names[i] : ""},
                           {"type", name_of(light.type)},
-                          {"mode", light.mode == LightMode::Baked ? "baked" : "mixed"}});
+                          {"mode", name_of(light.mode)}});
     }
     return lights;
 }

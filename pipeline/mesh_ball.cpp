@@ -39,7 +39,7 @@ class LitBall {
         : instances_(instances), scene_(scene) {
         if (!instances.empty()) origin_ = instances[0].center;
         for (const Light& light : volume.lights) {
-            if (light.mode == LightMode::Mixed) mixed_lights_.push_back(light);
+            if (light.mode != LightMode::Baked) direct_lights_.push_back(light);
         }
     }
 
@@ -88,7 +88,7 @@ class LitBall {
   private:
     [[nodiscard]] glm::vec3 direct_term(const glm::dvec3& position, glm::vec3 normal) const {
         glm::vec3 sum(0.0f);
-        for (const Light& light : mixed_lights_) {
+        for (const Light& light : direct_lights_) {
             const glm::vec3 direct = direct_light(light, glm::vec3(position), normal);
             if (direct == glm::vec3(0.0f)) continue;
             const Illumination arriving = illuminate(light, glm::vec3(position));
@@ -104,7 +104,7 @@ class LitBall {
     std::span<const BallInstance> instances_;
     const SceneShader* scene_;
     glm::dvec3 origin_{0.0};
-    std::vector<Light> mixed_lights_;
+    std::vector<Light> direct_lights_;
     RayCaster caster_;
     std::vector<PackedSh> light_;
 };

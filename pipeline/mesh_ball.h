@@ -42,8 +42,8 @@ struct MeshBallPicture {
 };
 
 /// Lights all instances by one batch query and renders them, each with its own probe light, plus
-/// the direct term of the volume's mixed lights with shadow rays among the spheres and into the
-/// scene. `scene` may be null: then the ball hangs in the sky.
+/// the direct term of the volume's lights that are not `Baked`, with shadow rays among the spheres
+/// and into the scene. `scene` may be null: then the ball hangs in the sky.
 [[nodiscard]] Result<MeshBallPicture> render_mesh_ball(std::span<const BallInstance> instances,
                                                        const SceneShader* scene,
                                                        const ProbeVolumeView& volume,

@@ -37,8 +37,8 @@ SceneShader::SceneShader(const Scene& scene, const ProbeVolumeView& volume, Trac
         light_of_mover_[i] = light_at(volume, bounds->center());
     }
     for (const Light& light : volume.lights) {
-        if (light.mode == LightMode::Mixed) {
-            mixed_lights_.push_back(traced_.traced_from_world(light));
+        if (light.mode != LightMode::Baked) {
+            direct_lights_.push_back(traced_.traced_from_world(light));
         }
     }
 }
@@ -60,7 +60,7 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
 glm::vec3 SceneShader::direct_term(const Surface& surface) const {
     const glm::vec3 position = traced_.ray_origin(surface.position, surface.geometric_normal);
     glm::vec3 sum(0.0f);
-    for (const Light& light : mixed_lights_) {
+    for (const Light& light : direct_lights_) {
         const glm::vec3 direct = direct_light(light, surface.position, surface.shading_normal);
         if (direct == glm::vec3(0.0f)) continue;
         const Illumination arriving = illuminate(light, surface.position);

@@ -16,7 +16,8 @@ namespace tetralight {
 
 /// Shades a scene with a volume's light: what an engine would show with this runtime. Static
 /// surfaces take the probe light of each point, things that move (`contributes_gi` false) that of
-/// their bounds' centre; the volume's mixed lights add their direct term with shadow rays.
+/// their bounds' centre; the volume's lights that are not `Baked` add their direct term with shadow
+/// rays.
 class SceneShader {
   public:
     /// Keeps references. Error: not enough memory.
@@ -53,7 +54,7 @@ class SceneShader {
     ProbeVolumeView volume_;
     TraceScene traced_;
     std::vector<PackedSh> light_of_mover_;  // by instance
-    std::vector<Light> mixed_lights_;       // in traced space
+    std::vector<Light> direct_lights_;      // in traced space
 };
 
 /// Light of the sky in a direction, as the volume's ambient probe knows it.

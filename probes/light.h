@@ -16,7 +16,8 @@ enum class LightType : uint32_t {
     Disc = 4,
 };
 
-/// How the light of point, spot, rectangle and disc lights falls off with distance d.
+/// How the light of point, spot, rectangle and disc lights falls off with distance d. `Linear` and
+/// `Legacy` do not grow near the light: there `intensity` is the irradiance at distance 0, in lux.
 enum class LightFalloff : uint32_t {
     Gltf = 0,                ///< sat(1 − (d/range)⁴) / d², KHR_lights_punctual
     InverseSquareRange = 1,  ///< sat(1 − (d/range)⁴)² / d²
@@ -26,8 +27,9 @@ enum class LightFalloff : uint32_t {
 
 /// Which share of a light is baked into the probes (docs/conventions.md).
 enum class LightMode : uint32_t {
-    Mixed = 0,  ///< its bounces; whoever shades adds the direct term with a shadow
-    Baked = 1,  ///< its bounces and its direct light
+    Mixed = 0,     ///< its bounces; whoever shades adds the direct term with a shadow
+    Baked = 1,     ///< its bounces and its direct light
+    Realtime = 2,  ///< nothing; whoever shades adds the direct term with a shadow
 };
 
 /// A light with the meaning and units of glTF's KHR_lights_punctual, and what that leaves out.
@@ -74,8 +76,22 @@ struct Illumination {
     float distance = 0.0f;
 };
 
-/// Falloff and cone as KHR_lights_punctual defines them: 1/d² windowed by sat(1 − (d/range)⁴), and
-/// the squared linear ramp between the cosines of the outer and the inner cone.
+/// Irradiance on a surface that faces a point light of intensity 1 at a distance > 0: the formula
+/// of the light's falloff. 1 for directional lights. A range of 0 leaves what depends on it out.
+[[nodiscard]] float evaluate_falloff(const Light& light, float distance) noexcept;
+
+/// Share of a light's intensity that leaves it towards a place from which `to_light` (unit) points
+/// back: the squared ramp between a spot light's cosines (KHR_lights_punctual), the cosine of
+/// rectangles and discs on their front, 1 for the others.
+[[nodiscard]] float evaluate_emission_profile(const Light& light, glm::vec3 to_light) noexcept;
+
+/// Area of a rectangle or disc, square metres; 0 for the others. With it,
+/// intensity / area is the radiance that the surface shows on its front.
+[[nodiscard]] float light_area(const Light& light) noexcept;
+
+/// E = intensity · profile · falloff. `radius` is left out, since it only softens shadows. Of
+/// rectangles and discs this is the view from afar, where they are points; under 1/d² falloffs the
+/// area A bounds it nearby as 1/(d² + A/π), which is exact on the axis of a disc.
 [[nodiscard]] Illumination illuminate(const Light& light, glm::vec3 position) noexcept;
 
 }  // namespace tetralight

@@ -8,7 +8,8 @@
 
 namespace tetralight {
 
-/// Irradiance / π that one unshadowed light adds to a surface: the direct term of a mixed light.
+/// Irradiance / π that one unshadowed light adds to a surface: the direct term of a light that is
+/// not `Baked`.
 [[nodiscard]] glm::vec3 direct_light(const Light& light, glm::vec3 position,
                                      glm::vec3 normal) noexcept;
 

@@ -21,6 +21,16 @@ bool is_finite(const IrradianceSh& sh) {
     return std::ranges::all_of(sh.coefficients, [](const glm::vec3& c) { return is_finite(c); });
 }
 
+bool is_plausible(const Light& light) {
+    const float numbers[] = {light.range,  light.cos_inner_cone,      light.cos_outer_cone,
+                             light.radius, light.indirect_multiplier, light.width,
+                             light.height};
+    return light.type <= LightType::Disc && light.mode <= LightMode::Realtime &&
+           light.falloff <= LightFalloff::Legacy && is_finite(light.intensity) &&
+           is_finite(light.position) && is_finite(light.direction) && is_finite(light.tangent) &&
+           std::ranges::all_of(numbers, [](float f) { return std::isfinite(f); });
+}
+
 /// Exponents of all ones are infinities and NaNs.
 bool is_finite(const CompactProbe& probe) {
     const auto finite = [](uint16_t half) { return (half & 0x7c00) != 0x7c00; };
@@ -197,13 +207,8 @@ Status check_tables(const ProbeVolumeView& v) {
     const auto in_range = [&](const ProbeSource& source) {
         return source.group < groups && source.probe < v.positions.size();
     };
-    const auto is_light = [](const Light& light) {
-        return light.type <= LightType::Spot && light.mode <= LightMode::Baked &&
-               is_finite(light.intensity) && is_finite(light.position) &&
-               is_finite(light.direction);
-    };
     if (auto s = check_each("sources", v.sources, "is out of range", in_range); !s) return s;
-    return check_each("lights", v.lights, "is not a light", is_light);
+    return check_each("lights", v.lights, "is not a light", is_plausible);
 }
 
 }  // namespace

@@ -69,13 +69,27 @@ TEST(RenderScene, SkyStandsBehind) {
     expect_near(seen(floor_scene(), volume, {0, 1, 0}, {0, 2, 1}), {4, 5, 6});
 }
 
-TEST(RenderScene, MixedSunAddsItsDirectTerm) {
+TEST(RenderScene, MixedAndRealtimeSunsAddTheirDirectTerm) {
     // Straight down on the floor: albedo/π · E on top of the probe light.
-    ProbeVolume volume = constant_volume(glm::vec3(1.0f), glm::vec3(0.0f));
+    for (const LightMode mode : {LightMode::Mixed, LightMode::Realtime}) {
+        ProbeVolume volume = constant_volume(glm::vec3(1.0f), glm::vec3(0.0f));
+        Scene lights;
+        test::add_sun(lights, mode, glm::vec3(std::numbers::pi_v<float>));
+        volume.lights = lights.lights;
+        expect_near(seen(floor_scene(), volume, {1, 3, 0}, {1, 0, 1}), 2.0f * kAlbedo);
+    }
+}
+
+TEST(RenderScene, DiscLightAddsItsDirectTerm) {
+    // On the axis of a disc E = π L r² / (r² + d²); here with I = π² and r = d = 1 it is π² / 2.
+    ProbeVolume volume = constant_volume(glm::vec3(0.0f), glm::vec3(0.0f));
+    constexpr float kPi = std::numbers::pi_v<float>;
     Scene lights;
-    test::add_sun(lights, LightMode::Mixed, glm::vec3(std::numbers::pi_v<float>));
+    Light& disc = test::add_light(lights, LightType::Disc, LightMode::Mixed, glm::vec3(kPi * kPi));
+    disc.radius = 1.0f;
+    disc.position = {0, 1, 0};
     volume.lights = lights.lights;
-    expect_near(seen(floor_scene(), volume, {1, 3, 0}, {1, 0, 1}), 2.0f * kAlbedo);
+    expect_near(seen(floor_scene(), volume, {1, 3, 0}, {0, 0, 0}), kAlbedo * (kPi / 2.0f));
 }
 
 TEST(RenderScene, BakedLightIsInTheProbesAlready) {

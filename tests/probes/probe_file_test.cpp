@@ -177,6 +177,10 @@ TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {
              [](ProbeVolume& v) { v.group_names = "no end"; },
              [](ProbeVolume& v) { v.light_names = "one\n"; },
              [](ProbeVolume& v) { v.lights[0].type = static_cast<LightType>(9); },
+             [](ProbeVolume& v) { v.lights[0].mode = static_cast<LightMode>(3); },
+             [](ProbeVolume& v) { v.lights[0].falloff = static_cast<LightFalloff>(4); },
+             [](ProbeVolume& v) { v.lights[1].range = std::nanf(""); },
+             [](ProbeVolume& v) { v.lights[1].tangent.y = INFINITY; },
              [](ProbeVolume& v) { v.info.inner_cell_count = 100000; }}) {
         ProbeVolume broken = volume;
         break_it(broken);
