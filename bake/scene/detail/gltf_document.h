@@ -98,6 +98,19 @@ struct GltfSampler {
     uint32_t wrap_t = 0;
 };
 
+/// Extras of a light, or of its node, which win. A string that is not one reads "(not a string)", a
+/// number that is not one NaN.
+struct GltfLightExtras {
+    std::optional<std::string> mode;
+    std::optional<std::string> falloff;
+    std::optional<std::string> shape;
+    std::optional<double> indirect_multiplier;
+    std::optional<double> radius;
+    std::optional<double> angle_degrees;
+    std::optional<double> width;
+    std::optional<double> height;
+};
+
 struct GltfLight {
     std::string name;
     std::string type;
@@ -107,7 +120,7 @@ struct GltfLight {
     double range = 0.0;
     double inner_cone_radians = 0.0;
     double outer_cone_radians = 0.0;
-    std::optional<std::string> mode;
+    GltfLightExtras extras;
 };
 
 struct GltfCamera {
@@ -128,7 +141,7 @@ struct GltfNode {
     std::optional<GltfAttributes> instancing;
     // Extras of Tetralight's own.
     std::optional<bool> contributes_gi;
-    std::optional<std::string> light_mode;
+    GltfLightExtras light_extras;
     bool is_probe_group = false;
     bool dering = false;
 };

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bake/scene/detail/gltf_light_extras.h"
 #include "base/text.h"
 
 namespace tetralight::detail {
@@ -17,12 +18,6 @@ std::optional<LightType> type_from(const std::string& type) {
     if (type == "point") return LightType::Point;
     if (type == "spot") return LightType::Spot;
     return std::nullopt;
-}
-
-Result<LightMode> mode_from(const std::string& mode) {
-    if (mode == "mixed") return LightMode::Mixed;
-    if (mode == "baked") return LightMode::Baked;
-    return Error{text("extras.mode \"", mode, "\" is neither \"mixed\" nor \"baked\"")};
 }
 
 Status read_intensity(const GltfLight& source, Light& light) {
@@ -59,19 +54,27 @@ Status read_cone(const GltfLight& source, Light& light) {
     return Ok{};
 }
 
+/// Lights shine along their node's −Z; a rectangle's width lies along its X. Neither its scale nor
+/// its mirroring matters (KHR_lights_punctual).
 Status place_light(const glm::dmat4& world_from_node, Light& light) {
     light.position = glm::vec3(world_from_node[3]);
     for (int axis = 0; axis < 3; ++axis) {
         if (std::isfinite(light.position[axis])) continue;
         return Error{text("position is too far away (", world_from_node[3][axis], ")")};
     }
+    if (light.type == LightType::Point) return Ok{};
     const glm::dvec3 direction = -glm::dvec3(world_from_node[2]);
     const double length = glm::length(direction);
-    if (length > 0.0 && std::isfinite(length)) {
-        light.direction = glm::vec3(direction / length);
-    } else if (light.type != LightType::Point) {
+    if (!(length > 0.0) || !std::isfinite(length)) {
         return Error{text("direction is undefined: its node is scaled to ", length)};
     }
+    light.direction = glm::vec3(direction / length);
+    if (light.type != LightType::Rectangle) return Ok{};
+    const glm::dvec3 forward = direction / length;
+    const glm::dvec3 x(world_from_node[0]);
+    const glm::dvec3 across = x - forward * glm::dot(forward, x);
+    if (!(glm::length(across) > 0.0)) return Error{"width is undefined: its node has no X axis"};
+    light.tangent = glm::vec3(glm::normalize(across));
     return Ok{};
 }
 
@@ -79,14 +82,13 @@ Result<Light> read_light(const GltfLight& source, LightType type, const GltfWorl
                          const GltfNode& node) {
     Light light;
     light.type = type;
-    const auto mode = mode_from(node.light_mode.value_or(source.mode.value_or("mixed")));
-    if (!mode) return mode.error();
-    light.mode = *mode;
     if (const auto status = read_intensity(source, light); !status) return status.error();
     if (const auto status = read_range(source, light); !status) return status.error();
     if (type == LightType::Spot) {
         if (const auto status = read_cone(source, light); !status) return status.error();
     }
+    const auto extras = merged_extras(node.light_extras, source.extras);
+    if (const auto status = apply_light_extras(extras, light); !status) return status.error();
     if (const auto status = place_light(placed.world_from_node, light); !status) {
         return status.error();
     }

@@ -108,6 +108,13 @@ constexpr GltfRule kLights[] = {
     {"spot/innerConeAngle", Number},
     {"spot/outerConeAngle", Number},
     {"extras/mode", String},
+    {"extras/falloff", String},
+    {"extras/shape", String},
+    {"extras/indirect_multiplier", Number},
+    {"extras/radius", Number},
+    {"extras/angle", Number},
+    {"extras/width", Number},
+    {"extras/height", Number},
 };
 
 constexpr GltfRule kCameras[] = {

@@ -93,6 +93,76 @@ TEST(GltfLights, ModeOfTheNodeWins) {
               LightMode::Mixed);
 }
 
+TEST(GltfLights, RealtimeMode) {
+    EXPECT_EQ(light_of(lamp({{"type", "point"}, {"extras", {{"mode", "realtime"}}}})).mode,
+              LightMode::Realtime);
+}
+
+Light bulb(Json extras) {
+    return light_of(lamp({{"type", "point"}, {"range", 8}, {"extras", std::move(extras)}}));
+}
+
+TEST(GltfLights, Falloffs) {
+    EXPECT_EQ(bulb(Json::object()).falloff, LightFalloff::Gltf);
+    EXPECT_EQ(bulb({{"falloff", "gltf"}}).falloff, LightFalloff::Gltf);
+    EXPECT_EQ(bulb({{"falloff", "inverse-square-range"}}).falloff,
+              LightFalloff::InverseSquareRange);
+    EXPECT_EQ(bulb({{"falloff", "linear"}}).falloff, LightFalloff::Linear);
+    EXPECT_EQ(bulb({{"falloff", "legacy"}}).falloff, LightFalloff::Legacy);
+}
+
+TEST(GltfLights, IndirectMultiplierAndRadius) {
+    const Light light = bulb({{"indirect_multiplier", 2.5}, {"radius", 0.25}});
+    EXPECT_EQ(light.indirect_multiplier, 2.5f);
+    EXPECT_EQ(light.radius, 0.25f);
+    EXPECT_EQ(light.type, LightType::Point);
+}
+
+TEST(GltfLights, AngleIsTheWholeDiameterInDegrees) {
+    const Light sun = light_of(lamp({{"type", "directional"}, {"extras", {{"angle", 90}}}}));
+    EXPECT_FLOAT_EQ(sun.radius, static_cast<float>(std::numbers::pi / 4));
+}
+
+TEST(GltfLights, EachExtraOfTheNodeWins) {
+    const Light light = light_of(
+        lamp({{"type", "point"}, {"range", 8}, {"extras", {{"falloff", "linear"}, {"radius", 1}}}},
+             {{"extras", {{"radius", 2}, {"mode", "baked"}}}}));
+    EXPECT_EQ(light.radius, 2.0f);
+    EXPECT_EQ(light.falloff, LightFalloff::Linear);
+    EXPECT_EQ(light.mode, LightMode::Baked);
+}
+
+TEST(GltfLights, RectangleLiesAcrossItsNode) {
+    // A quarter turn about +Y takes -Z to -X and +X to -Z; sizes are metres whatever the scale.
+    const double half = std::sqrt(0.5);
+    const Light light =
+        light_of(lamp({{"type", "spot"},
+                       {"spot", Json::object()},
+                       {"intensity", 5},
+                       {"extras", {{"shape", "rectangle"}, {"width", 3}, {"height", 2}}}},
+                      {{"rotation", {0, half, 0, half}}, {"scale", {4, 5, 6}}}));
+    EXPECT_EQ(light.type, LightType::Rectangle);
+    EXPECT_EQ(light.intensity, glm::vec3(5.0f));
+    EXPECT_EQ(glm::vec2(light.width, light.height), glm::vec2(3, 2));
+    EXPECT_NEAR(light.direction.x, -1.0f, 1e-6f);
+    EXPECT_NEAR(light.tangent.z, -1.0f, 1e-6f);
+}
+
+TEST(GltfLights, TangentOfAShearedNodeIsAcrossItsDirection) {
+    // X leans towards Z; the direction is -Z, so that the tangent is X alone.
+    const Light light = light_of(
+        lamp({{"type", "point"}, {"extras", {{"shape", "rectangle"}, {"width", 1}, {"height", 1}}}},
+             {{"matrix", {1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}));
+    EXPECT_EQ(light.tangent, glm::vec3(1, 0, 0));
+}
+
+TEST(GltfLights, DiscHasARadius) {
+    const Light light = bulb({{"shape", "disc"}, {"radius", 0.5}});
+    EXPECT_EQ(light.type, LightType::Disc);
+    EXPECT_EQ(light.radius, 0.5f);
+    EXPECT_EQ(light.direction, glm::vec3(0, 0, -1));
+}
+
 TEST(GltfLights, NamesAreTheNodesElseTheLights) {
     GltfBuilder gltf = lamp({{"type", "point"}, {"name", "bulb"}});
     gltf.add_root({{"extensions", GltfBuilder::light_extension(0)}});
@@ -135,6 +205,12 @@ Json spot(double inner, double outer) {
     return {{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}};
 }
 
+/// Extras of the light's node that are refused.
+LightRejection bad_extras(const char* label, Json extras, const char* error,
+                          const char* type = "point") {
+    return {label, {{"type", type}}, {{"extras", std::move(extras)}}, error};
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, GltfLightsReject,
     testing::Values(
@@ -171,11 +247,47 @@ INSTANTIATE_TEST_SUITE_P(
         LightRejection{"NodeMode",
                        {{"type", "point"}},
                        {{"extras", {{"mode", "dynamic"}}}},
-                       "extras.mode \"dynamic\" is neither \"mixed\" nor \"baked\""},
-        LightRejection{"ModeNoString",
-                       {{"type", "point"}},
-                       {{"extras", {{"mode", 3}}}},
-                       "extras.mode \"(not a string)\" is neither \"mixed\" nor \"baked\""}),
+                       "extras.mode \"dynamic\" is not \"mixed\", \"baked\" or \"realtime\""},
+        bad_extras("Falloff", {{"falloff", "cubic"}},
+                   "extras.falloff \"cubic\" is not \"gltf\", \"inverse-square-range\", "
+                   "\"linear\" or \"legacy\""),
+        bad_extras("LinearWithoutRange", {{"falloff", "linear"}},
+                   "extras.falloff \"linear\" needs a range > 0"),
+        bad_extras("LegacyWithoutRange", {{"falloff", "legacy"}},
+                   "extras.falloff \"legacy\" needs a range > 0"),
+        bad_extras("SquareWithoutRange", {{"falloff", "inverse-square-range"}},
+                   "extras.falloff \"inverse-square-range\" needs a range > 0"),
+        bad_extras("Multiplier", {{"indirect_multiplier", -1}},
+                   "extras.indirect_multiplier -1 is negative or too large"),
+        bad_extras("Radius", {{"radius", 1e300}}, "extras.radius 1e+300 is negative or too large"),
+        bad_extras("RadiusNoNumber", {{"radius", "big"}}, "extras.radius is not a number"),
+        bad_extras("AngleOfAPoint", {{"angle", 1}},
+                   "extras.angle is for directional lights; others have extras.radius"),
+        bad_extras("Shape", {{"shape", "cube"}},
+                   "extras.shape \"cube\" is neither \"rectangle\" nor \"disc\""),
+        bad_extras("RectangleWithoutHeight", {{"shape", "rectangle"}, {"width", 1}},
+                   "extras.shape \"rectangle\" needs a width and a height > 0"),
+        bad_extras("DiscWithoutRadius", {{"shape", "disc"}},
+                   "extras.shape \"disc\" needs a radius > 0"),
+        bad_extras("RadiusOfASun", {{"radius", 1}},
+                   "extras.radius is not for directional lights; they have extras.angle",
+                   "directional"),
+        bad_extras("Angle", {{"angle", 181}}, "extras.angle 181 is more than 180 degrees",
+                   "directional"),
+        bad_extras("FalloffOfASun", {{"falloff", "legacy"}},
+                   "extras.falloff is not for directional lights", "directional"),
+        bad_extras("ShapeOfASun", {{"shape", "disc"}}, "extras.shape is not for directional lights",
+                   "directional"),
+        LightRejection{
+            "NoXAxis",
+            {{"type", "point"}, {"extras", {{"shape", "rectangle"}, {"width", 1}, {"height", 1}}}},
+            {{"scale", {0, 1, 1}}},
+            "width is undefined: its node has no X axis"},
+        LightRejection{
+            "ModeNoString",
+            {{"type", "point"}},
+            {{"extras", {{"mode", 3}}}},
+            "extras.mode \"(not a string)\" is not \"mixed\", \"baked\" or \"realtime\""}),
     [](const auto& param_info) { return std::string(param_info.param.label); });
 
 }  // namespace

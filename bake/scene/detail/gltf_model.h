@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fstream>  // tiny_gltf.h needs it and leaves it out with TINYGLTF_NO_FS
+#include <string>
+
+#include "bake/scene/detail/gltf_document.h"
+
+// The only header that knows tinygltf, for the two files that use it. It parses and decodes base64;
+// files are read, images are decoded and everything is checked by our own code.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_FS
+#include <tiny_gltf.h>
+
+namespace tetralight::detail {
+
+/// What a model says, without interpretation. Precondition: its JSON passed check_gltf_json().
+[[nodiscard]] GltfDocument document_from(tinygltf::Model model, const std::string& path);
+
+}  // namespace tetralight::detail
