@@ -31,6 +31,7 @@ Status add_surfaces(const detail::GltfDocument& document, Scene& scene,
     scene.materials = std::move(materials->materials);
     scene.textures = std::move(materials->textures);
     detail::assign_default_material(scene.materials, scene.meshes);
+    append_warnings(scene, meshes.warnings);
     append_warnings(scene, materials->warnings);
     return Ok{};
 }

@@ -66,6 +66,9 @@ Result<InstanceAttributes> read_attributes(const GltfDocument& document,
 Result<std::vector<glm::dmat4>> read_transforms(const GltfDocument& document,
                                                 const GltfWorldNode& placed) {
     const auto& instancing = document.nodes[placed.node].instancing;
+    if (!is_invertible(placed.world_from_node)) {
+        return Error{"transform is not invertible; its mesh would be flat"};
+    }
     if (!instancing) return std::vector<glm::dmat4>{placed.world_from_node};
     const auto attributes = read_attributes(document, *instancing);
     if (!attributes) return attributes.error().in("EXT_mesh_gpu_instancing");
@@ -77,8 +80,10 @@ Result<std::vector<glm::dmat4>> read_transforms(const GltfDocument& document,
             compose_transform(glm::dvec3(attributes->translations[i]),
                               glm::dquat(q.w, q.x, q.y, q.z), glm::dvec3(attributes->scales[i]));
         transforms.push_back(placed.world_from_node * node_from_instance);
-        if (is_finite_affine(transforms.back())) continue;
-        return Error{text("EXT_mesh_gpu_instancing: transform ", i, " is not finite")};
+        const bool is_finite = is_finite_affine(transforms.back());
+        if (is_finite && is_invertible(transforms.back())) continue;
+        return Error{text("EXT_mesh_gpu_instancing: transform ", i, " is not ",
+                          is_finite ? "invertible" : "finite")};
     }
     return transforms;
 }

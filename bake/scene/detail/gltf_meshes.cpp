@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/scene/detail/gltf_meshes.h"
 
+#include <algorithm>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "bake/scene/detail/gltf_accessors.h"
@@ -60,6 +62,29 @@ Result<std::vector<uint32_t>> triangles_from(std::vector<uint32_t> corners, uint
     return corners;
 }
 
+/// Exact for what is degenerate by construction: two corners in one place, three in a row along an
+/// axis or a diagonal. What is merely thin stays.
+bool has_area(const Mesh& mesh, const uint32_t* corners) {
+    const glm::dvec3 a(mesh.positions[corners[0]]);
+    const glm::dvec3 b(mesh.positions[corners[1]]);
+    const glm::dvec3 c(mesh.positions[corners[2]]);
+    return glm::cross(b - a, c - a) != glm::dvec3(0.0);
+}
+
+/// Takes out triangles that no ray can hit; returns how many.
+size_t remove_flat_triangles(Mesh& mesh) {
+    auto& indices = mesh.indices;
+    size_t kept = 0;
+    for (size_t i = 0; i < indices.size(); i += 3) {
+        if (!has_area(mesh, &indices[i])) continue;
+        std::copy_n(&indices[i], 3, &indices[kept]);
+        kept += 3;
+    }
+    const size_t removed = (indices.size() - kept) / 3;
+    indices.resize(kept);
+    return removed;
+}
+
 Status check_count(size_t count, const char* attribute, const Mesh& mesh) {
     if (count == mesh.positions.size()) return Ok{};
     return Error{
@@ -109,6 +134,7 @@ Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& p
 
 Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshes& result) {
     auto& meshes_of_source = result.meshes_of.emplace_back();
+    size_t flat_count = 0;
     for (size_t i = 0; i < source.primitives.size(); ++i) {
         const GltfPrimitive& primitive = source.primitives[i];
         const std::string place = text("primitive ", i);
@@ -118,9 +144,16 @@ Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshe
         if (primitive.mode < kTriangles) continue;  // points and lines reflect no light
         auto mesh = read_primitive(document, primitive);
         if (!mesh) return mesh.error().in(place);
+        flat_count += remove_flat_triangles(*mesh);
         if (mesh->indices.empty()) continue;
         meshes_of_source.push_back(static_cast<uint32_t>(result.meshes.size()));
         result.meshes.push_back(std::move(*mesh));
+    }
+    if (flat_count > 0) {
+        const std::string place = gltf_place("mesh", result.meshes_of.size() - 1, source.name);
+        const char* triangles = flat_count == 1 ? " triangle" : " triangles";
+        result.warnings.push_back(
+            text(place, ": ", flat_count, triangles, " without area left out"));
     }
     return Ok{};
 }

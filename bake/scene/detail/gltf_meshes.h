@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bake/scene/detail/gltf_document.h"
@@ -13,6 +14,8 @@ struct GltfMeshes {
     std::vector<Mesh> meshes;
     /// For each glTF mesh, which of `meshes` are its primitives.
     std::vector<std::vector<uint32_t>> meshes_of;
+    /// Meshes of which triangles without area were left out.
+    std::vector<std::string> warnings;
 };
 
 /// Reads all triangle primitives. `material` is kNoIndex where the file names none.

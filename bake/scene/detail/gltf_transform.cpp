@@ -2,6 +2,8 @@
 #include "bake/scene/detail/gltf_transform.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace tetralight::detail {
 
@@ -24,6 +26,14 @@ bool is_finite_affine(const glm::dmat4& transform) {
         }
     }
     return true;
+}
+
+bool is_invertible(const glm::dmat4& transform) {
+    constexpr double kRounding = 1e-12;
+    const glm::dmat3 axes(transform);
+    double largest = 1.0;
+    for (int axis = 0; axis < 3; ++axis) largest *= glm::length(axes[axis]);
+    return std::abs(glm::determinant(axes)) > kRounding * largest;
 }
 
 }  // namespace tetralight::detail

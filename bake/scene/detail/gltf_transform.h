@@ -14,4 +14,8 @@ namespace tetralight::detail {
 /// All sixteen numbers are finite and the last row is (0, 0, 0, 1).
 [[nodiscard]] bool is_finite_affine(const glm::dmat4& transform);
 
+/// No axis is lost: the volume that the transform's axes span is more than rounding of what they
+/// could span.
+[[nodiscard]] bool is_invertible(const glm::dmat4& transform);
+
 }  // namespace tetralight::detail

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tests/bake/scene/gltf_builder.h"
 
@@ -97,6 +98,40 @@ TEST(GltfInstances, RejectsAZeroRotation) {
     });
     EXPECT_EQ(gltf.error(),
               "scene.glb: node 0 \"trees\": EXT_mesh_gpu_instancing: transform 1 is not finite");
+}
+
+TEST(GltfInstances, RejectsATransformThatLosesAnAxis) {
+    // A quarter of a turn away, so that no column is zero in the product.
+    const double sine = std::sin(std::numbers::pi / 8), cosine = std::cos(std::numbers::pi / 8);
+    GltfBuilder gltf;
+    const size_t child = gltf.add("nodes", {{"name", "leaf"}, {"mesh", gltf.add_triangle()}});
+    gltf.json["nodes"][child]["rotation"] = {0, sine, 0, cosine};
+    gltf.add_root({{"scale", {1, 1, 0}}, {"children", {child}}});
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"leaf\": transform is not invertible; its mesh would be flat");
+}
+
+TEST(GltfInstances, SmallAndUnevenScalesAreInvertible) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()}, {"scale", {1e-6, 1e-6, 1e-6}}});
+    gltf.add_root({{"mesh", 0}, {"scale", {1000, 1e-3, -1}}});
+    EXPECT_EQ(instances_of(gltf).size(), 2u);
+}
+
+TEST(GltfInstances, NodesWithoutAMeshMayLoseAxes) {
+    GltfBuilder gltf;
+    gltf.add_root({{"scale", {0, 0, 0}}});
+    gltf.add_root({{"mesh", gltf.add_triangle()}});
+    EXPECT_EQ(instances_of(gltf).size(), 1u);
+}
+
+TEST(GltfInstances, RejectsAnInstanceThatLosesAnAxis) {
+    const auto gltf = instanced([](GltfBuilder& builder) -> Json {
+        return {{"SCALE", builder.add_floats({1, 1, 1, 1, 0, 1}, "VEC3")}};
+    });
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"trees\": EXT_mesh_gpu_instancing: transform 1 is not "
+              "invertible");
 }
 
 TEST(GltfInstances, RejectsATranslationThatIsNotFinite) {

@@ -105,6 +105,46 @@ TEST(GltfMeshes, EachPrimitiveBecomesAMesh) {
     EXPECT_EQ(scene->instances[1].mesh, 1u);
 }
 
+TEST(GltfMeshes, TrianglesWithoutAreaAreLeftOutAndCounted) {
+    GltfBuilder gltf;
+    // Corner 3 lies on the edge from 0 to 1, corner 4 where corner 0 is.
+    const size_t mesh =
+        gltf.add_mesh({0, 0, 0, 0.3f, 0.3f, 0.3f, 0, 1, 0, 0.1f, 0.1f, 0.1f, 0, 0, 0});
+    gltf.json["meshes"][mesh]["name"] = "wall";
+    gltf.primitive(mesh)["indices"] = gltf.add_accessor(
+        std::vector<uint16_t>{0, 3, 1, 0, 1, 2, 0, 2, 4, 2, 2, 1}, "SCALAR", 5123);
+    gltf.add_root({{"mesh", mesh}});
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes[0].indices, (Indices{0, 1, 2}));
+    ASSERT_EQ(scene->warnings.size(), 1u);
+    EXPECT_TRUE(scene->warnings[0].ends_with(
+        "scene.glb: mesh 0 \"wall\": 3 triangles without area left out"));
+}
+
+TEST(GltfMeshes, ThinAndTinyTrianglesStay) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_mesh({0, 0, 0, 1e-12f, 0, 0, 0, 1e-12f, 0})}});
+    gltf.add_root({{"mesh", gltf.add_mesh({0, 0, 0, 1000, 0, 0, 0, 1e-4f, 0})}});
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes.size(), 2u);
+    EXPECT_TRUE(scene->warnings.empty());
+}
+
+TEST(GltfMeshes, OneWarningCountsAllPrimitivesOfAMesh) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_mesh({0, 0, 0, 1, 0, 0, 2, 0, 0});
+    gltf.json["meshes"][mesh]["primitives"].push_back(gltf.primitive(mesh));
+    gltf.add_root({{"mesh", mesh}});
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene->meshes.empty());
+    EXPECT_TRUE(scene->instances.empty());
+    ASSERT_EQ(scene->warnings.size(), 1u);
+    EXPECT_NE(scene->warnings[0].find("mesh 0: 2 triangles"), std::string::npos);
+}
+
 TEST(GltfMeshes, RejectsAnIndexOutOfRange) {
     GltfBuilder gltf = zigzag_scene(4);
     gltf.json["meshes"][0]["name"] = "wall";

@@ -58,12 +58,6 @@ TEST(GltfNodes, MatrixIsColumnMajorAndMayMirror) {
     EXPECT_EQ(scene.instances[0].world_from_mesh[3], glm::dvec4(3, 4, 5, 1));
 }
 
-TEST(GltfNodes, FlatScaleIsAllowed) {
-    GltfBuilder gltf;
-    gltf.add_root({{"mesh", gltf.add_triangle()}, {"scale", {1, 0, 1}}});
-    EXPECT_EQ(scene_of(gltf).instances.size(), 1u);
-}
-
 TEST(GltfNodes, OnlyTheDefaultSceneIsRead) {
     GltfBuilder gltf;
     const size_t mesh = gltf.add_triangle();
