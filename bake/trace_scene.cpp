@@ -2,14 +2,12 @@
 #include "bake/trace_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <utility>
 
 #include "bake/sampling.h"
 #include "bake/scene/scene_bounds.h"
-#include "bake/scene/texture.h"
 
 namespace tetralight {
 namespace {
@@ -31,50 +29,17 @@ glm::mat3 normal_from_mesh(const MeshInstance& instance) {
     return largest > 0.0 ? glm::mat3(cofactors / largest) : glm::mat3(0.0f);
 }
 
-/// A triangle's corners in its mesh and the weights of a point in it.
-struct MeshPoint {
-    std::array<uint32_t, 3> corners;
-    glm::vec3 weights;
-
-    template <class T>
-    [[nodiscard]] T blend(const std::vector<T>& values) const {
-        return values[corners[0]] * weights[0] + values[corners[1]] * weights[1] +
-               values[corners[2]] * weights[2];
-    }
-};
-
-MeshPoint mesh_point(const Mesh& mesh, bool is_mirrored, const RayHit& hit) {
-    const uint32_t* corners = &mesh.indices[size_t{hit.primitive} * 3];
-    const glm::vec2 b =
-        is_mirrored ? glm::vec2(hit.barycentric.y, hit.barycentric.x) : hit.barycentric;
-    return {{corners[0], corners[1], corners[2]}, {1.0f - b.x - b.y, b.x, b.y}};
+MeshPoint hit_point(const Mesh& mesh, bool is_mirrored, const RayHit& hit) {
+    const glm::vec2 b = hit.barycentric;
+    return mesh_point(mesh, hit.primitive, is_mirrored ? glm::vec2(b.y, b.x) : b);
 }
 
-glm::vec4 sample_use(const Scene& scene, const TextureUse& use, const Mesh& mesh,
-                     const MeshPoint& point) {
-    const auto& uvs = mesh.uvs[use.uv_set];
-    if (use.texture == kNoIndex || uvs.empty()) return glm::vec4(1.0f);
-    const glm::vec3 uv = use.image_from_mesh * glm::vec3(point.blend(uvs), 1.0f);
-    return sample_texture(scene.textures[use.texture], glm::vec2(uv));
-}
-
-glm::vec4 base_color(const Scene& scene, const Mesh& mesh, const MeshPoint& point) {
-    const Material& material = scene.materials[mesh.material];
-    return material.base_color * sample_use(scene, material.base_color_texture, mesh, point);
-}
-
-glm::vec3 shading_normal(const Mesh& mesh, const MeshPoint& point, const glm::mat3& from_mesh,
+glm::vec3 shading_normal(const MeshPoint& point, const glm::mat3& from_mesh,
                          glm::vec3 geometric_normal) {
-    if (mesh.normals.empty()) return geometric_normal;
-    const glm::vec3 normal = from_mesh * point.blend(mesh.normals);
+    if (point.mesh->normals.empty()) return geometric_normal;
+    const glm::vec3 normal = from_mesh * point.blend(point.mesh->normals);
     const float length = glm::length(normal);
     return length > 0.0f ? normal / length : geometric_normal;
-}
-
-/// How much of the base colour light is passed on diffusely: all by dielectrics, and by metals half
-/// of what they reflect times their roughness, because a rough reflection is spread widely.
-float diffuse_share(const Material& material) {
-    return 1.0f - material.metallic * (1.0f - 0.5f * material.roughness);
 }
 
 /// A number in [0, 1) that depends on the ray and the triangle only.
@@ -87,7 +52,19 @@ float hash_of(const Ray& ray, const RayHit& hit) {
 }  // namespace
 
 Result<TraceScene> TraceScene::make(const Scene& scene, const Selection& selection) {
+    return make_from(scene, selection, std::make_unique<State>());
+}
+
+Result<TraceScene> TraceScene::make_static(const Scene& scene, const SurfaceSettings& surfaces) {
     auto state = std::make_unique<State>();
+    state->surfaces = surfaces;
+    state->emission = Emission::Baked;
+    const auto is_static = [](const MeshInstance& instance) { return instance.contributes_gi; };
+    return make_from(scene, is_static, std::move(state));
+}
+
+Result<TraceScene> TraceScene::make_from(const Scene& scene, const Selection& selection,
+                                         std::unique_ptr<State> state) {
     const Box bounds = scene_bounds(scene, selection).value_or(Box{});
     state->scene = &scene;
     state->origin = bounds.center();
@@ -114,10 +91,6 @@ Result<TraceScene> TraceScene::make(const Scene& scene, const Selection& selecti
     return TraceScene(std::move(state), std::move(caster));
 }
 
-Result<TraceScene> TraceScene::make_static(const Scene& scene) {
-    return make(scene, [](const MeshInstance& instance) { return instance.contributes_gi; });
-}
-
 Light TraceScene::traced_from_world(Light light) const {
     light.position = traced_from_world(glm::dvec3(light.position));
     return light;
@@ -134,8 +107,8 @@ TraceScene::Placed TraceScene::place(const Scene& scene, uint32_t index) {
 bool TraceScene::stops_at(const void* context, const Ray& ray, const RayHit& hit) {
     const State& state = *static_cast<const State*>(context);
     const Placed& placed = state.placed[hit.geometry];
-    const MeshPoint point = mesh_point(*placed.mesh, placed.is_mirrored, hit);
-    const float alpha = base_color(*state.scene, *placed.mesh, point).a;
+    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, hit);
+    const float alpha = base_color(*state.scene, point).a;
     if (placed.material->alpha_mode == AlphaMode::Mask) {
         return alpha >= placed.material->alpha_cutoff;
     }
@@ -147,18 +120,18 @@ std::optional<Surface> TraceScene::cast(const Ray& ray) const {
     if (!hit) return std::nullopt;
     const Scene& scene = *state_->scene;
     const Placed& placed = state_->placed[hit->geometry];
-    const Mesh& mesh = *placed.mesh;
     const Material& material = *placed.material;
-    const MeshPoint point = mesh_point(mesh, placed.is_mirrored, *hit);
+    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, *hit);
 
     Surface surface;
     surface.position = ray.origin + hit->distance * ray.direction;
     surface.geometric_normal = glm::normalize(hit->normal);
     surface.shading_normal =
-        shading_normal(mesh, point, placed.normal_from_mesh, surface.geometric_normal);
-    surface.albedo = glm::vec3(base_color(scene, mesh, point)) * diffuse_share(material);
-    surface.emission =
-        material.emission * glm::vec3(sample_use(scene, material.emission_texture, mesh, point));
+        shading_normal(point, placed.normal_from_mesh, surface.geometric_normal);
+    surface.albedo = adjusted_albedo(diffuse_reflectivity(scene, point), state_->surfaces);
+    if (material.bakes_emission || state_->emission == Emission::All) {
+        surface.emission = emitted_radiance(scene, point);
+    }
     surface.instance = placed.instance;
     if (glm::dot(surface.geometric_normal, ray.direction) > 0.0f) {
         surface.geometric_normal = -surface.geometric_normal;

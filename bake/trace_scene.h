@@ -12,6 +12,7 @@
 
 #include "bake/ray_caster.h"
 #include "bake/scene/scene.h"
+#include "bake/scene/surface_color.h"
 #include "base/result.h"
 
 namespace tetralight {
@@ -44,12 +45,14 @@ class TraceScene {
     /// Which instances rays can hit.
     using Selection = std::function<bool(const MeshInstance&)>;
 
-    /// Builds from the selected instances. Keeps a reference to the scene. Error: not enough
-    /// memory.
+    /// Builds from the selected instances, with all that they emit: what an eye sees. Keeps a
+    /// reference to the scene. Error: not enough memory.
     [[nodiscard]] static Result<TraceScene> make(const Scene& scene, const Selection& selection);
 
-    /// Built from what contributes global illumination: what a bake sees.
-    [[nodiscard]] static Result<TraceScene> make_static(const Scene& scene);
+    /// Built from what contributes global illumination, with the emission and the reflectivity that
+    /// a bake takes.
+    [[nodiscard]] static Result<TraceScene> make_static(const Scene& scene,
+                                                        const SurfaceSettings& surfaces = {});
 
     [[nodiscard]] glm::vec3 traced_from_world(const glm::dvec3& position) const {
         return glm::vec3(position - state_->origin);
@@ -81,8 +84,13 @@ class TraceScene {
         bool is_mirrored = false;
     };
 
+    /// Which emission rays see.
+    enum class Emission : uint8_t { All, Baked };
+
     struct State {
         const Scene* scene = nullptr;
+        SurfaceSettings surfaces;
+        Emission emission = Emission::All;
         std::vector<Placed> placed;
         glm::dvec3 origin{0.0};
         float ray_offset = 0.0f;
@@ -91,6 +99,8 @@ class TraceScene {
     TraceScene(std::unique_ptr<State> state, RayCaster caster)
         : state_(std::move(state)), caster_(std::move(caster)) {}
 
+    static Result<TraceScene> make_from(const Scene& scene, const Selection& selection,
+                                        std::unique_ptr<State> state);
     static Placed place(const Scene& scene, uint32_t instance);
     static bool stops_at(const void* state, const Ray& ray, const RayHit& hit);
 

@@ -53,6 +53,7 @@ struct Material {
     TextureUse base_color_texture;
     float metallic = 1.0f;
     float roughness = 1.0f;
+    TextureUse metallic_roughness_texture;  ///< roughness × green, metallic × blue, both linear
     glm::vec3 emission{0.0f};  ///< radiance, linear, strength included, times the texture's colour
     TextureUse emission_texture;
     AlphaMode alpha_mode = AlphaMode::Opaque;

@@ -2,6 +2,7 @@
 #include "bake/scene/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bake/image/srgb.h"
@@ -48,28 +49,43 @@ TexelPair texels_at(float coordinate, uint32_t size, TextureWrap wrap) {
     return {wrapped(first, size, wrap), wrapped(first + 1, size, wrap), texel - floor};
 }
 
-glm::vec4 texel_color(const Image8& image, uint32_t x, uint32_t y) {
-    const auto& code = image.pixels[size_t{y} * image.width + x];
+using Texel = std::array<uint8_t, 4>;
+
+glm::vec4 color_from(const Texel& code) {
     return {linear_from_srgb8(code[0]), linear_from_srgb8(code[1]), linear_from_srgb8(code[2]),
             static_cast<float>(code[3]) / 255.0f};
+}
+
+glm::vec4 data_from(const Texel& code) {
+    return glm::vec4(code[0], code[1], code[2], code[3]) / 255.0f;
 }
 
 glm::vec4 lerp(glm::vec4 first, glm::vec4 second, float second_weight) {
     return first * (1.0f - second_weight) + second * second_weight;
 }
 
-}  // namespace
-
-glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
+/// Decodes four texels and filters what they mean.
+template <class Decode>
+glm::vec4 filtered(const Texture& texture, glm::vec2 uv, Decode decode) {
     const Image8& image = texture.image;
     TETRALIGHT_ASSERT(!image.pixels.empty(), "a texture has pixels");
     const TexelPair x = texels_at(uv.x, image.width, texture.wrap_u);
     const TexelPair y = texels_at(uv.y, image.height, texture.wrap_v);
-    const glm::vec4 upper = lerp(texel_color(image, x.first, y.first),
-                                 texel_color(image, x.second, y.first), x.second_weight);
-    const glm::vec4 lower = lerp(texel_color(image, x.first, y.second),
-                                 texel_color(image, x.second, y.second), x.second_weight);
-    return lerp(upper, lower, y.second_weight);
+    const auto row = [&](uint32_t texel_row) {
+        const Texel* texels = &image.pixels[size_t{texel_row} * image.width];
+        return lerp(decode(texels[x.first]), decode(texels[x.second]), x.second_weight);
+    };
+    return lerp(row(y.first), row(y.second), y.second_weight);
+}
+
+}  // namespace
+
+glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv) {
+    return filtered(texture, uv, color_from);
+}
+
+glm::vec4 sample_data_texture(const Texture& texture, glm::vec2 uv) {
+    return filtered(texture, uv, data_from);
 }
 
 }  // namespace tetralight

@@ -78,12 +78,42 @@ TEST(TraceScene, SeesWhatTheMaterialSays) {
 
 TEST(TraceScene, RoughMetalPassesHalfOfItsColorOnDiffusely) {
     Scene scene;
-    Material material = test::diffuse({0.8f, 0.4f, 0.2f});
+    Material material;
+    material.base_color = {0.8f, 0.4f, 0.2f, 1.0f};
     material.metallic = 1.0f;
     material.roughness = 1.0f;
     test::add_floor(scene, material, 1.0f);
     const auto surface = look_down(traced(scene), 0, 0);
     EXPECT_LT(glm::distance(surface->albedo, glm::vec3(0.4f, 0.2f, 0.1f)), 1e-6f);
+}
+
+TEST(TraceScene, ReflectsWhatTheSettingsOfTheBakeMakeOfIt) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse({0.25f, 0.81f, 0.0f}), 1.0f);
+    const auto trace = TraceScene::make_static(scene, {.albedo_boost = 2.0f, .max_albedo = 0.8f});
+    ASSERT_TRUE(trace);
+    // Square roots, of which 0.9 is too much.
+    EXPECT_LT(glm::distance(look_down(*trace, 0, 0)->albedo, glm::vec3(0.5f, 0.8f, 0)), 1e-6f);
+}
+
+TEST(TraceScene, EmissionOfMaterialsThatDoNotBakeItIsForEyesOnly) {
+    Scene scene;
+    Material material = test::diffuse(glm::vec3(0.5f), {1, 2, 3});
+    material.bakes_emission = false;
+    test::add_floor(scene, material, 1.0f);
+    EXPECT_EQ(look_down(traced(scene), 0, 0)->emission, glm::vec3(0.0f));
+    const auto seen = TraceScene::make(scene, [](const MeshInstance&) { return true; });
+    ASSERT_TRUE(seen);
+    EXPECT_EQ(look_down(*seen, 0, 0)->emission, glm::vec3(1, 2, 3));
+}
+
+TEST(TraceScene, UnlitMaterialsEmitTheirColorAndReflectNothing) {
+    Scene scene = textured_floor();
+    scene.materials[0].is_unlit = true;
+    scene.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1.0f};
+    const auto surface = look_down(traced(scene), -0.5f, 0.5f);
+    EXPECT_LT(glm::distance(surface->emission, glm::vec3(0, 0.5f, 0)), 1e-5f);
+    EXPECT_EQ(surface->albedo, glm::vec3(0.0f));
 }
 
 TEST(TraceScene, OnlyABackFaceOfASingleSidedMaterialIsOne) {
@@ -224,9 +254,14 @@ TEST(TraceScene, OpaqueMaterialIgnoresAlpha) {
 }
 
 TEST(TraceScene, BlendStopsTheShareAlphaOfRays) {
+    // Alpha is factor times texture: 0.6 · 0.5.
     Scene scene;
+    scene.textures.push_back({"half", Image8{2, 1, {{0, 0, 0, 0}, {0, 0, 0, 255}}}});
+    scene.textures[0].wrap_u = TextureWrap::Repeat;
     Material glass = test::diffuse(glm::vec3(0.0f));
-    glass.base_color.a = 0.3f;
+    glass.base_color.a = 0.6f;
+    glass.base_color_texture.texture = 0;
+    glass.base_color_texture.image_from_mesh[0].x = 0.0f;  // everywhere between the two texels
     glass.alpha_mode = AlphaMode::Blend;
     test::add_floor(scene, glass, 1.0f);
     const TraceScene trace = traced(scene);

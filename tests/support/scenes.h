@@ -13,11 +13,13 @@
 
 namespace tetralight::test {
 
-/// A Lambert material.
+/// A material that reflects `albedo` diffusely: polished, so that its base colour alone counts, of
+/// which 4 % are mirrored instead.
 inline Material diffuse(glm::vec3 albedo, glm::vec3 emission = glm::vec3(0.0f)) {
     Material material;
-    material.base_color = glm::vec4(albedo, 1.0f);
+    material.base_color = glm::vec4(albedo / 0.96f, 1.0f);
     material.metallic = 0.0f;
+    material.roughness = 0.0f;
     material.emission = emission;
     return material;
 }

@@ -20,7 +20,7 @@ constexpr int kDeepestNesting = 64;
 
 constexpr std::string_view kSupportedExtensions[] = {
     "KHR_texture_transform",   "KHR_materials_emissive_strength", "KHR_lights_punctual",
-    "EXT_mesh_gpu_instancing", "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing", "KHR_mesh_quantization",           "KHR_materials_unlit",
 };
 
 bool is_deeper_than(const json& value, int limit) {

@@ -74,8 +74,13 @@ struct GltfMaterial {
     std::string alpha_mode;
     double alpha_cutoff = 0.5;
     bool is_double_sided = false;
+    /// KHR_materials_unlit.
+    bool is_unlit = false;
+    /// From extras; true reads "baked", false "none".
+    std::optional<std::string> bake_emission;
     /// `texture` is an index of GltfDocument::textures here.
     TextureUse base_color_texture;
+    TextureUse metallic_roughness_texture;
     TextureUse emission_texture;
 };
 

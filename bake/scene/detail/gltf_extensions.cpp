@@ -70,6 +70,12 @@ TextureUse texture_use_from(const tinygltf::TextureInfo& info) {
     return use;
 }
 
+std::optional<std::string> bake_emission_from(const tinygltf::Value& extras) {
+    constexpr const char* kKey = "bake_emission";
+    if (!extras.Has(kKey) || !extras.Get(kKey).IsBool()) return string_extra(extras, kKey);
+    return extras.Get(kKey).Get<bool>() ? "baked" : "none";
+}
+
 GltfLightExtras light_extras_from(const tinygltf::Value& extras) {
     GltfLightExtras result;
     result.mode = string_extra(extras, "mode");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "bake/scene/detail/gltf_model.h"
 
@@ -21,6 +22,9 @@ namespace tetralight::detail {
 
 /// Precondition: the value is a boolean where there is one.
 [[nodiscard]] std::optional<bool> boolean_extra(const tinygltf::Value& extras, const char* key);
+
+/// `extras.bake_emission`: a string, or a boolean for "baked" and "none".
+[[nodiscard]] std::optional<std::string> bake_emission_from(const tinygltf::Value& extras);
 
 /// With KHR_texture_transform.
 [[nodiscard]] TextureUse texture_use_from(const tinygltf::TextureInfo& info);

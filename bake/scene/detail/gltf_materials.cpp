@@ -73,15 +73,29 @@ Result<TextureUse> texture_use_from(TextureUse use, const char* name, GltfTextur
     return use;
 }
 
+/// Leaves out textures of what does not show: an image file that only they name may be missing.
 Status read_textures(const GltfMaterial& source, GltfTextureReader& reader, Material& material) {
     const auto base_color = texture_use_from(source.base_color_texture, "baseColorTexture", reader);
     if (!base_color) return base_color.error();
     material.base_color_texture = *base_color;
-    if (material.emission == glm::vec3(0.0f)) return Ok{};  // nothing for a texture to scale
+    if (material.is_unlit) return Ok{};
+    if (material.metallic > 0.0f || material.roughness > 0.0f) {
+        const auto factors =
+            texture_use_from(source.metallic_roughness_texture, "metallicRoughnessTexture", reader);
+        if (!factors) return factors.error();
+        material.metallic_roughness_texture = *factors;
+    }
+    if (material.emission == glm::vec3(0.0f)) return Ok{};
     const auto emission = texture_use_from(source.emission_texture, "emissiveTexture", reader);
     if (!emission) return emission.error();
     material.emission_texture = *emission;
     return Ok{};
+}
+
+Result<bool> bakes_emission_from(const std::string& word) {
+    if (word == "baked") return true;
+    if (word == "none") return false;
+    return Error{text("extras.bake_emission \"", word, "\" is neither \"none\" nor \"baked\"")};
 }
 
 Status read_factors(const GltfMaterial& source, Material& material) {
@@ -104,6 +118,10 @@ Result<Material> read_material(const GltfMaterial& source, GltfTextureReader& re
     Material material;
     material.name = source.name;
     material.is_double_sided = source.is_double_sided;
+    material.is_unlit = source.is_unlit;
+    const auto bakes_emission = bakes_emission_from(source.bake_emission.value_or("baked"));
+    if (!bakes_emission) return bakes_emission.error();
+    material.bakes_emission = *bakes_emission;
     const auto factors = read_factors(source, material);
     if (!factors) return factors.error();
     const auto alpha_mode = alpha_mode_from(source.alpha_mode);

@@ -71,6 +71,9 @@ GltfMaterial converted(const tinygltf::Material& material) {
     result.alpha_cutoff = material.alphaCutoff;
     result.is_double_sided = material.doubleSided;
     result.base_color_texture = texture_use_from(pbr.baseColorTexture);
+    result.is_unlit = find_extension(material.extensions, "KHR_materials_unlit") != nullptr;
+    result.bake_emission = bake_emission_from(material.extras);
+    result.metallic_roughness_texture = texture_use_from(pbr.metallicRoughnessTexture);
     result.emission_texture = texture_use_from(material.emissiveTexture);
     return result;
 }

@@ -42,14 +42,14 @@ TEST(GltfAccessors, QuantizedPositionsKeepTheirIntegers) {
 }
 
 TEST(GltfAccessors, NormalizedSignedBytesReachOneAndStopAtMinusOne) {
-    auto gltf = quantized_triangle<int8_t>({127, -127, -128, 0, 0, 0, 0, 0, 0, 0, 0, 0}, kByte);
+    auto gltf = quantized_triangle<int8_t>({127, -127, -128, 0, 0, 0, 0, 0, 0, 9, 0, 0}, kByte);
     gltf.json["accessors"][0]["normalized"] = true;
     EXPECT_EQ(positions_of(gltf)[0], glm::vec3(1, -1, -1));
 }
 
 TEST(GltfAccessors, NormalizedUnsignedShorts) {
     auto gltf =
-        quantized_triangle<uint16_t>({65535, 0, 13107, 0, 0, 0, 0, 0, 0, 0, 0, 0}, kUnsignedShort);
+        quantized_triangle<uint16_t>({65535, 0, 13107, 0, 0, 0, 0, 0, 0, 9, 0, 0}, kUnsignedShort);
     gltf.json["accessors"][0]["normalized"] = true;
     EXPECT_EQ(positions_of(gltf)[0], glm::vec3(1.0f, 0.0f, 13107.0f / 65535.0f));
 }

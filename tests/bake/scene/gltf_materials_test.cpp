@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bake/image/write_image.h"
 #include "tests/bake/scene/gltf_builder.h"
 
 namespace tetralight {
@@ -31,6 +32,19 @@ Json emitter(Json factor, double strength) {
     return {
         {"emissiveFactor", std::move(factor)},
         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}}}};
+}
+
+/// A material with these properties and one PNG of one texel, texture 0.
+GltfBuilder with_factor_texture(Json metallic_roughness) {
+    GltfBuilder gltf = painted({{"pbrMetallicRoughness", std::move(metallic_roughness)}});
+    const TempFolder folder;
+    const std::string path = folder.path("texel.png");
+    EXPECT_TRUE(write_png(path, Image8{1, 1, {{0, 51, 102, 255}}}));
+    const auto bytes = read_file(path);
+    EXPECT_TRUE(bytes);
+    gltf.add("images", {{"bufferView", gltf.add_view(*bytes)}, {"mimeType", "image/png"}});
+    gltf.add("textures", {{"source", 0}});
+    return gltf;
 }
 
 TEST(GltfMaterials, DefaultsAreThoseOfGltf) {
@@ -67,6 +81,47 @@ TEST(GltfMaterials, AlphaModes) {
     const Material mask = material_of(painted({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}}));
     EXPECT_EQ(mask.alpha_mode, AlphaMode::Mask);
     EXPECT_EQ(mask.alpha_cutoff, 0.25f);
+}
+
+TEST(GltfMaterials, UnlitIsAnEmptyExtension) {
+    GltfBuilder gltf = painted({{"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+    gltf.json["extensionsRequired"] = {"KHR_materials_unlit"};
+    EXPECT_TRUE(material_of(gltf).is_unlit);
+    EXPECT_FALSE(material_of(painted(Json::object())).is_unlit);
+}
+
+TEST(GltfMaterials, BakeEmissionIsAWordOrABoolean) {
+    const auto bakes = [](const Json& value) {
+        return material_of(painted({{"extras", {{"bake_emission", value}}}})).bakes_emission;
+    };
+    EXPECT_TRUE(bakes("baked"));
+    EXPECT_TRUE(bakes(true));
+    EXPECT_FALSE(bakes("none"));
+    EXPECT_FALSE(bakes(false));
+}
+
+TEST(GltfMaterials, MetallicRoughnessTexture) {
+    const GltfBuilder gltf = with_factor_texture(
+        {{"metallicRoughnessTexture", {{"index", 0}, {"texCoord", 1}}}, {"metallicFactor", 0}});
+    const Material material = material_of(gltf);
+    EXPECT_EQ(material.metallic_roughness_texture.texture, 0u);
+    EXPECT_EQ(material.metallic_roughness_texture.uv_set, 1u);
+}
+
+TEST(GltfMaterials, FactorTextureOfZeroFactorsIsNotRead) {
+    GltfBuilder gltf = with_factor_texture({{"metallicRoughnessTexture", {{"index", 0}}},
+                                            {"metallicFactor", 0},
+                                            {"roughnessFactor", 0}});
+    gltf.json["images"][0] = {{"uri", "missing.png"}};
+    EXPECT_EQ(material_of(gltf).metallic_roughness_texture.texture, kNoIndex);
+}
+
+TEST(GltfMaterials, NamesAFactorTextureFileThatIsMissing) {
+    GltfBuilder gltf = with_factor_texture({{"metallicRoughnessTexture", {{"index", 0}}}});
+    gltf.json["images"][0] = {{"uri", "missing.png"}};
+    EXPECT_TRUE(gltf.error().starts_with(
+        "scene.glb: material 0: metallicRoughnessTexture: texture 0: image 0: "))
+        << gltf.error();
 }
 
 TEST(GltfMaterials, MeshesWithoutMaterialShareOneDefault) {
@@ -122,6 +177,13 @@ INSTANTIATE_TEST_SUITE_P(
         MaterialRejection{"AlphaMode",
                           {{"alphaMode", "CUTOUT"}},
                           "alphaMode \"CUTOUT\" is not OPAQUE, MASK or BLEND"},
+        MaterialRejection{"BakeEmission",
+                          {{"extras", {{"bake_emission", "dynamic"}}}},
+                          "extras.bake_emission \"dynamic\" is neither \"none\" nor \"baked\""},
+        MaterialRejection{
+            "BakeEmissionNumber",
+            {{"extras", {{"bake_emission", 1}}}},
+            "extras.bake_emission \"(not a string)\" is neither \"none\" nor \"baked\""},
         MaterialRejection{
             "AlphaCutoff", {{"alphaCutoff", -1}}, "alphaCutoff -1 is negative or too large"}),
     [](const auto& param_info) { return std::string(param_info.param.label); });

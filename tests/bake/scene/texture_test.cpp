@@ -66,6 +66,25 @@ TEST(SampleTexture, DecodesBeforeFiltering) {
     EXPECT_FLOAT_EQ(red_at(texture, 0.5f), 0.5f * linear_from_srgb8(188));
 }
 
+TEST(SampleTexture, DataIsLinearInAllChannels) {
+    const Texture texture{"data", Image8{2, 1, {{0, 51, 102, 255}, {51, 51, 204, 0}}}};
+    const glm::vec4 middle = sample_data_texture(texture, {0.5f, 0.5f});
+    EXPECT_FLOAT_EQ(middle.x, 0.1f);
+    EXPECT_FLOAT_EQ(middle.y, 0.2f);
+    EXPECT_FLOAT_EQ(middle.z, 0.6f);
+    EXPECT_FLOAT_EQ(middle.w, 0.5f);
+}
+
+TEST(SampleTexture, FourTexelsAreWeightedByTheAreasAcross) {
+    // A quarter of the way right and half of the way down between the four centres.
+    const Texture texture{
+        "four", Image8{2, 2, {{255, 0, 0, 8}, {0, 255, 0, 8}, {0, 0, 255, 8}, {0, 0, 0, 8}}}};
+    const glm::vec4 color = sample_texture(texture, {0.25f + 0.125f, 0.25f + 0.25f});
+    EXPECT_FLOAT_EQ(color.x, 0.75f * 0.5f);
+    EXPECT_FLOAT_EQ(color.y, 0.25f * 0.5f);
+    EXPECT_FLOAT_EQ(color.z, 0.75f * 0.5f);
+}
+
 TEST(SampleTexture, AlphaIsLinear) {
     const Texture texture{"alpha", Image8{1, 1, {{0, 0, 0, 51}}}};
     EXPECT_FLOAT_EQ(sample_texture(texture, {0.5f, 0.5f}).w, 0.2f);

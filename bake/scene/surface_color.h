@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "bake/scene/scene.h"
+
+// What light transport needs of a material at one point: diffuse reflectivity, emission, alpha.
+
+namespace tetralight {
+
+/// How a bake changes the reflectivity of surfaces.
+struct SurfaceSettings {
+    /// 1 to 10: albedo^(1 / boost) bounces more light; black and white stay. 1 = as it is.
+    float albedo_boost = 1.0f;
+    /// No surface reflects more than this, 0 to 1.
+    float max_albedo = 1.0f;
+
+    bool operator==(const SurfaceSettings&) const = default;
+};
+
+/// A point of a mesh: the corners of its triangle and their weights, which sum to 1.
+struct MeshPoint {
+    const Mesh* mesh = nullptr;
+    std::array<uint32_t, 3> corners{};
+    glm::vec3 weights{0.0f};
+
+    template <class T>
+    [[nodiscard]] T blend(const std::vector<T>& values) const {
+        return values[corners[0]] * weights[0] + values[corners[1]] * weights[1] +
+               values[corners[2]] * weights[2];
+    }
+};
+
+/// `barycentric` are the weights of the triangle's second and third corner.
+[[nodiscard]] MeshPoint mesh_point(const Mesh& mesh, uint32_t triangle, glm::vec2 barycentric);
+
+/// Share of light that is reflected diffusely by a material of glTF's metallic-roughness model:
+///
+///     base (1 − metallic) (1 − 0.04) + F0 · roughness / 2,    F0 = mix(0.04, base, metallic)
+///
+/// Dielectrics reflect 4 % as a mirror image, metals all. Half of that, times the roughness, is
+/// spread so widely that it counts as diffuse: rough metals pass light on. `roughness` is glTF's,
+/// not its square. Never above 0.98 for colours up to 1.
+[[nodiscard]] glm::vec3 diffuse_reflectivity(glm::vec3 base_color, float metallic, float roughness);
+
+/// The same at a point, textures included; 0 where the material is unlit.
+[[nodiscard]] glm::vec3 diffuse_reflectivity(const Scene& scene, const MeshPoint& point);
+
+/// An albedo under the settings of a bake: boosted first, then limited.
+[[nodiscard]] glm::vec3 adjusted_albedo(glm::vec3 albedo, const SurfaceSettings& settings);
+
+/// Base colour and alpha at a point: factor times texture.
+[[nodiscard]] glm::vec4 base_color(const Scene& scene, const MeshPoint& point);
+
+/// What a material emits: radiance, times the texture's colour where there is one.
+struct EmissionSource {
+    glm::vec3 factor{0.0f};
+    TextureUse texture;
+};
+
+/// Unlit materials show their base colour, and that is what they emit; others what they say.
+/// `bakes_emission` is left to the caller.
+[[nodiscard]] EmissionSource emission_source(const Material& material);
+
+/// Radiance that the front of a surface emits at a point.
+[[nodiscard]] glm::vec3 emitted_radiance(const Scene& scene, const MeshPoint& point);
+
+}  // namespace tetralight
