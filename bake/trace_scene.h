@@ -29,6 +29,8 @@ struct Surface {
     /// Emitted radiance.
     glm::vec3 emission{0.0f};
     uint32_t instance = 0;
+    /// How far `position` and rays that start there may be off the triangle by rounding.
+    float error_bound = 0.0f;
     /// The ray came from behind the triangle.
     bool is_from_behind = false;
     /// It did, and the material has only a front.
@@ -50,7 +52,7 @@ class TraceScene {
     [[nodiscard]] static Result<TraceScene> make(const Scene& scene, const Selection& selection);
 
     /// Built from what contributes global illumination, with the emission and the reflectivity that
-    /// a bake takes.
+    /// a bake takes. Errors: a light that is none, and a scene that free memory does not hold.
     [[nodiscard]] static Result<TraceScene> make_static(const Scene& scene,
                                                         const SurfaceSettings& surfaces = {});
 
@@ -69,9 +71,16 @@ class TraceScene {
 
     [[nodiscard]] bool is_blocked(const Ray& ray) const { return caster_.is_blocked(ray); }
 
-    /// The position moved off its surface, to start a ray on the side that `normal` points to.
+    /// Where a ray starts that leaves the surface on the side that `direction`, one of its normals,
+    /// points to: off it by more than rounding and no farther than that.
+    [[nodiscard]] static glm::vec3 ray_origin(const Surface& surface, glm::vec3 direction) {
+        return surface.position + surface.error_bound * direction;
+    }
+
+    /// The same for a position on a triangle that is not known: off it by what would be enough for
+    /// the largest and farthest one.
     [[nodiscard]] glm::vec3 ray_origin(glm::vec3 position, glm::vec3 normal) const {
-        return position + state_->ray_offset * normal;
+        return position + state_->largest_error_bound * normal;
     }
 
   private:
@@ -82,6 +91,8 @@ class TraceScene {
         const Material* material = nullptr;
         glm::mat3 normal_from_mesh{1.0f};
         bool is_mirrored = false;
+        /// The mesh's vertices in traced space, as the caster has them.
+        std::vector<glm::vec3> positions;
     };
 
     /// Which emission rays see.
@@ -93,7 +104,7 @@ class TraceScene {
         Emission emission = Emission::All;
         std::vector<Placed> placed;
         glm::dvec3 origin{0.0};
-        float ray_offset = 0.0f;
+        float largest_error_bound = 0.0f;
     };
 
     TraceScene(std::unique_ptr<State> state, RayCaster caster)

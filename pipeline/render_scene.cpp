@@ -58,7 +58,7 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
 }
 
 glm::vec3 SceneShader::direct_term(const Surface& surface) const {
-    const glm::vec3 position = traced_.ray_origin(surface.position, surface.geometric_normal);
+    const glm::vec3 position = TraceScene::ray_origin(surface, surface.geometric_normal);
     glm::vec3 sum(0.0f);
     for (const Light& light : direct_lights_) {
         const glm::vec3 direct = direct_light(light, surface.position, surface.shading_normal);
@@ -72,7 +72,7 @@ glm::vec3 SceneShader::direct_term(const Surface& surface) const {
 std::optional<Surface> SceneShader::first_front_face(glm::vec3 origin, glm::vec3 direction) const {
     std::optional<Surface> surface = traced_.cast({origin, direction});
     for (int i = 0; surface && surface->is_back_face && i < kMaxCulledFaces; ++i) {
-        const glm::vec3 behind = traced_.ray_origin(surface->position, -surface->geometric_normal);
+        const glm::vec3 behind = TraceScene::ray_origin(*surface, -surface->geometric_normal);
         surface = traced_.cast({behind, direction});
     }
     return surface;

@@ -15,10 +15,10 @@ namespace tetralight {
 /// (KHR_texture_transform, KHR_materials_emissive_strength); KHR_lights_punctual;
 /// EXT_mesh_gpu_instancing; KHR_mesh_quantization; `extras.contribute_gi` of a node (inherited);
 /// perspective cameras; `extras.sky.radiance` of the scene, three numbers;
-/// `extras.mode` ("mixed", "baked") of a light or of its node; `extras.light_probe_group: true` of
-/// a node, whose POINTS primitive, or else whose child nodes, are the probes, with `extras.dering`.
-/// Unknown light types and missing optional features become warnings; a required extension that is
-/// not listed here is an error.
+/// KHR_materials_unlit; extras of a light or of its node, and of materials (docs/scenes.md);
+/// `extras.light_probe_group: true` of a node, whose POINTS primitive, or else whose child nodes,
+/// are the probes, with `extras.dering`. Unknown light types and missing optional features become
+/// warnings; a required extension that is not listed here is an error.
 ///
 /// Every error names the file, the element and the value.
 [[nodiscard]] Result<Scene> read_gltf(const std::string& path);

@@ -198,5 +198,14 @@ TEST(BakeProbes, APositionThatIsNotFiniteIsAnErrorThatNamesTheProbe) {
     }
 }
 
+TEST(BakeProbes, NamesALightWhoseIntensityIsNoNumber) {
+    Scene scene;
+    test::add_sun(scene, LightMode::Baked, {1, std::nanf(""), 1});
+    const glm::dvec3 position(0.0);
+    const auto baked = bake_probes(scene, std::span(&position, 1), {});
+    ASSERT_FALSE(baked);
+    EXPECT_EQ(baked.error().message, "light 0 \"light\": intensity nan is negative or not finite");
+}
+
 }  // namespace
 }  // namespace tetralight

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <random>
 
+#include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
 
 namespace tetralight {
@@ -278,17 +280,58 @@ TEST(TraceScene, BlendStopsTheShareAlphaOfRays) {
     EXPECT_NEAR(stopped / static_cast<double>(kCount), 0.3, 0.0184);
 }
 
-TEST(TraceScene, RayOriginIsOffTheSurfaceByMoreThanRounding) {
+/// Rays that leave a tilted square of this size where others met it, and meet it again.
+int self_hits(double size) {
     Scene scene;
-    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1000.0f);
+    Material material = test::diffuse(glm::vec3(1.0f));
+    material.is_double_sided = true;
+    test::add_floor(scene, material, 1.0f).world_from_mesh = glm::scale(
+        glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3))), glm::dvec3(size));
     const TraceScene trace = traced(scene);
-    for (int i = 1; i < 1000; ++i) {
-        const glm::vec3 direction = glm::normalize(
-            glm::vec3(static_cast<float>(i) * 0.7f, -300.0f, static_cast<float>(i) * 0.3f));
-        const auto surface = trace.cast({{0, 300, 0}, direction});
+    std::mt19937_64 engine(5);
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::vec3 direction = test::random_direction(engine);
+        const auto surface = trace.cast({-static_cast<float>(size) * direction, direction});
+        if (!surface) continue;
+        const glm::vec3 origin = TraceScene::ray_origin(*surface, surface->geometric_normal);
+        for (const float slope : {1.0f, 1e-2f, 1e-4f}) {
+            const glm::vec3 along = glm::cross(surface->geometric_normal, direction);
+            hits += trace.is_blocked({origin, along + slope * surface->geometric_normal});
+        }
+    }
+    return hits;
+}
+
+TEST(TraceScene, RaysThatLeaveASurfaceDoNotMeetItAgainAtAnyScale) {
+    for (const double size : {1e-6, 1e-3, 1.0, 1e3, 1e6}) EXPECT_EQ(self_hits(size), 0) << size;
+}
+
+TEST(TraceScene, AGroundTheSizeOfACountryLiftsNoRayOverASmallThing) {
+    // A plate 3 mm above a tile, in a scene of 20 km: what leaves the tile is under the plate.
+    Scene scene;
+    const Material material = test::diffuse(glm::vec3(1.0f));
+    test::add_floor(scene, material, 10000.0f, -1.0f);
+    test::add_floor(scene, material, 0.5f);
+    test::add_ceiling(scene, material, 0.5f, 0.003f);
+    const TraceScene trace = traced(scene);
+    const auto surface =
+        trace.cast({trace.traced_from_world({0.1, 0.002, 0.2}), glm::vec3(0, -1, 0)});
+    ASSERT_TRUE(surface);
+    const glm::vec3 up = surface->geometric_normal;
+    EXPECT_TRUE(trace.is_blocked({TraceScene::ray_origin(*surface, up), up}));
+}
+
+TEST(TraceScene, PositionsLieOnTheTriangleHoweverLongTheRay) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
+    const TraceScene trace = traced(scene);
+    for (int i = 0; i < 100; ++i) {
+        const glm::vec3 direction = glm::normalize(glm::vec3(static_cast<float>(i), -77, 13));
+        const auto surface =
+            trace.cast({glm::vec3(0.1f, 0, 0.1f) - 5000.0f * direction, direction});
         ASSERT_TRUE(surface);
-        const glm::vec3 origin = trace.ray_origin(surface->position, surface->geometric_normal);
-        EXPECT_FALSE(trace.is_blocked({origin, glm::reflect(direction, glm::vec3(0, 1, 0))}));
+        EXPECT_EQ(surface->position.y, 0.0f);
     }
 }
 

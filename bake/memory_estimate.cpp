@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/memory_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+/// Embree 3, medium quality: indices, a tree with its own copy of the corners, and what builds it.
+constexpr uint64_t kBytesPerTriangle = 300;
+/// A vertex in traced space, ours and Embree's.
+constexpr uint64_t kBytesPerVertex = 24;
+/// Light as radiance and irradiance, compact, health, positions: 450 bytes; about 6.8 tetrahedra of
+/// 32 bytes; CGAL's vertices and cells while it builds them.
+constexpr uint64_t kBytesPerProbe = 450 + 7 * 32 + 1500;
+
+constexpr uint64_t kUnknown = std::numeric_limits<uint64_t>::max();
+
+/// The number behind a word at the start of a line; without a word the first of the file.
+uint64_t number_in(const char* path, const std::string& word) {
+    std::ifstream file(path);
+    std::string first;
+    uint64_t number = 0;
+    if (word.empty()) return file >> number ? number : kUnknown;
+    while (file >> first) {
+        if (first == word) return file >> number ? number : kUnknown;
+        file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    }
+    return kUnknown;
+}
+
+/// What is left of the limit of the control group that a container runs in.
+uint64_t free_in_group() {
+    const uint64_t limit = number_in("/sys/fs/cgroup/memory.max", "");  // "max" is no number
+    const uint64_t used = number_in("/sys/fs/cgroup/memory.current", "");
+    if (limit == kUnknown || used == kUnknown) return kUnknown;
+    return limit - std::min(limit, used);
+}
+
+/// "20.3 GB"
+std::string gigabytes(uint64_t bytes) {
+    return text(std::round(static_cast<double>(bytes) / 1e8) / 10.0, " GB");
+}
+
+}  // namespace
+
+BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count) {
+    BakeMemory memory;
+    memory.probe_count = probe_count;
+    uint64_t vertex_count = 0;
+    for (const MeshInstance& instance : scene.instances) {
+        if (!instance.contributes_gi) continue;
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        memory.triangle_count += mesh.indices.size() / 3;
+        vertex_count += mesh.positions.size();
+    }
+    memory.scene_bytes = memory.triangle_count * kBytesPerTriangle + vertex_count * kBytesPerVertex;
+    memory.probe_bytes = probe_count * kBytesPerProbe;
+    return memory;
+}
+
+uint64_t free_memory() {
+    const uint64_t kilobytes = number_in("/proc/meminfo", "MemAvailable:");
+    const uint64_t system = kilobytes > kUnknown / 1024 ? kUnknown : kilobytes * 1024;
+    return std::min(system, free_in_group());
+}
+
+Status check_bake_memory(const Scene& scene, size_t probe_count, uint64_t limit_bytes) {
+    const BakeMemory memory = estimate_bake_memory(scene, probe_count);
+    if (memory.total_bytes() <= limit_bytes) return Ok{};
+    return Error{text("the bake needs about ", gigabytes(memory.total_bytes()), " of memory (",
+                      memory.triangle_count, " triangles ", gigabytes(memory.scene_bytes), ", ",
+                      probe_count, " probes ", gigabytes(memory.probe_bytes), "), ",
+                      gigabytes(limit_bytes), " are free")};
+}
+
+}  // namespace tetralight

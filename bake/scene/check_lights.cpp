@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/check_lights.h"
+
+#include <cmath>
+
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+Status check(float value, const char* name) {
+    if (value >= 0.0f && std::isfinite(value)) return Ok{};
+    return Error{text(name, " ", value, " is negative or not finite")};
+}
+
+Status check_light(const Light& light) {
+    for (int channel = 0; channel < 3; ++channel) {
+        if (auto status = check(light.intensity[channel], "intensity"); !status) return status;
+    }
+    if (auto status = check(light.indirect_multiplier, "indirect multiplier"); !status) {
+        return status;
+    }
+    if (auto status = check(light.radius, "radius"); !status) return status;
+    return check(light.range, "range");
+}
+
+}  // namespace
+
+Status check_lights(const Scene& scene) {
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const auto status = check_light(scene.lights[i]);
+        if (status) continue;
+        const std::string name = i < scene.light_names.size() ? scene.light_names[i] : "";
+        return status.error().in(text("light ", i, " \"", name, "\""));
+    }
+    return Ok{};
+}
+
+}  // namespace tetralight
