@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "bake/scene/surface_color.h"
+
 namespace tetralight {
 
 struct BakeSettings {
@@ -21,6 +23,7 @@ struct BakeSettings {
     float clamp = 0.0f;
     /// Reflections that light may take before it arrives; 0 = direct light only.
     uint32_t bounces = 4;
+    SurfaceSettings surfaces;
     uint64_t seed = 0;
     /// 0 = all.
     uint32_t thread_count = 0;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bake/memory_estimate.h"
 #include "bake/parallel.h"
 #include "bake/path_tracer.h"
 #include "bake/probe_estimator.h"
@@ -180,7 +181,8 @@ Status bake_tallies(const Scene& scene, std::span<const glm::dvec3> positions,
     TETRALIGHT_ASSERT(tallies.size() == positions.size(), "one tally for each position");
     if (auto status = RoundPlan::check(settings); !status) return status;
     if (auto status = check_positions(positions); !status) return status;
-    const auto traced = TraceScene::make_static(scene);
+    if (auto status = check_bake_memory(scene, positions.size()); !status) return status.error();
+    const auto traced = TraceScene::make_static(scene, settings.surfaces);
     if (!traced) return traced.error();
     const PathTracer tracer(scene, *traced, settings.bounces);
     return TallyBaker({*traced, tracer, positions, tallies}, settings, hooks).run();

@@ -51,6 +51,16 @@ struct Bake {
                         "Largest radiance that a path may bring (0 = not clamped)")
             ->check(numbers_in(0.0, 1e30))
             ->capture_default_str();
+        command
+            .add_option("--albedo-boost", settings.surfaces.albedo_boost,
+                        "Raise albedo to the power of 1 / B: more light bounces (1 = as it is)")
+            ->check(numbers_in(1.0, 10.0))
+            ->capture_default_str();
+        command
+            .add_option("--max-albedo", settings.surfaces.max_albedo,
+                        "No surface reflects more than this")
+            ->check(numbers_in(0.0, 1.0))
+            ->capture_default_str();
         add_sampling(command);
         add_seed(command, settings.seed, "Seed of the random numbers");
         command

@@ -72,6 +72,13 @@ void SceneOptions::add_to(CLI::App& command) {
     irradiance->check(numbers_in(0.0, kMaxRadiance).description(""))->type_name("R,G,B");
     irradiance->needs(direction);
     command
+        .add_option(
+            "--sun-angle", sun_angle_degrees,
+            "Diameter of the added sun in the sky, degrees: soft shadows (the sun's is 0.53)")
+        ->check(numbers_in(0.0, 180.0))
+        ->needs(direction)
+        ->capture_default_str();
+    command
         .add_option("--sun-mode", sun_mode,
                     "What probes hold of the added sun: its bounces (mixed), or its direct "
                     "light too (baked)")
@@ -121,6 +128,7 @@ void SceneOptions::add_sun(Scene& scene) const {
     sun.mode = sun_mode == "baked" ? LightMode::Baked : LightMode::Mixed;
     sun.direction = glm::vec3(glm::normalize(sun_direction));
     sun.intensity = glm::vec3(sun_irradiance);
+    sun.radius = glm::radians(0.5f * static_cast<float>(sun_angle_degrees));
     scene.lights.push_back(sun);
     scene.light_names.push_back("command-line sun");
 }

@@ -18,6 +18,7 @@ struct SceneOptions {
     double sky_rotation_degrees = 0.0;
     glm::dvec3 sun_direction{0.0};
     glm::dvec3 sun_irradiance{0.0};
+    double sun_angle_degrees = 0.0;
     std::string sun_mode = "mixed";
 
     /// Declares SCENE and the light options.

@@ -18,13 +18,14 @@ void add(ContentHash& hash, const TextureUse& use) {
 }
 
 void add(ContentHash& hash, const Material& material) {
-    const auto& [name, base_color, base_color_texture, metallic, roughness, emission,
-                 emission_texture, alpha_mode, alpha_cutoff, is_double_sided, is_unlit,
-                 bakes_emission] = material;
+    const auto& [name, base_color, base_color_texture, metallic, roughness,
+                 metallic_roughness_texture, emission, emission_texture, alpha_mode, alpha_cutoff,
+                 is_double_sided, is_unlit, bakes_emission] = material;
     hash.add(base_color);
     add(hash, base_color_texture);
     hash.add(metallic);
     hash.add(roughness);
+    add(hash, metallic_roughness_texture);
     hash.add(emission);
     add(hash, emission_texture);
     hash.add(alpha_mode);
@@ -87,13 +88,15 @@ void add(ContentHash& hash, const Scene& scene) {
 
 void add(ContentHash& hash, const BakeSettings& settings) {
     const auto& [sample_count, target_error, max_sample_count, time_budget_seconds, clamp, bounces,
-                 seed, thread_count] = settings;
+                 surfaces, seed, thread_count] = settings;
     hash.add(sample_count);
     hash.add(target_error);
     hash.add(max_sample_count);
     hash.add(time_budget_seconds);
     hash.add(clamp);
     hash.add(bounces);
+    hash.add(surfaces.albedo_boost);
+    hash.add(surfaces.max_albedo);
     hash.add(seed);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bake/bake_tallies.h"
+#include "bake/memory_estimate.h"
 #include "bake/project_environment.h"
 #include "bake/round_plan.h"
 #include "base/assert.h"
@@ -41,6 +42,10 @@ std::string metadata(const BakeSettings& settings) {
     add("max_samples", settings.max_sample_count);
     add("time_budget_seconds", settings.time_budget_seconds);
     add("clamp", settings.clamp);
+    if (settings.surfaces != SurfaceSettings{}) {
+        add("albedo_boost", settings.surfaces.albedo_boost);
+        add("max_albedo", settings.surfaces.max_albedo);
+    }
     return json + "}";
 }
 
@@ -120,6 +125,9 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
                                   const MergeSettings& merge_settings,
                                   const BakeSettings& settings) {
     if (auto status = RoundPlan::check(settings); !status) return status.error();
+    size_t position_count = 0;
+    for (const ProbeGroup& group : groups) position_count += group.positions.size();
+    if (auto status = check_bake_memory(scene, position_count); !status) return status.error();
     PreparedBake prepared;
     prepared.settings = settings;
     Stopwatch watch;

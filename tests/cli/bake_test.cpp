@@ -168,6 +168,20 @@ TEST_F(Bake, RecordsTheAddedSunInTheVolume) {
               (Json{{"name", "command-line sun"}, {"type", "directional"}, {"mode", "baked"}}));
 }
 
+TEST_F(Bake, WithoutAlbedoNothingBounces) {
+    const auto light = [&](const Arguments& more) {
+        (void)bytes_of(more);
+        return Json::parse(succeed({"query", "bytes.probes", "--json"}, "0 2 0").out);
+    };
+    const Json black = light({"--max-albedo", "0"})["irradiance_sh"][0];
+    const Json direct = light({"--bounces", "0"})["irradiance_sh"][0];
+    const Json boosted = light({"--albedo-boost", "10"})["irradiance_sh"][0];
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(black[i].get<double>(), direct[i].get<double>(), 1e-5);
+        EXPECT_GT(boosted[i].get<double>(), 1.2 * black[i].get<double>());
+    }
+}
+
 TEST_F(Bake, RefusesAMalformedSun) {
     for (const char* direction : {"1,2", "abc", "0,0,0", "1,2,3,4", "nan,0,0", "1,,2"}) {
         EXPECT_TRUE(contains(misuse({"bake", kCourtyard, "-o", "v.probes", "--sun-direction",
