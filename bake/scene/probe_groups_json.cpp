@@ -13,6 +13,7 @@
 
 #include "bake/scene/detail/probe_group_check.h"
 #include "base/file.h"
+#include "base/json_text.h"
 #include "base/text.h"
 
 namespace tetralight {
@@ -209,10 +210,11 @@ Result<std::vector<ProbeGroup>> read_document(const json& document) {
 }
 
 Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
+    const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (auto status = check_json_depth(characters); !status) return status.error();
     ParsePlace place;
     try {
-        const auto* first = reinterpret_cast<const char*>(bytes.data());
-        const json document = json::parse(first, first + bytes.size(), std::ref(place));
+        const json document = json::parse(characters, std::ref(place));
         if (place.duplicate_key()) return *place.duplicate_key();
         return read_document(document);
     } catch (const std::bad_alloc&) {

@@ -8,6 +8,7 @@
 
 #include "bake/scene/detail/gltf_rules.h"
 #include "bake/scene/detail/gltf_uri.h"
+#include "base/json_text.h"
 #include "base/text.h"
 
 namespace tetralight::detail {
@@ -15,20 +16,10 @@ namespace {
 
 using nlohmann::json;
 
-/// tinygltf copies extras by recursion; no real file nests nearly as deep.
-constexpr int kDeepestNesting = 64;
-
 constexpr std::string_view kSupportedExtensions[] = {
     "KHR_texture_transform",   "KHR_materials_emissive_strength", "KHR_lights_punctual",
     "EXT_mesh_gpu_instancing", "KHR_mesh_quantization",           "KHR_materials_unlit",
 };
-
-bool is_deeper_than(const json& value, int limit) {
-    if (!value.is_structured()) return false;
-    if (limit == 0) return true;
-    return std::any_of(value.begin(), value.end(),
-                       [limit](const json& part) { return is_deeper_than(part, limit - 1); });
-}
 
 uint64_t size_or(const json& element, const char* key, uint64_t otherwise) {
     const auto value = element.find(key);
@@ -121,9 +112,6 @@ Status check_buffer_views(const json& document) {
 
 Status check_document(const json& document, GltfContainer container) {
     if (!document.is_object()) return Error{"is not a JSON object"};
-    if (is_deeper_than(document, kDeepestNesting)) {
-        return Error{text("JSON is nested deeper than ", kDeepestNesting)};
-    }
     if (const auto status = check_version(document); !status) return status;
     if (const auto status = check_required_extensions(document); !status) return status;
     if (const auto status = check_gltf_sections(document); !status) return status;
@@ -136,6 +124,7 @@ Status check_document(const json& document, GltfContainer container) {
 }  // namespace
 
 Status check_gltf_json(std::string_view json_text, GltfContainer container) {
+    if (auto status = check_json_depth(json_text); !status) return status;
     try {
         return check_document(json::parse(json_text), container);
     } catch (const std::bad_alloc&) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/utf8.h"
+
+#include <cstddef>
+
+namespace tetralight {
+namespace {
+
+bool is_in(char byte, int low, int high) {
+    const int value = static_cast<unsigned char>(byte);
+    return value >= low && value <= high;
+}
+
+/// Bytes of the character that these begin with; 0: there is none. Precondition: not empty.
+size_t character_length(std::string_view bytes) {
+    const char lead = bytes[0];
+    if (is_in(lead, 0x00, 0x7f)) return 1;
+    const size_t length = is_in(lead, 0xc2, 0xdf)   ? 2
+                          : is_in(lead, 0xe0, 0xef) ? 3
+                          : is_in(lead, 0xf0, 0xf4) ? 4
+                                                    : 0;
+    if (length == 0 || bytes.size() < length) return 0;
+    // Where the second byte may not be any: shorter forms exist, surrogates, beyond U+10FFFF.
+    const int low = lead == '\xe0' ? 0xa0 : lead == '\xf0' ? 0x90 : 0x80;
+    const int high = lead == '\xed' ? 0x9f : lead == '\xf4' ? 0x8f : 0xbf;
+    if (!is_in(bytes[1], low, high)) return 0;
+    for (size_t i = 2; i < length; ++i) {
+        if (!is_in(bytes[i], 0x80, 0xbf)) return 0;
+    }
+    return length;
+}
+
+}  // namespace
+
+bool is_utf8(std::string_view bytes) noexcept {
+    while (!bytes.empty()) {
+        const size_t length = character_length(bytes);
+        if (length == 0) return false;
+        bytes.remove_prefix(length);
+    }
+    return true;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/json_text.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace tetralight {
+namespace {
+
+std::string nested(int depth) {
+    std::string json = "{\"a\":";
+    for (int i = 1; i < depth; ++i) json += '[';
+    for (int i = 1; i < depth; ++i) json += ']';
+    return json + "}";
+}
+
+TEST(JsonText, TakesObjects) {
+    for (const char* json :
+         {"{}", " { } \n", R"({"a":1,"b":[true,false,null],"c":{"d":"e"}})",
+          R"({"":-0.5e+3,"a":0,"b":1E5,"c":2e-1,"d":[],"e":[1 , 2]})",
+          R"({"a":"\"\\\/\b\f\n\r\t\u00e4[[[[","\u0000":1})", "{\"\xc3\xa4\":1}"}) {
+        const auto status = check_json_object(json);
+        EXPECT_TRUE(status) << json << ": " << status.error().message;
+    }
+}
+
+TEST(JsonText, RefusesWhatIsNoObject) {
+    for (const char* json : {"",
+                             "[",
+                             "[]",
+                             "1",
+                             "null",
+                             "{",
+                             "}",
+                             "{\"a\"}",
+                             "{\"a\":}",
+                             "{\"a\":1,}",
+                             "{,}",
+                             "{a:1}",
+                             "{'a':1}",
+                             "{\"a\":01}",
+                             "{\"a\":.5}",
+                             "{\"a\":1.}",
+                             "{\"a\":1e}",
+                             "{\"a\":+1}",
+                             "{\"a\":-}",
+                             "{\"a\":nan}",
+                             "{\"a\":[1,]}",
+                             "{\"a\":[1}",
+                             "{\"a\":\"\\x\"}",
+                             "{\"a\":\"\\u12g4\"}",
+                             "{\"a\":\"\n\"}",
+                             "{\"a\":\"b}",
+                             "{\"a\":\"\\",
+                             "{}{}",
+                             "{} x",
+                             "{\"a\" 1}",
+                             "{\"a\":1 \"b\":2}",
+                             "{\"\xff\":1}"}) {
+        EXPECT_FALSE(check_json_object(json)) << json;
+    }
+    const auto status = check_json_object("{\"a\":tru}");
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "is not a JSON object (byte 5)");
+}
+
+TEST(JsonText, LimitsHowDeepObjectsNest) {
+    EXPECT_TRUE(check_json_object(nested(64)));
+    const auto status = check_json_object(nested(65));
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().message, "JSON is nested deeper than 64");
+}
+
+TEST(JsonText, BracketsInStringsDoNotNest) {
+    EXPECT_TRUE(check_json_depth("\"" + std::string(100, '[') + "\""));
+    EXPECT_TRUE(check_json_depth("\"\\\"" + std::string(100, '[') + "\""));
+    EXPECT_FALSE(check_json_depth("\"\\\\\"" + std::string(100, '[')));
+    EXPECT_FALSE(check_json_depth(std::string(300000, '{')));
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/utf8.h"
+
+#include <gtest/gtest.h>
+
+namespace tetralight {
+namespace {
+
+TEST(Utf8, TakesTheFirstAndLastCharacterOfEachLength) {
+    for (const char* text :
+         {"", "\x01", "\x7f", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf",
+          "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf", "a\xc3\xa4z"}) {
+        EXPECT_TRUE(is_utf8(text)) << text;
+    }
+}
+
+TEST(Utf8, RefusesOverlongFormsSurrogatesAndWhatIsCutOff) {
+    for (const char* bytes :
+         {"\x80", "\xff", "a\xff", "\xc0\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80",
+          "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xc3", "\xe2\x82",
+          "\xf0\x9f\x92", "\xc3(", "\xe2\x82(", "\xf0\x9f\x92("}) {
+        EXPECT_FALSE(is_utf8(bytes)) << bytes;
+    }
+}
+
+}  // namespace
+}  // namespace tetralight
