@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/text.h"
+#include "probes/detail/verify_text.h"
 #include "probes/probe_file.h"
 
 namespace tetralight {
@@ -186,14 +187,12 @@ Status check_cells(const ProbeVolumeView& v) {
     return Ok{};
 }
 
-Status check_names(const char* section, std::string_view names) {
-    if (names.empty() || names.back() == '\n') return Ok{};
-    return Error{text("section \"", section, "\": the last name does not end")};
-}
-
 Status check_tables(const ProbeVolumeView& v) {
-    if (auto status = check_names("group_names", v.group_names); !status) return status;
-    if (auto status = check_names("light_names", v.light_names); !status) return status;
+    for (const Status& status :
+         {detail::check_sorted_names("group_names", v.group_names),
+          detail::check_names("light_names", v.light_names), detail::check_metadata(v.metadata)}) {
+        if (!status) return status;
+    }
     const size_t groups = split_names(v.group_names).size();
     const size_t light_names = split_names(v.light_names).size();
     if (auto status = check_count("light_names", light_names, v.lights.size(), true); !status) {

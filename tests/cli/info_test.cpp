@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "probes/probe_file.h"
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {
@@ -156,6 +157,14 @@ TEST_F(Info, RefusesBadVolumes) {
     refuse_each(bad_volumes(read("sound.probes")), "", [](const std::string& name) {
         return Arguments{"info", name};
     });
+}
+
+TEST_F(Info, RefusesMetadataThatIsNestedTooDeep) {
+    ProbeVolume volume;
+    volume.metadata = std::string(200000, '[');
+    ASSERT_TRUE(write_probe_file(path("deep.probes"), volume.view()));
+    EXPECT_TRUE(contains(fail({"info", "deep.probes"}),
+                         "deep.probes: section \"metadata\": JSON is nested deeper than 64"));
 }
 
 TEST_F(Info, NamesAVolumeThatIsNotThere) {

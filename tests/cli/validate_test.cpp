@@ -73,7 +73,9 @@ const Corruption kUnusable[] = {
     {"seeds", [](ProbeVolume& v) { v.seeds.at(0).cell = 1000; }},
     {"exact_positions", [](ProbeVolume& v) { v.exact_positions[0].x = NAN; }},
     {"sources", [](ProbeVolume& v) { v.sources[0].group = 7; }},
-    {"group_names", [](ProbeVolume& v) { v.group_names.pop_back(); }}};
+    {"group_names", [](ProbeVolume& v) { v.group_names.pop_back(); }},
+    {"metadata", [](ProbeVolume& v) { v.metadata = std::string(200000, '['); }},
+    {"metadata", [](ProbeVolume& v) { v.metadata = "\"no object\""; }}};
 
 TEST_F(Validate, FindsABakedVolumeSound) {
     bake_courtyard("v.probes");
