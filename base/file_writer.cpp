@@ -4,7 +4,8 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include <cstdlib>
+#include <climits>
+#include <utility>
 
 namespace tetralight {
 namespace {
@@ -24,15 +25,6 @@ mode_t final_mode(const std::string& path) {
     return 0666 & ~mask;
 }
 
-/// Follows a symbolic link, so that the link stays and its target is replaced.
-std::string final_path(const std::string& path) {
-    char* resolved = ::realpath(path.c_str(), nullptr);
-    if (resolved == nullptr) return path;
-    std::string result = resolved;
-    std::free(resolved);
-    return result;
-}
-
 std::string folder_of(const std::string& path) {
     const size_t slash = path.rfind('/');
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
@@ -45,6 +37,19 @@ std::string name_of_open_file(const Descriptor& file) {
 
 }  // namespace
 
+Result<std::string> follow_links(const std::string& path) {
+    constexpr int kMostLinks = 40;  // as many as the system follows
+    std::string end = path;
+    for (int i = 0; i < kMostLinks; ++i) {
+        char memory[PATH_MAX];
+        const ssize_t length = ::readlink(end.c_str(), memory, sizeof memory);
+        if (length < 0) return end;
+        const std::string link(memory, static_cast<size_t>(length));
+        end = link.starts_with('/') ? link : end.substr(0, end.rfind('/') + 1) + link;
+    }
+    return Error{path + ": cannot write (its symbolic links lead in a circle)"};
+}
+
 Result<FileWriter> FileWriter::open(const std::string& path) {
     FileWriter writer(path);
     if (path == "-") {
@@ -52,7 +57,10 @@ Result<FileWriter> FileWriter::open(const std::string& path) {
     } else if (is_special_file(path)) {
         writer.file_ = Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     } else {
-        writer.target_ = final_path(path);
+        // A link stays, and what it leads to is replaced.
+        auto target = follow_links(path);
+        if (!target) return target.error();
+        writer.target_ = std::move(*target);
         writer.open_beside();
     }
     if (!writer.file_) return system_error(path, "write");

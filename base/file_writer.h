@@ -45,4 +45,8 @@ class FileWriter {
     Descriptor file_;
 };
 
+/// The path that a chain of symbolic links ends at, there or not. Errors: the links lead in a
+/// circle.
+[[nodiscard]] Result<std::string> follow_links(const std::string& path);
+
 }  // namespace tetralight

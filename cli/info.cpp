@@ -23,15 +23,23 @@ struct Info {
 
     void add_to(CLI::App& command) {
         add_path(command, "VOLUME", path, "Probe volume (.probes)")->required();
-        add_path(command, "--obj", obj_path,
-                 "Also write the edges of the tetrahedra as line elements, for any viewer "
-                 "(Wavefront OBJ, groups `cells` and `hull`; - = stdout)");
-        add_path(command, "--ply", ply_path, "The same as a PLY file with `edge` elements");
+        add_file_to_write(command, "--obj", obj_path, ".obj",
+                          "Also write the edges of the tetrahedra as line elements, for any "
+                          "viewer: Wavefront OBJ, groups `cells` and `hull`");
+        add_file_to_write(command, "--ply", ply_path, ".ply",
+                          "The same as a PLY file with `edge` elements");
         common.add_to(command);
-        command.parse_complete_callback([this] {
-            if (obj_path != "-" || ply_path != "-") return;
+        command.parse_complete_callback([this] { check_outputs(); });
+    }
+
+    void check_outputs() const {
+        if (obj_path == "-" && ply_path == "-") {
             throw CLI::ValidationError("--ply", "--obj goes to stdout already");
-        });
+        }
+        const bool has_two = !obj_path.empty() && !ply_path.empty();
+        if (has_two && is_same_file(obj_path, ply_path)) {
+            throw CLI::ValidationError("--ply", "--obj goes to the same file");
+        }
     }
 
     Status run() {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/file_writer.h"
 #include "base/text.h"
 
 namespace tetralight::cli {
@@ -71,11 +72,22 @@ CLI::Option* add_paths(CLI::App& command, const std::string& name, std::vector<s
     return command.add_option(name, paths, help)->check(not_empty());
 }
 
+CLI::Option* add_file_to_write(CLI::App& command, const std::string& name, std::string& path,
+                               const std::string& extension, const std::string& help) {
+    return add_path(command, name, path, help + " (" + extension + "; - = stdout)")
+        ->check(has_extension(extension));
+}
+
 CLI::Option* add_output(CLI::App& command, std::string& path, const std::string& extension,
                         const std::string& help) {
-    return add_path(command, "-o,--output", path, help + " (" + extension + "; - = stdout)")
-        ->check(has_extension(extension))
-        ->required();
+    return add_file_to_write(command, "-o,--output", path, extension, help)->required();
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true;
+    const fs::path first = fs::weakly_canonical(fs::absolute(a, error), error);
+    return first == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
 Status check_output(const std::string& path, const std::vector<std::string>& inputs) {
@@ -92,7 +104,10 @@ Status check_output(const std::string& path, const std::vector<std::string>& inp
         return cannot_write(path, problem);
     }
     if (fs::is_character_file(path, error)) return Ok{};  // /dev/null, a terminal
-    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+    const auto target = follow_links(path);
+    if (!target) return target.error();
+    const fs::path folder =
+        fs::path(*target).has_parent_path() ? fs::path(*target).parent_path() : ".";
     if (!fs::is_directory(folder, error)) {
         return cannot_write(path, "there is no folder " + folder.string());
     }

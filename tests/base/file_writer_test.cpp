@@ -52,6 +52,27 @@ TEST_F(FileWriterTest, ReplacesTheFileAtTheEndOnly) {
     EXPECT_EQ(file_count(), 1);
 }
 
+TEST_F(FileWriterTest, CreatesWhatALinkLeadsTo) {
+    fs::create_directory(folder_ / "b");
+    fs::create_symlink("b/second", folder_ / "first");
+    fs::create_symlink("../new", folder_ / "b" / "second");
+    auto writer = FileWriter::open((folder_ / "first").string());
+    ASSERT_TRUE(writer && write(*writer, "new") && writer->commit());
+    EXPECT_TRUE(fs::is_symlink(folder_ / "first"));
+    EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder_ / "new")));
+    EXPECT_EQ(fs::file_size(folder_ / "new"), 3u);
+}
+
+TEST_F(FileWriterTest, RefusesLinksThatLeadInACircle) {
+    const std::string loop = (folder_ / "loop").string();
+    fs::create_symlink("loop", loop);
+    const auto writer = FileWriter::open(loop);
+    ASSERT_FALSE(writer);
+    EXPECT_EQ(writer.error().message,
+              loop + ": cannot write (its symbolic links lead in a circle)");
+    EXPECT_TRUE(fs::is_symlink(loop));
+}
+
 TEST_F(FileWriterTest, KeepsTheOldFileWithoutCommit) {
     {
         auto writer = FileWriter::open(target());

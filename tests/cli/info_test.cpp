@@ -126,16 +126,16 @@ TEST_F(Info, MemoryAddsUp) {
 TEST_F(Info, WritesTheTetrahedraAsAWireframe) {
     write("five.json", kFiveProbes);
     succeed({"tetrahedralize", "five.json", "-o", "v.probes"});
-    succeed({"info", "v.probes", "--obj", "v.txt", "--ply", "w.txt"});
+    succeed({"info", "v.probes", "--obj", "v", "--ply", "w.PLY"});
     // Five probes, of which each is joined with each: 6 edges of the hull and 4 within.
-    const std::string obj = read("v.txt");
+    const std::string obj = read("v");
     const std::string inner =
         obj.substr(obj.find("g cells\n"), obj.find("g hull\n") - obj.find("g cells\n"));
     EXPECT_EQ(std::count(inner.begin(), inner.end(), '\n'), 1 + 4);
     const std::string hull = obj.substr(obj.find("g hull\n"));
     EXPECT_EQ(std::count(hull.begin(), hull.end(), '\n'), 1 + 6);
-    EXPECT_TRUE(contains(read("w.txt"), "element vertex 5\n"));
-    EXPECT_TRUE(contains(read("w.txt"), "element edge 10\n"));
+    EXPECT_TRUE(contains(read("w.PLY"), "element vertex 5\n"));
+    EXPECT_TRUE(contains(read("w.PLY"), "element edge 10\n"));
 }
 
 TEST_F(Info, KeepsStdoutForTheWireframeThatGoesThere) {
@@ -148,8 +148,28 @@ TEST_F(Info, KeepsStdoutForTheWireframeThatGoesThere) {
 TEST_F(Info, NamesAWireframeThatCannotBeWritten) {
     bake_courtyard("v.probes");
     EXPECT_TRUE(contains(fail({"info", "v.probes", "--obj", "none/v.obj"}), "none/v.obj: cannot"));
-    EXPECT_TRUE(contains(fail({"info", "v.probes", "--ply", "v.probes"}), "is an input"));
+    write("volume", read("v.probes"));
+    EXPECT_TRUE(contains(fail({"info", "volume", "--ply", "volume"}), "is an input"));
     EXPECT_TRUE(contains(misuse({"info", "v.probes", "--ply", ""}), "--ply: the path is empty"));
+}
+
+TEST_F(Info, RefusesToWriteAWireframeOverFilesOfOtherFormats) {
+    for (const char* option : {"--obj", "--ply"}) {
+        for (const char* name : {"scene.glb", "v.probes", "notes.txt"}) {
+            const std::string message = misuse({"info", "v.probes", option, name});
+            EXPECT_TRUE(contains(message, std::string(option) + ": cannot write \".")) << message;
+        }
+    }
+    EXPECT_TRUE(file_names().empty());
+}
+
+TEST_F(Info, RefusesTwoWireframesInOneFile) {
+    write("there", "");
+    for (const auto& [obj, ply] :
+         {std::pair<std::string, std::string>("v", "v"), {"v", "./v"}, {"there", path("there")}}) {
+        const std::string message = misuse({"info", "v.probes", "--obj", obj, "--ply", ply});
+        EXPECT_TRUE(contains(message, "--ply: --obj goes to the same file")) << message;
+    }
 }
 
 TEST_F(Info, RefusesBadVolumes) {
