@@ -65,7 +65,8 @@ struct Bake {
         add_seed(command, settings.seed, "Seed of the random numbers");
         command
             .add_option("--weld", merge_settings.weld_tolerance,
-                        "Join probes nearer than this share of the local spacing")
+                        "Join probes nearer than this share of the local spacing: the distance to\n"
+                        "the seventh nearest probe, 10 m at most")
             ->check(numbers_in(0.0, 0.1))
             ->capture_default_str();
         add_range(command, "--probes", probes,

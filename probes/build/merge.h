@@ -15,9 +15,10 @@ namespace tetralight {
 
 struct MergeSettings {
     /// Probes nearer to each other than this share of the local spacing become one. The spacing at
-    /// a probe is its distance to its seventh nearest neighbor, so that probes far away have no say
-    /// in it. Whatever this is, probes are welded that floats could not tell apart. Precondition:
-    /// not negative.
+    /// a probe is its distance to its seventh nearest neighbor (of fewer than eight probes to the
+    /// one in the middle), so that probes far away have no say in it, and 10 m at most: 1e-4 never
+    /// welds probes more than 1 mm apart. Whatever this is, probes are welded that floats could not
+    /// tell apart. Precondition: not negative.
     double weld_tolerance = 1e-4;
 
     bool operator==(const MergeSettings&) const = default;
@@ -57,8 +58,9 @@ struct MergedProbes {
 /// tolerance of both, so that a probe of a sparse part swallows none of a dense one. Clusters are
 /// closed transitively; the lexicographically smallest position stands for its cluster.
 ///
-/// Errors: a group without a name, with a line break in it or with the name of another; a position
-/// that is not finite or beyond 1e18 (they name the group and the index).
+/// Errors: a group without a name, with control characters (a line break) or bytes that are not
+/// UTF-8 in it, or with the name of another; a position that is not finite or beyond 1e18 (they
+/// name the group and the index).
 [[nodiscard]] Result<MergedProbes> merge(std::span<const ProbeGroup> groups,
                                          const MergeSettings& settings = {});
 

@@ -46,7 +46,7 @@ class NearestSearch {
         : nodes_(nodes),
           positions_(positions),
           position_(position),
-          nearest_(std::min<size_t>(positions.size(), PositionTree::kLeafSize) - 1) {}
+          nearest_(PositionTree::spacing_rank(positions.size())) {}
 
     double run() {
         visit(0);
@@ -104,6 +104,11 @@ void PositionTree::add_node(uint32_t begin, uint32_t end) {
     nodes_[number].second_child = second;
     nodes_[number].low = glm::min(nodes_[number + 1].low, nodes_[second].low);
     nodes_[number].high = glm::max(nodes_[number + 1].high, nodes_[second].high);
+}
+
+size_t PositionTree::spacing_rank(size_t position_count) {
+    if (position_count >= kLeafSize) return kLeafSize - 1;
+    return std::max<size_t>(1, position_count / 2);
 }
 
 double PositionTree::spacing(uint32_t position) const {

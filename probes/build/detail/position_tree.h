@@ -33,8 +33,12 @@ class PositionTree {
     /// Parents come before their children; the first one is the root.
     [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
 
-    /// How far the seventh nearest other position is from the position of this number; of fewer
-    /// than eight positions, the farthest. 0 for a single one.
+    /// Which of the other positions, counted from the nearest as 1, says how far apart positions
+    /// are: the seventh. Of fewer than eight positions the one in the middle, since the farthest
+    /// may be far from all others.
+    [[nodiscard]] static size_t spacing_rank(size_t position_count);
+
+    /// How far that one is from the position of this number. 0 for a single position.
     [[nodiscard]] double spacing(uint32_t position) const;
 
   private:

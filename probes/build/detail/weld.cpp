@@ -20,6 +20,9 @@ constexpr double kNearest = 1e-15;
 /// A few steps of a float, as a share of its value: nearer positions cannot be told apart.
 constexpr double kFloatSteps = 4e-7;
 
+/// Where probes are farther apart, in an open field, twins are no farther apart than in a house.
+constexpr double kLargestSpacing = 10.0;
+
 bool is_before(const glm::dvec3& a, const glm::dvec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
@@ -95,7 +98,7 @@ class Welder {
             reach = {std::max(a.largest, b.largest), std::min(a.smallest, b.smallest)};
             return;
         }
-        const double largest = tolerance_ * joint_diagonal(node, node);
+        const double largest = radius_at(joint_diagonal(node, node));
         reach.smallest = smallest_radius(node.begin);
         for (uint32_t i = node.begin; i < node.end; ++i) {
             const double smallest = smallest_radius(i);
@@ -106,6 +109,10 @@ class Welder {
         }
     }
 
+    [[nodiscard]] double radius_at(double spacing) const {
+        return tolerance_ * std::min(spacing, kLargestSpacing);
+    }
+
     [[nodiscard]] double smallest_radius(uint32_t i) const {
         return std::max(kNearest, kFloatSteps * glm::distance(positions_[i], origin_));
     }
@@ -114,7 +121,7 @@ class Welder {
     double exact_radius(uint32_t i) {
         if (!has_exact_radius_[i]) {
             const double smallest = smallest_radius(i);
-            radii_[i] = std::max(smallest, tolerance_ * tree_.spacing(i));
+            radii_[i] = std::max(smallest, radius_at(tree_.spacing(i)));
             has_exact_radius_[i] = true;
         }
         return radii_[i];

@@ -122,9 +122,10 @@ TEST(VolumeBuilder, GoesThroughFlatSetsAndBack) {
 }
 
 TEST(VolumeBuilder, FollowsALocalSpacingThatChanges) {
-    // 1e-3 m apart where probes are tens of metres apart: one probe. Among probes 0.1 m apart: two.
+    // 0.9 mm apart where probes are tens of metres apart: one probe, since 1e-4 of 10 m is 1 mm.
+    // Among probes 0.1 m apart: two.
     auto sparse = test::moved(test::random_positions(100, 1), glm::dvec3(100.0), {});
-    sparse.insert(sparse.end(), {{0, 0, 0}, {1e-3, 0, 0}});
+    sparse.insert(sparse.end(), {{0, 0, 0}, {0.9e-3, 0, 0}});
     VolumeBuilder builder;
     ASSERT_TRUE(builder.add_group(make_group("sparse", sparse)));
     EXPECT_EQ(builder.build().positions.size(), 101u);

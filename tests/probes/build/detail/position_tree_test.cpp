@@ -17,12 +17,12 @@ std::vector<glm::dvec3> along_curve(const std::vector<glm::dvec3>& positions) {
     return sorted;
 }
 
-/// By comparing with all others.
-double seventh_distance(const std::vector<glm::dvec3>& positions, size_t i) {
+/// By comparing with all others: to the seventh, or to the one in the middle of few.
+double spacing_at(const std::vector<glm::dvec3>& positions, size_t i) {
     std::vector<double> distances;
     for (const glm::dvec3& p : positions) distances.push_back(glm::distance(p, positions[i]));
     std::ranges::sort(distances);  // the first is the position's own
-    return distances[std::min<size_t>(7, distances.size() - 1)];
+    return distances[positions.size() >= 8 ? 7 : std::max<size_t>(1, positions.size() / 2)];
 }
 
 TEST(PositionTree, BoxesHoldTheirPositionsAndLeavesAreSmall) {
@@ -41,12 +41,12 @@ TEST(PositionTree, BoxesHoldTheirPositionsAndLeavesAreSmall) {
     EXPECT_EQ(in_leaves, 1000u);
 }
 
-TEST(PositionTree, SpacingIsTheDistanceToTheSeventhNeighbor) {
-    for (const size_t count : {2u, 5u, 8u, 9u, 17u, 500u}) {
+TEST(PositionTree, SpacingIsTheDistanceToTheSeventhNeighborOrTheMiddleOne) {
+    for (const size_t count : {2u, 3u, 4u, 5u, 7u, 8u, 9u, 17u, 500u}) {
         const auto positions = along_curve(test::random_positions(count, count));
         const PositionTree tree(positions);
         for (uint32_t i = 0; i < count; ++i) {
-            ASSERT_EQ(tree.spacing(i), seventh_distance(positions, i)) << count << " " << i;
+            ASSERT_EQ(tree.spacing(i), spacing_at(positions, i)) << count << " " << i;
         }
     }
 }

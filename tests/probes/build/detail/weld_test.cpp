@@ -40,10 +40,10 @@ TEST(Weld, KeepsARoomWhateverStandsFarAway) {
 }
 
 TEST(Weld, ASparseNeighborhoodDoesNotSwallowADenseCluster) {
-    // 1 mm apart among probes 100 m apart: a tolerance of 1e-4 is 10 mm for those, 0.1 µm for
+    // 0.1 mm apart among probes 100 m apart: a tolerance of 1e-4 is 1 mm for those, 10 nm for
     // these.
     const auto sparse = test::moved(test::lattice(10, 0.0, 0), glm::dvec3(100.0), {});
-    const auto dense = test::moved(test::lattice(5, 0.0, 0), glm::dvec3(1e-3), {450, 451, 449});
+    const auto dense = test::moved(test::lattice(5, 0.0, 0), glm::dvec3(1e-4), {5, 4, 6});
     EXPECT_EQ(left_of(test::joined(sparse, dense), 1e-4).size(), 1125u);
 }
 
@@ -63,6 +63,34 @@ TEST(Weld, JoinsWhatFloatsCannotTellApartAtAnyTolerance) {
     const auto all = test::joined(scene, test::moved(scene, glm::dvec3(1), {1e-6, 0, 0}));
     EXPECT_GE(left_of(all, 0.0).size(), 1000u);
     EXPECT_LE(left_of(all, 0.0).size(), 1001u);  // but near the very origin
+}
+
+TEST(Weld, AProbeFarAwayDoesNotScaleAFewOthers) {
+    // 1e-4 of 10 km would be a metre.
+    const std::vector<glm::dvec3> room{{0, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}};
+    for (size_t count = 1; count <= room.size(); ++count) {
+        const std::vector<glm::dvec3> near(room.begin(), room.begin() + count);
+        const auto all = test::joined(near, {{1e4, 1e4, 1e4}});
+        EXPECT_EQ(left_of(all, 1e-4).size(), count + 1);
+    }
+}
+
+TEST(Weld, APairFarFromAllOthersStaysAPair) {
+    const auto town = test::random_positions(100, 1);
+    const auto all = test::joined(town, {{1e4, 0, 0}, {1e4, 0.5, 0}});
+    EXPECT_EQ(left_of(all, 1e-4).size(), 102u);
+}
+
+TEST(Weld, ReachesNoFartherThanItDoesAtTenMetres) {
+    // Probes 200 m apart and more around a pair: 1e-4 of 10 m is 1 mm, 0.1 of it 1 m.
+    const auto field = test::moved(test::lattice(3, 0.0, 0), glm::dvec3(200), glm::dvec3(-200));
+    for (const auto& [tolerance, reach] : {std::pair(1e-4, 1e-3), {0.1, 1.0}}) {
+        const auto with_twin = [&](double distance) {
+            return left_of(test::joined(field, {{distance, 0, 0}}), tolerance).size();
+        };
+        EXPECT_EQ(with_twin(0.9 * reach), field.size());
+        EXPECT_EQ(with_twin(1.1 * reach), field.size() + 1);
+    }
 }
 
 TEST(Weld, ClosesClustersTransitively) {
