@@ -16,6 +16,7 @@ Json to_json(const ValidationReport& report) {
             {"probes_without_cell", report.probes_without_cell},
             {"probes_without_source", report.probes_without_source},
             {"misplaced_float_probes", report.misplaced_float_probes},
+            {"wrong_compact_probes", report.wrong_compact_probes},
             {"cell_measure", report.cell_measure},
             {"hull_measure", report.hull_measure}};
 }
@@ -40,7 +41,7 @@ struct Validate {
         Json json = verdict(problems);
         json.update(counts(file->view()));
         json.update(to_json(report));
-        common.print(json, text(path, problems.empty() ? ": valid, " : ": not valid, ",
+        common.print(json, text(printable(path), problems.empty() ? ": valid, " : ": not valid, ",
                                 counted(file->view().probe_count(), "probe"), ", ",
                                 problems.empty() ? "Delaunay " : "", cells_text(file->view())));
         if (problems.empty()) return Ok{};

@@ -28,6 +28,26 @@ float compact_scale(float largest) {
     return std::ldexp(1.0f, std::max(exponent - kLargestExponent, kSmallestExponent));
 }
 
+/// Halves have 11 bits, and below 2^-14 a step of 2^-24.
+bool is_rounded(uint16_t half, float value) {
+    const float step = std::max(std::abs(value) * 0x1p-10f, 0x1p-24f);
+    return std::abs(glm::unpackHalf1x16(half) - value) <= step;
+}
+
+bool is_rounded(const CompactProbe& compact, const ProbeVolumeView& volume, size_t probe) {
+    for (size_t k = 0; k < compact.irradiance.size(); ++k) {
+        const auto& coefficient = volume.irradiance[probe].coefficients[k / 3];
+        const float value = coefficient[static_cast<int>(k % 3)] / volume.info.compact_scale;
+        if (!is_rounded(compact.irradiance[k], value)) return false;
+    }
+    const glm::vec4 occlusion =
+        volume.occlusion.empty() ? glm::vec4(1.0f) : volume.occlusion[probe];
+    for (size_t k = 0; k < compact.occlusion.size(); ++k) {
+        if (!is_rounded(compact.occlusion[k], occlusion[static_cast<int>(k)])) return false;
+    }
+    return is_rounded(compact.validity, volume.validity.empty() ? 1.0f : volume.validity[probe]);
+}
+
 }  // namespace
 
 void make_compact_probes(ProbeVolume& volume) {
@@ -50,6 +70,15 @@ void make_compact_probes(ProbeVolume& volume) {
         }
         probe.validity = glm::packHalf1x16(volume.validity.empty() ? 1.0f : volume.validity[i]);
     }
+}
+
+uint32_t count_wrong_compact_probes(const ProbeVolumeView& volume) noexcept {
+    if (volume.irradiance.empty()) return 0;
+    uint32_t count = 0;
+    for (size_t probe = 0; probe < volume.compact.size(); ++probe) {
+        count += !is_rounded(volume.compact[probe], volume, probe);
+    }
+    return count;
 }
 
 IrradianceSh compact_irradiance(const CompactProbe& probe, float scale) noexcept {

@@ -15,4 +15,8 @@ void make_compact_probes(ProbeVolume& volume);
 [[nodiscard]] IrradianceSh compact_irradiance(const CompactProbe& probe, float scale) noexcept;
 [[nodiscard]] glm::vec4 compact_occlusion(const CompactProbe& probe) noexcept;
 
+/// Compact probes that differ by more than a step of half precision from the floats that they stand
+/// for. 0 where there are no floats. Precondition: as many of each as there are, or none.
+[[nodiscard]] uint32_t count_wrong_compact_probes(const ProbeVolumeView& volume) noexcept;
+
 }  // namespace tetralight

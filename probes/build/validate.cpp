@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "probes/build/detail/cgal.h"
 #include "probes/build/detail/spread.h"
+#include "probes/compact_probes.h"
 
 namespace tetralight {
 namespace {
@@ -194,6 +195,8 @@ std::vector<std::string> ValidationReport::problems() const {
     add(probes_without_source, "probe is in no group", "probes are in no group");
     add(misplaced_float_probes, "float position differs from the exact one",
         "float positions differ from the exact ones");
+    add(wrong_compact_probes, "compact probe differs from its floats",
+        "compact probes differ from their floats");
     const double tolerance = 1e-9 * std::abs(hull_measure) + measure_rounding;
     if (std::abs(cell_measure - hull_measure) > tolerance) {
         lines.push_back(text("the cells fill ", cell_measure, " of the hull's ", hull_measure));
@@ -212,6 +215,7 @@ ValidationReport validate(const ProbeVolumeView& volume) {
         check_line(volume, positions, report);
     }
     check_probes(volume, positions, report);
+    report.wrong_compact_probes = count_wrong_compact_probes(volume);
     return report;
 }
 

@@ -17,6 +17,7 @@ struct ValidationReport {
     uint32_t probes_without_cell = 0;     ///< in no inner cell
     uint32_t probes_without_source = 0;   ///< in no group
     uint32_t misplaced_float_probes = 0;  ///< float position is not the rounded exact one
+    uint32_t wrong_compact_probes = 0;    ///< halves are not the rounded floats
 
     /// Sum over the inner cells, and what the hull encloses: m³; m² in a plane, m on a line.
     double cell_measure = 0.0;
@@ -31,8 +32,9 @@ struct ValidationReport {
 
 /// Checks the geometry of a volume whose structure is sound (see `verify`): the Delaunay property
 /// under exact arithmetic on the stored double positions, orientation, convexity of the hull, every
-/// probe present, sum of the cells = content of the hull. Flat volumes are checked in their plane.
-/// A volume without exact positions is checked on its float ones.
+/// probe present, sum of the cells = content of the hull. Compact probes have to say what the
+/// floats say. Flat volumes are checked in their plane. A volume without exact positions is checked
+/// on its float ones.
 [[nodiscard]] ValidationReport validate(const ProbeVolumeView& volume);
 
 }  // namespace tetralight

@@ -44,15 +44,31 @@ Status check_count(const char* name, size_t count, size_t expected, bool is_opti
     return Error{text("section \"", name, "\": ", count, " elements instead of ", expected)};
 }
 
+Error info_error(const std::string& what) {
+    return {"section \"info\": " + what};
+}
+
+/// Whether the first cell has the vertices that cells of this dimension have: if it has not, the
+/// dimension is wrong and not every cell.
+Status check_dimension(const ProbeVolumeView& v) {
+    if (v.info.inner_cell_count == 0) return Ok{};
+    const auto count = 4 - std::ranges::count(v.cells[0].vertices, kNoIndex);
+    if (count == cell_vertex_count(v.info.dimension)) return Ok{};
+    return info_error(text("dimension ", static_cast<uint32_t>(v.info.dimension),
+                           " does not go with cells of ", count, " vertices"));
+}
+
 Status check_counts(const ProbeVolumeView& v) {
     const size_t probes = v.positions.size();
     if (v.info.dimension > Dimension::Space) {
-        return Error{text("dimension ", static_cast<uint32_t>(v.info.dimension), " is unknown")};
+        return info_error(
+            text("dimension ", static_cast<uint32_t>(v.info.dimension), " is unknown"));
     }
     if (v.info.inner_cell_count > v.cells.size()) {
-        return Error{text("tetrahedron count ", v.info.inner_cell_count, " is more than the ",
-                          v.cells.size(), " cells")};
+        return info_error(text("tetrahedron count ", v.info.inner_cell_count, " is more than the ",
+                               v.cells.size(), " cells"));
     }
+    if (auto status = check_dimension(v); !status) return status;
     const size_t hull_cells = v.cells.size() - v.info.inner_cell_count;
     for (const Status& status :
          {check_count("irradiance", v.irradiance.size(), probes, true),
@@ -100,10 +116,14 @@ Status check_numbers(const ProbeVolumeView& v) {
     if (!is_finite(v.info.world_origin) || !is_finite(v.info.axis) || !is_finite(v.info.ambient) ||
         !std::isfinite(v.info.extent) || !is_finite(v.info.seed_cube.low) ||
         !std::isfinite(v.info.seed_cube.scale)) {
-        return Error{"section \"info\": a number is not finite"};
+        return info_error("a number is not finite");
+    }
+    if (v.info.seed_cube.scale < 0.0) {
+        return info_error(
+            text("the cube of the seeds has ", v.info.seed_cube.scale, " steps a metre"));
     }
     if (!v.compact.empty() && !(v.info.compact_scale > 0.0f && v.info.compact_scale < 1e38f)) {
-        return Error{text("section \"info\": scale ", v.info.compact_scale, " of compact probes")};
+        return info_error(text("scale ", v.info.compact_scale, " of compact probes"));
     }
     for (const Status& status :
          {check_each("positions", v.positions, "is not finite", finite),

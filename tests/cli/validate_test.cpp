@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 
+#include "probes/compact_probes.h"
 #include "probes/probe_file.h"
 #include "tests/cli/command_fixture.h"
 #include "tests/support/random_probes.h"
@@ -57,7 +58,11 @@ const Corruption kCorruptions[] = {
          v.sources.push_back({0, 5, 5});
      }},
     {"probes_without_source", [](ProbeVolume& v) { v.sources.pop_back(); }},
-    {"misplaced_float_probes", [](ProbeVolume& v) { v.positions[2].y += 0.01f; }}};
+    {"misplaced_float_probes", [](ProbeVolume& v) { v.positions[2].y += 0.01f; }},
+    {"wrong_compact_probes", [](ProbeVolume& v) {
+         make_compact_probes(v);
+         v.irradiance[3].coefficients[4].y += 0.01f * v.info.compact_scale * 4096.0f;
+     }}};
 
 /// Something that no query could use, and the section that is to blame.
 const Corruption kUnusable[] = {
@@ -73,13 +78,28 @@ const Corruption kUnusable[] = {
     {"seeds", [](ProbeVolume& v) { v.seeds.at(0).cell = 1000; }},
     {"exact_positions", [](ProbeVolume& v) { v.exact_positions[0].x = NAN; }},
     {"sources", [](ProbeVolume& v) { v.sources[0].group = 7; }},
+    {"info", [](ProbeVolume& v) { v.info.dimension = Dimension::Plane; }},
+    {"info", [](ProbeVolume& v) { v.info.dimension = static_cast<Dimension>(9); }},
+    {"info", [](ProbeVolume& v) { v.info.seed_cube.scale = -1.0; }},
+    {"seeds",
+     [](ProbeVolume& v) {
+         v.seeds.insert(v.seeds.begin(), {1ull << 63, 0, 0});
+     }},
     {"group_names", [](ProbeVolume& v) { v.group_names.pop_back(); }},
+    {"group_names", [](ProbeVolume& v) { v.group_names = "a\xff\n"; }},
+    {"group_names", [](ProbeVolume& v) { v.group_names = "b\na\n"; }},
+    {"group_names", [](ProbeVolume& v) { v.group_names = "a\na\n"; }},
     {"metadata", [](ProbeVolume& v) { v.metadata = std::string(200000, '['); }},
     {"metadata", [](ProbeVolume& v) { v.metadata = "\"no object\""; }}};
 
 TEST_F(Validate, FindsABakedVolumeSound) {
     bake_courtyard("v.probes");
     EXPECT_TRUE(contains(succeed({"validate", "v.probes"}).out, "v.probes: valid, 255 probes"));
+}
+
+TEST_F(Validate, KeepsToOneLineWhenANameHasTwo) {
+    bake_courtyard("two\nlines.probes");
+    EXPECT_EQ(succeed({"validate", "two\nlines.probes"}).out.find("two?lines.probes: valid, "), 0u);
 }
 
 TEST_F(Validate, SaysSoAsJson) {
