@@ -78,6 +78,13 @@ bool PositionHandler::fail(const std::string& message) {
     return false;
 }
 
+/// The position is complete.
+bool PositionHandler::take() {
+    place_ = is_in_array_ ? Place::Array : Place::Document;
+    ++index_;
+    return take_(position_);
+}
+
 bool PositionHandler::begin_coordinates() {
     place_ = Place::Coordinates;
     coordinate_count_ = 0;
@@ -112,9 +119,7 @@ bool PositionHandler::end_object() {
     }
     if (!has_position_) return fail("has no \"position\"");
     is_in_object_ = false;
-    ++index_;
-    place_ = is_in_array_ ? Place::Array : Place::Document;
-    return true;
+    return take();
 }
 
 bool PositionHandler::start_array(size_t /*size*/) {
@@ -142,15 +147,11 @@ bool PositionHandler::end_array() {
         return fail(text("has ", coordinate_count_, coordinate_count_ == 1 ? " number" : " numbers",
                          ", not three"));
     }
-    if (is_in_object_) {
-        place_ = Place::Object;
-        has_position_ = true;
-        is_position_next_ = false;
-    } else {
-        place_ = is_in_array_ ? Place::Array : Place::Document;
-        ++index_;
-    }
-    return take_(position_);
+    if (!is_in_object_) return take();
+    place_ = Place::Object;  // what follows in it may yet be wrong
+    has_position_ = true;
+    is_position_next_ = false;
+    return true;
 }
 
 bool PositionHandler::parse_error(size_t /*byte*/, const std::string& token,

@@ -53,6 +53,7 @@ class PositionHandler {
     bool coordinate(float number);
     bool value(std::string_view shown_value);
     bool fail(const std::string& message);
+    bool take();
     bool begin_coordinates();
 
     Document document_;

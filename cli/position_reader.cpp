@@ -32,18 +32,58 @@ ParsedLine parse_text_line(std::string_view line) {
     return position ? ParsedLine(*position) : position.error();
 }
 
+/// The first three fields of a line of CSV.
+ParsedLine parse_csv_line(std::string_view line) {
+    size_t end = line.find(',');
+    for (int field = 1; field < 3 && end != line.npos; ++field) end = line.find(',', end + 1);
+    return parse_text_line(line.substr(0, end));
+}
+
+/// Whether a line of text names the columns that follow, as the header of our own CSV does.
+bool is_csv_header(std::string_view line) {
+    constexpr std::string_view kNames = "x,y,z";
+    if (!line.starts_with(kNames)) return false;
+    const std::string_view rest = line.substr(kNames.size());
+    return is_blank(rest) || rest.starts_with(',');
+}
+
 ParsedLine parse_json_line(std::string_view line) {
     if (is_blank(line)) return std::optional<glm::vec3>();
     const auto position = parse_json_position(line);
     return position ? ParsedLine(*position) : position.error();
 }
 
-Status read_lines(ByteReader& reader, PositionChunks& chunks,
-                  ParsedLine (*parse)(std::string_view line)) {
+using ParseLine = ParsedLine (*)(std::string_view line);
+
+/// Parses line after line; the first one may have a mark of UTF-8, or be a header.
+class LineParser {
+  public:
+    explicit LineParser(ParseLine parse) : parse_(parse) {}
+
+    ParsedLine operator()(std::string_view line) {
+        constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+        if (++number_ > 1) return parse_(line);
+        if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+        if (parse_ != parse_text_line || !is_csv_header(line)) return parse_(line);
+        parse_ = parse_csv_line;
+        return std::optional<glm::vec3>();
+    }
+
+    /// Of the line that was parsed last, from 1.
+    [[nodiscard]] uint64_t number() const { return number_; }
+
+  private:
+    ParseLine parse_;
+    uint64_t number_ = 0;
+};
+
+Status read_lines(ByteReader& reader, PositionChunks& chunks, ParseLine parse_line) {
+    LineParser parse(parse_line);
     std::vector<char> memory(kLongestLine);
     size_t held = 0;
-    uint64_t number = 0;
-    const auto place = [&] { return text(reader.name(), ":", number); };
+    const auto error_in = [&](uint64_t number, const Error& error) {
+        return error.in(text(reader.name(), ":", number));
+    };
     while (true) {
         const auto count = reader.read(std::span(memory).subspan(held));
         if (!count) return count.error();
@@ -52,10 +92,9 @@ Status read_lines(ByteReader& reader, PositionChunks& chunks,
         for (size_t search = held; !rest.empty(); search = 0) {
             const size_t length = rest.find('\n', search);
             if (length == std::string_view::npos && !is_end) break;
-            ++number;
             const std::string_view line = rest.substr(0, length);
             const auto position = parse(line);
-            if (!position) return position.error().in(place());
+            if (!position) return error_in(parse.number(), position.error());
             if (*position) {
                 if (auto status = chunks.add(**position); !status) return status;
             }
@@ -64,8 +103,8 @@ Status read_lines(ByteReader& reader, PositionChunks& chunks,
         if (is_end) return Ok{};
         held = rest.size();
         if (held == kLongestLine) {
-            ++number;
-            return Error{text("the line is longer than ", kLongestLine, " bytes")}.in(place());
+            return error_in(parse.number() + 1,
+                            Error{text("the line is longer than ", kLongestLine, " bytes")});
         }
         std::memmove(memory.data(), rest.data(), held);
     }

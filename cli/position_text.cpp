@@ -30,23 +30,44 @@ Result<float> parse_coordinate(std::string_view digits, char axis, size_t& lengt
     return static_cast<float>(value);  // nearly 0
 }
 
+namespace {
+
+/// A '+' that a number follows says nothing.
+std::string_view without_plus(std::string_view digits) {
+    const bool has_plus = digits.starts_with('+') && !digits.substr(1).starts_with('-');
+    return has_plus ? digits.substr(1) : digits;
+}
+
+}  // namespace
+
 Result<glm::vec3> parse_position(std::string_view line) {
-    constexpr const char* kGaps = " \t,\r";
+    constexpr const char* kBlanks = " \t\r";
     std::string_view rest = line;
+    const auto skip_blanks = [&] {
+        const size_t before = rest.size();
+        rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), before));
+        return rest.size() < before;
+    };
     const auto skip_gap = [&] {
-        rest.remove_prefix(std::min(rest.find_first_not_of(kGaps), rest.size()));
+        const bool has_blanks = skip_blanks();
+        if (!rest.starts_with(',')) return has_blanks;
+        rest.remove_prefix(1);
+        skip_blanks();
+        return true;
     };
     const auto not_three = [&] { return Error{text("\"", shown(line), "\" is not x y z")}; };
     glm::vec3 position(0.0f);
+    skip_blanks();
     for (int axis = 0; axis < 3; ++axis) {
-        skip_gap();
+        if (axis > 0 && !skip_gap()) return not_three();
+        rest = without_plus(rest);
         size_t length = 0;
         const auto number = parse_coordinate(rest, "xyz"[axis], length);
         if (!number) return number.error().message.empty() ? not_three() : number.error();
         position[axis] = *number;
         rest.remove_prefix(length);
     }
-    skip_gap();
+    skip_blanks();
     if (!rest.empty()) return not_three();
     return position;
 }

@@ -14,7 +14,7 @@ namespace tetralight::cli {
 /// `length` is set to the digits that were taken.
 [[nodiscard]] Result<float> parse_coordinate(std::string_view digits, char axis, size_t& length);
 
-/// Three numbers with blanks or commas between them. Errors show the line.
+/// Three numbers with blanks, or one comma, between two of them. Errors show the line.
 [[nodiscard]] Result<glm::vec3> parse_position(std::string_view line);
 
 /// Input as messages show it: not too long.

@@ -74,6 +74,47 @@ TEST_F(QueryInput, MayHoldNoPosition) {
     }
 }
 
+TEST_F(QueryInput, OfTextHasBlanksOrOneCommaBetweenNumbers) {
+    const std::string expected = succeed({"query", "v.probes"}, "1 2 3").out;
+    for (const char* line : {"1,2,3", "1, 2, 3", " 1\t2 ,3 ", "1 2 3\r\n", "+1 +2 +3.0",
+                             "\xef\xbb\xbf"
+                             "1 2 3"}) {
+        EXPECT_EQ(succeed({"query", "v.probes"}, line).out, expected) << line;
+    }
+    for (const char* line : {"0,,1,0", ",,0 1 0,,", ",0,1,0", "0,1,0,", "0, ,1,0", "0 1", "0 1 0 0",
+                             "+-1 0 0", "++1 0 0", "+ 1 0 0", "1-2 3", "1 2 x", "x,y,z 1",
+                             "0 \xef\xbb\xbf"
+                             "1 0"}) {
+        EXPECT_EQ(message_of("p.txt", std::string(line) + "\n"),
+                  text("tetralight: p.txt:1: \"", line, "\" is not x y z"));
+    }
+}
+
+TEST_F(QueryInput, MayBeAnAnswerInCsv) {
+    const std::string first =
+        succeed({"query", "v.probes", "--to", "csv"}, "1 1 1\n0.1 7 -3\n").out;
+    EXPECT_EQ(succeed({"query", "v.probes", "--to", "csv"}, first).out, first);
+    EXPECT_EQ(succeed({"query", "v.probes", "--to", "csv"}, "x,y,z\r\n1,1,1\n0.1,7,-3").out, first);
+    for (const auto& [input, line] :
+         {std::pair<std::string, std::string>("x,y,z,name\n1,2\n1,2,3,a\n", "2: \"1,2\""),
+          {"#\nx,y,z\n", "2: \"x,y,z\""},
+          {"x,y,zone\n", "1: \"x,y,zone\""}}) {
+        EXPECT_EQ(message_of("p.csv", input), "tetralight: p.csv:" + line + " is not x y z");
+    }
+}
+
+TEST_F(QueryInput, OfAnObjectIsReadToItsEndBeforeItIsAnswered) {
+    for (const char* tail : {R"(, "position": [1, 1, 1]})", R"(, "x": nothing})", ""}) {
+        const std::string object = R"({"position": [1, 1, 1])" + std::string(tail);
+        for (const auto& [format, input] :
+             {std::pair<std::string, std::string>("jsonl", object), {"json", "[" + object}}) {
+            const CommandResult result = run({"query", "v.probes", "--from", format}, input);
+            EXPECT_EQ(result.exit_code, 1) << input;
+            EXPECT_EQ(result.out, "") << input;
+        }
+    }
+}
+
 /// Slightly above the middle between 1 and the next float, by less than a double can say: rounded
 /// to double first it would be the middle, and then 1.
 TEST_F(QueryInput, IsRoundedOnce) {
