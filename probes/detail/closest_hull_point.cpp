@@ -148,7 +148,8 @@ CellLocation clamp_to_hull(const ProbeVolumeView& volume, const glm::vec3& posit
     const auto point = closest_hull_point(volume, local, location.cell);
     if (!point) return location;
     const double sum = point->weights.x + point->weights.y + point->weights.z;
-    CellLocation clamped{point->cell, 0.0f, glm::vec4(point->weights / sum, 0.0)};
+    const glm::dvec3 weights = point->weights / sum + 0.0;  // -0 becomes 0
+    CellLocation clamped{point->cell, 0.0f, glm::vec4(weights, 0.0)};
     if (outside.policy == OutsidePolicy::Ambient) {
         // Positions that were drawn in are as far away as they look.
         const double drawn_in =

@@ -51,6 +51,16 @@ class OutsideHullFamilies : public testing::TestWithParam<size_t> {
     }
 };
 
+TEST_P(OutsideHullFamilies, NoWeightIsAZeroWithASign) {
+    for (const OutsidePolicy policy : {OutsidePolicy::Clamp, OutsidePolicy::Ambient}) {
+        for (int trial = 0; trial < 200; ++trial) {
+            const auto weights =
+                locate(volume.view(), random_position(), kNoIndex, {policy, 50.0f}).weights;
+            for (int i = 0; i < 4; ++i) EXPECT_FALSE(std::signbit(weights[i])) << weights[i];
+        }
+    }
+}
+
 /// x is the point of a convex set that is closest to p if and only if (p − x)·(v − x) ≤ 0 for every
 /// vertex v of the set (the variational inequality of projections).
 TEST_P(OutsideHullFamilies, ClampGivesTheClosestPointOfTheHull) {
