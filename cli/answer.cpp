@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "cli/common.h"
 
 namespace tetralight::cli {
 namespace {
@@ -69,7 +70,8 @@ void append_text(std::string& out, const glm::vec3& position, const CellLocation
         return;
     }
     const bool is_outside = location.cell >= volume.info.inner_cell_count;
-    out += text(": ", is_outside ? "hull cell " : "tetrahedron ", location.cell, ", probes");
+    out += text(": ", is_outside ? "hull cell" : cell_name(volume.info.dimension), " ",
+                location.cell, ", probes");
     for_each_probe(location, volume,
                    [&](uint32_t probe, float weight) { out += text(" ", probe, "×", weight); });
     if (location.ambient > 0.0f) out += text(", ambient×", location.ambient);

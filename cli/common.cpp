@@ -46,6 +46,19 @@ std::string range_error(const std::string& input, double low, double high) {
     }
 }
 
+/// From 0 to `largest`, which messages call by its name. CLI11 alone would say that it "could not
+/// convert".
+CLI::Validator whole_numbers(uint64_t largest, const char* name) {
+    const auto check = [largest, name](const std::string& input) -> std::string {
+        uint64_t value = 0;
+        const char* const end = input.data() + input.size();
+        const auto [next, error] = std::from_chars(input.data(), end, value);
+        if (error == std::errc{} && next == end && value <= largest) return "";
+        return text("\"", input, "\" is not a whole number from 0 to ", name);
+    };
+    return {check, ""};
+}
+
 /// Positions beyond this are refused by `merge`, too.
 CLI::Validator finite() {
     return numbers_in(-1e18, 1e18).description("");
@@ -54,9 +67,11 @@ CLI::Validator finite() {
 }  // namespace
 
 void CommonOptions::add_to(CLI::App& command) {
-    command.add_flag("--json", is_json, "Print one JSON object on stdout");
+    command.add_flag("--json", is_json,
+                     "Print one JSON object on stdout, or on stderr where data takes stdout");
     command.add_flag("-q,--quiet", is_quiet, "Print errors only");
     command.add_option("-j,--threads", thread_count, "Threads to use (0 = all)")
+        ->check(whole_numbers(UINT16_MAX, "65535"))
         ->capture_default_str();
 }
 
@@ -100,15 +115,8 @@ CLI::Validator numbers_in(double low, double high) {
 }
 
 CLI::Option* add_seed(CLI::App& command, uint64_t& seed, const std::string& help) {
-    const auto check = [](const std::string& input) -> std::string {
-        uint64_t value = 0;
-        const char* const end = input.data() + input.size();
-        const auto [next, error] = std::from_chars(input.data(), end, value);
-        if (error == std::errc{} && next == end) return "";
-        return text("\"", input, "\" is not a whole number from 0 to 2^64 - 1");
-    };
     return command.add_option("--seed", seed, help)
-        ->check(CLI::Validator(check, ""))
+        ->check(whole_numbers(UINT64_MAX, "2^64 - 1"))
         ->capture_default_str();
 }
 
@@ -161,12 +169,17 @@ const char* name_of(Dimension dimension) {
     return kNames[static_cast<size_t>(dimension)];
 }
 
+const char* cell_name(Dimension dimension) {
+    constexpr const char* kNames[] = {"cell", "cell", "segment", "triangle", "tetrahedron"};
+    return kNames[static_cast<size_t>(dimension)];
+}
+
 std::string cells_text(const ProbeVolumeView& volume) {
-    constexpr const char* kOne[] = {"cell", "cell", "segment", "triangle", "tetrahedron"};
     constexpr const char* kMany[] = {"cells", "cells", "segments", "triangles", "tetrahedra"};
     const uint32_t count = volume.info.inner_cell_count;
-    const auto kind = static_cast<size_t>(volume.info.dimension);
-    return grouped(count) + " " + (count == 1 ? kOne : kMany)[kind];
+    const Dimension dimension = volume.info.dimension;
+    return grouped(count) + " " +
+           (count == 1 ? cell_name(dimension) : kMany[static_cast<size_t>(dimension)]);
 }
 
 ProbeBounds probe_bounds(const ProbeVolumeView& volume) {

@@ -72,6 +72,8 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 [[nodiscard]] std::string dump(const Json& json, int indent = -1);
 /// "space", "plane", "line", "point", "none".
 [[nodiscard]] const char* name_of(Dimension dimension);
+/// "tetrahedron", "triangle", "segment", "cell": an inner cell of such a volume.
+[[nodiscard]] const char* cell_name(Dimension dimension);
 /// "1 347 tetrahedra", "1 triangle".
 [[nodiscard]] std::string cells_text(const ProbeVolumeView& volume);
 

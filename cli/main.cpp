@@ -16,11 +16,21 @@ constexpr int kExitBadData = 1;
 constexpr int kExitUsage = 2;
 constexpr int kExitSignal = 128;  // plus its number, as shells have it
 
+/// What CLI11 says in a language of its own, as a plain sentence.
+std::string plain(const std::string& message) {
+    const std::string option = message.substr(0, message.find(':'));
+    if (message.find(": At Most 1 required") != std::string::npos) {
+        return option + " is given more than once";
+    }
+    const bool has_no_value = message.find(": 1 required ") != std::string::npos;
+    return has_no_value ? option + " is given without a value" : message;
+}
+
 /// What is wrong with the arguments, and where to read on.
 std::string usage_message(const CLI::App* app, const CLI::Error& error) {
     const auto chosen = app->get_subcommands();
     const std::string command = chosen.empty() ? "" : " " + chosen[0]->get_name();
-    std::string message = error.what();
+    std::string message = plain(error.what());
     if (chosen.empty() && !app->remaining().empty()) {
         message = "there is no subcommand \"" + app->remaining()[0] + "\"";
     }

@@ -32,6 +32,18 @@ TEST_F(Query, AnswersOneLineOfTextAPosition) {
     EXPECT_TRUE(contains(out, "\n-5 1 1: hull cell ")) << out;
 }
 
+TEST_F(Query, CallsTheCellsOfFlatVolumesByTheirNames) {
+    for (const auto& [positions, name] :
+         {std::pair<std::string, std::string>("[0, 0, 0], [8, 0, 0], [0, 0, 8]", "triangle"),
+          {"[0, 0, 0], [8, 0, 0]", "segment"},
+          {"[0, 0, 0]", "cell"}}) {
+        write("flat.json", R"({"groups": [{"name": "a", "positions": [)" + positions + "]}]}");
+        succeed({"tetrahedralize", "flat.json", "-o", "flat.probes"});
+        const std::string out = succeed({"query", "flat.probes"}, "1 0 1").out;
+        EXPECT_EQ(out.find("1 0 1: " + name + " 0, probes "), 0u) << out;
+    }
+}
+
 TEST_F(Query, AnswersAFileAsItAnswersStdin) {
     write("positions.txt", "1 1 1\n2 1 1\n");
     EXPECT_EQ(succeed({"query", "v.probes", "positions.txt"}).out,
