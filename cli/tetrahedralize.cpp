@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probes/build/tetrahedralize.h"
 
+#include <cstdlib>
+
 #include "base/text.h"
 #include "cli/common.h"
 #include "cli/group_files.h"
 #include "cli/paths.h"
 #include "cli/tetgen_program.h"
 #include "probes/build/make_probe_volume.h"
+#include "probes/build/merge_warnings.h"
 #include "probes/probe_file.h"
 
 namespace tetralight::cli {
@@ -25,13 +28,15 @@ struct Tetrahedralize {
         add_output(command, output, ".probes", "Probe volume to write, without light");
         command
             .add_option("--weld", merge_settings.weld_tolerance,
-                        "Join probes nearer than this share of the local spacing")
+                        "Join probes nearer than this share of the local spacing: the distance to\n"
+                        "the seventh nearest probe, 10 m at most")
             ->check(numbers_in(0.0, 0.1))
             ->capture_default_str();
         command
             .add_option("--backend", backend,
                         "What joins the probes. tetgen: the program tetralight-tetgen, taken from\n"
-                        "$TETRALIGHT_TETGEN, this command's folder or PATH; it has 10 minutes")
+                        "$TETRALIGHT_TETGEN, this command's folder or PATH; it has 10 minutes,\n"
+                        "and flat sets (in a plane, on a line) never need it")
             ->check(CLI::IsMember({"cgal", "tetgen"}))
             ->capture_default_str();
         common.add_to(command);
@@ -41,6 +46,13 @@ struct Tetrahedralize {
         if (backend == "cgal") return tetrahedralize(probes.positions, flatness(probes));
         return tetrahedralize_with_tetgen(probes.positions, flatness(probes),
                                           find_tetgen_program());
+    }
+
+    /// An error of the program that joins probes, and why it was that one.
+    [[nodiscard]] static Error explained(const Error& error) {
+        const char* named = std::getenv(kTetgenVariable);
+        if (named == nullptr || *named == '\0') return error;
+        return {text(error.message, " (", kTetgenVariable, " names the program)")};
     }
 
     [[nodiscard]] std::string metadata() const {
@@ -54,7 +66,8 @@ struct Tetrahedralize {
         const auto merged = merge(files->groups(), merge_settings);
         if (!merged) return files->locate(merged.error());
         auto cells = cells_over(*merged);
-        if (!cells) return cells.error();
+        if (!cells) return explained(cells.error());
+        common.warn(merge_warnings(*merged, cells->dimension));
         ProbeVolume volume = make_probe_volume(*merged, std::move(*cells));
         volume.metadata = metadata();
         if (auto status = write_probe_file(output, volume.view()); !status) return status;

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "pipeline/bake_key.h"
 #include "probes/build/make_probe_volume.h"
+#include "probes/build/merge_warnings.h"
 #include "probes/compact_probes.h"
 
 namespace tetralight {
@@ -157,7 +158,10 @@ BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> talli
     BakeReport& report = prepared.report;
     report.ray_count = baked.ray_count;
     report.statistics = bake_statistics(baked, settings.target_error);
-    report.warnings = buried_groups(prepared.merged, prepared.volume.validity);
+    report.warnings = merge_warnings(prepared.merged, prepared.volume.info.dimension);
+    for (std::string& warning : buried_groups(prepared.merged, prepared.volume.validity)) {
+        report.warnings.push_back(std::move(warning));
+    }
     add_dark_warning(baked.radiance, settings.sample_count, report.warnings);
     add_target_warning(report.statistics, settings.target_error, tallies.size(), report.warnings);
     add_dering_warnings(prepared.merged, report.warnings);

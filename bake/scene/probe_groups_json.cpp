@@ -2,7 +2,6 @@
 #include "bake/scene/probe_groups_json.h"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <functional>
 #include <initializer_list>
@@ -197,7 +196,6 @@ Result<std::vector<ProbeGroup>> read_document(const json& document) {
     const auto values = document.find("groups");
     if (values == document.end()) return Error{"groups is missing"};
     if (!values->is_array()) return Error{text("groups is not an array (", shown(*values), ")")};
-    if (values->empty()) return Error{"has no probe groups"};
     std::vector<ProbeGroup> groups;
     for (const json& value : *values) {
         auto group = read_group(value, groups.size());
@@ -209,8 +207,16 @@ Result<std::vector<ProbeGroup>> read_document(const json& document) {
     return groups;
 }
 
+/// Files of ours that were given for a group file by mistake.
+Status check_first_bytes(std::string_view bytes) {
+    if (bytes.starts_with("TETRAPV\n")) return Error{"is a probe volume, not a group file"};
+    if (bytes.starts_with("glTF")) return Error{"is a binary glTF scene; its extension is .glb"};
+    return Ok{};
+}
+
 Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
     const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (auto status = check_first_bytes(characters); !status) return status.error();
     if (auto status = check_json_depth(characters); !status) return status.error();
     ParsePlace place;
     try {
@@ -226,42 +232,6 @@ Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
     }
 }
 
-/// A finite double as JSON that reads back to the same bits: "-0" would read as the integer 0.
-std::string json_number(double value) {
-    return value == 0.0 && std::signbit(value) ? "-0.0" : text(value);
-}
-
-void append_transform(std::string& out, const glm::dmat4& transform) {
-    out += "      \"transform\": [";
-    for (int i = 0; i < 16; ++i) {
-        if (i > 0) out += ", ";
-        out += json_number(transform[i / 4][i % 4]);
-    }
-    out += "],\n";
-}
-
-void append_group(std::string& out, const ProbeGroup& group) {
-    out += text("    {\n      \"name\": ", json(group.name).dump(), ",\n");
-    append_transform(out, group.world_from_group);
-    out += text("      \"dering\": ", group.dering ? "true" : "false", ",\n");
-    out += "      \"positions\": [\n";
-    for (const glm::dvec3& position : group.positions) {
-        const bool is_last = &position == &group.positions.back();
-        out += text("        [", json_number(position.x), ", ", json_number(position.y), ", ",
-                    json_number(position.z), is_last ? "]\n" : "],\n");
-    }
-    out += "      ]\n    }";
-}
-
-std::string json_text(std::span<const ProbeGroup> groups) {
-    std::string out = "{\n  \"groups\": [\n";
-    for (const ProbeGroup& group : groups) {
-        append_group(out, group);
-        out += &group == &groups.back() ? "\n" : ",\n";
-    }
-    return out + "  ]\n}\n";
-}
-
 }  // namespace
 
 Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path) {
@@ -270,18 +240,6 @@ Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path) {
     auto groups = parse_groups(file->bytes());
     if (!groups) return groups.error().in(path);
     return groups;
-}
-
-Status write_probe_groups(const std::string& path, std::span<const ProbeGroup> groups) {
-    if (groups.empty()) return Error{path + ": there are no probe groups to write"};
-    const auto status = detail::check_probe_groups(groups);
-    if (!status) return status.error().in(path);
-    try {
-        const std::string out = json_text(groups);
-        return write_file(path, std::as_bytes(std::span(out)));
-    } catch (const json::exception& exception) {  // a name that is not UTF-8
-        return Error{text(path, ": ", reason_of(exception))};
-    }
 }
 
 }  // namespace tetralight

@@ -17,8 +17,9 @@ namespace tetralight {
 ///                     "dering": false,                                             (optional)
 ///                     "positions": [[x, y, z], ...] } ] }
 ///
-/// A file without a group, a group without a probe, two groups of one name, unknown keys, a
-/// transform that is not affine and numbers that are not finite are errors that say where.
+/// Two groups of one name, unknown keys, a transform that is not affine, numbers that are not
+/// finite and more than 64 levels of nesting are errors that say where. There may be no group, and
+/// groups may have no probes.
 [[nodiscard]] Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path);
 
 /// Writes what `read_probe_groups` reads; numbers come back bit for bit.

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/text.h"
+#include "base/utf8.h"
 #include "probes/build/detail/hilbert_order.h"
 #include "probes/build/detail/snap_to_lattice.h"
 #include "probes/build/detail/weld.h"
@@ -24,11 +25,19 @@ Error position_error(const ProbeGroup& group, size_t index, const char* what, gl
                  p.y, ", ", p.z, ")")};
 }
 
+bool is_control(char c) {
+    constexpr char kDelete = 0x7f;
+    return (c >= 0 && c < ' ') || c == kDelete;
+}
+
 Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
     if (group.name.empty()) return Error{"a probe group has no name"};
-    if (group.name.find('\n') != std::string::npos) {
-        return Error{text("group \"", group.name, "\": the name holds a line break")};
+    if (std::ranges::any_of(group.name, is_control)) {
+        return Error{text("group \"", group.name,
+                          "\": the name holds a line break or another control character")};
     }
+    if (!is_utf8(group.name))
+        return Error{text("group \"", group.name, "\": the name is not UTF-8")};
     if (previous != nullptr && previous->name == group.name) {
         return Error{text("group \"", group.name, "\": there are two groups of this name")};
     }

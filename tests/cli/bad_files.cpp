@@ -47,8 +47,6 @@ std::vector<BadFile> bad_groups() {
     const std::string nan = R"({"name": "hall", "positions": [[0, 0, 0], [NaN, 0, 0]]})";
     const std::string pair = R"({"name": "hall", "positions": [[0, 0, 0], [1, 2]]})";
     return {{"empty.json", "", "empty.json: "},
-            {"none.json", groups(""), "no probe groups"},
-            {"no_probes.json", groups(R"({"name": "hall", "positions": []})"), "no probes"},
             {"overflow.json", groups(overflow), "group \"hall\": probe 1"},
             {"nan.json", groups(nan), "group \"hall\": probe 1"},
             {"pair.json", groups(pair), "group \"hall\": probe 1"},

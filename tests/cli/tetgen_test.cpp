@@ -30,7 +30,7 @@ class TetgenBackend : public CommandFixture {
     void fail_with(const std::string& commands, const std::string& message) const {
         use(programs_.script("fake", commands));
         EXPECT_EQ(fail_and_keep("old.probes", join("five.json", "old.probes")),
-                  "tetralight: " + message + "\n");
+                  "tetralight: " + message + " (TETRALIGHT_TETGEN names the program)\n");
     }
 
     FakePrograms programs_;
@@ -88,7 +88,8 @@ TEST_F(TetgenBackend, KeepsTheOldVolumeWhenTheProgramFails) {
 TEST_F(TetgenBackend, NamesAProgramThatIsNotThere) {
     use("/nowhere/program");
     EXPECT_EQ(fail_and_keep("old.probes", join("five.json", "old.probes")),
-              "tetralight: program: cannot start /nowhere/program (No such file or directory)\n");
+              "tetralight: program: cannot start /nowhere/program (No such file or directory) "
+              "(TETRALIGHT_TETGEN names the program)\n");
 }
 
 TEST_F(TetgenBackend, IsOneOfTwo) {

@@ -77,6 +77,42 @@ TEST_F(Tetrahedralize, CountsOneProbeAsOne) {
     EXPECT_EQ(out, "v.probes: 1 probe (0 welded), 1 cell, no light\n");
 }
 
+TEST_F(Tetrahedralize, LeavesGroupsWithoutProbesOutAndSaysSo) {
+    write("empty.json", R"({"groups": [{"name": "hall", "positions": []}]})");
+    const CommandResult result =
+        succeed({"tetrahedralize", "five.json", "empty.json", "-o", "v.probes"});
+    EXPECT_EQ(result.err, "warning: group \"hall\" has no probes\n");
+    EXPECT_EQ(run_json({"info", "v.probes"})["probes"], 5);
+}
+
+TEST_F(Tetrahedralize, MakesAnEmptyVolumeOfNoProbes) {
+    write("none.json", R"({"groups": []})");
+    write("empty.json", R"({"groups": [{"name": "hall", "positions": []}]})");
+    for (const char* groups : {"none.json", "empty.json"}) {
+        const CommandResult result = succeed({"tetrahedralize", groups, "-o", "v.probes"});
+        EXPECT_TRUE(contains(result.err, "warning: there are no probes: the volume answers"));
+        succeed({"validate", "v.probes"});
+        EXPECT_EQ(run_json({"info", "v.probes"})["dimension"], "none");
+        EXPECT_EQ(succeed({"query", "v.probes"}, "1 2 3").out, "1 2 3: ambient\n");
+    }
+}
+
+TEST_F(Tetrahedralize, WarnsOfASetThatCountsAsFlat) {
+    // A tenth of a millimetre thick, and 1e-4 of the spacing is a millimetre.
+    write("thin.json", R"({"groups": [{"name": "thin", "positions":
+        [[0, 0, 0], [10, 0, 0], [0, 0, 10], [10, 1e-4, 10]]}]})");
+    const CommandResult result = succeed({"tetrahedralize", "thin.json", "-o", "v.probes"});
+    EXPECT_EQ(result.err.find("warning: 4 probes lie in one plane (thinner than "), 0u)
+        << result.err;
+    EXPECT_EQ(run_json({"info", "v.probes"})["dimension"], "plane");
+}
+
+TEST_F(Tetrahedralize, SaysWhatIsNoGroupFile) {
+    succeed({"tetrahedralize", "five.json", "-o", "v.probes"});
+    EXPECT_TRUE(contains(fail({"tetrahedralize", "v.probes", "-o", "w.probes"}),
+                         "v.probes: is a probe volume, not a group file"));
+}
+
 TEST_F(Tetrahedralize, RefusesToWriteOverItsInput) {
     write("groups", kFiveProbes);
     const std::string message = fail({"tetrahedralize", "groups", "-o", "./groups"});

@@ -180,8 +180,9 @@ TEST(BakeVolume, WarnsOfGroupsThatAreHalfBuriedOrMore) {
         bake(scene, {group("half", {inside, outside}), group("third", {inside, outside, above}),
                      group("free", {before}), group("empty", {})})
             .report;
-    ASSERT_EQ(report.warnings.size(), 1u);
-    EXPECT_EQ(report.warnings[0],
+    ASSERT_EQ(report.warnings.size(), 2u);
+    EXPECT_EQ(report.warnings[0], "group \"empty\" has no probes");
+    EXPECT_EQ(report.warnings[1],
               "group \"half\": 1 of 2 probes see mostly back faces (inside geometry?)");
 }
 

@@ -33,7 +33,6 @@ Status check_transform(const glm::dmat4& world_from_group) {
 Status check_group(const ProbeGroup& group) {
     const auto transform = check_transform(group.world_from_group);
     if (!transform) return transform;
-    if (group.positions.empty()) return Error{"has no probes"};
     for (size_t probe = 0; probe < group.positions.size(); ++probe) {
         const glm::dvec3& position = group.positions[probe];
         if (is_finite(position)) continue;

@@ -12,8 +12,8 @@ namespace tetralight::detail {
 /// How messages name a group: `group "hall"`, or `group 3` where the name is not known.
 [[nodiscard]] std::string group_place(size_t group_index, const std::string& name);
 
-/// What every list of probe groups obeys: unique non-empty names, a probe in each, finite
-/// positions, finite affine transforms.
+/// What every list of probe groups obeys: unique non-empty names, finite positions, finite
+/// affine transforms.
 [[nodiscard]] Status check_probe_groups(std::span<const ProbeGroup> groups);
 
 }  // namespace tetralight::detail

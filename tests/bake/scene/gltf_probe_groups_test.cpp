@@ -116,10 +116,13 @@ TEST(GltfProbeGroups, RejectsTwoGroupsOfOneName) {
     EXPECT_EQ(gltf.error(), "scene.glb: group 1: another group is named \"hall\"");
 }
 
-TEST(GltfProbeGroups, RejectsAGroupWithoutProbes) {
+TEST(GltfProbeGroups, AGroupMayHaveNoProbes) {
     GltfBuilder gltf;
     gltf.add_root({{"name", "hall"}, {"extras", kIsGroup}});
-    EXPECT_EQ(gltf.error(), "scene.glb: group \"hall\": has no probes");
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->probe_groups.size(), 1u);
+    EXPECT_TRUE(scene->probe_groups[0].positions.empty());
 }
 
 TEST(GltfProbeGroups, RejectsAnIndexOutOfRange) {

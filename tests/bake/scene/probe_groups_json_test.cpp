@@ -119,7 +119,6 @@ const std::string kPositions = R"("positions": [[0, 0, 0]])";
 const Rejection kRejections[] = {
     {"NoObject", "[]", "is not a JSON object"},
     {"NoGroups", "{}", "groups is missing"},
-    {"EmptyGroups", R"({"groups": []})", "has no probe groups"},
     {"GroupsNoArray", R"({"groups": 5})", "groups is not an array (5)"},
     {"UnknownTopKey", R"({"groups": [], "extra": 1})", "unknown key \"extra\""},
     {"GroupNoObject", R"({"groups": [7]})", "group 0: is not an object (7)"},
@@ -136,7 +135,6 @@ const Rejection kRejections[] = {
     {"KeyTwice", hall_with(kPositions + ", " + kPositions),
      "group \"hall\": key \"positions\" stands twice"},
     {"NoPositions", hall_with(R"("dering": true)"), "group \"hall\": positions is missing"},
-    {"EmptyPositions", hall_with(R"("positions": [])"), "group \"hall\": has no probes"},
     {"PositionsNoArray", hall_with(R"("positions": 4)"),
      "group \"hall\": positions is not an array (4)"},
     {"TwoNumbers", hall_with(R"("positions": [[0,0,0], [1, 2]])"),
@@ -163,6 +161,21 @@ INSTANTIATE_TEST_SUITE_P(All, ProbeGroupsJsonRejects, testing::ValuesIn(kRejecti
                          [](const auto& param_info) {
                              return std::string(param_info.param.label);
                          });
+
+TEST(ProbeGroupsJson, GroupsAndTheirProbesMayBeMissing) {
+    const TempFolder folder;
+    const auto none = read_probe_groups(folder.write("none.json", R"({"groups": []})"));
+    ASSERT_TRUE(none) << none.error().message;
+    EXPECT_TRUE(none->empty());
+    const auto two = read_probe_groups(folder.write("two.json", hall_with(R"("positions": [])")));
+    ASSERT_TRUE(two) << two.error().message;
+    EXPECT_TRUE((*two)[1].positions.empty());
+}
+
+TEST(ProbeGroupsJson, FilesOfOtherKindsAreNamed) {
+    EXPECT_EQ(error_of("TETRAPV\n..."), "groups.json: is a probe volume, not a group file");
+    EXPECT_EQ(error_of("glTF..."), "groups.json: is a binary glTF scene; its extension is .glb");
+}
 
 TEST(ProbeGroupsJson, NanTokenNamesGroupAndProbe) {
     const std::string error = error_of(hall_with(R"("positions": [[0,0,0], [NaN, 0, 0]])"));

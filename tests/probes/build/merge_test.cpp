@@ -146,7 +146,10 @@ TEST(Merge, RefusesPositionsBeyondAllScenes) {
 
 TEST(Merge, RefusesNamesThatAreMissingDoubleOrBroken) {
     EXPECT_FALSE(merge(std::vector{make_group("", {{0, 0, 0}})}));
-    EXPECT_FALSE(merge(std::vector{make_group("a\nb", {{0, 0, 0}})}));
+    for (const char* name : {"a\nb", "a\tb", "\x1b[2J", "\x7f", "\xff"}) {
+        EXPECT_FALSE(merge(std::vector{make_group(name, {{0, 0, 0}})})) << name;
+    }
+    EXPECT_TRUE(merge(std::vector{make_group("\xc3\xa4 b", {{0, 0, 0}})}));
     const auto twice =
         merge(std::vector{make_group("a", {}), make_group("b", {}), make_group("a", {})});
     ASSERT_FALSE(twice);

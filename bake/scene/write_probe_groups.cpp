@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bake/scene/detail/probe_group_check.h"
+#include "bake/scene/probe_groups_json.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "base/utf8.h"
+
+namespace tetralight {
+namespace {
+
+/// A finite double as JSON that reads back to the same bits: "-0" would read as the integer 0.
+std::string json_number(double value) {
+    return value == 0.0 && std::signbit(value) ? "-0.0" : text(value);
+}
+
+void append_transform(std::string& out, const glm::dmat4& transform) {
+    out += "      \"transform\": [";
+    for (int i = 0; i < 16; ++i) {
+        if (i > 0) out += ", ";
+        out += json_number(transform[i / 4][i % 4]);
+    }
+    out += "],\n";
+}
+
+void append_group(std::string& out, const ProbeGroup& group) {
+    out += text("    {\n      \"name\": ", nlohmann::json(group.name).dump(), ",\n");
+    append_transform(out, group.world_from_group);
+    out += text("      \"dering\": ", group.dering ? "true" : "false", ",\n");
+    out += "      \"positions\": [\n";
+    for (const glm::dvec3& position : group.positions) {
+        const bool is_last = &position == &group.positions.back();
+        out += text("        [", json_number(position.x), ", ", json_number(position.y), ", ",
+                    json_number(position.z), is_last ? "]\n" : "],\n");
+    }
+    out += "      ]\n    }";
+}
+
+std::string json_text(std::span<const ProbeGroup> groups) {
+    std::string out = "{\n  \"groups\": [\n";
+    for (const ProbeGroup& group : groups) {
+        append_group(out, group);
+        out += &group == &groups.back() ? "\n" : ",\n";
+    }
+    return out + "  ]\n}\n";
+}
+
+}  // namespace
+
+Status write_probe_groups(const std::string& path, std::span<const ProbeGroup> groups) {
+    if (groups.empty()) return Error{path + ": there are no probe groups to write"};
+    const auto status = detail::check_probe_groups(groups);
+    if (!status) return status.error().in(path);
+    for (const ProbeGroup& group : groups) {
+        if (!is_utf8(group.name)) {
+            return Error{text(path, ": group \"", group.name, "\": the name is not UTF-8")};
+        }
+    }
+    const std::string out = json_text(groups);
+    return write_file(path, std::as_bytes(std::span(out)));
+}
+
+}  // namespace tetralight
