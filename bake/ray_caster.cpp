@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "bake/detail/closest_point.h"
 
 namespace tetralight {
 namespace {
@@ -38,12 +42,44 @@ void filter_hit(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
+/// Returns the copy that Embree keeps.
 template <class T>
-void set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
-                std::span<const T> elements, size_t element_size) {
+const T* set_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
+                    std::span<const T> elements, size_t element_size) {
     void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, element_size,
                                            elements.size_bytes() / element_size);
     if (buffer != nullptr) std::memcpy(buffer, elements.data(), elements.size_bytes());
+    return static_cast<const T*>(buffer);
+}
+
+/// A geometry's triangles; empty for spheres.
+struct Triangles {
+    const glm::vec3* positions = nullptr;
+    const uint32_t* indices = nullptr;
+};
+
+/// What a search for the nearest point knows.
+struct NearestSearch {
+    const std::vector<Triangles>& geometries;
+    std::optional<glm::vec3> nearest;
+};
+
+/// Embree's callback for one triangle in reach: shortens the reach to it.
+bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
+    auto& search = *static_cast<NearestSearch*>(arguments->userPtr);
+    const Triangles& triangles = search.geometries[arguments->geomID];
+    if (triangles.indices == nullptr) return false;
+    const uint32_t* corners = triangles.indices + size_t{3} * arguments->primID;
+    RTCPointQuery& query = *arguments->query;
+    const glm::vec3 position(query.x, query.y, query.z);
+    const glm::vec3 point = detail::closest_point(
+        position, {triangles.positions[corners[0]], triangles.positions[corners[1]],
+                   triangles.positions[corners[2]]});
+    const float distance = glm::distance(position, point);
+    if (!(distance < query.radius)) return false;
+    query.radius = distance;
+    search.nearest = point;
+    return true;
 }
 
 }  // namespace
@@ -64,7 +100,8 @@ struct RayCaster::Handles {
         rtcReleaseDevice(device);
     }
 
-    uint32_t attach(RTCGeometry geometry) {
+    uint32_t attach(RTCGeometry geometry, Triangles triangles) {
+        geometries.push_back(triangles);
         rtcCommitGeometry(geometry);
         const uint32_t number = rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
@@ -74,6 +111,7 @@ struct RayCaster::Handles {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     HitFilter filter;
+    std::vector<Triangles> geometries;  // Embree numbers them from 0 as well
 };
 
 RayCaster::RayCaster(HitFilter filter) : handles_(std::make_unique<Handles>(filter)) {}
@@ -85,20 +123,23 @@ RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 uint32_t RayCaster::add_triangles(std::span<const glm::vec3> positions,
                                   std::span<const uint32_t> indices, Filtered filtered) {
     RTCGeometry geometry = rtcNewGeometry(handles_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions, sizeof(glm::vec3));
-    set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, indices, 3 * sizeof(uint32_t));
+    Triangles triangles;
+    triangles.positions = set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions,
+                                     sizeof(glm::vec3));
+    triangles.indices = set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, indices,
+                                   3 * sizeof(uint32_t));
     if (filtered == Filtered::Yes) {
         rtcSetGeometryUserData(geometry, &handles_->filter);
         rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
         rtcSetGeometryOccludedFilterFunction(geometry, filter_hit);
     }
-    return handles_->attach(geometry);
+    return handles_->attach(geometry, triangles);
 }
 
 uint32_t RayCaster::add_spheres(std::span<const glm::vec4> spheres) {
     RTCGeometry geometry = rtcNewGeometry(handles_->device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
     set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, spheres, sizeof(glm::vec4));
-    return handles_->attach(geometry);
+    return handles_->attach(geometry, {});
 }
 
 Status RayCaster::commit() {
@@ -128,6 +169,19 @@ bool RayCaster::is_blocked(const Ray& ray) const {
     RTCRay embree = embree_ray(ray);
     rtcOccluded1(handles_->scene, &context, &embree);
     return embree.tfar < 0.0f;
+}
+
+std::optional<glm::vec3> RayCaster::nearest_point(glm::vec3 position) const {
+    RTCPointQuery query{};
+    query.x = position.x;
+    query.y = position.y;
+    query.z = position.z;
+    query.radius = std::numeric_limits<float>::infinity();
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    NearestSearch search{handles_->geometries, std::nullopt};
+    rtcPointQuery(handles_->scene, &query, &context, visit_triangle, &search);
+    return search.nearest;
 }
 
 }  // namespace tetralight

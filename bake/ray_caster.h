@@ -61,6 +61,10 @@ class RayCaster {
     [[nodiscard]] std::optional<RayHit> cast(const Ray& ray) const;
     [[nodiscard]] bool is_blocked(const Ray& ray) const;
 
+    /// The point of all triangles that is nearest to a position; filters have no say, and spheres
+    /// do not count.
+    [[nodiscard]] std::optional<glm::vec3> nearest_point(glm::vec3 position) const;
+
   private:
     struct Handles;
     std::unique_ptr<Handles> handles_;

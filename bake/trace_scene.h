@@ -71,6 +71,11 @@ class TraceScene {
 
     [[nodiscard]] bool is_blocked(const Ray& ray) const { return caster_.is_blocked(ray); }
 
+    /// The nearest point of any surface, in traced space; transparency does not count.
+    [[nodiscard]] std::optional<glm::vec3> nearest_surface(glm::vec3 position) const {
+        return caster_.nearest_point(position);
+    }
+
     /// Where a ray starts that leaves the surface on the side that `direction`, one of its normals,
     /// points to: off it by more than rounding and no farther than that.
     [[nodiscard]] static glm::vec3 ray_origin(const Surface& surface, glm::vec3 direction) {

@@ -74,10 +74,10 @@ Subject make_scene_subject(const Options& options) {
         require(bool(made), made ? "" : made.error().message);
         groups.push_back(std::move(made->group));
     }
-    BakeSettings settings;
-    settings.sample_count = 64;
-    settings.bounces = 1;
-    auto baked = bake_volume(*scene, groups, {}, settings);
+    BakeVolumeSettings settings;
+    settings.bake.sample_count = 64;
+    settings.bake.bounces = 1;
+    auto baked = bake_volume(*scene, groups, settings);
     require(bool(baked), baked ? "" : baked.error().message);
     return make_subject("scene", std::move(baked->volume));
 }

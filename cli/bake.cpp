@@ -8,6 +8,7 @@
 #include "cli/bake_report.h"
 #include "cli/common.h"
 #include "cli/group_files.h"
+#include "cli/health_options.h"
 #include "cli/paths.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
@@ -23,8 +24,7 @@ struct Bake {
     std::vector<std::string> group_paths;
     bool only_given_groups = false;
     std::string output;
-    MergeSettings merge_settings;
-    BakeSettings settings;
+    BakeVolumeSettings settings;
     std::optional<IndexRange> probes;
     bool is_resumed = false;
     CommonOptions common;
@@ -42,29 +42,29 @@ struct Bake {
                       "Leave the scene's own probe groups out")
             ->needs(groups_option);
         command
-            .add_option("-b,--bounces", settings.bounces,
+            .add_option("-b,--bounces", settings.bake.bounces,
                         "Reflections that light may take (0 = direct light only)")
             ->check(CLI::Range(0u, 1000u))
             ->capture_default_str();
         command
-            .add_option("--clamp", settings.clamp,
+            .add_option("--clamp", settings.bake.clamp,
                         "Largest radiance that a path may bring (0 = not clamped)")
             ->check(numbers_in(0.0, 1e30))
             ->capture_default_str();
         command
-            .add_option("--albedo-boost", settings.surfaces.albedo_boost,
+            .add_option("--albedo-boost", settings.bake.surfaces.albedo_boost,
                         "Raise albedo to the power of 1 / B: more light bounces (1 = as it is)")
             ->check(numbers_in(1.0, 10.0))
             ->capture_default_str();
         command
-            .add_option("--max-albedo", settings.surfaces.max_albedo,
+            .add_option("--max-albedo", settings.bake.surfaces.max_albedo,
                         "No surface reflects more than this")
             ->check(numbers_in(0.0, 1.0))
             ->capture_default_str();
         add_sampling(command);
-        add_seed(command, settings.seed, "Seed of the random numbers");
+        add_seed(command, settings.bake.seed, "Seed of the random numbers");
         command
-            .add_option("--weld", merge_settings.weld_tolerance,
+            .add_option("--weld", settings.merge.weld_tolerance,
                         "Join probes nearer than this share of the local spacing: the distance to\n"
                         "the seventh nearest probe, 10 m at most")
             ->check(numbers_in(0.0, 0.1))
@@ -73,28 +73,31 @@ struct Bake {
                   "Bake this range of the probes only, into a part for `tetralight merge`");
         command.add_flag("--resume", is_resumed,
                          "Go on with what an interrupted bake left beside the output");
+        add_health_options(command, settings.health);
+        add_dering_options(command, settings.dering);
         common.add_to(command);
         command.parse_complete_callback([this] { check_usage(); });
     }
 
     void add_sampling(CLI::App& command) {
-        command.add_option("-s,--samples", settings.sample_count, "Directions a probe")
+        command.add_option("-s,--samples", settings.bake.sample_count, "Directions a probe")
             ->check(CLI::Range(1u, 1u << 24))
             ->capture_default_str();
-        add_share(command, "--target-error", settings.target_error,
+        add_share(command, "--target-error", settings.bake.target_error,
                   "Double the samples of a probe until its standard error is below this");
         command
-            .add_option("--max-samples", settings.max_sample_count,
+            .add_option("--max-samples", settings.bake.max_sample_count,
                         "Directions a probe at most then (default 64 times --samples)")
             ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 32));
-        add_time(command, "--time-budget", settings.time_budget_seconds,
+        add_time(command, "--time-budget", settings.bake.time_budget_seconds,
                  "Double no samples after this time; not reproducible");
     }
 
     /// What no option can tell of itself.
     void check_usage() const {
-        const bool has_rounds = settings.target_error > 0.0 || settings.time_budget_seconds > 0.0;
-        if (settings.max_sample_count > 0 && !has_rounds) {
+        const bool has_rounds =
+            settings.bake.target_error > 0.0 || settings.bake.time_budget_seconds > 0.0;
+        if (settings.bake.max_sample_count > 0 && !has_rounds) {
             throw CLI::ValidationError("--max-samples", "needs --target-error or --time-budget");
         }
         if (is_resumed && output == "-") {
@@ -134,8 +137,8 @@ struct Bake {
         const auto files = all_groups(*scene);
         if (!files) return files.error();
 
-        settings.thread_count = common.thread_count;
-        auto prepared = prepare_bake(*scene, files->groups(), merge_settings, settings);
+        settings.bake.thread_count = common.thread_count;
+        auto prepared = prepare_bake(*scene, files->groups(), settings);
         if (!prepared) return files->locate(prepared.error());
         return bake(*scene, std::move(*prepared));
     }
@@ -179,7 +182,7 @@ struct Bake {
     [[nodiscard]] Result<RangeBake> bake_with_progress(const Scene& scene,
                                                        const PreparedBake& prepared,
                                                        const BakeKeeping& kept) const {
-        BakeProgressDisplay display(common.is_quiet, settings.time_budget_seconds);
+        BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds);
         auto baked =
             bake_range(scene, prepared, range_of(prepared), kept,
                        [&](const BakeProgress& progress) { return display.show(progress); });
@@ -190,8 +193,8 @@ struct Bake {
 
     Status write_range(const PreparedBake& prepared, const RangeBake& baked, double seconds) const {
         if (auto status = write_part(output, prepared, baked.partial); !status) return status;
-        report_range(common, {output, settings, seconds, baked.earlier_ray_count}, baked.partial,
-                     prepared.capture_positions.size());
+        report_range(common, {output, settings.bake, seconds, baked.earlier_ray_count},
+                     baked.partial, prepared.capture_positions.size());
         return Ok{};
     }
 
@@ -199,7 +202,7 @@ struct Bake {
         const BakedVolume result = finish_bake(std::move(prepared), baked.partial.tallies);
         common.warn(result.report.warnings);
         if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
-        report_volume(common, {output, settings, seconds, baked.earlier_ray_count}, result);
+        report_volume(common, {output, settings.bake, seconds, baked.earlier_ray_count}, result);
         return Ok{};
     }
 };

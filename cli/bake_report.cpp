@@ -26,6 +26,15 @@ std::string work_text(uint64_t ray_count, const BakeRun& run) {
                 magnitude(ray_rate(ray_count, run)), "rays/s)");
 }
 
+/// What became of probes in geometry, if there are any.
+std::string health_text(const BakeReport& report) {
+    std::string parts;
+    if (report.moved_count > 0) parts += ", " + grouped(report.moved_count) + " moved";
+    if (report.left_out_count > 0) parts += ", " + grouped(report.left_out_count) + " left out";
+    if (report.dilated_count > 0) parts += ", " + grouped(report.dilated_count) + " dilated";
+    return parts;
+}
+
 }  // namespace
 
 void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked) {
@@ -35,17 +44,22 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
     json.update(counts(volume));
     json.update(
         {{"lattice_groups", report.lattice_group_names}, {"largest_snap", report.largest_snap}});
+    json.update({{"moved", report.moved_count},
+                 {"left_out", report.left_out_count},
+                 {"dilated", report.dilated_count}});
     json.update(work(report.ray_count, run));
     json.update(to_json(report.statistics));
     json["seconds"] = {{"merge", report.merge_seconds},
+                       {"prepare", report.prepare_seconds},
                        {"tetrahedralize", report.tetrahedralize_seconds},
                        {"bake", run.seconds}};
     common.report(run.output, json,
                   text(run.output, ": ", counted(volume.probe_count(), "probe"), " (",
                        merged_text(report.welded_count, report.lattice_group_names.size(),
                                    report.largest_snap),
-                       "), ", cells_text(volume), "\n  merge ", duration(report.merge_seconds),
-                       ", tetrahedralize ", duration(report.tetrahedralize_seconds), ", bake ",
+                       health_text(report), "), ", cells_text(volume), "\n  merge ",
+                       duration(report.merge_seconds), ", tetrahedralize ",
+                       duration(report.tetrahedralize_seconds), ", bake ",
                        work_text(report.ray_count, run), "\n  ", to_text(report.statistics)));
 }
 

@@ -201,13 +201,14 @@ std::string merged_text(uint64_t welded_count, uint64_t lattice_count, double la
 }
 
 Json counts(const ProbeVolumeView& volume) {
+    const auto source_count = static_cast<size_t>(std::ranges::count_if(
+        volume.sources, [](const ProbeSource& source) { return source.probe != kNoIndex; }));
     return {{"probes", volume.probe_count()},
             {"dimension", name_of(volume.info.dimension)},
             {"inner_cells", volume.info.inner_cell_count},
             {"hull_cells", volume.cells.size() - volume.info.inner_cell_count},
             {"groups", split_names(volume.group_names).size()},
-            {"welded",
-             volume.sources.size() - std::min(volume.sources.size(), volume.positions.size())}};
+            {"welded", source_count - std::min(source_count, volume.positions.size())}};
 }
 
 std::string duration(double seconds) {

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "cli/common.h"
+#include "cli/info_probes.h"
 #include "cli/paths.h"
 #include "cli/volume_facts.h"
 #include "probes/build/wireframe.h"
@@ -19,6 +20,7 @@ struct Info {
     std::string path;
     std::string obj_path;
     std::string ply_path;
+    bool shows_probes = false;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
@@ -28,6 +30,11 @@ struct Info {
                           "viewer: Wavefront OBJ, groups `cells` and `hull`");
         add_file_to_write(command, "--ply", ply_path, ".ply",
                           "The same as a PLY file with `edge` elements");
+        command.add_flag(
+            "--probes", shows_probes,
+            "Also list every probe with its health: validity, standard error, distance "
+            "to the nearest surface and how far off its light was gathered (metres), "
+            "mean irradiance");
         common.add_to(command);
         command.parse_complete_callback([this] { check_outputs(); });
     }
@@ -52,7 +59,13 @@ struct Info {
         if (auto status = write_wireframe(file->view()); !status) return status;
         const VolumeFacts facts = make_volume_facts(path, *file);
         const bool is_stdout_taken = obj_path == "-" || ply_path == "-";
-        common.report(is_stdout_taken ? "-" : "", to_json(facts), to_text(facts, file->view()));
+        Json json = to_json(facts);
+        std::string lines = to_text(facts, file->view());
+        if (shows_probes) {
+            json.update(probes_json(file->view()));
+            lines += "\nhealth of the probes\n" + probes_text(file->view());
+        }
+        common.report(is_stdout_taken ? "-" : "", json, lines);
         return Ok{};
     }
 

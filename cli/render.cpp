@@ -7,6 +7,7 @@
 #include "bake/scene/read_gltf.h"
 #include "bake/scene/scene_bounds.h"
 #include "base/text.h"
+#include "cli/choice.h"
 #include "cli/common.h"
 #include "cli/paths.h"
 #include "cli/view_options.h"
@@ -50,6 +51,14 @@ struct Render {
             .add_option("--probe-radius", overlay.probe_radius,
                         "Show the probes as white balls of this radius, lit by what they hold")
             ->check(numbers_in(1e-6, 1e9));
+        add_choice(
+            command, "--probe-color", overlay.probe_color,
+            {{"light", ProbeColor::Light},
+             {"validity", ProbeColor::Validity},
+             {"error", ProbeColor::Error}},
+            "What the balls show instead: validity = share of directions without back faces, "
+            "error = relative standard error; teal is good, yellow fair, red bad")
+            ->needs("--probe-radius");
         view.add_to(command);
         camera_option->excludes(view.eye_option);
         common.add_to(command);

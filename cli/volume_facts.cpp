@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cli/info_probes.h"
 #include "probes/build/quality.h"
 
 namespace tetralight::cli {
@@ -43,10 +44,14 @@ const char* name_of(LightMode mode) {
 Json groups_json(const ProbeVolumeView& volume) {
     const auto names = split_names(volume.group_names);
     std::vector<size_t> probe_counts(names.size(), 0);
-    for (const ProbeSource& source : volume.sources) ++probe_counts[source.group];
+    std::vector<size_t> left_out_counts(names.size(), 0);
+    for (const ProbeSource& source : volume.sources) {
+        ++(source.probe == kNoIndex ? left_out_counts : probe_counts)[source.group];
+    }
     Json groups = Json::array();
     for (size_t i = 0; i < names.size(); ++i) {
-        groups.push_back({{"name", names[i]}, {"probes", probe_counts[i]}});
+        groups.push_back(
+            {{"name", names[i]}, {"probes", probe_counts[i]}, {"left_out", left_out_counts[i]}});
     }
     return groups;
 }
@@ -148,6 +153,7 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     VolumeFacts facts;
     facts.path = path;
     facts.counts = counts(volume);
+    facts.counts["left_out"] = left_out_count(volume);
     facts.groups = groups_json(volume);
     facts.lights = lights_json(volume);
     facts.bounds = bounds_json(volume);

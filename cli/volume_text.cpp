@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/text.h"
+#include "cli/info_probes.h"
 #include "cli/table.h"
 #include "cli/volume_facts.h"
 
@@ -79,8 +80,10 @@ std::string made_with_text(const Json& made_with) {
 Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
     const uint64_t welded = facts.counts["welded"];
     const uint64_t inner = volume.info.inner_cell_count;
-    Rows rows{{"probes", text(grouped(volume.probe_count()), " (", grouped(welded), " welded), in ",
-                              counted(facts.groups.size(), "group"))},
+    const uint64_t left_out = facts.counts["left_out"];
+    const std::string not_there = left_out > 0 ? ", " + grouped(left_out) + " left out" : "";
+    Rows rows{{"probes", text(grouped(volume.probe_count()), " (", grouped(welded), " welded",
+                              not_there, "), in ", counted(facts.groups.size(), "group"))},
               {"dimension", name_of(volume.info.dimension)},
               {"cells",
                text(cells_text(volume), ", ", counted(volume.cells.size() - inner, "hull cell"))}};
@@ -104,8 +107,9 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
 Rows group_rows(const VolumeFacts& facts, size_t source_count) {
     Rows rows;
     for (const Json& group : facts.groups) {
-        const uint64_t probes = group["probes"];
-        rows.push_back({name_text(group["name"]), grouped(probes), percent(probes, source_count)});
+        const uint64_t probes = group["probes"], left_out = group["left_out"];
+        rows.push_back({name_text(group["name"]), grouped(probes), percent(probes, source_count),
+                        left_out > 0 ? grouped(left_out) + " left out" : ""});
     }
     return rows;
 }
@@ -137,7 +141,8 @@ Rows memory_rows(const VolumeFacts& facts) {
 std::string to_text(const VolumeFacts& facts, const ProbeVolumeView& volume) {
     std::string lines = text(printable(facts.path), "\n", aligned(summary(facts, volume), "ll"));
     if (!facts.groups.empty()) {
-        lines += "probes by group\n" + aligned(group_rows(facts, volume.sources.size()), "lrr");
+        lines += "probes by group\n" +
+                 aligned(group_rows(facts, volume.sources.size() - left_out_count(volume)), "lrrl");
     }
     lines += "memory by section\n" + aligned(memory_rows(facts), "lrrl");
     lines.pop_back();

@@ -100,6 +100,15 @@ void add(ContentHash& hash, const BakeSettings& settings) {
     hash.add(seed);
 }
 
+/// How probes are merged and surveyed is seen in the volume.
+void add(ContentHash& hash, const BakeVolumeSettings& settings) {
+    const auto& [merge, bake, health, dering] = settings;
+    add(hash, bake);
+    hash.add(health.invalid);
+    hash.add(dering.window);
+    hash.add(dering.is_for_all_groups);
+}
+
 }  // namespace
 
 uint64_t bake_key(const Scene& scene, const PreparedBake& prepared) {
@@ -108,6 +117,7 @@ uint64_t bake_key(const Scene& scene, const PreparedBake& prepared) {
     add(hash, prepared.settings);
     hash.add(probe_file_bytes(prepared.volume.view()));
     hash.add(prepared.capture_positions);
+    for (const bool is_invalid : prepared.is_invalid) hash.add(is_invalid);
     for (const bool dering : prepared.merged.group_dering) hash.add(dering);
     return hash.value();
 }

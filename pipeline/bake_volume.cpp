@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/bake_volume.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -12,6 +11,8 @@
 #include "base/assert.h"
 #include "base/text.h"
 #include "pipeline/bake_key.h"
+#include "pipeline/dilate_probes.h"
+#include "pipeline/probe_warnings.h"
 #include "probes/build/make_probe_volume.h"
 #include "probes/build/merge_warnings.h"
 #include "probes/compact_probes.h"
@@ -32,32 +33,44 @@ class Stopwatch {
 };
 
 /// What is left at its default that changes no byte is left out.
-std::string metadata(const BakeSettings& settings) {
+std::string metadata(const BakeVolumeSettings& settings, bool has_dering) {
+    const BakeSettings& bake = settings.bake;
+    const HealthSettings& health = settings.health;
     std::string json = text("{\"generator\":\"tetralight ", TETRALIGHT_VERSION,
-                            "\",\"samples\":", settings.sample_count,
-                            ",\"bounces\":", settings.bounces, ",\"seed\":", settings.seed);
+                            "\",\"samples\":", bake.sample_count, ",\"bounces\":", bake.bounces,
+                            ",\"seed\":", bake.seed, ",\"min_validity\":", health.min_validity,
+                            ",\"virtual_offset\":", health.virtual_offset, ",\"invalid_probes\":\"",
+                            name_of(health.invalid), "\"");
     const auto add = [&](const char* name, auto value) {
         if (value != 0) json += text(",\"", name, "\":", value);
     };
-    add("target_error", settings.target_error);
-    add("max_samples", settings.max_sample_count);
-    add("time_budget_seconds", settings.time_budget_seconds);
-    add("clamp", settings.clamp);
-    if (settings.surfaces != SurfaceSettings{}) {
-        add("albedo_boost", settings.surfaces.albedo_boost);
-        add("max_albedo", settings.surfaces.max_albedo);
+    add("target_error", bake.target_error);
+    add("max_samples", bake.max_sample_count);
+    add("time_budget_seconds", bake.time_budget_seconds);
+    add("clamp", bake.clamp);
+    if (bake.surfaces != SurfaceSettings{}) {
+        add("albedo_boost", bake.surfaces.albedo_boost);
+        add("max_albedo", bake.surfaces.max_albedo);
+    }
+    if (has_dering) {
+        json += text(",\"dering\":\"", name_of(settings.dering.window), "\"");
     }
     return json + "}";
 }
 
 /// What every part of the volume is lit by, known before the bake.
-void store_lights(const Scene& scene, const BakeSettings& settings, ProbeVolume& volume) {
+void store_lights(const Scene& scene, PreparedBake& prepared) {
     TETRALIGHT_ASSERT(scene.light_names.size() == scene.lights.size(), "one name for each light");
-    volume.info.ambient =
-        irradiance_from_radiance(project_environment(scene.environment, settings.thread_count));
+    const BakeVolumeSettings& settings = prepared.settings;
+    ProbeVolume& volume = prepared.volume;
+    volume.info.ambient = irradiance_from_radiance(
+        project_environment(scene.environment, settings.bake.thread_count));
     volume.lights = scene.lights;
     for (const std::string& name : scene.light_names) volume.light_names += name + "\n";
-    volume.metadata = metadata(settings);
+    const auto& asks = prepared.merged.group_dering;
+    const bool has_dering = settings.dering.is_for_all_groups ||
+                            std::find(asks.begin(), asks.end(), true) != asks.end();
+    volume.metadata = metadata(settings, has_dering);
 }
 
 void store_light(const BakedProbes& baked, ProbeVolume& volume) {
@@ -65,42 +78,9 @@ void store_light(const BakedProbes& baked, ProbeVolume& volume) {
         volume.irradiance.push_back(irradiance_from_radiance(radiance));
     }
     volume.validity = baked.validity;
-    volume.health.resize(baked.radiance.size());
     for (size_t i = 0; i < volume.health.size(); ++i) {
         volume.health[i].standard_error = baked.standard_error[i];
     }
-    make_compact_probes(volume);
-}
-
-/// Groups in which half of the probes or more lie inside something.
-std::vector<std::string> buried_groups(const MergedProbes& merged,
-                                       std::span<const float> validity) {
-    std::vector<size_t> buried(merged.group_names.size(), 0);
-    std::vector<size_t> total(merged.group_names.size(), 0);
-    for (const ProbeSource& source : merged.sources) {
-        ++total[source.group];
-        buried[source.group] += validity[source.probe] < 0.5f;
-    }
-    std::vector<std::string> warnings;
-    for (size_t g = 0; g < total.size(); ++g) {
-        if (total[g] == 0 || 2 * buried[g] < total[g]) continue;
-        warnings.push_back(text("group \"", merged.group_names[g], "\": ", buried[g], " of ",
-                                total[g], " probes see mostly back faces (inside geometry?)"));
-    }
-    return warnings;
-}
-
-/// Probes that no light reaches, as in hollow walls.
-void add_dark_warning(std::span<const RadianceSh> radiance, uint32_t sample_count,
-                      std::vector<std::string>& warnings) {
-    constexpr uint32_t kEnoughSamples = 64;  // with fewer a probe may miss a small opening
-    const auto dark = std::ranges::count_if(
-        radiance, [](const RadianceSh& sh) { return sh.coefficients[0] == glm::vec3(0.0f); });
-    const bool is_all = dark == std::ssize(radiance);  // a scene without light: nothing is odd
-    if (dark == 0 || is_all || sample_count < kEnoughSamples) return;
-    warnings.push_back(text(dark, " of ", radiance.size(),
-                            " probes receive no light at all (in closed hollows?); what they light "
-                            "will be black"));
 }
 
 /// Probes that took all samples that they may, or all the time, and have not the error asked for.
@@ -112,39 +92,53 @@ void add_target_warning(const BakeStatistics& statistics, double target_error, s
                             statistics.worst_error, ") with the samples and the time they had"));
 }
 
-void add_dering_warnings(const MergedProbes& merged, std::vector<std::string>& warnings) {
-    for (size_t g = 0; g < merged.group_names.size(); ++g) {
-        if (!merged.group_dering[g]) continue;
-        warnings.push_back(text("group \"", merged.group_names[g],
-                                "\": dering is asked for, which this version does not do"));
+/// What is done to baked light, before it is rounded to halves.
+void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport& report) {
+    const BakeVolumeSettings& settings = prepared.settings;
+    if (settings.health.invalid == InvalidProbes::Dilate) {
+        report.dilated_count = dilate_probes(prepared.is_invalid, volume);
     }
+    add_dark_warnings(prepared.merged, volume.irradiance, settings.bake.sample_count,
+                      report.warnings);
+    dering_probes(prepared.merged, settings.dering, volume.irradiance);
+    make_compact_probes(volume);
 }
 
 }  // namespace
 
 Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup> groups,
-                                  const MergeSettings& merge_settings,
-                                  const BakeSettings& settings) {
-    if (auto status = RoundPlan::check(settings); !status) return status.error();
+                                  const BakeVolumeSettings& settings) {
+    if (auto status = RoundPlan::check(settings.bake); !status) return status.error();
     size_t position_count = 0;
     for (const ProbeGroup& group : groups) position_count += group.positions.size();
     if (auto status = check_bake_memory(scene, position_count); !status) return status.error();
     PreparedBake prepared;
     prepared.settings = settings;
+    BakeReport& report = prepared.report;
     Stopwatch watch;
-    auto merged = merge(groups, merge_settings);
+    auto merged = merge(groups, settings.merge);
     if (!merged) return merged.error();
-    prepared.merged = std::move(*merged);
-    prepared.report.welded_count = prepared.merged.welded_count();
-    prepared.report.lattice_group_names = prepared.merged.lattice_group_names();
-    prepared.report.largest_snap = prepared.merged.largest_snap;
-    prepared.report.merge_seconds = watch.lap();
+    report.welded_count = merged->welded_count();
+    report.lattice_group_names = merged->lattice_group_names();
+    report.largest_snap = merged->largest_snap;
+    report.merge_seconds = watch.lap();
+
+    auto probes =
+        prepare_probes(scene, std::move(*merged), settings.health, settings.bake.thread_count);
+    if (!probes) return probes.error();
+    report.moved_count = probes->moved_count;
+    report.left_out_count = probes->left_out_count;
+    report.warnings = std::move(probes->warnings);
+    prepared.merged = std::move(probes->merged);
+    prepared.capture_positions = std::move(probes->capture_positions);
+    prepared.is_invalid = std::move(probes->is_invalid);
+    report.prepare_seconds = watch.lap();
 
     prepared.volume = make_probe_volume(prepared.merged);
-    prepared.report.tetrahedralize_seconds = watch.lap();
+    prepared.volume.health = std::move(probes->health);
+    report.tetrahedralize_seconds = watch.lap();
 
-    prepared.capture_positions = prepared.merged.positions;
-    store_lights(scene, settings, prepared.volume);
+    store_lights(scene, prepared);
     prepared.key = bake_key(scene, prepared);
     return prepared;
 }
@@ -152,31 +146,28 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
 BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies) {
     TETRALIGHT_ASSERT(tallies.size() == prepared.volume.positions.size(), "one for each probe");
     const BakedProbes baked = baked_probes(tallies);
-    store_light(baked, prepared.volume);
+    ProbeVolume volume = std::move(prepared.volume);
+    BakeReport report = std::move(prepared.report);
+    store_light(baked, volume);
 
-    const BakeSettings& settings = prepared.settings;
-    BakeReport& report = prepared.report;
+    const double target_error = prepared.settings.bake.target_error;
     report.ray_count = baked.ray_count;
-    report.statistics = bake_statistics(baked, settings.target_error);
-    report.warnings = merge_warnings(prepared.merged, prepared.volume.info.dimension);
-    for (std::string& warning : buried_groups(prepared.merged, prepared.volume.validity)) {
-        report.warnings.push_back(std::move(warning));
-    }
-    add_dark_warning(baked.radiance, settings.sample_count, report.warnings);
-    add_target_warning(report.statistics, settings.target_error, tallies.size(), report.warnings);
-    add_dering_warnings(prepared.merged, report.warnings);
-    return {std::move(prepared.volume), std::move(prepared.report)};
+    report.statistics = bake_statistics(baked, target_error);
+    const auto merge_lines = merge_warnings(prepared.merged, volume.info.dimension);
+    report.warnings.insert(report.warnings.begin(), merge_lines.begin(), merge_lines.end());
+    add_target_warning(report.statistics, target_error, tallies.size(), report.warnings);
+    finish_light(prepared, volume, report);
+    return {std::move(volume), std::move(report)};
 }
 
 Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> groups,
-                                const MergeSettings& merge_settings, const BakeSettings& settings,
-                                const BakeCallback& callback) {
-    auto prepared = prepare_bake(scene, groups, merge_settings, settings);
+                                const BakeVolumeSettings& settings, const BakeCallback& callback) {
+    auto prepared = prepare_bake(scene, groups, settings);
     if (!prepared) return prepared.error();
     Stopwatch watch;
     std::vector<ProbeTally> tallies(prepared->capture_positions.size());
-    const auto status =
-        bake_tallies(scene, prepared->capture_positions, settings, tallies, {.progress = callback});
+    const auto status = bake_tallies(scene, prepared->capture_positions, settings.bake, tallies,
+                                     {.progress = callback});
     if (!status) return status.error();
     BakedVolume baked = finish_bake(std::move(*prepared), tallies);
     baked.report.bake_seconds = watch.lap();

@@ -10,14 +10,16 @@
 #include "bake/bake_statistics.h"
 #include "bake/scene/scene.h"
 #include "base/result.h"
+#include "pipeline/dering_probes.h"
+#include "pipeline/prepare_probes.h"
 #include "probes/build/merge.h"
 #include "probes/probe_group.h"
 #include "probes/probe_volume.h"
 
 // The offline chain in one function:
 //
-//     groups → merge → positions → bake_probes → irradiance ┐
-//                          └→ make_probe_volume ────────────┴→ ProbeVolume
+//     groups → merge → prepare_probes → bake_probes → dilate, dering ┐
+//                             └→ make_probe_volume ──────────────────┴→ ProbeVolume
 //
 // and in its three steps, for bakes that are put aside, or shared by several machines:
 //
@@ -25,19 +27,34 @@
 
 namespace tetralight {
 
+struct BakeVolumeSettings {
+    MergeSettings merge;
+    BakeSettings bake;
+    HealthSettings health;
+    DeringSettings dering;
+
+    bool operator==(const BakeVolumeSettings&) const = default;
+};
+
 /// What a bake did, for the user.
 struct BakeReport {
     size_t welded_count = 0;
     /// Groups whose probes were moved exactly onto a lattice, and the longest move, metres.
     std::vector<std::string> lattice_group_names;
     double largest_snap = 0.0;
+    /// Probes that lie in geometry: those that look from a place outside of it, those that are not
+    /// in the volume, and those that have the light of others.
+    size_t moved_count = 0;
+    size_t left_out_count = 0;
+    size_t dilated_count = 0;
     /// Of all runs, when the bake was put aside in between.
     uint64_t ray_count = 0;
     BakeStatistics statistics;
     double merge_seconds = 0.0;
+    double prepare_seconds = 0.0;
     double tetrahedralize_seconds = 0.0;
     double bake_seconds = 0.0;
-    /// Groups most of whose probes see mostly back faces, and the like; one line each.
+    /// Groups with probes in geometry or in the dark, one line each.
     std::vector<std::string> warnings;
 };
 
@@ -53,7 +70,9 @@ struct PreparedBake {
     MergedProbes merged;
     /// Where the light of each probe is gathered, world space.
     std::vector<glm::dvec3> capture_positions;
-    BakeSettings settings;
+    /// One a probe: it looks from inside geometry.
+    std::vector<bool> is_invalid;
+    BakeVolumeSettings settings;
     /// Hash of all that the light depends on, and of the volume: what has another key is no part of
     /// the same bake.
     uint64_t key = 0;
@@ -62,11 +81,10 @@ struct PreparedBake {
 
 [[nodiscard]] Result<PreparedBake> prepare_bake(const Scene& scene,
                                                 std::span<const ProbeGroup> groups,
-                                                const MergeSettings& merge_settings,
-                                                const BakeSettings& settings);
+                                                const BakeVolumeSettings& settings);
 
-/// Puts the light of all probes into the volume. A function of the volume, `merged`, the settings
-/// and the tallies alone. Precondition: one tally for each probe.
+/// Puts the light of all probes into the volume. A function of the volume, `merged`, `is_invalid`,
+/// the settings and the tallies alone. Precondition: one tally for each probe.
 [[nodiscard]] BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies);
 
 /// Bakes a scene's light at the probes of all `groups` and joins them in one volume. The scene's
@@ -74,8 +92,7 @@ struct PreparedBake {
 /// with its ambient light. Same input, same bytes.
 [[nodiscard]] Result<BakedVolume> bake_volume(const Scene& scene,
                                               std::span<const ProbeGroup> groups,
-                                              const MergeSettings& merge_settings,
-                                              const BakeSettings& settings,
+                                              const BakeVolumeSettings& settings,
                                               const BakeCallback& callback = {});
 
 }  // namespace tetralight

@@ -2,6 +2,7 @@
 #include "pipeline/partial_bake.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -25,9 +26,13 @@ struct PartInfo {
     uint64_t max_sample_count = 0;
     uint32_t sample_count = 0;
     uint32_t is_finished = 0;
+    InvalidProbes invalid_probes = InvalidProbes::LeaveOut;
+    DeringWindow dering_window = DeringWindow::Mildest;
+    uint8_t dering_for_all_groups = 0;
+    std::array<uint8_t, 5> reserved{};
 };
 
-static_assert(sizeof(PartInfo) == 48 && std::is_trivially_copyable_v<PartInfo>);
+static_assert(sizeof(PartInfo) == 56 && std::is_trivially_copyable_v<PartInfo>);
 
 /// The elements of a section; none when it is not there.
 template <class T>
@@ -72,12 +77,15 @@ MergedProbes merged_probes(const ProbeVolume& volume, const std::vector<uint8_t>
     return merged;
 }
 
-BakeSettings settings_of(const PartInfo& info) {
-    BakeSettings settings;
-    settings.sample_count = info.sample_count;
-    settings.target_error = info.target_error;
-    settings.time_budget_seconds = info.time_budget_seconds;
-    settings.max_sample_count = info.max_sample_count;
+BakeVolumeSettings settings_of(const PartInfo& info) {
+    BakeVolumeSettings settings;
+    settings.bake.sample_count = info.sample_count;
+    settings.bake.target_error = info.target_error;
+    settings.bake.time_budget_seconds = info.time_budget_seconds;
+    settings.bake.max_sample_count = info.max_sample_count;
+    settings.health.invalid = info.invalid_probes;
+    settings.dering.window = info.dering_window;
+    settings.dering.is_for_all_groups = info.dering_for_all_groups != 0;
     return settings;
 }
 
@@ -94,7 +102,7 @@ bool is_possible(const ProbeTally& tally, const RoundPlan& plan) {
 }
 
 Status check_tallies(const PartFile& part) {
-    const RoundPlan plan(part.prepared.settings);
+    const RoundPlan plan(part.prepared.settings.bake);
     const auto& [range, tallies, is_finished] = part.partial;
     const size_t probe_count = part.prepared.volume.positions.size();
     if (range.begin > range.end || range.end > probe_count) {
@@ -127,13 +135,23 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
     part.partial.is_finished = info.is_finished != 0;
     part.prepared.key = info.key;
     part.prepared.settings = settings_of(info);
-    if (auto status = RoundPlan::check(part.prepared.settings); !status) return status.error();
+    if (info.invalid_probes > InvalidProbes::Keep || info.dering_window > DeringWindow::Lanczos) {
+        return Error{"section \"part\": a setting is unknown"};
+    }
+    if (auto status = RoundPlan::check(part.prepared.settings.bake); !status) return status.error();
     part.prepared.volume = unlit_volume(file.view());
     const auto dering = read_section<uint8_t>(file, "group_dering");
     part.prepared.merged = merged_probes(part.prepared.volume, dering);
     if (dering.size() != part.prepared.merged.group_names.size()) {
         return Error{
             text(dering.size(), " flags for ", part.prepared.merged.group_names.size(), " groups")};
+    }
+    for (const uint8_t flag : read_section<uint8_t>(file, "is_invalid")) {
+        part.prepared.is_invalid.push_back(flag != 0);
+    }
+    if (part.prepared.is_invalid.size() != part.prepared.volume.positions.size()) {
+        return Error{text("section \"is_invalid\": ", part.prepared.is_invalid.size(),
+                          " flags for ", part.prepared.volume.positions.size(), " probes")};
     }
     if (part.prepared.volume.exact_positions.size() != part.prepared.volume.positions.size()) {
         return Error{"section \"exact_positions\" is missing"};
@@ -153,7 +171,7 @@ Status write_part(const std::string& path, const PreparedBake& prepared,
                   const PartialBake& partial) {
     const auto& [range, tallies, is_finished] = partial;
     TETRALIGHT_ASSERT(tallies.size() == range.count(), "one tally for each probe of the range");
-    const BakeSettings& settings = prepared.settings;
+    const BakeSettings& settings = prepared.settings.bake;
     const PartInfo info{prepared.key,
                         range.begin,
                         range.end,
@@ -161,12 +179,20 @@ Status write_part(const std::string& path, const PreparedBake& prepared,
                         settings.time_budget_seconds,
                         settings.max_sample_count,
                         settings.sample_count,
-                        is_finished};
-    std::vector<uint8_t> dering;
-    for (const bool flag : prepared.merged.group_dering) dering.push_back(flag);
+                        is_finished,
+                        prepared.settings.health.invalid,
+                        prepared.settings.dering.window,
+                        prepared.settings.dering.is_for_all_groups,
+                        {}};
+    const auto bytes_of = [](const std::vector<bool>& flags) {
+        return std::vector<uint8_t>(flags.begin(), flags.end());
+    };
+    const std::vector<uint8_t> dering = bytes_of(prepared.merged.group_dering);
+    const std::vector<uint8_t> invalid = bytes_of(prepared.is_invalid);
     const ExtraSection sections[] = {
         {"part", std::as_bytes(std::span(&info, 1)), sizeof info},
         {"group_dering", std::as_bytes(std::span(dering)), 1},
+        {"is_invalid", std::as_bytes(std::span(invalid)), 1},
         {"tallies", std::as_bytes(std::span(tallies)), sizeof(ProbeTally)},
     };
     return write_probe_file(path, prepared.volume.view(), sections);

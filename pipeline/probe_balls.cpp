@@ -17,16 +17,23 @@ Result<ProbeBalls> ProbeBalls::make(const ProbeVolumeView& volume, float radius)
     return balls;
 }
 
-std::optional<SceneShader::Shaded> ProbeBalls::shade(const glm::dvec3& origin,
-                                                     glm::vec3 direction) const {
+std::optional<ProbeBalls::Ball> ProbeBalls::find(const glm::dvec3& origin,
+                                                 glm::vec3 direction) const {
     const auto hit = caster_.cast({glm::vec3(origin - volume_.info.world_origin), direction});
     if (!hit) return std::nullopt;
-    const IrradianceSh& light = hit->primitive < volume_.irradiance.size()
-                                    ? volume_.irradiance[hit->primitive]
+    return Ball{hit->primitive, hit->distance, glm::normalize(hit->normal)};
+}
+
+std::optional<SceneShader::Shaded> ProbeBalls::shade(const glm::dvec3& origin,
+                                                     glm::vec3 direction) const {
+    const auto ball = find(origin, direction);
+    if (!ball) return std::nullopt;
+    const IrradianceSh& light = ball->probe < volume_.irradiance.size()
+                                    ? volume_.irradiance[ball->probe]
                                     : volume_.info.ambient;
-    const glm::vec3 irradiance = evaluate_irradiance(light, glm::normalize(hit->normal));
+    const glm::vec3 irradiance = evaluate_irradiance(light, ball->normal);
     return SceneShader::Shaded{glm::max(irradiance, glm::vec3(0.0f)) / std::numbers::pi_v<float>,
-                               hit->distance};
+                               ball->distance};
 }
 
 }  // namespace tetralight

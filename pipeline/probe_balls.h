@@ -18,6 +18,17 @@ class ProbeBalls {
     /// Keeps references. Error: not enough memory.
     [[nodiscard]] static Result<ProbeBalls> make(const ProbeVolumeView& volume, float radius);
 
+    struct Ball {
+        uint32_t probe = 0;
+        float distance = 0.0f;
+        glm::vec3 normal{0.0f};
+    };
+
+    /// The first ball that a ray from a world position in a unit direction hits.
+    [[nodiscard]] std::optional<Ball> find(const glm::dvec3& origin, glm::vec3 direction) const;
+
+    [[nodiscard]] const ProbeVolumeView& volume() const { return volume_; }
+
     /// Radiance of the first ball that a ray from a world position in a unit direction hits.
     [[nodiscard]] std::optional<SceneShader::Shaded> shade(const glm::dvec3& origin,
                                                            glm::vec3 direction) const;

@@ -15,6 +15,8 @@
 namespace tetralight {
 namespace {
 
+constexpr float kNone = std::numeric_limits<float>::infinity();
+
 const LineStyle kInnerStyle{{0.85f, 0.96f, 1.00f}, 0.34f, 0.03f, 1.0f};
 const LineStyle kHullStyle{{1.00f, 0.74f, 0.32f}, 0.70f, 0.06f, 1.1f};
 
@@ -42,9 +44,13 @@ class Shader {
         return ball;
     }
 
-    /// To what `shade` shades; infinite where that is nothing.
+    /// Only the scene.
+    [[nodiscard]] const SceneShader& surfaces() const { return surfaces_; }
+
+    [[nodiscard]] const std::optional<ProbeBalls>& balls() const { return balls_; }
+
+    /// To the first surface or ball; infinite where there is none.
     [[nodiscard]] float distance(const glm::dvec3& origin, glm::vec3 direction) const {
-        constexpr float kNone = std::numeric_limits<float>::infinity();
         const auto ball = balls_ ? balls_->shade(origin, direction) : std::nullopt;
         return std::min(surfaces_.distance(origin, direction).value_or(kNone),
                         ball ? ball->distance : kNone);
@@ -72,12 +78,20 @@ Result<Image8> render_cells(const Scene& scene, const ProbeVolumeView& volume, c
                             const RenderSettings& settings, const CellOverlay& overlay) {
     const auto shader = Shader::make(scene, volume, overlay.probe_radius);
     if (!shader) return shader.error();
+    const bool shows_light = overlay.probe_color == ProbeColor::Light;
     const ImageF radiance =
         render_view(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
-            const auto shaded = shader->shade(origin, direction);
+            const auto shaded = shows_light ? shader->shade(origin, direction)
+                                            : shader->surfaces().shade(origin, direction);
             return shaded ? shaded->radiance : sky_radiance(volume, direction);
         });
     Image8 image = develop(radiance, settings.exposure);
+    if (shader->balls() && !shows_light) {
+        const auto surfaces = [&](const glm::dvec3& origin, glm::vec3 direction) {
+            return shader->surfaces().distance(origin, direction).value_or(kNone);
+        };
+        draw_health_balls(image, camera, settings, surfaces, *shader->balls(), overlay.probe_color);
+    }
     if (!overlay.has_edges) return image;
 
     const DepthImage depth =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/image/image.h"
+#include "pipeline/health_balls.h"
 #include "pipeline/render_scene.h"
 
 namespace tetralight {
@@ -10,8 +11,10 @@ namespace tetralight {
 struct CellOverlay {
     /// The edges of tetrahedra, and in another colour those of the hull.
     bool has_edges = false;
-    /// Probes as balls of this radius, lit by what they hold; 0 = none.
+    /// Probes as balls of this radius; 0 = none.
     float probe_radius = 0.0f;
+    /// What they show.
+    ProbeColor probe_color = ProbeColor::Light;
 };
 
 /// Renders and develops the scene as `render_scene` does, with probes among its surfaces and cell

@@ -65,7 +65,7 @@ Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, P
     if (!keeping.path.empty()) hooks.save = keep;
     const auto positions =
         std::span(prepared.capture_positions).subspan(range.begin, range.count());
-    const Status status = bake_tallies(scene, positions, prepared.settings, tallies, hooks);
+    const Status status = bake_tallies(scene, positions, prepared.settings.bake, tallies, hooks);
     if (!status) {
         if (hooks.save) keep();
         return bake.warning.empty() ? status.error() : Error{bake.warning};

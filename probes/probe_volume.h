@@ -80,11 +80,12 @@ struct Seed {
 
 static_assert(sizeof(Seed) == 16 && std::is_trivially_copyable_v<Seed>);
 
-/// Where a probe came from. Several sources share one probe when they were welded.
+/// Where a probe came from. Several sources share one probe when they were welded; a source has
+/// none when its probe was left out of the volume, for lying in geometry.
 struct ProbeSource {
     uint32_t group = 0;  ///< index into `group_names`
     uint32_t index = 0;  ///< in the group
-    uint32_t probe = 0;
+    uint32_t probe = 0;  ///< or kNoIndex
 
     bool operator==(const ProbeSource&) const = default;
 };

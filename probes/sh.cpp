@@ -5,18 +5,20 @@
 #include <numbers>
 
 #include "base/assert.h"
+#include "probes/detail/sh_polynomials.h"
 
 namespace tetralight {
 namespace {
 
-using Basis = std::array<float, kShCoefficientCount>;
+using detail::kBand0;
+using detail::kBand1;
+using detail::kBand2;
+using detail::kBand2Square;
+using detail::kBand2Zonal;
+using detail::quadratic_form;
+using detail::ShChannel;
 
-// K_lm of the orthonormal basis: sqrt(1/4π), sqrt(3/4π), sqrt(15/4π), sqrt(5/16π), sqrt(15/16π).
-constexpr double kBand0 = 0.28209479177387814;
-constexpr double kBand1 = 0.48860251190291992;
-constexpr double kBand2 = 1.09254843059207907;
-constexpr double kBand2Zonal = 0.31539156525252001;
-constexpr double kBand2Square = 0.54627421529603953;
+using Basis = std::array<float, kShCoefficientCount>;
 
 /// A_l of each coefficient (Ramamoorthi & Hanrahan 2001, eq. 8).
 constexpr Basis kClampedCosine = [] {
@@ -43,18 +45,7 @@ glm::vec3 evaluate(const Sh& sh, glm::vec3 direction) {
     return value;
 }
 
-/// Band 2 as the quadratic form dᵀ Q d: symmetric and traceless, so that Q turns as R Q Rᵀ.
-glm::dmat3 quadratic_form(const std::array<double, kShCoefficientCount>& c) {
-    const double xy = kBand2 / 2 * c[4];
-    const double yz = kBand2 / 2 * c[5];
-    const double xz = kBand2 / 2 * c[7];
-    const double square = kBand2Square * c[8];
-    const double zonal = kBand2Zonal * c[6];
-    return {square - zonal, xy, xz, xy, -square - zonal, yz, xz, yz, 2 * zonal};
-}
-
-std::array<double, kShCoefficientCount> rotate_channel(
-    const std::array<double, kShCoefficientCount>& source, const glm::dmat3& rotation) {
+ShChannel rotate_channel(const ShChannel& source, const glm::dmat3& rotation) {
     const glm::dvec3 linear = rotation * glm::dvec3(source[3], source[1], source[2]);
     const glm::dmat3 form = rotation * quadratic_form(source) * glm::transpose(rotation);
     return {source[0],
@@ -73,9 +64,7 @@ Sh rotate_sh(const Sh& source, const glm::mat3& target_from_source) {
     const glm::dmat3 rotation(target_from_source);
     Sh target;
     for (int channel = 0; channel < 3; ++channel) {
-        std::array<double, kShCoefficientCount> values;
-        for (int i = 0; i < kShCoefficientCount; ++i) values[i] = source.coefficients[i][channel];
-        values = rotate_channel(values, rotation);
+        const ShChannel values = rotate_channel(detail::channel_of(source, channel), rotation);
         for (int i = 0; i < kShCoefficientCount; ++i) {
             target.coefficients[i][channel] = static_cast<float>(values[i]);
         }

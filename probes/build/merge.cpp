@@ -92,6 +92,11 @@ std::vector<std::string> MergedProbes::lattice_group_names() const {
     return names;
 }
 
+size_t MergedProbes::welded_count() const {
+    const auto is_there = [](const ProbeSource& source) { return source.probe != kNoIndex; };
+    return static_cast<size_t>(std::ranges::count_if(sources, is_there)) - positions.size();
+}
+
 double flatness(const MergedProbes& probes) {
     return 0.5 * probes.weld_radius;
 }

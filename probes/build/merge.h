@@ -31,7 +31,8 @@ struct MergedProbes {
     std::vector<glm::dvec3> positions;
     /// Sorted.
     std::vector<std::string> group_names;
-    /// Every probe of every group, sorted by group, then index.
+    /// Every probe of every group, sorted by group, then index. Those that `leave_out` took away
+    /// have no probe.
     std::vector<ProbeSource> sources;
     /// No two positions are nearer to each other than this, metres.
     double weld_radius = 0.0;
@@ -47,7 +48,7 @@ struct MergedProbes {
     [[nodiscard]] std::vector<std::string> lattice_group_names() const;
 
     /// Probes that were welded to another one.
-    [[nodiscard]] size_t welded_count() const { return sources.size() - positions.size(); }
+    [[nodiscard]] size_t welded_count() const;
 };
 
 /// What `tetrahedralize` may take for flat: half the weld radius, so that positions that stand

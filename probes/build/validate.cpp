@@ -154,7 +154,9 @@ void check_probes(const ProbeVolumeView& volume, std::span<const glm::dvec3> pos
             if (probe != kNoIndex) has_cell[probe] = true;
         }
     }
-    for (const ProbeSource& source : volume.sources) has_source[source.probe] = true;
+    for (const ProbeSource& source : volume.sources) {
+        if (source.probe != kNoIndex) has_source[source.probe] = true;  // else it was left out
+    }
     for (size_t i = 0; i < positions.size(); ++i) {
         const glm::vec3 rounded(positions[i] - volume.info.world_origin);
         report.probes_without_cell += !has_cell[i];

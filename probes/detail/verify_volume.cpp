@@ -224,7 +224,8 @@ Status check_tables(const ProbeVolumeView& v) {
         return Error{"section \"seeds\": is not sorted"};
     }
     const auto in_range = [&](const ProbeSource& source) {
-        return source.group < groups && source.probe < v.positions.size();
+        return source.group < groups &&
+               (source.probe < v.positions.size() || source.probe == kNoIndex);
     };
     if (auto s = check_each("sources", v.sources, "is out of range", in_range); !s) return s;
     return check_each("lights", v.lights, "is not a light", is_plausible);

@@ -18,8 +18,8 @@ class QueryFixture : public CommandFixture {
   protected:
     QueryFixture() {
         write("five.json", kFiveProbes);
-        succeed({"bake", kCourtyard, "-g", "five.json", "--only-given-groups", "-o", "v.probes",
-                 "-s", "16"});
+        succeed({"bake", kCourtyard, "-g", "five.json", "--only-given-groups", "--invalid-probes",
+                 "keep", "-o", "v.probes", "-s", "16"});
     }
 
     [[nodiscard]] std::vector<Json> answers(const std::string& positions,

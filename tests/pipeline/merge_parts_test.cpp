@@ -36,7 +36,7 @@ TEST_F(MergeParts, OfAdaptiveBakesToo) {
 
 TEST_F(MergeParts, ReportsAsOneBakeDoes) {
     const auto merged = merge_parts({bake_part("a", {0, 12}), bake_part("b", {12, kProbeCount})});
-    const auto baked = bake_volume(scene, groups, {}, settings);
+    const auto baked = bake_volume(scene, groups, {{}, settings, {}, {}});
     ASSERT_TRUE(merged && baked);
     EXPECT_EQ(merged->report.ray_count, baked->report.ray_count);
     EXPECT_EQ(merged->report.statistics, baked->report.statistics);
@@ -88,7 +88,7 @@ TEST_F(MergeParts, RefusesUnfinishedParts) {
 
 TEST_F(MergeParts, NamesFilesThatAreNoParts) {
     EXPECT_EQ(error_of({path("none")}).find(path("none") + ": cannot open"), 0u);
-    const auto baked = bake_volume(scene, groups, {}, settings);
+    const auto baked = bake_volume(scene, groups, {{}, settings, {}, {}});
     ASSERT_TRUE(baked && write_probe_file(path("whole"), baked->volume.view()));
     EXPECT_EQ(error_of({path("whole")}).find(path("whole") + ": is no part of a bake"), 0u);
 }

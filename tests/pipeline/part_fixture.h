@@ -37,7 +37,7 @@ class PartFixture : public testing::Test {
     ~PartFixture() override { std::filesystem::remove_all(folder); }
 
     [[nodiscard]] PreparedBake prepare() const {
-        auto prepared = prepare_bake(scene, groups, {}, settings);
+        auto prepared = prepare_bake(scene, groups, {{}, settings, {}, {}});
         EXPECT_TRUE(prepared) << prepared.error().message;
         return std::move(*prepared);
     }
@@ -61,7 +61,7 @@ class PartFixture : public testing::Test {
     }
 
     [[nodiscard]] std::vector<std::byte> whole() const {
-        const auto baked = bake_volume(scene, groups, {}, settings);
+        const auto baked = bake_volume(scene, groups, {{}, settings, {}, {}});
         EXPECT_TRUE(baked);
         return probe_file_bytes(baked->volume.view());
     }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "probes/build/merge.h"
+#include "probes/dering.h"
+
+namespace tetralight {
+
+struct DeringSettings {
+    DeringWindow window = DeringWindow::Mildest;
+    /// Whether groups that did not ask for it have their ringing removed too.
+    bool is_for_all_groups = false;
+
+    bool operator==(const DeringSettings&) const = default;
+};
+
+/// "mildest", "hann", "lanczos".
+[[nodiscard]] const char* name_of(DeringWindow window);
+
+/// Removes ringing from the probes of all groups that ask for it, and returns how many these are. A
+/// probe of several groups counts as asked for when one of them asks. Precondition: one irradiance
+/// a probe.
+size_t dering_probes(const MergedProbes& merged, const DeringSettings& settings,
+                     std::span<IrradianceSh> irradiance);
+
+}  // namespace tetralight

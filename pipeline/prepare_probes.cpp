@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/prepare_probes.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
+
+#include "bake/capture_offset.h"
+#include "bake/parallel.h"
+#include "bake/scene/scene_bounds.h"
+#include "bake/survey.h"
+#include "bake/trace_scene.h"
+#include "base/text.h"
+#include "probes/build/group_spacing.h"
+#include "probes/build/leave_out.h"
+
+namespace tetralight {
+namespace {
+
+/// How far beyond a surface a probe looks from, as a share of the distance to its neighbor.
+constexpr double kMarginShare = 0.02;
+
+double scene_size(const Scene& scene) {
+    const auto bounds =
+        scene_bounds(scene, [](const MeshInstance& instance) { return instance.contributes_gi; });
+    return bounds ? glm::length(bounds->size()) : 0.0;
+}
+
+/// The state of preparation, one element a probe.
+struct Survey {
+    const TraceScene& traced;
+    const MergedProbes& merged;
+    const HealthSettings& settings;
+    uint32_t thread_count = 0;
+    std::vector<ProbeHealth> health{merged.positions.size()};
+    std::vector<uint8_t> is_inside = std::vector<uint8_t>(merged.positions.size(), 0);
+
+    void look() {
+        parallel_for(health.size(), thread_count, [&](size_t i) {
+            const auto found = look_around(traced, traced.traced_from_world(merged.positions[i]));
+            health[i].surface_distance = found.surface_distance;
+            is_inside[i] = found.is_inside(settings.min_validity);
+        });
+    }
+
+    /// Moves the places to look from out of geometry; a probe that is alone in its group may look
+    /// from anywhere within `lone_reach`.
+    void move_out(double lone_reach) {
+        std::vector<uint32_t> inside;
+        for (uint32_t i = 0; i < is_inside.size(); ++i) {
+            if (is_inside[i] != 0) inside.push_back(i);
+        }
+        const std::vector<double> spacing = group_spacing(merged, inside);
+        parallel_for(inside.size(), thread_count, [&](size_t i) {
+            const double room = std::min(spacing[i], lone_reach);
+            const CaptureSearch search{static_cast<float>(settings.virtual_offset * room),
+                                       static_cast<float>(kMarginShare * room),
+                                       settings.min_validity};
+            const glm::vec3 position = traced.traced_from_world(merged.positions[inside[i]]);
+            const auto offset = find_capture_offset(traced, position, search);
+            if (!offset) return;
+            health[inside[i]].capture_offset = *offset;
+            is_inside[inside[i]] = 0;
+        });
+    }
+};
+
+const char* fate(InvalidProbes policy) {
+    switch (policy) {
+        case InvalidProbes::LeaveOut:
+            return "and were left out";
+        case InvalidProbes::Dilate:
+            return "and take the light of those around them";
+        case InvalidProbes::Keep:
+            return "and stay dark where no light gets in";
+    }
+    return "";
+}
+
+std::vector<std::string> group_warnings(const MergedProbes& merged,
+                                        const std::vector<uint8_t>& is_inside,
+                                        InvalidProbes policy) {
+    std::vector<size_t> inside(merged.group_names.size(), 0);
+    std::vector<size_t> total(merged.group_names.size(), 0);
+    for (const ProbeSource& source : merged.sources) {
+        ++total[source.group];
+        inside[source.group] += is_inside[source.probe];
+    }
+    std::vector<std::string> warnings;
+    for (size_t g = 0; g < total.size(); ++g) {
+        if (inside[g] == 0) continue;
+        warnings.push_back(text("group \"", merged.group_names[g], "\": ", inside[g], " of ",
+                                total[g], " probes lie inside geometry ", fate(policy)));
+    }
+    return warnings;
+}
+
+template <class T>
+std::vector<T> kept(const std::vector<T>& values, const std::vector<bool>& is_left_out) {
+    std::vector<T> result;
+    for (size_t i = 0; i < values.size(); ++i) {
+        if (!is_left_out[i]) result.push_back(values[i]);
+    }
+    return result;
+}
+
+}  // namespace
+
+const char* name_of(InvalidProbes policy) {
+    constexpr const char* kNames[] = {"leave-out", "dilate", "keep"};
+    return kNames[static_cast<size_t>(policy)];
+}
+
+Result<PreparedProbes> prepare_probes(const Scene& scene, MergedProbes merged,
+                                      const HealthSettings& settings, uint32_t thread_count) {
+    const auto traced = TraceScene::make_static(scene);
+    if (!traced) return traced.error();
+    Survey survey{*traced, merged, settings, thread_count};
+    survey.look();
+    if (settings.virtual_offset > 0.0) survey.move_out(scene_size(scene));
+
+    PreparedProbes prepared;
+    prepared.warnings = group_warnings(merged, survey.is_inside, settings.invalid);
+    std::vector<bool> is_left_out(merged.positions.size(), false);
+    if (settings.invalid == InvalidProbes::LeaveOut) {
+        is_left_out.assign(survey.is_inside.begin(), survey.is_inside.end());
+    }
+    prepared.health = kept(survey.health, is_left_out);
+    const std::vector<uint8_t> invalid = kept(survey.is_inside, is_left_out);
+    prepared.is_invalid.assign(invalid.begin(), invalid.end());
+    prepared.left_out_count = merged.positions.size() - prepared.health.size();
+    prepared.merged = leave_out(std::move(merged), is_left_out);
+    for (size_t i = 0; i < prepared.health.size(); ++i) {
+        const glm::vec3 offset = prepared.health[i].capture_offset;
+        prepared.moved_count += offset != glm::vec3(0.0f);
+        prepared.capture_positions.push_back(prepared.merged.positions[i] + glm::dvec3(offset));
+    }
+    return prepared;
+}
+
+}  // namespace tetralight

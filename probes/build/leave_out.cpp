@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/build/leave_out.h"
+
+#include "base/assert.h"
+
+namespace tetralight {
+
+MergedProbes leave_out(MergedProbes probes, const std::vector<bool>& is_left_out) {
+    TETRALIGHT_ASSERT(is_left_out.size() == probes.positions.size(), "one flag a probe");
+    std::vector<uint32_t> place(probes.positions.size(), kNoIndex);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < place.size(); ++i) {
+        if (is_left_out[i]) continue;
+        place[i] = count;
+        probes.positions[count++] = probes.positions[i];
+    }
+    probes.positions.resize(count);
+    for (ProbeSource& source : probes.sources) {
+        if (source.probe != kNoIndex) source.probe = place[source.probe];
+    }
+    return probes;
+}
+
+}  // namespace tetralight
