@@ -7,17 +7,14 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "bake/detail/mix.h"
+
 namespace tetralight {
+
+using detail::kGoldenRatio64;
+using detail::mix;
+
 namespace {
-
-constexpr uint64_t kGoldenRatio64 = 0x9e3779b97f4a7c15u;
-
-/// Finalizer of SplitMix64 (Steele, Lea & Flood 2014): every input bit reaches every output bit.
-uint64_t mix(uint64_t x) {
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-}
 
 /// Branch-free tangent frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 glm::mat3 frame_around(glm::vec3 n) {
@@ -90,6 +87,25 @@ glm::vec3 sample_cosine_hemisphere(glm::vec3 normal, glm::vec2 u) noexcept {
 
 float sample_cosine_hemisphere_pdf(glm::vec3 normal, glm::vec3 direction) noexcept {
     return std::max(0.0f, glm::dot(normal, direction)) * std::numbers::inv_pi_v<float>;
+}
+
+glm::vec3 sample_cone(glm::vec3 axis, float min_cosine, glm::vec2 u) noexcept {
+    const float angle = 2.0f * std::numbers::pi_v<float> * u.x;
+    const float drop =
+        u.y * (1.0f - min_cosine);  // 1 − cos θ, which keeps its digits near the axis
+    const float radius = std::sqrt(drop * (2.0f - drop));
+    const glm::vec3 local(radius * std::cos(angle), radius * std::sin(angle), 1.0f - drop);
+    return glm::normalize(frame_around(axis) * local);
+}
+
+float sample_cone_pdf(float min_cosine) noexcept {
+    return 0.5f * std::numbers::inv_pi_v<float> / (1.0f - min_cosine);
+}
+
+glm::vec3 sample_disc_around(glm::vec3 normal, glm::vec2 u) noexcept {
+    const float angle = 2.0f * std::numbers::pi_v<float> * u.x;
+    const float radius = std::sqrt(u.y);
+    return frame_around(normal) * glm::vec3(radius * std::cos(angle), radius * std::sin(angle), 0);
 }
 
 }  // namespace tetralight

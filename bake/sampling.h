@@ -41,4 +41,11 @@ class RandomStream {
 [[nodiscard]] glm::vec3 sample_cosine_hemisphere(glm::vec3 normal, glm::vec2 u) noexcept;
 [[nodiscard]] float sample_cosine_hemisphere_pdf(glm::vec3 normal, glm::vec3 direction) noexcept;
 
+/// A direction within the angle acos(`min_cosine`) of a unit axis, uniform by solid angle.
+[[nodiscard]] glm::vec3 sample_cone(glm::vec3 axis, float min_cosine, glm::vec2 u) noexcept;
+[[nodiscard]] float sample_cone_pdf(float min_cosine) noexcept;
+
+/// A point of the unit disc at right angles to a unit normal, uniform by area.
+[[nodiscard]] glm::vec3 sample_disc_around(glm::vec3 normal, glm::vec2 u) noexcept;
+
 }  // namespace tetralight

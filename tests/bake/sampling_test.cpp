@@ -10,25 +10,16 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 #include <set>
-#include <span>
+
+#include "tests/support/chi_square.h"
 
 namespace tetralight {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Σ (observed − expected)² / expected. Its mean is k = bins − 1 and its variance 2k, so that
-/// k + 4 √(2k) is passed once in about ten thousand trials; ours is one fixed trial.
-double chi_square(std::span<const int> observed, double expected) {
-    double sum = 0.0;
-    for (const int count : observed) sum += (count - expected) * (count - expected) / expected;
-    return sum;
-}
-
-double chi_square_limit(size_t bins) {
-    const auto k = static_cast<double>(bins - 1);
-    return k + 4.0 * std::sqrt(2.0 * k);
-}
+using test::chi_square;
+using test::chi_square_limit;
 
 TEST(ProbeKey, DiffersBySeedAndByEachCoordinate) {
     const std::set<uint64_t> keys = {probe_key(0, {1, 2, 3}),
@@ -191,6 +182,41 @@ TEST(SampleCosineHemispherePdf, IntegratesToOne) {
         sum += sample_cosine_hemisphere_pdf(normal, d);
     }
     EXPECT_NEAR(sum * 4.0 * kPi / 100000.0, 1.0, 1e-4);
+}
+
+TEST(SampleCone, IsUniformByTheCosine) {
+    // Archimedes: rings of equal height have equal solid angles.
+    constexpr int kCount = 64 * 1000;
+    const glm::vec3 axis = glm::normalize(glm::vec3(0.3f, -0.5f, 0.8f));
+    const glm::vec3 tangent = glm::normalize(glm::cross(axis, glm::vec3(1, 0, 0)));
+    const glm::vec3 bitangent = glm::cross(axis, tangent);
+    std::array<int, 64> bins{};
+    RandomStream random(6, 0);
+    for (int i = 0; i < kCount; ++i) {
+        const glm::vec3 d = sample_cone(axis, 0.2f, random.next2());
+        const double height = (glm::dot(d, axis) - 0.2) / 0.8;
+        const double turn =
+            std::atan2(glm::dot(d, bitangent), glm::dot(d, tangent)) / (2.0 * kPi) + 0.5;
+        const auto ring = std::clamp(static_cast<int>(height * 8.0), 0, 7);
+        ++bins[static_cast<size_t>(ring * 8 + std::min(7, static_cast<int>(turn * 8.0)))];
+    }
+    EXPECT_LT(chi_square(bins, kCount / 64.0), chi_square_limit(bins.size()));
+    EXPECT_NEAR(sample_cone_pdf(0.2f), 1.0 / (2.0 * kPi * 0.8), 1e-6);
+}
+
+TEST(SampleDiscAround, IsUniformByArea) {
+    constexpr int kCount = 64 * 1000;
+    const glm::vec3 normal(0, 1, 0);
+    std::array<int, 64> bins{};
+    RandomStream random(7, 0);
+    for (int i = 0; i < kCount; ++i) {
+        const glm::vec3 p = sample_disc_around(normal, random.next2());
+        EXPECT_NEAR(p.y, 0.0f, 1e-6f);
+        const double turn = std::atan2(p.z, p.x) / (2.0 * kPi) + 0.5;
+        const auto ring = std::min(7, static_cast<int>(glm::dot(p, p) * 8.0f));
+        ++bins[static_cast<size_t>(ring * 8 + std::min(7, static_cast<int>(turn * 8.0)))];
+    }
+    EXPECT_LT(chi_square(bins, kCount / 64.0), chi_square_limit(bins.size()));
 }
 
 }  // namespace
