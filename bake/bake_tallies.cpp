@@ -184,7 +184,7 @@ Status bake_tallies(const Scene& scene, std::span<const glm::dvec3> positions,
     if (auto status = check_bake_memory(scene, positions.size()); !status) return status.error();
     const auto traced = TraceScene::make_static(scene, settings.surfaces);
     if (!traced) return traced.error();
-    const PathTracer tracer(scene, *traced, settings.bounces);
+    const PathTracer tracer(scene, *traced, {settings.bounces, settings.clamp});
     return TallyBaker({*traced, tracer, positions, tallies}, settings, hooks).run();
 }
 

@@ -3,13 +3,43 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <vector>
 
-#include "bake/sampling.h"
+#include "bake/emitters.h"
 #include "bake/scene/scene.h"
+#include "bake/sobol.h"
 #include "bake/trace_scene.h"
 
 namespace tetralight {
+
+/// How the light of emissive triangles and environment images is found. All three have the same
+/// mean.
+enum class LightStrategy {
+    Both,        ///< weighted by multiple importance sampling: what to use
+    Emitters,    ///< by drawing points of emitters alone
+    Directions,  ///< by rays that meet them alone
+};
+
+struct PathSettings {
+    /// Reflections that light may take before it arrives; 0 = only emission and sky are seen.
+    uint32_t bounces = 4;
+    /// Largest radiance (of the brightest channel) that reflected light along one path may have;
+    /// what is brighter is darkened to it, which loses light. 0 = nothing is.
+    float clamp = 0.0f;
+    LightStrategy strategy = LightStrategy::Both;
+
+    bool operator==(const PathSettings&) const = default;
+};
+
+/// Where a path begins.
+struct PathStart {
+    glm::vec3 origin{0.0f};     ///< traced space
+    glm::vec3 direction{0.0f};  ///< unit vector
+    /// Density of the direction, per steradian, for each emitter that is drawn at the origin too
+    /// (`sample_emission`); infinite = none is.
+    float pdf = std::numeric_limits<float>::infinity();
+};
 
 /// What the first segment of a path found, and the light that came along it.
 struct PathSample {
@@ -19,37 +49,51 @@ struct PathSample {
     uint32_t ray_count = 0;
 };
 
-/// Estimates radiance by tracing paths through a scene of Lambert surfaces, with next-event
-/// estimation for its lights. Thread-safe.
+/// Estimates radiance by tracing paths through a scene of Lambert surfaces. At each surface one
+/// emitter of each kind is drawn (next-event estimation), weighted against meeting it by chance
+/// (Veach & Guibas 1995, "Optimally Combining Sampling Techniques", the power heuristic); paths
+/// that carry little are ended at random without bias. Thread-safe.
 class PathTracer {
   public:
-    /// Keeps references. `bounces` is the number of reflections that light may take before it
-    /// arrives; 0 = only emission and sky are seen.
-    PathTracer(const Scene& scene, const TraceScene& traced, uint32_t bounces);
+    /// Keeps references.
+    PathTracer(const Scene& scene, const TraceScene& traced, const PathSettings& settings);
 
-    /// Radiance that arrives at `origin` (traced space) from a unit direction. The direct light of
-    /// punctual lights is no part of it: no ray meets a point.
-    [[nodiscard]] PathSample trace(glm::vec3 origin, glm::vec3 direction,
-                                   RandomStream random) const;
+    /// Radiance that arrives along a path. The direct light of punctual and area lights is no part
+    /// of it: no ray meets them.
+    [[nodiscard]] PathSample trace(const PathStart& start, PathNumbers numbers) const;
 
-    /// What reaches a position (traced space) straight from one light, shadows included: zero
-    /// irradiance when blocked.
-    [[nodiscard]] Illumination visible_light(const Light& traced_light, glm::vec3 position) const;
+    /// Whether anything that rays meet by chance can be drawn as well.
+    [[nodiscard]] bool can_sample_emission() const;
 
-    /// The scene's lights in traced space, in its order.
-    [[nodiscard]] const std::vector<Light>& traced_lights() const { return lights_; }
+    /// Light straight from one emissive triangle or direction of the sky (`kind`), weighted against
+    /// meeting it by chance with density `other_pdf`. Zero irradiance when blocked.
+    [[nodiscard]] LightSample sample_emission(EmitterKind kind, const Receiver& receiver,
+                                              float other_pdf, PathNumbers& numbers) const;
+
+    /// Whether something stands between a position and the light of a sample. `blend` in [0, 1)
+    /// draws anew what lets a part of the rays through.
+    [[nodiscard]] bool is_blocked(glm::vec3 origin, const LightSample& sample,
+                                  float blend = 0.0f) const;
+
+    /// The lights whose direct light belongs into probes, in the scene's order, in traced space.
+    [[nodiscard]] const std::vector<Light>& baked_lights() const { return baked_lights_; }
+
+    [[nodiscard]] const TraceScene& traced() const { return traced_; }
+
+    [[nodiscard]] const Emitters& emitters() const { return emitters_; }
 
   private:
-    /// Light of all lights that the surface reflects, over its albedo. Shadow rays start at
-    /// `ray_origin`; the light is that of the surface itself, which is some way off in large
-    /// scenes.
-    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, glm::vec3 ray_origin,
+    /// Light that a surface reflects straight from emitters, over its albedo.
+    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, PathNumbers& numbers,
                                             uint32_t& ray_count) const;
+    [[nodiscard]] float weight_of_drawn(float pdf, float other_pdf) const;
+    [[nodiscard]] float weight_of_met(float pdf, float emitter_pdf) const;
 
     const Scene& scene_;
     const TraceScene& traced_;
-    std::vector<Light> lights_;
-    uint32_t bounces_;
+    PathSettings settings_;
+    Emitters emitters_;
+    std::vector<Light> baked_lights_;
 };
 
 }  // namespace tetralight

@@ -1,23 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/probe_estimator.h"
 
+#include <algorithm>
 #include <glm/mat3x3.hpp>
+#include <limits>
 #include <numbers>
-#include <vector>
 
+#include "bake/detail/mix.h"
 #include "bake/sampling.h"
 #include "base/assert.h"
 
 namespace tetralight {
 namespace {
 
-void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, ProbeEstimate& estimate) {
-    for (const Light& light : tracer.traced_lights()) {
-        if (light.mode != LightMode::Baked) continue;
-        const Illumination arriving = tracer.visible_light(light, origin);
-        estimate.radiance +=
-            radiance_from_directional_light(arriving.to_light, arriving.irradiance);
+constexpr double kSphere = 4.0 * std::numbers::pi;
+
+/// Directions for each emitter that is drawn at the probe.
+constexpr uint32_t kDirectionsPerEmitter = 2;
+
+/// Directions for each shadow ray to a `Baked` light.
+constexpr uint32_t kDirectionsPerShadowRay = 4;
+
+/// What is random about a probe apart, as keys of their own.
+enum class Purpose : uint64_t { Rotation, Paths, Emission, BakedLights };
+
+uint64_t key_of(uint64_t key, Purpose purpose) {
+    return detail::mix(key + (static_cast<uint64_t>(purpose) + 1) * detail::kGoldenRatio64);
+}
+
+/// Light along the probe's own directions.
+void add_paths(const PathTracer& tracer, glm::vec3 origin, uint64_t key, float pdf,
+               ProbeEstimate& estimate) {
+    const uint32_t count = estimate.direction_count;
+    RandomStream rotation_stream(key, static_cast<uint64_t>(Purpose::Rotation));
+    const glm::mat3 rotation = sample_rotation(rotation_stream);
+    const uint64_t paths_key = key_of(key, Purpose::Paths);
+    RadianceShSum sum;
+    for (uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 direction = rotation * spherical_fibonacci(i, count);
+        const PathSample sample = tracer.trace({origin, direction, pdf}, PathNumbers(paths_key, i));
+        sum.add(direction, sample.radiance);
+        estimate.behind_count += sample.is_behind_surface;
+        estimate.ray_count += sample.ray_count;
+    }
+    estimate.radiance += radiance_from_sum(sum, kSphere / count);
+}
+
+/// Light straight from `count` emissive triangles and directions of the sky that are drawn.
+void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint32_t count,
+                  ProbeEstimate& estimate) {
+    const double directions_each = static_cast<double>(estimate.direction_count) / count;
+    const auto other_pdf = static_cast<float>(directions_each / kSphere);
+    const uint64_t emission_key = key_of(key, Purpose::Emission);
+    RadianceShSum sum;
+    for (uint32_t i = 0; i < count; ++i) {
+        PathNumbers numbers(emission_key, i);
+        for (const EmitterKind kind : {EmitterKind::Triangle, EmitterKind::Sky}) {
+            if (!tracer.emitters().has(kind)) continue;
+            const LightSample sample = tracer.sample_emission(kind, {origin}, other_pdf, numbers);
+            if (sample.irradiance != glm::vec3(0.0f)) sum.add(sample.to_light, sample.irradiance);
+            ++estimate.ray_count;
+        }
+    }
+    estimate.radiance += radiance_from_sum(sum, 1.0 / count);
+}
+
+/// Direct light of one light by `count` shadow rays.
+void add_baked_light(const PathTracer& tracer, const Light& light, glm::vec3 origin, uint64_t key,
+                     uint32_t count, ProbeEstimate& estimate) {
+    RadianceShSum sum;
+    for (uint32_t i = 0; i < count; ++i) {
+        PathNumbers numbers(key, i);
+        const LightSample sample = sample_light(light, origin, numbers.next2());
+        if (sample.irradiance == glm::vec3(0.0f)) continue;
         ++estimate.ray_count;
+        if (tracer.is_blocked(origin, sample, numbers.next2().x)) continue;
+        sum.add(sample.to_light, sample.irradiance);
+    }
+    estimate.radiance += radiance_from_sum(sum, 1.0 / count);
+}
+
+void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
+                      ProbeEstimate& estimate) {
+    const std::vector<Light>& lights = tracer.baked_lights();
+    const auto light_count = std::max<size_t>(1, lights.size());
+    const auto soft_count = static_cast<uint32_t>(
+        std::max<size_t>(1, estimate.direction_count / (kDirectionsPerShadowRay * light_count)));
+    uint64_t light_key = key_of(key, Purpose::BakedLights);
+    for (const Light& light : lights) {
+        const bool is_hard = has_hard_shadows(light) && !tracer.traced().has_blending();
+        add_baked_light(tracer, light, origin, light_key, is_hard ? 1 : soft_count, estimate);
+        light_key = detail::mix(light_key + detail::kGoldenRatio64);
     }
 }
 
@@ -26,20 +99,17 @@ void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, ProbeEstimate&
 ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
                              uint32_t direction_count) {
     TETRALIGHT_ASSERT(direction_count > 0, "an estimate takes directions");
-    RandomStream rotation_stream(key, ~uint64_t{0});
-    const glm::mat3 rotation = sample_rotation(rotation_stream);
     ProbeEstimate estimate;
     estimate.direction_count = direction_count;
-    RadianceShSum sum;
-    for (uint32_t i = 0; i < direction_count; ++i) {
-        const glm::vec3 direction = rotation * spherical_fibonacci(i, direction_count);
-        const PathSample sample = tracer.trace(origin, direction, RandomStream(key, i));
-        sum.add(direction, sample.radiance);
-        estimate.behind_count += sample.is_behind_surface;
-        estimate.ray_count += sample.ray_count;
+    if (tracer.can_sample_emission()) {
+        const uint32_t drawn = std::max(1u, direction_count / kDirectionsPerEmitter);
+        const double pdf = direction_count / (kSphere * drawn);
+        add_paths(tracer, origin, key, static_cast<float>(pdf), estimate);
+        add_emission(tracer, origin, key, drawn, estimate);
+    } else {
+        add_paths(tracer, origin, key, std::numeric_limits<float>::infinity(), estimate);
     }
-    estimate.radiance = radiance_from_sum(sum, 4.0 * std::numbers::pi / direction_count);
-    add_baked_lights(tracer, origin, estimate);
+    add_baked_lights(tracer, origin, key, estimate);
     return estimate;
 }
 

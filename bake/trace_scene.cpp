@@ -76,6 +76,15 @@ void place_surface(const MeshPoint& point, const std::vector<glm::vec3>& corners
     surface.error_bound = error_bound(extent);
 }
 
+/// Share of rays that stop at a point.
+float opacity(const Scene& scene, const MeshPoint& point) {
+    const Material& material = scene.materials[point.mesh->material];
+    if (material.alpha_mode == AlphaMode::Opaque) return 1.0f;
+    const float alpha = base_color(scene, point).a;
+    if (material.alpha_mode == AlphaMode::Blend) return std::clamp(alpha, 0.0f, 1.0f);
+    return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
+}
+
 /// A number in [0, 1) that depends on the ray and the triangle only.
 float hash_of(const Ray& ray, const RayHit& hit) {
     const uint64_t origin_key = probe_key(hit.geometry, glm::dvec3(ray.origin));
@@ -148,11 +157,9 @@ bool TraceScene::stops_at(const void* context, const Ray& ray, const RayHit& hit
     const State& state = *static_cast<const State*>(context);
     const Placed& placed = state.placed[hit.geometry];
     const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, hit);
-    const float alpha = base_color(*state.scene, point).a;
-    if (placed.material->alpha_mode == AlphaMode::Mask) {
-        return alpha >= placed.material->alpha_cutoff;
-    }
-    return hash_of(ray, hit) < alpha;
+    const float share = opacity(*state.scene, point);
+    if (share <= 0.0f || share >= 1.0f) return share > 0.0f;
+    return hash_of(ray, hit) < share;
 }
 
 std::optional<Surface> TraceScene::cast(const Ray& ray) const {
@@ -169,10 +176,10 @@ std::optional<Surface> TraceScene::cast(const Ray& ray) const {
     surface.shading_normal =
         shading_normal(point, placed.normal_from_mesh, surface.geometric_normal);
     surface.albedo = adjusted_albedo(diffuse_reflectivity(scene, point), state_->surfaces);
-    if (material.bakes_emission || state_->emission == Emission::All) {
-        surface.emission = emitted_radiance(scene, point);
-    }
+    if (takes_emission(*state_, material)) surface.emission = emitted_radiance(scene, point);
     surface.instance = placed.instance;
+    surface.geometry = hit->geometry;
+    surface.primitive = hit->primitive;
     if (glm::dot(surface.geometric_normal, ray.direction) > 0.0f) {
         surface.geometric_normal = -surface.geometric_normal;
         surface.shading_normal = -surface.shading_normal;
@@ -180,6 +187,56 @@ std::optional<Surface> TraceScene::cast(const Ray& ray) const {
         surface.is_back_face = !material.is_double_sided;
     }
     return surface;
+}
+
+uint32_t TraceScene::triangle_count(uint32_t geometry) const {
+    return static_cast<uint32_t>(state_->placed[geometry].mesh->indices.size() / 3);
+}
+
+std::array<glm::vec3, 3> TraceScene::triangle(uint32_t geometry, uint32_t primitive) const {
+    const Placed& placed = state_->placed[geometry];
+    const uint32_t* corners = &placed.mesh->indices[size_t{primitive} * 3];
+    std::array<glm::vec3, 3> positions{placed.positions[corners[0]], placed.positions[corners[1]],
+                                       placed.positions[corners[2]]};
+    if (placed.is_mirrored) std::swap(positions[1], positions[2]);
+    return positions;
+}
+
+bool TraceScene::is_double_sided(uint32_t geometry) const {
+    return state_->placed[geometry].material->is_double_sided;
+}
+
+bool TraceScene::takes_emission(const State& state, const Material& material) {
+    return material.bakes_emission || state.emission == Emission::All;
+}
+
+bool TraceScene::can_emit(uint32_t geometry) const {
+    const Material& material = *state_->placed[geometry].material;
+    return takes_emission(*state_, material) && emission_source(material).factor != glm::vec3(0.0f);
+}
+
+bool TraceScene::has_varied_emission(uint32_t geometry) const {
+    const Material& material = *state_->placed[geometry].material;
+    return emission_source(material).texture.texture != kNoIndex ||
+           (material.alpha_mode != AlphaMode::Opaque &&
+            material.base_color_texture.texture != kNoIndex);
+}
+
+glm::vec3 TraceScene::visible_emission(uint32_t geometry, uint32_t primitive,
+                                       glm::vec2 barycentric) const {
+    const Placed& placed = state_->placed[geometry];
+    if (!takes_emission(*state_, *placed.material)) return glm::vec3(0.0f);
+    RayHit hit;
+    hit.primitive = primitive;
+    hit.barycentric = barycentric;
+    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, hit);
+    return emitted_radiance(*state_->scene, point) * opacity(*state_->scene, point);
+}
+
+bool TraceScene::has_blending() const {
+    return std::any_of(state_->placed.begin(), state_->placed.end(), [](const Placed& placed) {
+        return placed.material->alpha_mode == AlphaMode::Blend;
+    });
 }
 
 }  // namespace tetralight

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/mat3x3.hpp>
@@ -29,6 +30,9 @@ struct Surface {
     /// Emitted radiance.
     glm::vec3 emission{0.0f};
     uint32_t instance = 0;
+    /// The triangle that was hit, as `TraceScene` counts them.
+    uint32_t geometry = 0;
+    uint32_t primitive = 0;
     /// How far `position` and rays that start there may be off the triangle by rounding.
     float error_bound = 0.0f;
     /// The ray came from behind the triangle.
@@ -88,6 +92,30 @@ class TraceScene {
         return position + state_->largest_error_bound * normal;
     }
 
+    /// How many instances rays can hit: geometries are counted from 0.
+    [[nodiscard]] uint32_t geometry_count() const {
+        return static_cast<uint32_t>(state_->placed.size());
+    }
+
+    [[nodiscard]] uint32_t triangle_count(uint32_t geometry) const;
+
+    /// Corners of a triangle in traced space, counter-clockwise seen from the front.
+    [[nodiscard]] std::array<glm::vec3, 3> triangle(uint32_t geometry, uint32_t primitive) const;
+
+    [[nodiscard]] bool is_double_sided(uint32_t geometry) const;
+
+    /// Whether any point of a geometry may emit light, and whether its points may differ.
+    [[nodiscard]] bool can_emit(uint32_t geometry) const;
+    [[nodiscard]] bool has_varied_emission(uint32_t geometry) const;
+
+    /// Radiance that leaves a point of a triangle, times the share of rays that stop there.
+    /// `barycentric`: weights of the second and third of its corners.
+    [[nodiscard]] glm::vec3 visible_emission(uint32_t geometry, uint32_t primitive,
+                                             glm::vec2 barycentric) const;
+
+    /// Whether any surface lets a part of the rays through, so that shadows are drawn at random.
+    [[nodiscard]] bool has_blending() const;
+
   private:
     /// An instance as a geometry of the caster.
     struct Placed {
@@ -118,6 +146,7 @@ class TraceScene {
     static Result<TraceScene> make_from(const Scene& scene, const Selection& selection,
                                         std::unique_ptr<State> state);
     static Placed place(const Scene& scene, uint32_t instance);
+    static bool takes_emission(const State& state, const Material& material);
     static bool stops_at(const void* state, const Ray& ray, const RayHit& hit);
 
     std::unique_ptr<State> state_;  // on the heap: the caster's filter points to it

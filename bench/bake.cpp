@@ -61,7 +61,7 @@ struct Traced {
     explicit Traced(const BakeSubject& from)
         : subject(from),
           scene(*TraceScene::make_static(from.scene)),
-          tracer(from.scene, scene, kBounces) {}
+          tracer(from.scene, scene, {kBounces}) {}
 
     /// As a bake does: eight independent sets.
     [[nodiscard]] RadianceSh estimate(const glm::dvec3& probe, uint64_t seed,

@@ -9,6 +9,7 @@
 #include "bake/sampling.h"
 #include "bake/scene/environment.h"
 #include "bake/scene/scene_bounds.h"
+#include "bake/scene/surface_color.h"
 
 namespace tetralight::bench {
 namespace {
@@ -28,8 +29,9 @@ PlainTracer::PlainTracer(const Scene& scene, const TraceScene& traced, uint32_t 
     for (const Light& light : scene.lights) lights_.push_back(traced.traced_from_world(light));
     for (const MeshInstance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
-        if (scene.materials[mesh.material].emission == glm::vec3(0.0f)) continue;
-        if (!instance.contributes_gi) continue;
+        const Material& material = scene.materials[mesh.material];
+        if (emission_source(material).factor == glm::vec3(0.0f)) continue;
+        if (!instance.contributes_gi || !material.bakes_emission) continue;
         for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             Triangle triangle;
             for (size_t k = 0; k < 3; ++k) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <span>
+#include <vector>
 
 #include "bake/bake_probes.h"
 #include "tests/support/random_probes.h"
@@ -25,8 +28,9 @@ constexpr double kBand1 = 0.48860251190291992;
 
 /// Light that arrives at one position.
 RadianceSh bake(const Scene& scene, const glm::dvec3& position, uint32_t sample_count,
-                uint32_t bounces) {
+                uint32_t bounces, uint64_t seed = 0) {
     BakeSettings settings;
+    settings.seed = seed;
     settings.sample_count = sample_count;
     settings.bounces = bounces;
     const auto baked = bake_probes(scene, std::span(&position, 1), settings);
@@ -107,6 +111,25 @@ TEST(LightTransport, AmbientIsWhatAProbeInTheOpenSees) {
 
 // --- Closed furnace ------------------------------------------------------------------------------
 
+/// Mean irradiance of many short bakes, and its standard error.
+struct MeanIrradiance {
+    double mean = 0.0;
+    double error = 0.0;
+};
+
+MeanIrradiance mean_irradiance(std::span<const RadianceSh> bakes, glm::vec3 normal) {
+    double sum = 0.0, squares = 0.0;
+    for (const RadianceSh& light : bakes) {
+        const double value = irradiance(light, normal).x;
+        sum += value;
+        squares += value * value;
+    }
+    const auto count = static_cast<double>(bakes.size());
+    const double mean = sum / count;
+    const double variance = std::max(0.0, squares / count - mean * mean);
+    return {mean, std::sqrt(variance / (count - 1.0))};
+}
+
 TEST(LightTransport, FurnaceSumsTheGeometricSeries) {
     // Everything has radiance e + ρ e + ... + ρ^b e, wherever one looks from.
     for (const double albedo : {0.5, 0.8}) {
@@ -117,9 +140,15 @@ TEST(LightTransport, FurnaceSumsTheGeometricSeries) {
                           test::Facing::Inward, {-1, -2, -1}, {3, 1, 1});
             const double radiance = 2.0 * (1.0 - std::pow(albedo, bounces + 1)) / (1.0 - albedo);
             for (const glm::dvec3& p : {glm::dvec3(1, 0, 0), glm::dvec3(2.999, 0.99, -0.999)}) {
-                const RadianceSh light = bake(scene, p, 1024, bounces);
+                std::vector<RadianceSh> bakes;
+                for (uint64_t seed = 0; seed < 64; ++seed) {
+                    bakes.push_back(bake(scene, p, 256, bounces, seed));
+                }
                 for (const glm::vec3 n : {glm::vec3(0, 1, 0), glm::vec3(0.6f, 0, -0.8f)}) {
-                    EXPECT_NEAR(irradiance(light, n).x / kPi / radiance, 1.0, 0.005);
+                    const MeanIrradiance light = mean_irradiance(bakes, n);
+                    const double expected = kPi * radiance;
+                    EXPECT_NEAR(light.mean, expected, 3.0 * light.error + 1e-5 * expected);
+                    EXPECT_LT(light.error, 0.01 * expected);
                 }
             }
         }

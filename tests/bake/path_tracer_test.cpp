@@ -17,9 +17,9 @@ const glm::vec3 kDown(0.0f, -1.0f, 0.0f);
 PathSample trace(const Scene& scene, glm::vec3 origin, glm::vec3 direction, uint32_t bounces) {
     const auto traced = TraceScene::make_static(scene);
     EXPECT_TRUE(traced);
-    const PathTracer tracer(scene, *traced, bounces);
-    return tracer.trace(traced->traced_from_world(glm::dvec3(origin)), direction,
-                        RandomStream(1, 2));
+    const PathTracer tracer(scene, *traced, {bounces});
+    return tracer.trace({traced->traced_from_world(glm::dvec3(origin)), direction},
+                        PathNumbers(1, 2));
 }
 
 /// A wide floor of albedo 1/2 at y = 0, and nothing else.
@@ -108,24 +108,20 @@ TEST(PathTracer, DoubleSidedSurfaceShinesOnBothSides) {
     EXPECT_FALSE(sample.is_behind_surface);
 }
 
-TEST(PathTracer, VisibleLightIsTheIlluminationOrNothing) {
-    Scene scene = floor_scene();
-    test::add_point_light(scene, LightMode::Baked, glm::vec3(9.0f), {0, 3, 0});
+/// Whether a position sees the only light of a scene.
+bool is_lit(const Scene& scene, glm::vec3 position) {
     const auto traced = TraceScene::make_static(scene);
-    const PathTracer tracer(scene, *traced, 1);
-    const Light& light = tracer.traced_lights()[0];
-    EXPECT_EQ(tracer.visible_light(light, {4, 3, 0}).irradiance, glm::vec3(9.0f / 16.0f));
-    EXPECT_EQ(tracer.visible_light(light, {0, -1, 0}).irradiance, glm::vec3(0.0f));
+    const PathTracer tracer(scene, *traced, {});
+    const LightSample sample = sample_light(tracer.baked_lights()[0], position, {0.5f, 0.5f});
+    return !tracer.is_blocked(position, sample);
 }
 
-TEST(PathTracer, WhatStandsBehindTheLightDoesNotShadow) {
+TEST(PathTracer, LightIsBlockedByWhatStandsBeforeItOnly) {
     Scene scene = floor_scene();
     test::add_point_light(scene, LightMode::Baked, glm::vec3(9.0f), {0, 1, 0});
-    const auto traced = TraceScene::make_static(scene);
-    const PathTracer tracer(scene, *traced, 1);
-    // Seen from 3 m above, the floor is 1 m behind the light: 9 / 3².
-    EXPECT_EQ(tracer.visible_light(tracer.traced_lights()[0], {0, 4, 0}).irradiance,
-              glm::vec3(1.0f));
+    EXPECT_TRUE(is_lit(scene, {4, 3, 0}));
+    EXPECT_TRUE(is_lit(scene, {0, 4, 0}));  // the floor is 1 m behind the light
+    EXPECT_FALSE(is_lit(scene, {0, -1, 0}));
 }
 
 TEST(PathTracer, SamePathForTheSameRandomNumbers) {

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/lamps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace tetralight {
+namespace {
+
+float sum_of(glm::vec3 c) {
+    return c.r + c.g + c.b;
+}
+
+/// What a sun can give a receiver: never 0 where part of its disc is above the horizon.
+float sun_importance(const Light& sun, const Receiver& receiver) {
+    const float power = sum_of(sun.intensity);
+    if (receiver.normal == glm::vec3(0.0f)) return power;
+    const float margin = std::sin(std::min(sun.radius, 1.57f)) + 1e-4f;
+    return power * std::max(0.0f, margin - glm::dot(receiver.normal, sun.direction));
+}
+
+/// Half of what the box of a light's shape measures along each axis.
+glm::vec3 half_size(const Light& light) {
+    if (light.type != LightType::Rectangle) return glm::vec3(light.radius);
+    const glm::vec3 across = glm::cross(light.direction, light.tangent);
+    return 0.5f * (glm::abs(light.tangent) * light.width + glm::abs(across) * light.height);
+}
+
+}  // namespace
+
+EmitterBounds lamp_bounds(const Light& light) noexcept {
+    EmitterBounds bounds;
+    bounds.low = light.position - half_size(light);
+    bounds.high = light.position + half_size(light);
+    bounds.power = sum_of(light.intensity);
+    if (light.range > 0.0f) bounds.reach = light.range;
+    const bool is_inverse_square =
+        light.falloff == LightFalloff::Gltf || light.falloff == LightFalloff::InverseSquareRange;
+    // The others do not grow near the light: half way out they are about as they are on average.
+    if (!is_inverse_square && light.range > 0.0f) bounds.power *= 0.25f * light.range * light.range;
+    if (light.type == LightType::Point) return bounds;
+    bounds.axis = light.direction;
+    bounds.cos_axes = 1.0f;
+    bounds.cos_emission = 0.0f;
+    if (light.type == LightType::Spot) bounds.cos_emission = light.cos_outer_cone;
+    return bounds;
+}
+
+Lamps::Lamps(std::span<const Light> lights) {
+    std::vector<EmitterBounds> bounds;
+    for (const Light& light : lights) {
+        if (!(sum_of(light.intensity) > 0.0f)) continue;
+        if (light.type == LightType::Directional) {
+            suns_.push_back(light);
+        } else {
+            local_.push_back(light);
+            bounds.push_back(lamp_bounds(light));
+        }
+    }
+    tree_ = LightTree(bounds);
+}
+
+LightSample Lamps::sample_sun(const Receiver& receiver, PathNumbers& numbers) const noexcept {
+    const float choice = numbers.next2().x;
+    const glm::vec2 u = numbers.next2();
+    float total = 0.0f;
+    for (const Light& sun : suns_) total += sun_importance(sun, receiver);
+    float rest = choice * total;
+    for (const Light& sun : suns_) {
+        const float own = sun_importance(sun, receiver);
+        if (!(own > 0.0f)) continue;
+        rest -= own;
+        if (rest >= 0.0f) continue;
+        LightSample sample = sample_light(sun, receiver.position, u);
+        if (own != total) sample.irradiance *= total / own;
+        return sample;
+    }
+    return {};
+}
+
+LightSample Lamps::sample_local(const Receiver& receiver, PathNumbers& numbers) const noexcept {
+    const double choice = numbers.next_fine();
+    const glm::vec2 u = numbers.next2();
+    const auto chosen = tree_.sample(receiver, choice);
+    if (!chosen) return {};
+    LightSample sample = sample_light(local_[chosen->emitter], receiver.position, u);
+    sample.irradiance /= chosen->probability;
+    return sample;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bake/light_tree.h"
+#include "bake/sample_light.h"
+#include "bake/sobol.h"
+#include "probes/light.h"
+
+namespace tetralight {
+
+/// Bounds of what a point, spot, rectangle or disc light sends. Precondition: not directional.
+[[nodiscard]] EmitterBounds lamp_bounds(const Light& light) noexcept;
+
+/// Draws one of many lights and a point of its shape, about as often as it matters: directional
+/// lights among themselves by irradiance, the others by a light tree.
+class Lamps {
+  public:
+    Lamps() = default;
+    explicit Lamps(std::span<const Light> lights);
+
+    [[nodiscard]] bool has_suns() const { return !suns_.empty(); }
+
+    [[nodiscard]] bool has_local() const { return !tree_.is_empty(); }
+
+    /// Light of one directional light. Takes two pairs of numbers.
+    [[nodiscard]] LightSample sample_sun(const Receiver& receiver,
+                                         PathNumbers& numbers) const noexcept;
+
+    /// Light of one other light. Takes two pairs of numbers.
+    [[nodiscard]] LightSample sample_local(const Receiver& receiver,
+                                           PathNumbers& numbers) const noexcept;
+
+  private:
+    std::vector<Light> suns_;
+    std::vector<Light> local_;
+    LightTree tree_;  // of `local_`
+};
+
+}  // namespace tetralight

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/emitters.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bake/sampling.h"
+#include "tests/support/chi_square.h"
+#include "tests/support/scenes.h"
+
+namespace tetralight {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TraceScene traced(const Scene& scene) {
+    auto result = TraceScene::make_static(scene);
+    EXPECT_TRUE(result) << result.error().message;
+    return std::move(*result);
+}
+
+/// A room whose walls shine unevenly, by a texture of four grey levels.
+Scene shining_room() {
+    Scene scene;
+    Texture texture;
+    texture.image = {
+        2,
+        2,
+        {{255, 255, 255, 255}, {128, 128, 128, 255}, {60, 60, 60, 255}, {200, 200, 200, 255}}};
+    scene.textures.push_back(texture);
+    Material walls = test::diffuse(glm::vec3(0.5f), {1, 2, 3});
+    walls.emission_texture.texture = 0;
+    test::add_box(scene, walls, test::Facing::Inward, {-1, -2, -1}, {2, 1, 1});
+    return scene;
+}
+
+/// Density with which a direction from a receiver is drawn.
+float pdf(const Emitters& emitters, const TraceScene& scene, const Receiver& receiver,
+          glm::vec3 direction) {
+    const auto met = scene.cast({receiver.position, direction});
+    return met ? emitters.pdf(receiver, *met) : emitters.pdf(direction);
+}
+
+TEST(EmissiveTriangles, PdfIntegratesToOneInARoomOfThem) {
+    const Scene scene = shining_room();
+    const TraceScene trace = traced(scene);
+    const Emitters emitters(scene, trace);
+    const Receiver receiver{{0.3f, -0.2f, 0.1f}};
+    constexpr uint32_t kCount = 200000;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < kCount; ++i) {
+        sum += pdf(emitters, trace, receiver, spherical_fibonacci(i, kCount));
+    }
+    EXPECT_NEAR(sum * 4.0 * kPi / kCount, 1.0, 5e-3);
+}
+
+TEST(EmissiveTriangles, DirectionsAreDrawnAsOftenAsThePdfSays) {
+    const Scene scene = shining_room();
+    const TraceScene trace = traced(scene);
+    const Emitters emitters(scene, trace);
+    const Receiver receiver{{0.3f, -0.2f, 0.1f}};
+    const auto bin_of = [](glm::vec3 d) {
+        const double turn = std::atan2(d.z, d.x) / (2.0 * kPi) + 0.5;
+        const auto column = std::min<size_t>(15, static_cast<size_t>(turn * 16.0));
+        return std::min<size_t>(7, static_cast<size_t>((d.y + 1.0) * 4.0)) * 16 + column;
+    };
+    constexpr uint32_t kDraws = 50000, kProbes = 400000;
+    std::vector<int> observed(128, 0);
+    std::vector<double> expected(128, 0.0);
+    for (uint32_t i = 0; i < kProbes; ++i) {
+        const glm::vec3 d = spherical_fibonacci(i, kProbes);
+        expected[bin_of(d)] += pdf(emitters, trace, receiver, d) * 4.0 * kPi / kProbes * kDraws;
+    }
+    for (uint32_t i = 0; i < kDraws; ++i) {
+        PathNumbers numbers(i, 0);
+        const LightSample sample = emitters.sample(EmitterKind::Triangle, receiver, numbers);
+        ++observed[bin_of(sample.to_light)];
+        EXPECT_NEAR(sample.pdf / pdf(emitters, trace, receiver, sample.to_light), 1.0, 0.02);
+    }
+    EXPECT_TRUE(test::has_frequencies(observed, expected));
+}
+
+TEST(EmissiveTriangles, AreEmptyWithoutEmission) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
+    const TraceScene trace = traced(scene);
+    const Emitters emitters(scene, trace);
+    for (const EmitterKind kind :
+         {EmitterKind::Sun, EmitterKind::Lamp, EmitterKind::Triangle, EmitterKind::Sky}) {
+        EXPECT_FALSE(emitters.has(kind));
+    }
+    EXPECT_EQ(pdf(emitters, trace, {{0, 1, 0}}, {0, -1, 0}), 0.0f);
+}
+
+TEST(EmissiveTriangles, UnlitSurfacesAreAmongThemAndThoseThatAreNotBakedAreNot) {
+    Material unlit = test::diffuse(glm::vec3(0.48f));
+    unlit.is_unlit = true;
+    for (const bool is_baked : {false, true}) {
+        Scene scene;
+        unlit.bakes_emission = is_baked;
+        test::add_floor(scene, unlit, 1.0f);
+        const TraceScene trace = traced(scene);
+        const Emitters emitters(scene, trace);
+        EXPECT_EQ(emitters.has(EmitterKind::Triangle), is_baked);
+        EXPECT_EQ(pdf(emitters, trace, {{0, 1, 0}}, {0, -1, 0}) > 0.0f, is_baked);
+        EXPECT_EQ(trace.visible_emission(0, 0, {0.2f, 0.2f}),
+                  glm::vec3(is_baked ? 0.48f / 0.96f : 0.0f));
+    }
+}
+
+TEST(EmissiveTriangles, OnlyDoubleSidedOnesShineBackwards) {
+    for (const bool is_double_sided : {false, true}) {
+        Scene scene;
+        Material panel = test::diffuse(glm::vec3(0.0f), glm::vec3(1.0f));
+        panel.is_double_sided = is_double_sided;
+        test::add_floor(scene, panel, 1.0f);
+        const TraceScene trace = traced(scene);
+        const Emitters emitters(scene, trace);
+        PathNumbers numbers(1, 0);
+        const LightSample below = emitters.sample(EmitterKind::Triangle, {{0, -2, 0}}, numbers);
+        EXPECT_EQ(below.irradiance.x > 0.0f, is_double_sided);
+        EXPECT_GT(emitters.sample(EmitterKind::Triangle, {{0, 2, 0}}, numbers).irradiance.x, 0.0f);
+    }
+}
+
+TEST(EmissiveTriangles, HolesAndGlassShineByTheirShare) {
+    // The share of rays that stop: half for alpha 0.5, none below the cutoff.
+    Scene scene;
+    Material glass = test::diffuse(glm::vec3(0.0f), glm::vec3(1.0f));
+    glass.alpha_mode = AlphaMode::Blend;
+    glass.base_color.a = 0.5f;
+    test::add_floor(scene, glass, 1.0f);
+    glass.alpha_mode = AlphaMode::Mask;
+    glass.alpha_cutoff = 0.6f;
+    test::add_floor(scene, glass, 1.0f);
+    const TraceScene trace = traced(scene);
+    EXPECT_EQ(trace.visible_emission(0, 0, {0.2f, 0.2f}), glm::vec3(0.5f));
+    EXPECT_EQ(trace.visible_emission(1, 0, {0.2f, 0.2f}), glm::vec3(0.0f));
+}
+
+TEST(Lamps, SunsAreDrawnByWhatTheyGive) {
+    // Two suns, one below the horizon of a floor: all draws go to the other.
+    std::vector<Light> suns(2);
+    suns[0].direction = {0, -1, 0};
+    suns[0].intensity = glm::vec3(2.0f);
+    suns[1].direction = {0, 1, 0};
+    const Lamps lamps(suns);
+    for (uint32_t i = 0; i < 100; ++i) {
+        PathNumbers numbers(3, i);
+        const LightSample sample = lamps.sample_sun({{0, 0, 0}, {0, 1, 0}}, numbers);
+        EXPECT_EQ(sample.irradiance, glm::vec3(2.0f));
+    }
+    // Seen from everywhere the mean of the draws is the sum of both.
+    glm::dvec3 sum(0.0);
+    for (uint32_t i = 0; i < 1024; ++i) {
+        PathNumbers numbers(4, i);
+        sum += glm::dvec3(lamps.sample_sun({}, numbers).irradiance);
+    }
+    EXPECT_NEAR(sum.x / 1024.0, 3.0, 0.03);
+}
+
+}  // namespace
+}  // namespace tetralight
