@@ -12,21 +12,6 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Rounding of a cosine; what is this near to its limit counts as within it.
-constexpr float kSlack = 1e-4f;
-
-/// Importance never falls below this share for being slanted, so that no sample weighs too much.
-constexpr float kLeastCosine = 0.01f;
-
-float sine_of(float cosine) {
-    return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
-}
-
-/// cos max(0, a − b) of two angles.
-float cos_difference(float cos_a, float cos_b) {
-    return cos_a > cos_b ? 1.0f : cos_a * cos_b + sine_of(cos_a) * sine_of(cos_b);
-}
-
 float angle_of(float cosine) {
     return std::acos(std::clamp(cosine, -1.0f, 1.0f));
 }
@@ -77,32 +62,6 @@ float split_cost(const EmitterBounds& bounds) noexcept {
                                                  2.0f * o * std::sin(o) + std::cos(o));
     const glm::vec3 d = bounds.high - bounds.low;
     return bounds.power * directions * (d.x * d.y + d.y * d.z + d.z * d.x);
-}
-
-float importance(const EmitterBounds& bounds, const Receiver& receiver) noexcept {
-    const glm::vec3 nearest = glm::clamp(receiver.position, bounds.low, bounds.high);
-    const glm::vec3 gap = receiver.position - nearest;
-    if (glm::dot(gap, gap) > bounds.reach * bounds.reach) return 0.0f;
-
-    const glm::vec3 half_size = 0.5f * (bounds.high - bounds.low);
-    const glm::vec3 offset = receiver.position - (bounds.low + half_size);
-    const float radius2 = glm::dot(half_size, half_size);
-    const float distance2 = glm::dot(offset, offset);
-    // Within the box any direction is possible, and distance means little.
-    const float result = bounds.power / std::max({distance2, radius2, 1e-30f});
-    if (distance2 <= radius2 || distance2 == 0.0f) return result;
-
-    const glm::vec3 from_light = offset / std::sqrt(distance2);
-    const float cos_box = std::sqrt(std::max(0.0f, 1.0f - radius2 / distance2));
-    const float to_axes = cos_difference(glm::dot(bounds.axis, from_light), bounds.cos_axes);
-    const float leaving = cos_difference(to_axes, cos_box);
-    if (leaving < bounds.cos_emission - kSlack) return 0.0f;
-    float arriving = 1.0f;
-    if (receiver.normal != glm::vec3(0.0f)) {
-        arriving = cos_difference(-glm::dot(receiver.normal, from_light), cos_box);
-        if (arriving < -kSlack) return 0.0f;
-    }
-    return result * std::max(leaving, kLeastCosine) * std::max(arriving, kLeastCosine);
 }
 
 }  // namespace tetralight

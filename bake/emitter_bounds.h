@@ -25,17 +25,6 @@ struct EmitterBounds {
     bool operator==(const EmitterBounds&) const = default;
 };
 
-/// Who receives light: a position and, for surfaces, a unit normal; zero = from everywhere.
-struct Receiver {
-    glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f};
-};
-
-/// An estimate of what emitters within bounds send to a receiver, shadows left out, in the unit of
-/// `power` over squared metres. Positive unless they can send nothing. (Conty Estevez & Kulla 2018,
-/// "Importance Sampling of Many Lights with Adaptive Tree Splitting", section 4.)
-[[nodiscard]] float importance(const EmitterBounds& bounds, const Receiver& receiver) noexcept;
-
 /// Bounds of both. What has no power does not count.
 [[nodiscard]] EmitterBounds united(EmitterBounds a, const EmitterBounds& b) noexcept;
 

@@ -9,6 +9,7 @@ namespace {
 Lamps bounced_lamps(const Scene& scene, const TraceScene& traced) {
     std::vector<Light> lights;
     for (const Light& light : scene.lights) {
+        if (light.mode != LightMode::Mixed && light.mode != LightMode::Baked) continue;
         lights.push_back(traced.traced_from_world(light));
         lights.back().intensity *= light.indirect_multiplier;
     }

@@ -3,12 +3,86 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "base/assert.h"
 
 namespace tetralight {
+namespace {
+
+/// Rounding of a cosine; what is this near to its limit counts as within it.
+constexpr float kSlack = 1e-4f;
+
+/// Importance never falls below this share for being slanted, so that no sample weighs too much.
+constexpr float kLeastCosine = 0.01f;
+
+float sine_of(float cosine) {
+    return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
+}
+
+/// An angle by its cosine and sine.
+struct Angle {
+    float cosine;
+    float sine;
+};
+
+/// max(0, a − b)
+Angle difference(Angle a, Angle b) {
+    if (a.cosine > b.cosine) return {1.0f, 0.0f};
+    return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
+}
+
+}  // namespace
+
+LightTree::Node LightTree::make_node(const EmitterBounds& bounds, uint32_t second,
+                                     uint32_t emitter) {
+    Node node;
+    const glm::vec3 half_size = 0.5f * (bounds.high - bounds.low);
+    node.center = bounds.low + half_size;
+    node.radius2 = glm::dot(half_size, half_size);
+    node.axis = bounds.axis;
+    node.cos_axes = bounds.cos_axes;
+    node.sin_axes = sine_of(bounds.cos_axes);
+    node.cos_emission = bounds.cos_emission;
+    node.power = bounds.power;
+    const float reach = bounds.reach + glm::length(half_size);
+    node.reach2 = reach * reach * (1.0f + kSlack);
+    node.second = second;
+    node.emitter = emitter;
+    return node;
+}
+
+float LightTree::importance(const Node& node, const Receiver& receiver) noexcept {
+    const glm::vec3 offset = receiver.position - node.center;
+    const float distance2 = glm::dot(offset, offset);
+    if (distance2 > node.reach2) return 0.0f;
+    // Near the box any direction is possible, and distance means little.
+    if (distance2 <= node.radius2) return node.power / std::max(node.radius2, 1e-30f);
+
+    const float inverse = 1.0f / distance2;
+    const glm::vec3 from_light = offset * std::sqrt(inverse);
+    const float sin2_box = node.radius2 * inverse;
+    const Angle box{std::sqrt(std::max(0.0f, 1.0f - sin2_box)), std::sqrt(sin2_box)};
+    float result = node.power * inverse;
+    if (node.cos_axes > -1.0f) {
+        const float cosine = glm::dot(node.axis, from_light);
+        const Angle to_axes = difference({cosine, sine_of(cosine)}, {node.cos_axes, node.sin_axes});
+        const float leaving = difference(to_axes, box).cosine;
+        if (leaving < node.cos_emission - kSlack) return 0.0f;
+        result *= std::max(leaving, kLeastCosine);
+    }
+    if (receiver.normal != glm::vec3(0.0f)) {
+        const float cosine = -glm::dot(receiver.normal, from_light);
+        const float arriving = difference({cosine, sine_of(cosine)}, box).cosine;
+        if (arriving < -kSlack) return 0.0f;
+        result *= std::max(arriving, kLeastCosine);
+    }
+    return result;
+}
+
 struct LightTree::Item {
     uint32_t emitter;
     EmitterBounds bounds;
@@ -25,7 +99,7 @@ class LightTree::Builder {
         const size_t node = tree_.nodes_.size();
         tree_.nodes_.emplace_back();
         if (items.size() == 1) {
-            tree_.nodes_[node] = {items[0].bounds, 0, items[0].emitter};
+            tree_.nodes_[node] = make_node(items[0].bounds, 0, items[0].emitter);
             tree_.turns_[items[0].emitter] = turns;
             return;
         }
@@ -35,7 +109,7 @@ class LightTree::Builder {
         build(items.first(first_count), turns, depth + 1);
         const auto second = static_cast<uint32_t>(tree_.nodes_.size());
         build(items.subspan(first_count), turns | uint64_t{1} << depth, depth + 1);
-        tree_.nodes_[node] = {bounds, second, kNoIndex};
+        tree_.nodes_[node] = make_node(bounds, second, kNoIndex);
     }
 
   private:
@@ -118,16 +192,20 @@ LightTree::LightTree(std::span<const EmitterBounds> emitters) : turns_(emitters.
     Builder(*this).build(items, 0, 0);
 }
 
+double LightTree::first_share(uint32_t node, const Receiver& receiver) const noexcept {
+    const double first = importance(nodes_[node + 1], receiver);
+    const double second = importance(nodes_[nodes_[node].second], receiver);
+    return first + second > 0.0 ? first / (first + second) : -1.0;
+}
+
 std::optional<LightTree::Choice> LightTree::sample(const Receiver& receiver,
                                                    double u) const noexcept {
     if (nodes_.empty()) return std::nullopt;
     uint32_t node = 0;
     double probability = 1.0;
     while (nodes_[node].emitter == kNoIndex) {
-        const float first = importance(nodes_[node + 1].bounds, receiver);
-        const float second = importance(nodes_[nodes_[node].second].bounds, receiver);
-        if (!(first + second > 0.0f)) return std::nullopt;
-        const double share = static_cast<double>(first) / (static_cast<double>(first) + second);
+        const double share = first_share(node, receiver);
+        if (share < 0.0) return std::nullopt;
         if (u < share) {
             u /= share;
             probability *= share;
@@ -146,17 +224,15 @@ float LightTree::probability(const Receiver& receiver, uint32_t emitter) const n
     uint64_t turns = turns_[emitter];
     uint32_t node = 0;
     while (node < nodes_.size() && nodes_[node].emitter == kNoIndex) {
-        const float first = importance(nodes_[node + 1].bounds, receiver);
-        const float second = importance(nodes_[nodes_[node].second].bounds, receiver);
-        if (!(first + second > 0.0f)) return 0.0f;
-        const double share = static_cast<double>(first) / (static_cast<double>(first) + second);
+        const double share = first_share(node, receiver);
+        if (share < 0.0) return 0.0f;
         const bool takes_second = (turns & 1) != 0;
         probability *= takes_second ? 1.0 - share : share;
         node = takes_second ? nodes_[node].second : node + 1;
         turns >>= 1;
     }
-    return node < nodes_.size() && nodes_[node].emitter == emitter ? static_cast<float>(probability)
-                                                                   : 0.0f;
+    const bool is_found = node < nodes_.size() && nodes_[node].emitter == emitter;
+    return is_found ? static_cast<float>(probability) : 0.0f;
 }
 
 }  // namespace tetralight

@@ -56,7 +56,7 @@ PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers) const 
     for (uint32_t bounce = 0;; ++bounce) {
         glm::vec3& sum = bounce == 0 ? sample.radiance : reflected;
         ++sample.ray_count;
-        const std::optional<Surface> surface = traced_.cast(ray);
+        const std::optional<Surface> surface = traced_.cast(ray, TraceScene::Detail::LightOnly);
         if (!surface) {
             const glm::vec3 sky = environment_radiance(scene_.environment, ray.direction);
             sum += throughput * sky * weight_of_met(pdf, emitters_.pdf(ray.direction));

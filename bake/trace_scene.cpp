@@ -162,7 +162,7 @@ bool TraceScene::stops_at(const void* context, const Ray& ray, const RayHit& hit
     return hash_of(ray, hit) < share;
 }
 
-std::optional<Surface> TraceScene::cast(const Ray& ray) const {
+std::optional<Surface> TraceScene::cast(const Ray& ray, Detail detail) const {
     const std::optional<RayHit> hit = caster_.cast(ray);
     if (!hit) return std::nullopt;
     const Scene& scene = *state_->scene;
@@ -173,8 +173,10 @@ std::optional<Surface> TraceScene::cast(const Ray& ray) const {
     Surface surface;
     place_surface(point, placed.positions, surface);
     surface.geometric_normal = glm::normalize(hit->normal);
-    surface.shading_normal =
-        shading_normal(point, placed.normal_from_mesh, surface.geometric_normal);
+    if (detail == Detail::Full) {
+        surface.shading_normal =
+            shading_normal(point, placed.normal_from_mesh, surface.geometric_normal);
+    }
     surface.albedo = adjusted_albedo(diffuse_reflectivity(scene, point), state_->surfaces);
     if (takes_emission(*state_, material)) surface.emission = emitted_radiance(scene, point);
     surface.instance = placed.instance;

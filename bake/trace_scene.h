@@ -71,7 +71,13 @@ class TraceScene {
     /// The light in traced space.
     [[nodiscard]] Light traced_from_world(Light light) const;
 
-    [[nodiscard]] std::optional<Surface> cast(const Ray& ray) const;
+    /// What of a surface `cast` looks up.
+    enum class Detail : bool {
+        LightOnly,  ///< all but the shading normal, which stays zero
+        Full,
+    };
+
+    [[nodiscard]] std::optional<Surface> cast(const Ray& ray, Detail detail = Detail::Full) const;
 
     [[nodiscard]] bool is_blocked(const Ray& ray) const { return caster_.is_blocked(ray); }
 
