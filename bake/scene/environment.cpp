@@ -23,9 +23,11 @@ glm::vec3 sample_equirectangular(const ImageF& image, float u, float v) {
     const auto left = static_cast<int64_t>(std::floor(x));
     const auto top = static_cast<int64_t>(std::floor(y));
     const auto pixel = [&image](int64_t column, int64_t row) {
-        const auto inside_column = (column + image.width) % image.width;
+        const int64_t width = image.width;  // columns are up to one period outside
+        const int64_t inside_column =
+            column < 0 ? column + width : (column < width ? column : column - width);
         const auto inside_row = std::clamp<int64_t>(row, 0, int64_t{image.height} - 1);
-        return image.pixels[static_cast<size_t>(inside_row * image.width + inside_column)];
+        return image.pixels[static_cast<size_t>(inside_row * width + inside_column)];
     };
     const float right_weight = x - std::floor(x);
     const float lower_weight = y - std::floor(y);

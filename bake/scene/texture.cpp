@@ -38,7 +38,7 @@ uint32_t wrapped(int64_t index, int64_t size, TextureWrap wrap) {
         return static_cast<uint32_t>(std::clamp<int64_t>(index, 0, size - 1));
     }
     const int64_t period = wrap == TextureWrap::Repeat ? size : 2 * size;
-    const int64_t inside = (index + period) % period;
+    const int64_t inside = index < 0 ? index + period : (index < period ? index : index - period);
     return static_cast<uint32_t>(inside < size ? inside : period - 1 - inside);
 }
 
