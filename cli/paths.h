@@ -20,8 +20,8 @@ CLI::Option* add_paths(CLI::App& command, const std::string& name, std::vector<s
                        const std::string& help);
 
 /// An option for a file to write. It may have no extension, or this one (or one of several with
-/// commas between): nobody wants a PNG that is called picture.jpg, or loses a scene to a slip of the
-/// hand.
+/// commas between): nobody wants a PNG that is called picture.jpg, or loses a scene to a slip of
+/// the hand.
 CLI::Option* add_file_to_write(CLI::App& command, const std::string& name, std::string& path,
                                const std::string& extension, const std::string& help);
 
