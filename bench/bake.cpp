@@ -11,6 +11,8 @@
 #include "bench/bake_scenes.h"
 #include "bench/harness.h"
 #include "bench/plain_tracer.h"
+#include "probes/dering.h"
+#include "probes/sh_minimum.h"
 
 namespace tetralight::bench {
 namespace {
@@ -104,22 +106,73 @@ void time_to_1_percent(const Traced& traced, const Options& options) {
                    "probes/s", "plain path tracer");
 }
 
-/// Whole bakes at default settings against one that is 64 times as long.
+/// Root mean square over all normals of the irradiance's error, as a share of the irradiance's:
+/// what error bars predict. By Parseval's identity.
+double parseval_error(const RadianceSh& a, const RadianceSh& reference) {
+    const IrradianceSh light = irradiance_from_radiance(reference);
+    const IrradianceSh difference = irradiance_from_radiance(a + -1.0f * reference);
+    double error = 0.0, sum = 0.0;
+    for (size_t i = 0; i < light.coefficients.size(); ++i) {
+        const glm::dvec3 d(difference.coefficients[i]), e(light.coefficients[i]);
+        error += glm::dot(d, d);
+        sum += glm::dot(e, e);
+    }
+    return sum > 0.0 ? std::sqrt(error / sum) : 0.0;
+}
+
+/// Whole bakes at default settings against one that is 64 times as long, and their error bars
+/// against their errors.
 void noise(const BakeSubject& subject) {
+    constexpr uint64_t kBakes = 8;
     BakeSettings settings;
     settings.bounces = kBounces;
-    const auto baked = bake_probes(subject.scene, subject.probes, settings);
     settings.sample_count *= 64;
-    settings.seed = 1;
+    settings.seed = kBakes;
     const auto reference = bake_probes(subject.scene, subject.probes, settings);
-    require(baked && reference, "bake");
+    require(bool(reference), "bake");
+    settings.sample_count /= 64;
     std::vector<double> errors;
-    for (size_t i = 0; i < subject.probes.size(); ++i) {
-        errors.push_back(100.0 * relative_rmse(baked->radiance[i], reference->radiance[i]));
+    std::vector<double> squares(subject.probes.size()), predicted(subject.probes.size());
+    for (settings.seed = 0; settings.seed < kBakes; ++settings.seed) {
+        const auto baked = bake_probes(subject.scene, subject.probes, settings);
+        require(bool(baked), "bake");
+        for (size_t i = 0; i < subject.probes.size(); ++i) {
+            const RadianceSh& exact = reference->radiance[i];
+            errors.push_back(100.0 * relative_rmse(baked->radiance[i], exact));
+            const double error = parseval_error(baked->radiance[i], exact);
+            squares[i] += error * error;
+            predicted[i] +=
+                static_cast<double>(baked->standard_error[i]) * baked->standard_error[i];
+        }
+    }
+    std::vector<double> ratios;
+    for (size_t i = 0; i < squares.size(); ++i) {
+        if (squares[i] > 0.0) ratios.push_back(std::sqrt(predicted[i] / squares[i]));
     }
     std::ranges::sort(errors);
     report("bake.noise.median." + subject.name, median(errors), "%");
     report("bake.noise.p99." + subject.name, errors[(errors.size() - 1) * 99 / 100], "%");
+    report("bake.error_bar." + subject.name, median(ratios), "predicted / actual");
+}
+
+/// The least irradiance that is left after dering, over that of band 0, of probes that a baked sun
+/// lights.
+void dering_min(const BakeSubject& subject) {
+    Scene scene = subject.scene;
+    for (Light& light : scene.lights) light.mode = LightMode::Baked;
+    const auto baked = bake_probes(scene, subject.probes, {});
+    require(bool(baked), "bake");
+    double least = 1.0;
+    for (const RadianceSh& radiance : baked->radiance) {
+        const IrradianceSh light =
+            dering(irradiance_from_radiance(radiance), DeringWindow::Mildest);
+        const glm::dvec3 lowest = minimum_irradiance(light);
+        for (int channel = 0; channel < 3; ++channel) {
+            const double mean = light.coefficients[0][channel];
+            if (mean > 0.0) least = std::min(least, lowest[channel] / mean);
+        }
+    }
+    report("bake.dering_min." + subject.name, least, "of E_00");
 }
 
 void threads(const BakeSubject& subject, const Options& options) {
@@ -147,6 +200,7 @@ void bench_bake(const Options& options) {
         const Traced traced(subject);
         time_to_1_percent(traced, options);
         noise(subject);
+        dering_min(subject);
         threads(subject, options);
     }
 }
