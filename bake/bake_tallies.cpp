@@ -16,6 +16,7 @@
 #include "bake/trace_scene.h"
 #include "base/assert.h"
 #include "base/text.h"
+#include "probes/is_finite.h"
 
 namespace tetralight {
 namespace {
@@ -25,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 Status check_positions(std::span<const glm::dvec3> positions) {
     for (size_t i = 0; i < positions.size(); ++i) {
         const glm::dvec3& p = positions[i];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        if (!is_finite(p)) {
             return Error{
                 text("probe ", i, ": position is not finite (", p.x, ", ", p.y, ", ", p.z, ")")};
         }

@@ -26,16 +26,12 @@ glm::vec2 sample_triangle(glm::vec2 u) {
     return {u.x - y, y};
 }
 
-float sum_of(glm::vec3 c) {
-    return c.r + c.g + c.b;
-}
-
 float mean_emission(const TraceScene& traced, uint32_t geometry, uint32_t primitive) {
     const uint32_t count = traced.has_varied_emission(geometry) ? kLookups : 1;
     double sum = 0.0;
     for (uint32_t i = 0; i < count; ++i) {
         const glm::vec2 point = sample_triangle(owen_sobol2(i, primitive));
-        sum += sum_of(traced.visible_emission(geometry, primitive, point));
+        sum += power_of(traced.visible_emission(geometry, primitive, point));
     }
     return static_cast<float>(sum / count);
 }

@@ -25,6 +25,11 @@ struct EmitterBounds {
     bool operator==(const EmitterBounds&) const = default;
 };
 
+/// How much a colour counts as power: all channels alike.
+[[nodiscard]] inline float power_of(glm::vec3 c) noexcept {
+    return c.r + c.g + c.b;
+}
+
 /// Bounds of both. What has no power does not count.
 [[nodiscard]] EmitterBounds united(EmitterBounds a, const EmitterBounds& b) noexcept;
 

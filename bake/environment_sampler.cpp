@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/environment_sampler.h"
+#include "bake/scene/environment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +18,6 @@ constexpr double kLeastShare = 1.0 / 16.0;
 /// Cosine of the polar angle at the upper edge of a row.
 double row_top(uint32_t row, uint32_t height) {
     return std::cos(std::numbers::pi * row / height);
-}
-
-/// `direction` turned by `angle_radians` about +Y, counter-clockwise seen from above.
-glm::vec3 rotated_about_y(glm::vec3 direction, float angle_radians) {
-    const float cosine = std::cos(angle_radians), sine = std::sin(angle_radians);
-    return {cosine * direction.x + sine * direction.z, direction.y,
-            cosine * direction.z - sine * direction.x};
 }
 
 /// Integral of the bilinear lookup over each texel: per axis, the neighbors count an eighth each

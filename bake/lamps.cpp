@@ -9,13 +9,9 @@
 namespace tetralight {
 namespace {
 
-float sum_of(glm::vec3 c) {
-    return c.r + c.g + c.b;
-}
-
 /// What a sun can give a receiver: never 0 where part of its disc is above the horizon.
 float sun_importance(const Light& sun, const Receiver& receiver) {
-    const float power = sum_of(sun.intensity);
+    const float power = power_of(sun.intensity);
     if (receiver.normal == glm::vec3(0.0f)) return power;
     const float margin = std::sin(std::min(sun.radius, 1.57f)) + 1e-4f;
     return power * std::max(0.0f, margin - glm::dot(receiver.normal, sun.direction));
@@ -34,7 +30,7 @@ EmitterBounds lamp_bounds(const Light& light) noexcept {
     EmitterBounds bounds;
     bounds.low = light.position - half_size(light);
     bounds.high = light.position + half_size(light);
-    bounds.power = sum_of(light.intensity);
+    bounds.power = power_of(light.intensity);
     if (light.range > 0.0f) bounds.reach = light.range;
     const bool is_inverse_square =
         light.falloff == LightFalloff::Gltf || light.falloff == LightFalloff::InverseSquareRange;
@@ -51,7 +47,7 @@ EmitterBounds lamp_bounds(const Light& light) noexcept {
 Lamps::Lamps(std::span<const Light> lights) {
     std::vector<EmitterBounds> bounds;
     for (const Light& light : lights) {
-        if (!(sum_of(light.intensity) > 0.0f)) continue;
+        if (!(power_of(light.intensity) > 0.0f)) continue;
         if (light.type == LightType::Directional) {
             suns_.push_back(light);
         } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/detail/mix.h"
 #include "base/text.h"
 
 namespace tetralight {
@@ -23,13 +24,6 @@ bool has_rounds(const BakeSettings& settings) {
 uint64_t first_directions(const BakeSettings& settings) {
     return has_rounds(settings) ? std::max<uint64_t>(settings.sample_count, kFewestWithErrors)
                                 : settings.sample_count;
-}
-
-/// Finalizer of SplitMix64 (Steele, Lea & Flood 2014).
-uint64_t mix(uint64_t x) {
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
 }
 
 }  // namespace
@@ -105,7 +99,7 @@ uint64_t RoundPlan::expected_directions(const ProbeTally& tally) const noexcept 
 
 uint64_t estimate_key(uint64_t probe_key, uint64_t round, uint32_t estimate) noexcept {
     const uint64_t number = round * RoundPlan::kEstimateCount + estimate;
-    return mix(probe_key + mix(number + 0x9e3779b97f4a7c15u));
+    return detail::mix(probe_key + detail::mix(number + detail::kGoldenRatio64));
 }
 
 }  // namespace tetralight

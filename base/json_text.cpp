@@ -167,4 +167,10 @@ Status check_json_object(std::string_view json) {
     return is_utf8(json) ? Status(Ok{}) : Error{"is not UTF-8"};
 }
 
+std::string json_error_reason(const std::exception& exception) {
+    const std::string message = exception.what();
+    const size_t end = message.starts_with('[') ? message.find("] ") : std::string::npos;
+    return end == std::string::npos ? message : message.substr(end + 2);
+}
+
 }  // namespace tetralight

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
+#include <string>
 #include <string_view>
 
 #include "base/result.h"
@@ -19,5 +21,8 @@ inline constexpr int kDeepestJson = 64;
 
 /// Refuses what is not one JSON object (RFC 8259) in UTF-8, or is nested too deep.
 [[nodiscard]] Status check_json_object(std::string_view json);
+
+/// The message of an exception of nlohmann-json without its tag, `[json.exception...] `.
+[[nodiscard]] std::string json_error_reason(const std::exception& exception);
 
 }  // namespace tetralight

@@ -54,11 +54,7 @@ double square_error(const RadianceSh& a, const RadianceSh& b) {
 std::vector<glm::vec3> random_directions(RandomStream& random) {
     std::vector<glm::vec3> directions;
     for (uint32_t i = 0; i < kDirections; ++i) {
-        const glm::vec2 u = random.next2();
-        const float z = 1.0f - 2.0f * u.x;
-        const float radius = std::sqrt(1.0f - z * z);
-        const float angle = 2.0f * std::numbers::pi_v<float> * u.y;
-        directions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+        directions.push_back(uniform_direction(random.next2()));
     }
     return directions;
 }

@@ -6,13 +6,6 @@
 namespace tetralight::bench {
 namespace {
 
-ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions) {
-    ProbeGroup group;
-    group.name = std::move(name);
-    group.positions = std::move(positions);
-    return group;
-}
-
 /// A room of 1 000 probes in a level of 100 000.
 std::vector<ProbeGroup> make_groups() {
     std::vector<glm::dvec3> room = random_positions(1'000, 5, 10.0);

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <random>
 #include <sstream>
+#include <utility>
 
 namespace tetralight::bench {
 namespace {
@@ -72,6 +75,20 @@ std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double ext
         positions.emplace_back(x, y, z);
     }
     return positions;
+}
+
+glm::vec3 uniform_direction(glm::vec2 u) {
+    const float z = 1.0f - 2.0f * u.x;
+    const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    const float angle = 2.0f * std::numbers::pi_v<float> * u.y;
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions) {
+    ProbeGroup group;
+    group.name = std::move(name);
+    group.positions = std::move(positions);
+    return group;
 }
 
 }  // namespace tetralight::bench

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "probes/probe_group.h"
 
 // Every figure is a ratio against a baseline that is timed in the same process, alternating,
 // because machines differ and are noisy. docs/performance.md says what the figures mean.
@@ -51,6 +54,12 @@ void report(const std::string& figure, double value, const std::string& unit);
 void require(bool is_right, const std::string& what);
 
 [[nodiscard]] std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double extent);
+
+/// A direction that is uniform on the sphere for uniform numbers.
+[[nodiscard]] glm::vec3 uniform_direction(glm::vec2 u);
+
+/// A group that stands as it is in the world.
+[[nodiscard]] ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions);
 
 void bench_bake(const Options& options);
 /// Sets of directions against random ones.

@@ -10,17 +10,12 @@
 #include "bake/scene/environment.h"
 #include "bake/scene/scene_bounds.h"
 #include "bake/scene/surface_color.h"
+#include "bench/harness.h"
 
 namespace tetralight::bench {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-
-glm::vec3 uniform_direction(float u, float v) {
-    const float z = 1.0f - 2.0f * u;
-    const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
-    return {radius * std::cos(2.0f * kPi * v), radius * std::sin(2.0f * kPi * v), z};
-}
 
 }  // namespace
 
@@ -48,7 +43,7 @@ RadianceSh PlainTracer::gather(glm::vec3 origin, uint32_t direction_count, uint6
     RadianceShSum sum;
     for (uint32_t i = 0; i < direction_count; ++i) {
         const float u = next();
-        const glm::vec3 direction = uniform_direction(u, next());
+        const glm::vec3 direction = uniform_direction({u, next()});
         sum.add(direction, trace({origin, direction}));
     }
     return radiance_from_sum(sum, 4.0 * std::numbers::pi / direction_count);

@@ -49,9 +49,7 @@ std::vector<glm::vec3> Subject::sorted_positions(size_t count) {
 }
 
 Subject make_random_subject(const std::string& name, size_t probe_count) {
-    ProbeGroup group;
-    group.name = "bench";
-    group.positions = random_positions(probe_count, 1, 100.0);
+    const ProbeGroup group = make_group("bench", random_positions(probe_count, 1, 100.0));
     ProbeVolume volume = make_probe_volume(*merge(std::span(&group, 1)));
     for (const glm::vec3& p : volume.positions) {
         volume.irradiance.push_back(irradiance_from_radiance(constant_radiance(p)));

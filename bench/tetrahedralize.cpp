@@ -15,13 +15,6 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel>;
 
-ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions) {
-    ProbeGroup group;
-    group.name = std::move(name);
-    group.positions = std::move(positions);
-    return group;
-}
-
 std::vector<glm::dvec3> lattice(int side) {
     std::vector<glm::dvec3> positions;
     for (int i = 0; i < side * side * side; ++i) {

@@ -91,4 +91,10 @@ std::string percent(double share) {
     return buffer;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
+    return line;
+}
+
 }  // namespace tetralight::cli

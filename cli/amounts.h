@@ -38,4 +38,7 @@ CLI::Option* add_range(CLI::App& command, const std::string& name, std::optional
 /// "1.25 %", two or three digits.
 [[nodiscard]] std::string percent(double share);
 
+/// "a, b, c".
+[[nodiscard]] std::string joined(const std::vector<std::string>& words);
+
 }  // namespace tetralight::cli

@@ -6,6 +6,7 @@
 
 #include "bake/scene/probe_groups_json.h"
 #include "bake/scene/read_gltf.h"
+#include "cli/amounts.h"
 
 namespace tetralight::cli {
 namespace {
@@ -23,12 +24,6 @@ Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
         return Error{path + ": no node has extras.light_probe_group"};
     }
     return std::move(scene->probe_groups);
-}
-
-std::string joined(const std::vector<std::string>& paths) {
-    std::string line;
-    for (const std::string& path : paths) line += (line.empty() ? "" : ", ") + path;
-    return line;
 }
 
 }  // namespace

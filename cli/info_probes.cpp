@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/text.h"
+#include "cli/amounts.h"
 #include "cli/table.h"
 #include "pipeline/prepare_probes.h"
 
@@ -92,12 +93,6 @@ std::string number(const char* format, float value) {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, format, static_cast<double>(value));
     return buffer;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-    std::string line;
-    for (const std::string& word : words) line += (line.empty() ? "" : ", ") + word;
-    return line;
 }
 
 std::vector<std::string> probe_row(uint32_t index, const ProbeFacts& probe,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/position_handler.h"
 
+#include "base/json_text.h"
 #include "base/text.h"
 #include "cli/position_text.h"
 
@@ -9,14 +10,10 @@ namespace {
 
 constexpr const char* kAxes = "xyz";
 
-/// The message of a JSON exception without the library's `[json.exception...] `. A document of one
-/// line needs no line.
+/// Why a document is no JSON. One of one line needs no line.
 std::string reason_of(const std::exception& exception, PositionHandler::Document document) {
     constexpr size_t kLongest = 160;
-    std::string message = exception.what();
-    if (const size_t end = message.find("] "); message.starts_with('[') && end != message.npos) {
-        message.erase(0, end + 2);
-    }
+    std::string message = json_error_reason(exception);
     const std::string line = "line 1, ";
     const size_t found = message.find(line);
     if (document == PositionHandler::Document::Position && found != message.npos) {

@@ -11,6 +11,7 @@
 #include "bake/round_plan.h"
 #include "base/assert.h"
 #include "base/text.h"
+#include "probes/is_finite.h"
 #include "probes/probe_file.h"
 
 namespace tetralight {
@@ -92,7 +93,7 @@ BakeVolumeSettings settings_of(const PartInfo& info) {
 /// Whether rounds of this plan can leave such a tally.
 bool is_possible(const ProbeTally& tally, const RoundPlan& plan) {
     for (const glm::dvec3& c : tally.radiance_sum) {
-        if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) return false;
+        if (!is_finite(c)) return false;
     }
     const uint64_t rounds = tally.round_count;
     return std::isfinite(tally.variance_sum) && tally.variance_sum >= 0.0 &&

@@ -13,12 +13,6 @@
 namespace tetralight {
 namespace {
 
-Status check_length(const char* name, size_t length, size_t needed) {
-    if (length >= needed) return Ok{};
-    return Error{
-        text(name, " has room for ", length, " answers, but there are ", needed, " positions")};
-}
-
 Status check_outputs(const InterpolationBatch& batch, size_t count) {
     const bool has_irradiance = !batch.irradiance.memory.empty();
     const bool has_occlusion = !batch.occlusion.memory.empty();

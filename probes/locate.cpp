@@ -6,15 +6,10 @@
 #include "base/assert.h"
 #include "probes/detail/closest_hull_point.h"
 #include "probes/detail/walk.h"
+#include "probes/is_finite.h"
 
 namespace tetralight {
-namespace {
-
-bool is_finite(glm::vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 LocationTrace trace_location(const ProbeVolumeView& volume, glm::vec3 position,
                              uint32_t hint) noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probes/morton_order.h"
+#include "probes/is_finite.h"
 
 #include <algorithm>
 #include <array>
@@ -18,10 +19,6 @@ uint32_t spread_bits(uint32_t x) {
     x = (x | x << 8) & 0x0300f00fu;
     x = (x | x << 4) & 0x030c30c3u;
     return (x | x << 2) & 0x09249249u;
-}
-
-bool is_finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 /// A bounding box as the lattice of a Morton curve.

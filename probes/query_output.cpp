@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probes/query_output.h"
 
+#include "base/text.h"
+
 namespace tetralight {
 
 size_t StridedOutput::capacity(size_t count, size_t size) const noexcept {
@@ -44,6 +46,12 @@ ShOutput arrays(std::span<std::byte> memory, ShFormat format) noexcept {
     output.value_stride = memory.size() / value_count(format) / size * size;
     output.format = format;
     return output;
+}
+
+Status check_length(const char* name, size_t length, size_t needed) {
+    if (length >= needed) return Ok{};
+    return Error{
+        text(name, " has room for ", length, " answers, but there are ", needed, " positions")};
 }
 
 }  // namespace tetralight

@@ -6,6 +6,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 
+#include "base/result.h"
 #include "probes/packed_sh.h"
 #include "probes/sh.h"
 
@@ -79,5 +80,8 @@ struct OcclusionOutput : StridedOutput {
 /// Structure of arrays: value 0 of all answers, then value 1 of all ... The memory is cut into one
 /// array a value.
 [[nodiscard]] ShOutput arrays(std::span<std::byte> memory, ShFormat format) noexcept;
+
+/// Error that says both lengths: `name` has room for fewer answers than there are positions.
+[[nodiscard]] Status check_length(const char* name, size_t length, size_t needed);
 
 }  // namespace tetralight

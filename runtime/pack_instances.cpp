@@ -27,12 +27,6 @@ constexpr ShVector kShVectors[] = {
     {"shc", &PackedShArrays::shc, &PackedSh::shc},
 };
 
-Status check_length(const char* name, size_t length, size_t needed) {
-    if (length >= needed) return Ok{};
-    return Error{
-        text(name, " has room for ", length, " answers, but there are ", needed, " positions")};
-}
-
 /// All lengths, before the first answer is written.
 Status check_lengths(const InstanceBatch& batch) {
     const size_t count = batch.positions.size();

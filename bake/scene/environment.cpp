@@ -8,14 +8,6 @@
 namespace tetralight {
 namespace {
 
-/// `direction` turned by `angle_radians` about +Y, counter-clockwise seen from above.
-glm::vec3 rotated_about_y(glm::vec3 direction, float angle_radians) {
-    const float cosine = std::cos(angle_radians);
-    const float sine = std::sin(angle_radians);
-    return {cosine * direction.x + sine * direction.z, direction.y,
-            cosine * direction.z - sine * direction.x};
-}
-
 /// Bilinear lookup that wraps around horizontally and ends at the poles.
 glm::vec3 sample_equirectangular(const ImageF& image, float u, float v) {
     const float x = u * static_cast<float>(image.width) - 0.5f;
@@ -39,6 +31,13 @@ glm::vec3 sample_equirectangular(const ImageF& image, float u, float v) {
 }
 
 }  // namespace
+
+glm::vec3 rotated_about_y(glm::vec3 direction, float angle_radians) {
+    const float cosine = std::cos(angle_radians);
+    const float sine = std::sin(angle_radians);
+    return {cosine * direction.x + sine * direction.z, direction.y,
+            cosine * direction.z - sine * direction.x};
+}
 
 glm::vec3 environment_radiance(const Environment& environment, glm::vec3 direction) {
     if (environment.image.pixels.empty()) return environment.radiance;

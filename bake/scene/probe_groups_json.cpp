@@ -78,13 +78,6 @@ class ParsePlace {
     std::string key_;
 };
 
-/// The message of a JSON exception without the library's `[json.exception...] `.
-std::string reason_of(const std::exception& exception) {
-    const std::string message = exception.what();
-    const size_t end = message.starts_with('[') ? message.find("] ") : std::string::npos;
-    return end == std::string::npos ? message : message.substr(end + 2);
-}
-
 /// A value as messages show it.
 std::string shown(const json& value) {
     constexpr size_t kLongest = 40;
@@ -226,9 +219,9 @@ Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const json::out_of_range& exception) {
-        return place.located(Error{"is not finite: " + reason_of(exception)});
+        return place.located(Error{"is not finite: " + json_error_reason(exception)});
     } catch (const std::exception& exception) {
-        return place.located(Error{reason_of(exception)});
+        return place.located(Error{json_error_reason(exception)});
     }
 }
 

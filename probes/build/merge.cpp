@@ -10,15 +10,12 @@
 #include "probes/build/detail/hilbert_order.h"
 #include "probes/build/detail/snap_to_lattice.h"
 #include "probes/build/detail/weld.h"
+#include "probes/is_finite.h"
 
 namespace tetralight {
 namespace {
 
 constexpr double kFarthest = 1e18;
-
-bool is_finite(const glm::dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 Error position_error(const ProbeGroup& group, size_t index, const char* what, glm::dvec3 p) {
     return {text("group \"", group.name, "\": probe ", index, ": position ", what, " (", p.x, ", ",

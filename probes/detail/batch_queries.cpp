@@ -9,14 +9,11 @@
 #include "probes/detail/closest_hull_point.h"
 #include "probes/detail/hull_walk.h"
 #include "probes/detail/walk.h"
+#include "probes/is_finite.h"
 #include "probes/morton_order.h"
 
 namespace tetralight::detail {
 namespace {
-
-bool is_finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 template <class T>
 std::span<T> part_of(std::span<T> elements, size_t begin, size_t count) {

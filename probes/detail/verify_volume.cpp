@@ -5,18 +5,13 @@
 
 #include "base/text.h"
 #include "probes/detail/verify_text.h"
+#include "probes/is_finite.h"
 #include "probes/probe_file.h"
 
 namespace tetralight {
 namespace {
 
-bool is_finite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-bool is_finite(const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+using tetralight::is_finite;
 
 bool is_finite(const IrradianceSh& sh) {
     return std::ranges::all_of(sh.coefficients, [](const glm::vec3& c) { return is_finite(c); });

@@ -63,22 +63,18 @@ TEST(EmissiveTriangles, DirectionsAreDrawnAsOftenAsThePdfSays) {
     const TraceScene trace = traced(scene);
     const Emitters emitters(scene, trace);
     const Receiver receiver{{0.3f, -0.2f, 0.1f}};
-    const auto bin_of = [](glm::vec3 d) {
-        const double turn = std::atan2(d.z, d.x) / (2.0 * kPi) + 0.5;
-        const auto column = std::min<size_t>(15, static_cast<size_t>(turn * 16.0));
-        return std::min<size_t>(7, static_cast<size_t>((d.y + 1.0) * 4.0)) * 16 + column;
-    };
     constexpr uint32_t kDraws = 50000, kProbes = 400000;
-    std::vector<int> observed(128, 0);
-    std::vector<double> expected(128, 0.0);
+    std::vector<int> observed(test::kDirectionBins, 0);
+    std::vector<double> expected(test::kDirectionBins, 0.0);
     for (uint32_t i = 0; i < kProbes; ++i) {
         const glm::vec3 d = spherical_fibonacci(i, kProbes);
-        expected[bin_of(d)] += pdf(emitters, trace, receiver, d) * 4.0 * kPi / kProbes * kDraws;
+        expected[test::direction_bin(d)] +=
+            pdf(emitters, trace, receiver, d) * 4.0 * kPi / kProbes * kDraws;
     }
     for (uint32_t i = 0; i < kDraws; ++i) {
         PathNumbers numbers(i, 0);
         const LightSample sample = emitters.sample(EmitterKind::Triangle, receiver, numbers);
-        ++observed[bin_of(sample.to_light)];
+        ++observed[test::direction_bin(sample.to_light)];
         EXPECT_NEAR(sample.pdf / pdf(emitters, trace, receiver, sample.to_light), 1.0, 0.02);
     }
     EXPECT_TRUE(test::has_frequencies(observed, expected));

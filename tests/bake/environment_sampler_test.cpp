@@ -40,22 +40,16 @@ TEST(EnvironmentSampler, PdfIntegratesToOne) {
 }
 
 TEST(EnvironmentSampler, DirectionsAreDrawnAsOftenAsThePdfSays) {
-    // Bins of equal solid angle: 8 of y, 16 of azimuth, with the pdf averaged over each.
     const EnvironmentSampler sampler(sky());
-    const auto bin_of = [](glm::vec3 d) {
-        const double turn = std::atan2(d.z, d.x) / (2.0 * kPi) + 0.5;
-        const auto column = std::min<size_t>(15, static_cast<size_t>(turn * 16.0));
-        return std::min<size_t>(7, static_cast<size_t>((d.y + 1.0) * 4.0)) * 16 + column;
-    };
     constexpr uint32_t kDraws = 100000, kProbes = 2000000;
-    std::vector<int> observed(128, 0);
-    std::vector<double> expected(128, 0.0);
+    std::vector<int> observed(test::kDirectionBins, 0);
+    std::vector<double> expected(test::kDirectionBins, 0.0);
     for (uint32_t i = 0; i < kProbes; ++i) {
         const glm::vec3 d = spherical_fibonacci(i, kProbes);
-        expected[bin_of(d)] += sampler.pdf(d) * 4.0 * kPi / kProbes * kDraws;
+        expected[test::direction_bin(d)] += sampler.pdf(d) * 4.0 * kPi / kProbes * kDraws;
     }
     for (uint32_t i = 0; i < kDraws; ++i) {
-        ++observed[bin_of(sampler.sample(PathNumbers(i, 0).next2()))];
+        ++observed[test::direction_bin(sampler.sample(PathNumbers(i, 0).next2()))];
     }
     EXPECT_TRUE(test::has_frequencies(observed, expected));
 }

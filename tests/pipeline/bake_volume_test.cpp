@@ -7,11 +7,14 @@
 
 #include "probes/interpolate.h"
 #include "probes/probe_file.h"
+#include "tests/support/probe_groups.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
 
 namespace tetralight {
 namespace {
+
+using test::make_group;
 
 BakeSettings few_samples(uint32_t thread_count = 0) {
     BakeSettings settings;
@@ -23,13 +26,6 @@ BakeSettings few_samples(uint32_t thread_count = 0) {
 BakeVolumeSettings with(const BakeSettings& settings) {
     BakeVolumeSettings result;
     result.bake = settings;
-    return result;
-}
-
-ProbeGroup group(const char* name, std::vector<glm::dvec3> positions) {
-    ProbeGroup result;
-    result.name = name;
-    result.positions = std::move(positions);
     return result;
 }
 
@@ -54,9 +50,9 @@ Scene room() {
 }
 
 std::vector<ProbeGroup> three_groups() {
-    return {group("hall", test::random_positions(20, 1)),
-            group("attic", test::random_positions(15, 2)),
-            group("cellar", test::random_positions(10, 3))};
+    return {make_group("hall", test::random_positions(20, 1)),
+            make_group("attic", test::random_positions(15, 2)),
+            make_group("cellar", test::random_positions(10, 3))};
 }
 
 TEST(BakeVolume, SameBytesForAnyNumberOfThreadsAndEveryRun) {
@@ -77,7 +73,7 @@ TEST(BakeVolume, SameBytesForGroupsInAnotherOrder) {
 TEST(BakeVolume, AnotherGroupChangesNoOtherProbe) {
     auto groups = three_groups();
     const ProbeVolume before = bake(room(), groups).volume;
-    groups.push_back(group("annex", test::random_positions(30, 4, 1.9)));
+    groups.push_back(make_group("annex", test::random_positions(30, 4, 1.9)));
     const ProbeVolume after = bake(room(), groups).volume;
     size_t found = 0;
     for (size_t i = 0; i < before.exact_positions.size(); ++i) {
@@ -108,7 +104,7 @@ TEST(BakeVolume, VolumeIsWholeAndLitLikeItsProbes) {
 TEST(BakeVolume, OfNoGroupsAnswersWithTheSky) {
     Scene scene = room();
     scene.environment.radiance = {1, 2, 3};
-    scene.probe_groups.push_back(group("unused", {{0, 0, 0}}));
+    scene.probe_groups.push_back(make_group("unused", {{0, 0, 0}}));
     const ProbeVolume volume = bake(scene, {}).volume;
     EXPECT_TRUE(volume.positions.empty());
     const auto answer = interpolate(volume.view(), locate(volume.view(), {0.1f, 0.2f, 0.3f}));
@@ -167,14 +163,16 @@ TEST(BakeVolume, KeepsTheErrorOfEachProbe) {
 }
 
 TEST(BakeVolume, CountsWeldedProbes) {
-    const auto report = bake(Scene{}, {group("a", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}),
-                                       group("b", {{0, 0, 0}, {1, 0, 0}, {2, 2, 2}})})
-                            .report;
+    const auto report =
+        bake(Scene{}, {make_group("a", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}),
+                       make_group("b", {{0, 0, 0}, {1, 0, 0}, {2, 2, 2}})})
+            .report;
     EXPECT_EQ(report.welded_count, 2u);
 }
 
 TEST(BakeVolume, PassesErrorsOn) {
-    const std::vector<ProbeGroup> twice = {group("a", {{0, 0, 0}}), group("a", {{1, 0, 0}})};
+    const std::vector<ProbeGroup> twice = {make_group("a", {{0, 0, 0}}),
+                                           make_group("a", {{1, 0, 0}})};
     const auto baked = bake_volume(Scene{}, twice, {});
     ASSERT_FALSE(baked);
     EXPECT_EQ(baked.error().message, "group \"a\": there are two groups of this name");

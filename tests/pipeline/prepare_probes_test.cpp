@@ -8,17 +8,13 @@
 #include "pipeline/bake_volume.h"
 #include "probes/build/validate.h"
 #include "probes/probe_file.h"
+#include "tests/support/probe_groups.h"
 #include "tests/support/scenes.h"
 
 namespace tetralight {
 namespace {
 
-ProbeGroup group(const char* name, std::vector<glm::dvec3> positions) {
-    ProbeGroup result;
-    result.name = name;
-    result.positions = std::move(positions);
-    return result;
-}
+using test::make_group;
 
 /// The solid box [-1, 1]³ under a white sky.
 Scene solid() {
@@ -33,7 +29,8 @@ const glm::dvec3 kDeep(0, 0.1, 0), kShallow(0.2, 0.9, 0.1), kOutside(3, 0, 0), k
 const glm::dvec3 kBefore(0, -0.5, 4), kBehind(1, 0, -4);
 
 std::vector<ProbeGroup> groups() {
-    return {group("a", {kDeep, kShallow, kOutside, kAbove}), group("b", {kBefore, kBehind})};
+    return {make_group("a", {kDeep, kShallow, kOutside, kAbove}),
+            make_group("b", {kBefore, kBehind})};
 }
 
 BakedVolume bake(const HealthSettings& health, const std::vector<ProbeGroup>& given = groups()) {
@@ -105,7 +102,7 @@ TEST(PrepareProbes, MovesNoProbeFartherThanItsShareOfTheSpacing) {
 }
 
 TEST(PrepareProbes, LetsAProbeThatIsAloneGoAsFarAsTheSceneIsLarge) {
-    const BakedVolume baked = bake({}, {group("alone", {kDeep})});
+    const BakedVolume baked = bake({}, {make_group("alone", {kDeep})});
     EXPECT_EQ(baked.report.moved_count, 1u);
     EXPECT_GT(baked.volume.health[0].capture_offset.y, 0.9f);
 }
@@ -140,7 +137,7 @@ TEST(PrepareProbes, DilatesInvalidProbesWhenToldTo) {
 TEST(PrepareProbes, AVolumeMayLoseAllItsProbes) {
     HealthSettings settings;
     settings.virtual_offset = 0.0;
-    const BakedVolume baked = bake(settings, {group("a", {kDeep, kShallow})});
+    const BakedVolume baked = bake(settings, {make_group("a", {kDeep, kShallow})});
     EXPECT_TRUE(baked.volume.positions.empty());
     EXPECT_TRUE(verify(baked.volume.view()));
     EXPECT_TRUE(validate(baked.volume.view()).problems().empty());
@@ -148,7 +145,7 @@ TEST(PrepareProbes, AVolumeMayLoseAllItsProbes) {
 
 TEST(PrepareProbes, AnotherGroupChangesNoOffset) {
     auto more = groups();
-    more.push_back(group("c", {kShallow + glm::dvec3(0.1, 0, 0), kOutside * 2.0}));
+    more.push_back(make_group("c", {kShallow + glm::dvec3(0.1, 0, 0), kOutside * 2.0}));
     const ProbeVolume before = bake({}).volume, after = bake({}, more).volume;
     const ProbeHealth& then = before.health[probe_of(before, 0, 1)];
     EXPECT_EQ(after.health[probe_of(after, 0, 1)], then);
@@ -172,8 +169,8 @@ TEST(PrepareProbes, NamesGroupsThatNoLightReaches) {
     test::add_box(scene, test::diffuse(glm::vec3(0.5f)), test::Facing::Inward, {-1, -1, -1},
                   {1, 1, 1});
     // From outside the hollow shows its backs, so that the free probe has to be far away.
-    const std::vector<ProbeGroup> given{group("a", {{0, 0, 0}, {500, 0, 0}}),
-                                        group("b", {{0, 500, 0}})};
+    const std::vector<ProbeGroup> given{make_group("a", {{0, 0, 0}, {500, 0, 0}}),
+                                        make_group("b", {{0, 500, 0}})};
     BakeVolumeSettings settings;
     settings.bake.sample_count = 64;
     const auto baked = bake_volume(scene, given, settings);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <glm/vec3.hpp>
+#include <numbers>
 #include <span>
 
 namespace tetralight::test {
@@ -38,6 +41,15 @@ inline bool has_frequencies(std::span<const int> observed, std::span<const doubl
     if (rare_expected == 0.0 && rare_observed > 0.0) return false;
     if (rare_expected > 0.0) add(rare_observed, rare_expected);
     return sum < chi_square_limit(bins);
+}
+
+/// Bins of directions: 8 of y times 16 of azimuth, all of one solid angle.
+inline constexpr size_t kDirectionBins = 128;
+
+inline size_t direction_bin(glm::vec3 d) {
+    const double turn = std::atan2(d.z, d.x) / (2.0 * std::numbers::pi) + 0.5;
+    const auto column = std::min<size_t>(15, static_cast<size_t>(turn * 16.0));
+    return std::min<size_t>(7, static_cast<size_t>((d.y + 1.0) * 4.0)) * 16 + column;
 }
 
 }  // namespace tetralight::test

@@ -130,9 +130,7 @@ Status check_gltf_json(std::string_view json_text, GltfContainer container) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        const std::string_view why = exception.what();  // after the library's tag
-        return Error{
-            text("is not glTF (", why.substr(std::min(why.find("] ") + 2, why.size())), ")")};
+        return Error{text("is not glTF (", json_error_reason(exception), ")")};
     }
 }
 

@@ -5,13 +5,10 @@
 #include <set>
 
 #include "base/text.h"
+#include "probes/is_finite.h"
 
 namespace tetralight::detail {
 namespace {
-
-bool is_finite(const glm::dvec3& position) {
-    return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
-}
 
 Status check_transform(const glm::dmat4& world_from_group) {
     for (int column = 0; column < 4; ++column) {

@@ -31,10 +31,6 @@ glm::dmat3 rounded(const glm::dmat3& m, double quantum) {
     return {rounded(m[0], quantum), rounded(m[1], quantum), rounded(m[2], quantum)};
 }
 
-double largest_of(const glm::dvec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 /// The axis that a unit vector lies along; 3 if it lies along none.
 int axis_of(const glm::dvec3& direction) {
     for (int axis = 0; axis < 3; ++axis) {

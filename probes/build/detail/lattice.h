@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
@@ -14,6 +16,11 @@ struct Lattice {
     glm::dmat3 inverse{1.0};  ///< of `steps`
     int rank = 0;
 };
+
+/// The largest magnitude of a component.
+[[nodiscard]] inline double largest_of(const glm::dvec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 
 /// Rounds each component to the nearest whole number. Precondition: below 2^51. (`glm::round` calls
 /// a function for each.)

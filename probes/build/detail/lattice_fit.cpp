@@ -17,13 +17,9 @@ namespace {
 /// The share of the places in their box that positions must fill is 1 / this.
 constexpr double kPlacesPerPosition = 32.0;
 
-double largest_of(const glm::dvec3& v) {
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 double largest_of(std::span<const glm::dvec3> vectors) {
     double largest = 0.0;
-    for (const glm::dvec3& v : vectors) largest = std::max(largest, largest_of(v));
+    for (const glm::dvec3& v : vectors) largest = std::max(largest, detail::largest_of(v));
     return largest;
 }
 

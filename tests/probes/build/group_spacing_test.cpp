@@ -8,17 +8,13 @@
 #include <limits>
 #include <numeric>
 
+#include "tests/support/probe_groups.h"
 #include "tests/support/random_probes.h"
 
 namespace tetralight {
 namespace {
 
-ProbeGroup group(const char* name, std::vector<glm::dvec3> positions) {
-    ProbeGroup result;
-    result.name = name;
-    result.positions = std::move(positions);
-    return result;
-}
+using test::make_group;
 
 MergedProbes merged(const std::vector<ProbeGroup>& groups) {
     auto probes = merge(groups);
@@ -27,7 +23,7 @@ MergedProbes merged(const std::vector<ProbeGroup>& groups) {
 }
 
 TEST(GroupSpacing, IsTheDistanceToTheNearestOtherProbe) {
-    const MergedProbes probes = merged({group("a", test::random_positions(500, 2))});
+    const MergedProbes probes = merged({make_group("a", test::random_positions(500, 2))});
     std::vector<uint32_t> all(500);
     std::iota(all.begin(), all.end(), 0u);
     const auto spacing = group_spacing(probes, all);
@@ -43,8 +39,8 @@ TEST(GroupSpacing, IsTheDistanceToTheNearestOtherProbe) {
 
 TEST(GroupSpacing, AsksNoOtherGroup) {
     const MergedProbes probes =
-        merged({group("a", {{0, 0, 0}, {2, 0, 0}}), group("b", {{0, 0.1, 0}}),
-                group("c", {{0, 0, 0}, {0, 0, 0.5}})});
+        merged({make_group("a", {{0, 0, 0}, {2, 0, 0}}), make_group("b", {{0, 0.1, 0}}),
+                make_group("c", {{0, 0, 0}, {0, 0, 0.5}})});
     const auto of = [&](size_t source) {
         const uint32_t probe = probes.sources[source].probe;
         return group_spacing(probes, std::span(&probe, 1))[0];

@@ -7,16 +7,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/support/probe_families.h"
+#include "tests/support/probe_groups.h"
 
 namespace tetralight {
 namespace {
 
-ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions) {
-    ProbeGroup group;
-    group.name = std::move(name);
-    group.positions = std::move(positions);
-    return group;
-}
+using test::make_group;
 
 TEST(Merge, PutsPositionsInWorldSpace) {
     ProbeGroup group = make_group("a", {{1, 0, 0}, {0, 1, 0}});

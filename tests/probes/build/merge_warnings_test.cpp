@@ -4,19 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "probes/build/tetrahedralize.h"
+#include "tests/support/probe_groups.h"
 #include "tests/support/random_probes.h"
 
 namespace tetralight {
 namespace {
 
-using Lines = std::vector<std::string>;
+using test::make_group;
 
-ProbeGroup make_group(const std::string& name, std::vector<glm::dvec3> positions) {
-    ProbeGroup group;
-    group.name = name;
-    group.positions = std::move(positions);
-    return group;
-}
+using Lines = std::vector<std::string>;
 
 Lines warnings_of(const std::vector<ProbeGroup>& groups) {
     const MergedProbes merged = *merge(groups);

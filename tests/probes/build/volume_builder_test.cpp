@@ -10,16 +10,12 @@
 
 #include "probes/build/make_probe_volume.h"
 #include "tests/support/probe_families.h"
+#include "tests/support/probe_groups.h"
 
 namespace tetralight {
 namespace {
 
-ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions) {
-    ProbeGroup group;
-    group.name = std::move(name);
-    group.positions = std::move(positions);
-    return group;
-}
+using test::make_group;
 
 bool is_from_scratch(VolumeBuilder& builder) {
     return builder.build() == make_probe_volume(*merge(builder.groups()));
