@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled once for each kind of processor: Highway includes this file again and again.
+#include "probes/detail/vector_kernels.h"
+
+#include <algorithm>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "probes/detail/blend_kernel.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "probes/detail/blend_probes.h"
+#include "probes/detail/write_answer.h"
+
+HWY_BEFORE_NAMESPACE();
+
+namespace tetralight::detail::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The floats of an answer, in the order of a compact probe: irradiance, occlusion, validity.
+struct alignas(64) Values {
+    std::array<float, 32> floats{};
+
+    [[nodiscard]] float* irradiance() { return floats.data(); }
+
+    [[nodiscard]] float* occlusion() { return floats.data() + 27; }
+};
+
+/// Σ w_i p_i over four arrays of `kCount` floats. The last vector overlaps the one before it.
+template <size_t kCount>
+HWY_INLINE void blend_floats(const std::array<const float*, 4>& from, const float* weights,
+                             float* to) {
+    const hn::CappedTag<float, (kCount < 8 ? 4 : 8)> lanes;
+    const size_t step = hn::Lanes(lanes);
+    for (size_t k = 0; k < kCount; k += step) {
+        const size_t at = k + step <= kCount ? k : kCount - step;
+        auto sum = hn::Mul(hn::Set(lanes, weights[0]), hn::LoadU(lanes, from[0] + at));
+        for (size_t i = 1; i < 4; ++i) {
+            sum = hn::Add(sum, hn::Mul(hn::Set(lanes, weights[i]), hn::LoadU(lanes, from[i] + at)));
+        }
+        hn::StoreU(sum, lanes, to + at);
+    }
+}
+
+/// The same over compact probes, all 32 halves in one go.
+HWY_INLINE void blend_halves(const std::array<const CompactProbe*, 4>& from, const float* weights,
+                             const Values& scales, float* to) {
+    const hn::CappedTag<float, 16> lanes;
+    const hn::Rebind<hwy::float16_t, decltype(lanes)> halves;
+    const size_t step = hn::Lanes(lanes);
+    for (size_t k = 0; k < 32; k += step) {
+        const auto weighted = [&](size_t i) HWY_ATTR {
+            const auto* probe = reinterpret_cast<const hwy::float16_t*>(from[i]);
+            return hn::Mul(hn::Set(lanes, weights[i]),
+                           hn::PromoteTo(lanes, hn::LoadU(halves, probe + k)));
+        };
+        auto sum = weighted(0);
+        for (size_t i = 1; i < 4; ++i) sum = hn::Add(sum, weighted(i));
+        hn::StoreU(hn::Mul(sum, hn::LoadU(lanes, scales.floats.data() + k)), lanes, to + k);
+    }
+}
+
+/// Blends and writes the answers of located queries, whose cells exist.
+class Blender {
+  public:
+    Blender(const ProbeVolumeView& volume, const BlendTarget& target)
+        : volume_(volume),
+          target_(target),
+          is_compact_(volume.compact.size() == volume.positions.size()),
+          has_floats_(volume.irradiance.size() == volume.positions.size()),
+          has_occlusion_(volume.occlusion.size() == volume.positions.size()) {
+        scales_.floats.fill(1.0f);
+        std::fill_n(scales_.irradiance(), 27, volume.info.compact_scale);
+    }
+
+    /// Whether this code knows the volume's kind; else the scalar twin does.
+    [[nodiscard]] bool is_able() const { return is_compact_ || has_floats_; }
+
+    HWY_INLINE void prefetch(const CellLocation& location) const {
+        if (location.cell >= volume_.cells.size()) return;
+        for (const uint32_t probe : volume_.cells[location.cell].vertices) {
+            if (probe >= volume_.positions.size()) continue;
+            if (is_compact_) {
+                hwy::Prefetch(&volume_.compact[probe]);
+            } else {
+                hwy::Prefetch(&volume_.irradiance[probe]);
+                hwy::Prefetch(&volume_.irradiance[probe].coefficients[6]);
+            }
+        }
+    }
+
+    HWY_INLINE void write(const CellLocation& location, size_t answer) const {
+        Values values;
+        blend(location, values);
+        if (HWY_UNLIKELY(location.ambient > 0.0f)) add_ambient(location.ambient, values);
+        if (!target_.irradiance.memory.empty()) {
+            write_irradiance(target_.irradiance, answer, values.irradiance());
+        }
+        if (!target_.occlusion.memory.empty()) {
+            write_values<4>(target_.occlusion, answer, values.occlusion());
+        }
+    }
+
+  private:
+    HWY_INLINE void blend(const CellLocation& location, Values& values) const {
+        const Cell& cell = volume_.cells[location.cell];
+        const std::array<uint32_t, 4> probes{
+            vertex_at(volume_, cell, 0), vertex_at(volume_, cell, 1), vertex_at(volume_, cell, 2),
+            vertex_at(volume_, cell, 3)};
+        const float* weights = &location.weights.x;
+        if (is_compact_) {
+            const CompactProbe* first = volume_.compact.data();
+            return blend_halves(
+                {first + probes[0], first + probes[1], first + probes[2], first + probes[3]},
+                weights, scales_, values.irradiance());
+        }
+        const auto irradiance = [&](size_t i) {
+            return &volume_.irradiance[probes[i]].coefficients[0].x;
+        };
+        blend_floats<27>({irradiance(0), irradiance(1), irradiance(2), irradiance(3)}, weights,
+                         values.irradiance());
+        if (!has_occlusion_) {
+            std::fill_n(values.occlusion(), 4, 1.0f - location.ambient);
+        } else if (!target_.occlusion.memory.empty()) {
+            const auto occlusion = [&](size_t i) { return &volume_.occlusion[probes[i]].x; };
+            blend_floats<4>({occlusion(0), occlusion(1), occlusion(2), occlusion(3)}, weights,
+                            values.occlusion());
+        }
+    }
+
+    void add_ambient(float share, Values& values) const {
+        const float* ambient = &volume_.info.ambient.coefficients[0].x;
+        for (int k = 0; k < 27; ++k) values.irradiance()[k] += share * ambient[k];
+        for (int k = 0; k < 4; ++k) values.occlusion()[k] += share;
+    }
+
+    const ProbeVolumeView& volume_;
+    const BlendTarget& target_;
+    bool is_compact_;
+    bool has_floats_;
+    bool has_occlusion_;
+    Values scales_;
+};
+
+void blend(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
+           const BlendTarget& target) {
+    const Blender blender(volume, target);
+    if (!blender.is_able()) return scalar_kernels().blend(volume, locations, target);
+    constexpr size_t kAhead = 8;
+    for (size_t i = 0; i < std::min(kAhead, locations.size()); ++i) blender.prefetch(locations[i]);
+    for (size_t i = 0; i < locations.size(); ++i) {
+        if (i + kAhead < locations.size()) blender.prefetch(locations[i + kAhead]);
+        if (HWY_UNLIKELY(locations[i].cell >= volume.cells.size())) {
+            scalar_kernels().blend(
+                volume, locations.subspan(i, 1),
+                {target.answers.subspan(i, 1), target.irradiance, target.occlusion});
+        } else {
+            blender.write(locations[i], target.answers[i]);
+        }
+    }
+}
+
+}  // namespace tetralight::detail::HWY_NAMESPACE
+
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace tetralight::detail {
+
+HWY_EXPORT(blend);
+
+void blend_in_vectors(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
+                      const BlendTarget& target) {
+    HWY_DYNAMIC_DISPATCH(blend)(volume, locations, target);
+}
+
+}  // namespace tetralight::detail
+
+#endif
