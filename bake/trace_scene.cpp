@@ -219,9 +219,10 @@ bool TraceScene::can_emit(uint32_t geometry) const {
 
 bool TraceScene::has_varied_emission(uint32_t geometry) const {
     const Material& material = *state_->placed[geometry].material;
-    return emission_source(material).texture.texture != kNoIndex ||
-           (material.alpha_mode != AlphaMode::Opaque &&
-            material.base_color_texture.texture != kNoIndex);
+    const bool has_varied_base = material.base_color_texture.texture != kNoIndex ||
+                                 !state_->placed[geometry].mesh->colors.empty();
+    const bool shows_base = material.is_unlit || material.alpha_mode != AlphaMode::Opaque;
+    return material.emission_texture.texture != kNoIndex || (shows_base && has_varied_base);
 }
 
 glm::vec3 TraceScene::visible_emission(uint32_t geometry, uint32_t primitive,

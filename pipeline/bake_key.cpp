@@ -45,10 +45,11 @@ void add(ContentHash& hash, const Texture& texture) {
 }
 
 void add(ContentHash& hash, const Mesh& mesh) {
-    const auto& [positions, normals, uvs, indices, material] = mesh;
+    const auto& [positions, normals, uvs, colors, indices, material] = mesh;
     hash.add(positions);
     hash.add(normals);
     for (const auto& set : uvs) hash.add(set);
+    hash.add(colors);
     hash.add(indices);
     hash.add(material);
 }

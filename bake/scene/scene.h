@@ -74,6 +74,8 @@ struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs[2];
+    /// Linear, at least 0: times the material's base colour and alpha (COLOR_0).
+    std::vector<glm::vec4> colors;
     /// Three a triangle, counter-clockwise seen from the front.
     std::vector<uint32_t> indices;
     uint32_t material = kNoIndex;

@@ -67,7 +67,9 @@ glm::vec3 adjusted_albedo(glm::vec3 albedo, const SurfaceSettings& settings) {
 
 glm::vec4 base_color(const Scene& scene, const MeshPoint& point) {
     const Material& material = material_of(scene, point);
-    return material.base_color * sample_color(scene, material.base_color_texture, point);
+    const glm::vec4 color =
+        material.base_color * sample_color(scene, material.base_color_texture, point);
+    return point.mesh->colors.empty() ? color : color * point.blend(point.mesh->colors);
 }
 
 EmissionSource emission_source(const Material& material) {
@@ -76,7 +78,9 @@ EmissionSource emission_source(const Material& material) {
 }
 
 glm::vec3 emitted_radiance(const Scene& scene, const MeshPoint& point) {
-    const EmissionSource source = emission_source(material_of(scene, point));
+    const Material& material = material_of(scene, point);
+    if (material.is_unlit) return glm::vec3(base_color(scene, point));
+    const EmissionSource source = emission_source(material);
     if (source.factor == glm::vec3(0.0f)) return source.factor;
     return source.factor * glm::vec3(sample_color(scene, source.texture, point));
 }

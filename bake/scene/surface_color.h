@@ -54,10 +54,11 @@ struct MeshPoint {
 /// An albedo under the settings of a bake: boosted first, then limited.
 [[nodiscard]] glm::vec3 adjusted_albedo(glm::vec3 albedo, const SurfaceSettings& settings);
 
-/// Base colour and alpha at a point: factor times texture.
+/// Base colour and alpha at a point: factor times texture times the colour of the vertices.
 [[nodiscard]] glm::vec4 base_color(const Scene& scene, const MeshPoint& point);
 
-/// What a material emits: radiance, times the texture's colour where there is one.
+/// What a material emits: radiance, times the texture's colour where there is one; of unlit
+/// materials times the colour of the vertices too.
 struct EmissionSource {
     glm::vec3 factor{0.0f};
     TextureUse texture;

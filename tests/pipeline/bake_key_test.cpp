@@ -46,6 +46,7 @@ TEST_F(BakeKey, ChangesWithWhatTheBakeSeesOfTheScene) {
     expect_new_keys({
         [](BakeKey& t) { t.scene.meshes[0].positions[3].y += 1e-6f; },
         [](BakeKey& t) { std::swap(t.scene.meshes[0].indices[0], t.scene.meshes[0].indices[1]); },
+        [](BakeKey& t) { t.scene.meshes[0].colors.resize(4); },
         [](BakeKey& t) { t.scene.materials[0].roughness = 0.5f; },
         [](BakeKey& t) { t.scene.materials[0].bakes_emission = false; },
         [](BakeKey& t) { t.scene.textures[0].image.pixels[1][2] = 0; },

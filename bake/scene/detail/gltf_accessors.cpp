@@ -223,6 +223,27 @@ Result<std::vector<glm::vec4>> read_vec4s(const GltfDocument& document, uint32_t
     return read_vectors<glm::vec4>(document, accessor_index);
 }
 
+Result<std::vector<glm::vec4>> read_colors(const GltfDocument& document, uint32_t accessor_index) {
+    std::vector<glm::vec4> colors;
+    if (document.accessors[accessor_index].component_count == 3) {
+        const auto opaque = read_vec3s(document, accessor_index);
+        if (!opaque) return opaque.error();
+        for (const glm::vec3& color : *opaque) colors.emplace_back(color, 1.0f);
+    } else {
+        auto read = read_vec4s(document, accessor_index);
+        if (!read) return read.error();
+        colors = std::move(*read);
+    }
+    for (size_t i = 0; i < colors.size(); ++i) {
+        for (int channel = 0; channel < 4; ++channel) {
+            if (colors[i][channel] >= 0.0f) continue;
+            return Error{text("accessor ", accessor_index, ": element ", i, " is negative (",
+                              colors[i][channel], ")")};
+        }
+    }
+    return colors;
+}
+
 Result<std::vector<uint32_t>> read_indices(const GltfDocument& document, uint32_t accessor_index) {
     const GltfAccessor& accessor = document.accessors[accessor_index];
     const std::string place = text("accessor ", accessor_index);

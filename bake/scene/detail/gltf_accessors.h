@@ -22,6 +22,10 @@ namespace tetralight::detail {
 [[nodiscard]] Result<std::vector<glm::vec4>> read_vec4s(const GltfDocument& document,
                                                         uint32_t accessor_index);
 
+/// Colours of vertices, RGB (alpha is 1 then) or RGBA, none below 0.
+[[nodiscard]] Result<std::vector<glm::vec4>> read_colors(const GltfDocument& document,
+                                                         uint32_t accessor_index);
+
 /// Unsigned integers of 8, 16 or 32 bits.
 [[nodiscard]] Result<std::vector<uint32_t>> read_indices(const GltfDocument& document,
                                                          uint32_t accessor_index);

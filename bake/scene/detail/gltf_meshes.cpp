@@ -91,7 +91,19 @@ Status check_count(size_t count, const char* attribute, const Mesh& mesh) {
         text(attribute, " has ", count, " elements, POSITION has ", mesh.positions.size())};
 }
 
-/// Reads normals and texture coordinates, where there are some.
+Status read_vertex_colors(const GltfDocument& document, const GltfAttributes& attributes,
+                          Mesh& mesh) {
+    const auto color = attributes.find("COLOR_0");
+    if (color == attributes.end()) return Ok{};
+    auto colors = read_colors(document, color->second);
+    if (!colors) return colors.error().in("COLOR_0");
+    const auto status = check_count(colors->size(), "COLOR_0", mesh);
+    if (!status) return status;
+    mesh.colors = std::move(*colors);
+    return Ok{};
+}
+
+/// Reads normals, texture coordinates and colours, where there are some.
 Status read_optional_attributes(const GltfDocument& document, const GltfAttributes& attributes,
                                 Mesh& mesh) {
     if (const auto normal = attributes.find("NORMAL"); normal != attributes.end()) {
@@ -111,7 +123,7 @@ Status read_optional_attributes(const GltfDocument& document, const GltfAttribut
         if (!status) return status;
         mesh.uvs[set] = std::move(*uvs);
     }
-    return Ok{};
+    return read_vertex_colors(document, attributes, mesh);
 }
 
 Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& primitive) {

@@ -93,6 +93,31 @@ TEST(GltfMeshes, NormalsAndBothUvSets) {
     EXPECT_EQ(scene->meshes[0].uvs[1], (std::vector<glm::vec2>{{5, 6}, {7, 8}, {9, 10}}));
 }
 
+TEST(GltfMeshes, VertexColorsHaveThreeOrFourChannels) {
+    GltfBuilder gltf;
+    auto& opaque = gltf.primitive(gltf.add_triangle())["attributes"];
+    opaque["COLOR_0"] = gltf.add_floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5f}, "VEC3");
+    auto& clear = gltf.primitive(gltf.add_triangle())["attributes"];
+    clear["COLOR_0"] = gltf.add_floats({1, 0, 0, 0.5f, 0, 1, 0, 1, 0, 0, 1, 0}, "VEC4");
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes[0].colors,
+              (std::vector<glm::vec4>{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 0.5f, 1}}));
+    EXPECT_EQ(scene->meshes[1].colors,
+              (std::vector<glm::vec4>{{1, 0, 0, 0.5f}, {0, 1, 0, 1}, {0, 0, 1, 0}}));
+}
+
+TEST(GltfMeshes, NegativeVertexColorsAreNamed) {
+    GltfBuilder gltf;
+    auto& attributes = gltf.primitive(gltf.add_triangle())["attributes"];
+    attributes["COLOR_0"] = gltf.add_floats({1, 0, 0, 0, -0.5f, 0, 0, 0, 1}, "VEC3");
+    const auto scene = gltf.read();
+    ASSERT_FALSE(scene);
+    EXPECT_NE(scene.error().message.find("COLOR_0"), std::string::npos) << scene.error().message;
+    EXPECT_NE(scene.error().message.find("element 1 is negative (-0.5)"), std::string::npos)
+        << scene.error().message;
+}
+
 TEST(GltfMeshes, EachPrimitiveBecomesAMesh) {
     GltfBuilder gltf;
     const auto mesh = gltf.add_triangle();

@@ -86,6 +86,25 @@ TEST(DiffuseReflectivity, BaseColorIsFactorTimesDecodedTexture) {
     EXPECT_FLOAT_EQ(color.a, 0.2f);  // 0.5 · 102/255
 }
 
+TEST(DiffuseReflectivity, VertexColorsScaleBaseColorAndAlpha) {
+    OneTexel texel({255, 255, 255, 255});
+    texel.material().base_color = {0.5f, 1.0f, 1.0f, 0.5f};
+    // Corners with the weights 1/4, 1/4 and 1/2.
+    texel.scene.meshes[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 0}};
+    const glm::vec4 color = base_color(texel.scene, texel.point());
+    expect_color(glm::vec3(color), {0.125f, 0.25f, 0.5f});
+    EXPECT_FLOAT_EQ(color.a, 0.25f);
+}
+
+TEST(EmittedRadiance, VertexColorsTintUnlitMaterialsAlone) {
+    OneTexel texel({255, 255, 255, 255});
+    texel.scene.meshes[0].colors.assign(3, {0.5f, 0.25f, 0.0f, 1.0f});
+    texel.material().emission = {4, 4, 4};
+    expect_color(emitted_radiance(texel.scene, texel.point()), {4, 4, 4});
+    texel.material().is_unlit = true;
+    expect_color(emitted_radiance(texel.scene, texel.point()), {0.5f, 0.25f, 0.0f});
+}
+
 TEST(EmittedRadiance, IsFactorTimesTexture) {
     OneTexel texel({255, 0, 255, 255});
     texel.material().emission = {8, 4, 2};
