@@ -26,8 +26,10 @@ std::vector<T> sorted(std::vector<T> values) {
 
 BakeStatistics bake_statistics(const BakedProbes& baked, double target_error) {
     const auto directions = sorted(baked.direction_count);
-    const auto errors = sorted(baked.standard_error);
+    auto errors = sorted(baked.standard_error);
+    errors.erase(errors.begin(), std::ranges::upper_bound(errors, 0.0f));  // 0: not known
     BakeStatistics statistics;
+    statistics.known_error_count = errors.size();
     statistics.fewest_directions = quantile(directions, 0.0);
     statistics.median_directions = quantile(directions, 0.5);
     statistics.most_directions = quantile(directions, 1.0);

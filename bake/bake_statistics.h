@@ -13,9 +13,11 @@ struct BakeStatistics {
     uint64_t fewest_directions = 0;
     uint64_t median_directions = 0;
     uint64_t most_directions = 0;
-    /// Relative standard errors of irradiance; each is one that a probe has.
+    /// Probes whose standard error is known: they have light, and estimates enough.
+    size_t known_error_count = 0;
+    /// Relative standard errors of irradiance of those; each is one that a probe has.
     float median_error = 0.0f;
-    float p99_error = 0.0f;  ///< 99 % of the probes have less, or the same
+    float p99_error = 0.0f;  ///< 99 % of them have less, or the same
     float worst_error = 0.0f;
     /// Probes whose error is above the target; 0 without one.
     size_t over_target_count = 0;

@@ -17,6 +17,7 @@
 #include "base/assert.h"
 #include "base/text.h"
 #include "probes/is_finite.h"
+#include "probes/sh.h"
 
 namespace tetralight {
 namespace {
@@ -30,6 +31,20 @@ Status check_positions(std::span<const glm::dvec3> positions) {
             return Error{
                 text("probe ", i, ": position is not finite (", p.x, ", ", p.y, ", ", p.z, ")")};
         }
+    }
+    return Ok{};
+}
+
+/// Light that floats hold.
+Status check_light(std::span<const glm::dvec3> positions, std::span<const ProbeTally> tallies) {
+    for (size_t i = 0; i < tallies.size(); ++i) {
+        const IrradianceSh irradiance = irradiance_from_radiance(tallies[i].radiance());
+        const auto is_good = [](const glm::vec3& c) { return is_finite(c); };
+        if (std::ranges::all_of(irradiance.coefficients, is_good)) continue;
+        const glm::dvec3& p = positions[i];
+        return Error{text("probe ", i, " at (", p.x, ", ", p.y, ", ", p.z,
+                          "): its light is too bright for floats; a light, an emission or the sky "
+                          "is far out of range")};
     }
     return Ok{};
 }
@@ -186,7 +201,8 @@ Status bake_tallies(const Scene& scene, std::span<const glm::dvec3> positions,
     const auto traced = TraceScene::make_static(scene, settings.surfaces);
     if (!traced) return traced.error();
     const PathTracer tracer(scene, *traced, {settings.bounces, settings.clamp});
-    return TallyBaker({*traced, tracer, positions, tallies}, settings, hooks).run();
+    const auto status = TallyBaker({*traced, tracer, positions, tallies}, settings, hooks).run();
+    return status ? check_light(positions, tallies) : status;
 }
 
 }  // namespace tetralight

@@ -45,7 +45,7 @@ class ExitSearch {
         const auto surface = traced_.cast({position_, direction, search_.reach});
         if (!surface || !surface->is_from_behind) return;
         // The normal is on the side that the ray came from.
-        const glm::vec3 beyond = traced_.ray_origin(surface->position, -surface->geometric_normal);
+        const glm::vec3 beyond = TraceScene::ray_origin(*surface, -surface->geometric_normal);
         exits.push_back({glm::distance(position_, surface->position), direction, beyond});
     }
 

@@ -95,7 +95,12 @@ LightSample EmissiveTriangles::sample(const Receiver& receiver, double choice,
     sample.irradiance =
         traced_.visible_emission(triangle.geometry, triangle.primitive, weights) / sample.pdf;
     // A shadow ray that ends in front of the triangle does not meet it.
-    sample.target = traced_.ray_origin(point, glm::normalize(area_vector));
+    sample.target =
+        TraceScene::shadow_target({{triangle.corner, triangle.corner + triangle.edges[0],
+                                    triangle.corner + triangle.edges[1]},
+                                   point,
+                                   glm::normalize(area_vector)},
+                                  receiver.position);
     return sample;
 }
 

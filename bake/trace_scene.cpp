@@ -11,6 +11,7 @@
 #include "bake/sampling.h"
 #include "bake/scene/check_lights.h"
 #include "bake/scene/scene_bounds.h"
+#include "base/text.h"
 
 namespace tetralight {
 namespace {
@@ -55,6 +56,30 @@ float error_bound(float extent) {
     return extent * 0x1p-21f;
 }
 
+float largest_coordinate(glm::vec3 position) {
+    return std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+}
+
+/// Rays multiply three lengths, which overflow beyond.
+constexpr double kFarthest = 1e12;
+
+/// A mesh's vertices around the origin of traced space. Error: one is too far away.
+Result<std::vector<glm::vec3>> traced_positions(const Mesh& mesh, const MeshInstance& instance,
+                                                const glm::dvec3& origin) {
+    std::vector<glm::vec3> positions;
+    positions.reserve(mesh.positions.size());
+    for (const glm::vec3& position : mesh.positions) {
+        const glm::dvec3 offset = world_position(instance, position) - origin;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::abs(offset[axis]) <= kFarthest) continue;
+            return Error{text("vertex ", positions.size(), " is ", std::abs(offset[axis]),
+                              " m away from the middle of the scene; rays reach ", kFarthest)};
+        }
+        positions.emplace_back(offset);
+    }
+    return positions;
+}
+
 /// Takes the hit from the triangle's corners instead of the ray, whose error grows with its length
 /// (Wächter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection").
 void place_surface(const MeshPoint& point, const std::vector<glm::vec3>& corners,
@@ -63,9 +88,7 @@ void place_surface(const MeshPoint& point, const std::vector<glm::vec3>& corners
     float extent = 0.0f;
     for (int i = 0; i < 3; ++i) {
         triangle[i] = &corners[point.corners[i]];
-        for (int axis = 0; axis < 3; ++axis) {
-            extent = std::max(extent, std::abs((*triangle[i])[axis]));
-        }
+        extent = std::max(extent, largest_coordinate(*triangle[i]));
     }
     // From one corner, so that weights whose sum is not quite 1 move it within the triangle only.
     const glm::dvec3 first(*triangle[0]);
@@ -110,22 +133,18 @@ Result<TraceScene> TraceScene::make_static(const Scene& scene, const SurfaceSett
 
 Result<TraceScene> TraceScene::make_from(const Scene& scene, const Selection& selection,
                                          std::unique_ptr<State> state) {
-    const Box bounds = scene_bounds(scene, selection).value_or(Box{});
     state->scene = &scene;
-    state->origin = bounds.center();
-    const glm::dvec3 half_size = 0.5 * bounds.size();
-    state->largest_error_bound =
-        error_bound(static_cast<float>(std::max({half_size.x, half_size.y, half_size.z})));
+    state->origin = scene_middle(scene, selection);
 
     RayCaster caster({&TraceScene::stops_at, state.get()});
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const MeshInstance& instance = scene.instances[i];
         if (!selection(instance) || scene.meshes[instance.mesh].indices.empty()) continue;
         Placed placed = place(scene, i);
-        for (const glm::vec3& position : placed.mesh->positions) {
-            placed.positions.push_back(
-                glm::vec3(world_position(instance, position) - state->origin));
-        }
+        auto positions = traced_positions(*placed.mesh, instance, state->origin);
+        if (!positions)
+            return positions.error().in(text("instance ", i, " \"", instance.name, '"'));
+        placed.positions = std::move(*positions);
         const auto& indices = placed.mesh->indices;
         const bool is_opaque = placed.material->alpha_mode == AlphaMode::Opaque;
         caster.add_triangles(placed.positions, placed.is_mirrored ? mirrored(indices) : indices,
@@ -134,6 +153,14 @@ Result<TraceScene> TraceScene::make_from(const Scene& scene, const Selection& se
     }
     if (auto status = caster.commit(); !status) return status.error();
     return TraceScene(std::move(state), std::move(caster));
+}
+
+glm::vec3 TraceScene::shadow_target(const EmitterPoint& point, glm::vec3 seen_from) {
+    float extent = largest_coordinate(seen_from);
+    for (const glm::vec3& corner : point.corners) {
+        extent = std::max(extent, largest_coordinate(corner));
+    }
+    return point.position + error_bound(extent) * point.normal;
 }
 
 Light TraceScene::traced_from_world(Light light) const {

@@ -42,7 +42,7 @@ struct Surface {
 };
 
 /// A scene's triangles ready for rays. Rays and surfaces are in traced space: world space moved so
-/// that the scene's centre is the origin, done in double, because rays are float.
+/// that the scene's middle is the origin, done in double, because rays are float.
 ///
 /// Transparency: hits of alpha-masked surfaces below the cutoff are skipped; blended ones are
 /// skipped with probability 1 − alpha, by a hash of the ray, in `cast` and `is_blocked` alike.
@@ -52,7 +52,8 @@ class TraceScene {
     using Selection = std::function<bool(const MeshInstance&)>;
 
     /// Builds from the selected instances, with all that they emit: what an eye sees. Keeps a
-    /// reference to the scene. Error: not enough memory.
+    /// reference to the scene. Errors: not enough
+    /// memory, a vertex farther than 1e12 m from the middle.
     [[nodiscard]] static Result<TraceScene> make(const Scene& scene, const Selection& selection);
 
     /// Built from what contributes global illumination, with the emission and the reflectivity that
@@ -92,11 +93,16 @@ class TraceScene {
         return surface.position + surface.error_bound * direction;
     }
 
-    /// The same for a position on a triangle that is not known: off it by what would be enough for
-    /// the largest and farthest one.
-    [[nodiscard]] glm::vec3 ray_origin(glm::vec3 position, glm::vec3 normal) const {
-        return position + state_->largest_error_bound * normal;
-    }
+    /// A point of a triangle that was drawn instead of met.
+    struct EmitterPoint {
+        std::array<glm::vec3, 3> corners{};
+        glm::vec3 position{0.0f};
+        glm::vec3 normal{0.0f};  ///< unit, on the side that is looked at
+    };
+
+    /// Where a shadow ray ends that comes from `seen_from`: off the triangle by more than the
+    /// rounding of both.
+    [[nodiscard]] static glm::vec3 shadow_target(const EmitterPoint& point, glm::vec3 seen_from);
 
     /// How many instances rays can hit: geometries are counted from 0.
     [[nodiscard]] uint32_t geometry_count() const {
@@ -143,7 +149,6 @@ class TraceScene {
         Emission emission = Emission::All;
         std::vector<Placed> placed;
         glm::dvec3 origin{0.0};
-        float largest_error_bound = 0.0f;
     };
 
     TraceScene(std::unique_ptr<State> state, RayCaster caster)

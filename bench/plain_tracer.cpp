@@ -60,7 +60,7 @@ glm::vec3 PlainTracer::trace(Ray ray) {
         if (surface->is_back_face) return radiance;
         if (bounce == 0) radiance += surface->emission;
         if (bounce == bounces_) return radiance;
-        const glm::vec3 origin = traced_.ray_origin(surface->position, surface->geometric_normal);
+        const glm::vec3 origin = TraceScene::ray_origin(*surface, surface->geometric_normal);
         throughput *= surface->albedo;
         radiance += throughput * reflected_light(*surface, origin);
         const float u = next();

@@ -131,6 +131,7 @@ struct Bake {
 
     Status run() {
         if (auto status = check_output(output, inputs()); !status) return status;
+        if (auto status = check_kept_file(); !status) return status;
         auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
@@ -143,19 +144,33 @@ struct Bake {
         return bake(*scene, std::move(*prepared));
     }
 
-    /// Beside the output, where there can be something.
-    [[nodiscard]] BakeKeeping keeping() const {
+    /// Where an interrupted bake is kept: beside the output, where there can be something.
+    [[nodiscard]] std::string kept_path() const {
         std::error_code error;
         const auto type = std::filesystem::status(output, error).type();
         const bool is_file = type == std::filesystem::file_type::regular ||
                              type == std::filesystem::file_type::not_found;
-        if (output == "-" || !is_file) return {};
-        const BakeKeeping keeping{output + ".part", is_resumed};
-        if (!is_resumed && std::filesystem::exists(keeping.path, error)) {
-            common.warn({keeping.path + ": an interrupted bake that --resume may go on with is "
-                                        "lost when this one is kept"});
+        return output == "-" || !is_file ? "" : output + ".part";
+    }
+
+    /// Nothing but an earlier bake may be in the place of what is kept.
+    [[nodiscard]] Status check_kept_file() const {
+        const std::string path = kept_path();
+        if (path.empty()) return Ok{};
+        if (auto status = check_output(path, inputs()); !status) {
+            return status.error().in("an interrupted bake would be kept there");
         }
-        return keeping;
+        std::error_code error;
+        if (is_resumed || !std::filesystem::exists(path, error)) return Ok{};
+        const auto file = open_probe_file_lazy(path);
+        if (!file || !is_part(*file)) {
+            return Error{path +
+                         ": is no interrupted bake and would be lost to one; move it away, or "
+                         "write elsewhere"};
+        }
+        common.warn({path + ": an interrupted bake that --resume may go on with is lost when this "
+                            "one is kept"});
+        return Ok{};
     }
 
     [[nodiscard]] ProbeRange range_of(const PreparedBake& prepared) const {
@@ -166,7 +181,7 @@ struct Bake {
 
     /// Bakes, writes and reports, and then drops what was kept on the way.
     Status bake(const Scene& scene, PreparedBake prepared) {
-        const BakeKeeping kept = keeping();
+        const BakeKeeping kept{kept_path(), is_resumed};
         const auto start = std::chrono::steady_clock::now();
         const auto baked = bake_with_progress(scene, prepared, kept);
         if (!baked) return baked.error();

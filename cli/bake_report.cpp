@@ -35,6 +35,22 @@ std::string health_text(const BakeReport& report) {
     return parts;
 }
 
+/// null: not known of any probe.
+Json errors_json(const BakeStatistics& statistics) {
+    if (statistics.known_error_count == 0) return nullptr;
+    return {{"median", statistics.median_error},
+            {"p99", statistics.p99_error},
+            {"worst", statistics.worst_error},
+            {"known", statistics.known_error_count}};
+}
+
+/// "median 0.50 %, 99 % below 1.20 %, worst 3.00 %".
+std::string errors_text(const BakeStatistics& statistics) {
+    if (statistics.known_error_count == 0) return "not known";
+    return text("median ", percent(statistics.median_error), ", 99 % below ",
+                percent(statistics.p99_error), ", worst ", percent(statistics.worst_error));
+}
+
 }  // namespace
 
 void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked) {
@@ -85,10 +101,7 @@ Json to_json(const BakeStatistics& statistics) {
              {{"min", statistics.fewest_directions},
               {"median", statistics.median_directions},
               {"max", statistics.most_directions}}},
-            {"standard_error",
-             {{"median", statistics.median_error},
-              {"p99", statistics.p99_error},
-              {"worst", statistics.worst_error}}},
+            {"standard_error", errors_json(statistics)},
             {"over_target", statistics.over_target_count}};
 }
 
@@ -99,8 +112,7 @@ std::string to_text(const BakeStatistics& statistics) {
                           grouped(statistics.most_directions), " (median ", directions, ")");
     }
     return text(
-        directions, " samples a probe; standard error: median ", percent(statistics.median_error),
-        ", 99 % below ", percent(statistics.p99_error), ", worst ", percent(statistics.worst_error),
+        directions, " samples a probe; standard error: ", errors_text(statistics),
         statistics.over_target_count == 0
             ? ""
             : text("; ", counted(statistics.over_target_count, "probe"), " above the target"));

@@ -2,10 +2,12 @@
 #include <span>
 
 #include "base/file.h"
+#include "base/text.h"
 #include "cli/common.h"
 #include "cli/info_probes.h"
 #include "cli/paths.h"
 #include "cli/volume_facts.h"
+#include "pipeline/partial_bake.h"
 #include "probes/build/wireframe.h"
 #include "probes/probe_file.h"
 
@@ -61,12 +63,32 @@ struct Info {
         const bool is_stdout_taken = obj_path == "-" || ply_path == "-";
         Json json = to_json(facts);
         std::string lines = to_text(facts, file->view());
+        if (is_part(*file)) {
+            const auto part = read_part(path);
+            if (!part) return part.error();
+            json["part"] = part_json(part->partial);
+            lines += "\n" + part_text(part->partial, file->view().probe_count());
+        }
         if (shows_probes) {
             json.update(probes_json(file->view()));
             lines += "\nhealth of the probes\n" + probes_text(file->view());
         }
         common.report(is_stdout_taken ? "-" : "", json, lines);
         return Ok{};
+    }
+
+    static Json part_json(const PartialBake& part) {
+        return {{"range", {part.range.begin, part.range.end}},
+                {"is_finished", part.is_finished},
+                {"begun", part.begun_count()}};
+    }
+
+    static std::string part_text(const PartialBake& part, uint32_t probe_count) {
+        return text("part of a bake: probes ", part.range.begin, "..", part.range.end, " of ",
+                    grouped(probe_count),
+                    part.is_finished ? ", finished"
+                                     : text(", not finished: ", grouped(part.begun_count()), " of ",
+                                            counted(part.range.count(), "probe"), " begun"));
     }
 
     [[nodiscard]] Status write_wireframe(const ProbeVolumeView& volume) const {

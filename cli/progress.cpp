@@ -42,8 +42,10 @@ int BakeProgressDisplay::interrupting_signal() {
 
 double BakeProgressDisplay::share_done(const BakeProgress& progress, double seconds) const {
     if (progress.probe_count == 0) return 1.0;
-    if (time_budget_seconds_ == 0.0) return progress.share_done;
-    return std::min(std::max(progress.share_done, seconds / time_budget_seconds_), 1.0);
+    // The first round is done whatever the budget.
+    const bool is_over_budget = seconds >= time_budget_seconds_;
+    if (time_budget_seconds_ == 0.0 || is_over_budget) return progress.share_done;
+    return std::max(progress.share_done, seconds / time_budget_seconds_);
 }
 
 std::string BakeProgressDisplay::summary(const BakeProgress& progress, double seconds) const {

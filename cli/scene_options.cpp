@@ -2,6 +2,7 @@
 #include "cli/scene_options.h"
 
 #include <filesystem>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
@@ -44,6 +45,18 @@ CLI::Validator direction_check() {
         return "\"" + direction + "\" is not a direction";
     };
     return {check, ""};
+}
+
+Status check_sky(const Environment& environment) {
+    glm::vec3 brightest(environment.image.pixels.empty() ? 1.0f : 0.0f);
+    for (const glm::vec3& pixel : environment.image.pixels) brightest = glm::max(brightest, pixel);
+    const glm::dvec3 radiance = glm::dvec3(environment.radiance) * glm::dvec3(brightest);
+    for (int i = 0; i < 3; ++i) {
+        if (radiance[i] >= 0.0 && radiance[i] <= kMaxRadiance) continue;
+        return Error{text("the sky's radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
+                          ") is not in 0 to ", kMaxRadiance)};
+    }
+    return Ok{};
 }
 
 }  // namespace
@@ -108,18 +121,14 @@ Status SceneOptions::add_sky(Scene& scene) const {
         environment.image = std::move(image->image);
         if (image->mended_pixel_count > 0) {
             scene.warnings.push_back(text(sky, ": ", counted(image->mended_pixel_count, "pixel"),
-                                          " with NaN, infinite or negative values mended"));
+                                          " mended (NaN and negative become 0, infinite 65504, "
+                                          "and nothing is above 1e30)"));
         }
     }
     environment.radiance *= static_cast<float>(sky_intensity);
     environment.rotation_radians += glm::radians(static_cast<float>(sky_rotation_degrees));
-    const glm::vec3& radiance = environment.radiance;
-    for (int i = 0; i < 3; ++i) {
-        if (radiance[i] >= 0.0f && radiance[i] <= static_cast<float>(kMaxRadiance)) continue;
-        return Error{text("--sky: radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
-                          ") is negative or not finite")};
-    }
-    return Ok{};
+    const auto status = check_sky(environment);
+    return status ? status : status.error().in(sky.empty() ? path : sky);
 }
 
 void SceneOptions::add_sun(Scene& scene) const {

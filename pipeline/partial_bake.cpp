@@ -12,7 +12,6 @@
 #include "base/assert.h"
 #include "base/text.h"
 #include "probes/is_finite.h"
-#include "probes/probe_file.h"
 
 namespace tetralight {
 namespace {
@@ -166,6 +165,10 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
 size_t PartialBake::begun_count() const {
     return static_cast<size_t>(std::ranges::count_if(
         tallies, [](const ProbeTally& tally) { return tally.round_count > 0; }));
+}
+
+bool is_part(const ProbeFile& file) noexcept {
+    return file.section_bytes("part", sizeof(PartInfo)).has_value();
 }
 
 Status write_part(const std::string& path, const PreparedBake& prepared,

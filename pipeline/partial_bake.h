@@ -8,6 +8,7 @@
 #include "bake/probe_tally.h"
 #include "base/result.h"
 #include "pipeline/bake_volume.h"
+#include "probes/probe_file.h"
 
 // Bakes that are put aside, and ranges of bakes: a `.probes` file whose probes have no light yet,
 // with what their rounds found so far beside it (docs/file_format.md).
@@ -46,6 +47,9 @@ struct PartFile {
     /// the settings what changes no round, which the key holds.
     PreparedBake prepared;
 };
+
+/// Whether an open file claims to be a part.
+[[nodiscard]] bool is_part(const ProbeFile& file) noexcept;
 
 /// Writes a part; the old file stays whole on failure.
 [[nodiscard]] Status write_part(const std::string& path, const PreparedBake& prepared,

@@ -18,7 +18,13 @@ bool is_dark(const IrradianceSh& irradiance) {
 
 void add_dark_warnings(const MergedProbes& merged, std::span<const IrradianceSh> irradiance,
                        uint32_t sample_count, std::vector<std::string>& warnings) {
-    if (sample_count < kEnoughSamples || std::ranges::all_of(irradiance, is_dark)) return;
+    if (sample_count < kEnoughSamples || irradiance.empty()) return;
+    if (std::ranges::all_of(irradiance, is_dark)) {
+        warnings.emplace_back(
+            "no probe receives any light: the scene has no sky, no emission and no light that is "
+            "baked, or none that reaches them");
+        return;
+    }
     std::vector<size_t> dark(merged.group_names.size(), 0);
     std::vector<size_t> total(merged.group_names.size(), 0);
     for (const ProbeSource& source : merged.sources) {

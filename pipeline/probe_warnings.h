@@ -10,8 +10,8 @@
 
 namespace tetralight {
 
-/// Adds a line for each group with probes that no light reaches at all, as in hollow walls. None
-/// where nothing is lit, and none after so few directions that they may have missed an opening.
+/// Adds a line for each group with probes that no light reaches at all, as in hollow walls, or one
+/// for all when none has any. None after so few directions that they may have missed an opening.
 /// Precondition: one irradiance a probe.
 void add_dark_warnings(const MergedProbes& merged, std::span<const IrradianceSh> irradiance,
                        uint32_t sample_count, std::vector<std::string>& warnings);

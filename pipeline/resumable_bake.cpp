@@ -42,7 +42,9 @@ Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, P
                              const BakeKeeping& keeping, const BakeCallback& callback) {
     const size_t probe_count = prepared.capture_positions.size();
     if (range.begin > range.end || range.end > probe_count) {
-        return Error{text(name(range), ": there are ", probe_count, " probes")};
+        const std::string asked =
+            range.begin > probe_count ? text("probe ", range.begin) : name(range);
+        return Error{text(asked, ": there are ", probe_count, " probes")};
     }
     RangeBake bake;
     bake.partial = {range, std::vector<ProbeTally>(range.count()), false};

@@ -26,6 +26,9 @@ namespace {
 
 constexpr float kLargestHalf = 65504.0f;
 
+/// Sums over directions and bounces stay far from the largest float, 3e38.
+constexpr float kLargestRadiance = 1e30f;
+
 struct FreeStb {
     void operator()(void* memory) const noexcept { stbi_image_free(memory); }
 };
@@ -120,7 +123,7 @@ Result<ImageF> decode_radiance_hdr(std::span<const std::byte> bytes, const std::
 
 float mended(float value) {
     if (!(value >= 0.0f)) return 0.0f;  // NaN too
-    return std::isinf(value) ? kLargestHalf : value;
+    return std::isinf(value) ? kLargestHalf : std::min(value, kLargestRadiance);
 }
 
 uint64_t mend(ImageF& image) {

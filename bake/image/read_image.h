@@ -20,8 +20,8 @@ inline constexpr uint64_t kMaxImagePixels = uint64_t{16384} * 16384;
 /// A radiance image, and how many of its pixels had to be mended.
 struct HdrImage {
     ImageF image;
-    /// Pixels with a NaN, infinite or negative channel; that channel was set to 0 (NaN, negative)
-    /// or to the largest finite half (infinite).
+    /// Pixels with a channel that is NaN or negative (it became 0), infinite (the largest finite
+    /// half, 65504), or above 1e30 (that).
     uint64_t mended_pixel_count = 0;
 };
 

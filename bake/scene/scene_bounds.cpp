@@ -1,13 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/scene/scene_bounds.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <glm/common.hpp>
+#include <vector>
 
 namespace tetralight {
 namespace {
 
 void extend(std::optional<Box>& box, const glm::dvec3& low, const glm::dvec3& high) {
     box = box ? Box{glm::min(box->low, low), glm::max(box->high, high)} : Box{low, high};
+}
+
+double largest(const glm::dvec3& size) {
+    return std::max({size.x, size.y, size.z});
+}
+
+/// One coordinate of evenly chosen vertices, 65536 at most.
+std::vector<double> some_coordinates(const Scene& scene, const InstanceSelection& selection,
+                                     int axis) {
+    constexpr uint64_t kMostVertices = 65536;
+    uint64_t count = 0;
+    for (const MeshInstance& instance : scene.instances) {
+        if (selection(instance)) count += scene.meshes[instance.mesh].positions.size();
+    }
+    const uint64_t stride = (count + kMostVertices - 1) / kMostVertices;
+    std::vector<double> coordinates;
+    uint64_t next = 0;  // vertex to take, counted from the first one of the instance
+    for (const MeshInstance& instance : scene.instances) {
+        if (!selection(instance)) continue;
+        const auto& positions = scene.meshes[instance.mesh].positions;
+        for (; next < positions.size(); next += stride) {
+            coordinates.push_back(world_position(instance, positions[next])[axis]);
+        }
+        next -= positions.size();
+    }
+    return coordinates;
+}
+
+/// Precondition: there are values.
+double quantile(std::vector<double>& values, double share) {
+    const auto rank = static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, values.begin() + rank);
+    return values[static_cast<size_t>(rank)];
 }
 
 }  // namespace
@@ -25,8 +61,7 @@ std::optional<Box> instance_bounds(const Scene& scene, const MeshInstance& insta
     return box;
 }
 
-std::optional<Box> scene_bounds(const Scene& scene,
-                                const std::function<bool(const MeshInstance&)>& selection) {
+std::optional<Box> scene_bounds(const Scene& scene, const InstanceSelection& selection) {
     std::optional<Box> box;
     for (const MeshInstance& instance : scene.instances) {
         if (!selection(instance)) continue;
@@ -35,6 +70,23 @@ std::optional<Box> scene_bounds(const Scene& scene,
         }
     }
     return box;
+}
+
+glm::dvec3 scene_middle(const Scene& scene, const InstanceSelection& selection) {
+    constexpr double kWellSpread = 1000.0;
+    const auto bounds = scene_bounds(scene, selection);
+    if (!bounds) return glm::dvec3(0.0);
+    glm::dvec3 median(0.0);
+    glm::dvec3 middle_half(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> values = some_coordinates(scene, selection, axis);
+        const double low = quantile(values, 0.25);
+        const double high = quantile(values, 0.75);
+        median[axis] = quantile(values, 0.5);
+        middle_half[axis] = high - low;
+    }
+    const bool is_well_spread = largest(bounds->size()) <= kWellSpread * largest(middle_half);
+    return is_well_spread ? bounds->center() : median;
 }
 
 }  // namespace tetralight

@@ -27,8 +27,16 @@ struct Box {
 /// Bounds of one instance; none when its mesh has no vertices.
 [[nodiscard]] std::optional<Box> instance_bounds(const Scene& scene, const MeshInstance& instance);
 
+using InstanceSelection = std::function<bool(const MeshInstance&)>;
+
 /// Bounds of the selected instances; none when there is nothing.
-[[nodiscard]] std::optional<Box> scene_bounds(
-    const Scene& scene, const std::function<bool(const MeshInstance&)>& selection);
+[[nodiscard]] std::optional<Box> scene_bounds(const Scene& scene,
+                                              const InstanceSelection& selection);
+
+/// A good origin for floats: the centre of the selected instances' bounds. Where these are a
+/// thousand times as large as the box of the vertices' middle half along each axis, something
+/// stands far away, perhaps by mistake: then the median of the vertices, which it does not move.
+/// The world's origin when there is nothing.
+[[nodiscard]] glm::dvec3 scene_middle(const Scene& scene, const InstanceSelection& selection);
 
 }  // namespace tetralight

@@ -198,6 +198,17 @@ TEST(BakeProbes, APositionThatIsNotFiniteIsAnErrorThatNamesTheProbe) {
     }
 }
 
+TEST(BakeProbes, LightThatFloatsDoNotHoldIsAnErrorThatNamesTheProbe) {
+    Scene scene;
+    test::add_point_light(scene, LightMode::Baked, glm::vec3(1e38f), {0, 0, 0});
+    const std::vector<glm::dvec3> positions{{1e6, 0, 0}, {0.01, 0, 0}};
+    const auto baked = bake_probes(scene, positions, {});
+    ASSERT_FALSE(baked);
+    EXPECT_TRUE(
+        baked.error().message.starts_with("probe 1 at (0.01, 0, 0): its light is too bright"))
+        << baked.error().message;
+}
+
 TEST(BakeProbes, NamesALightWhoseIntensityIsNoNumber) {
     Scene scene;
     test::add_sun(scene, LightMode::Baked, {1, std::nanf(""), 1});

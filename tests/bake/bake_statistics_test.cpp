@@ -26,6 +26,17 @@ TEST(BakeStatistics, TakesQuantilesOfAllProbes) {
     EXPECT_EQ(statistics.over_target_count, 50u);
 }
 
+TEST(BakeStatistics, LeavesErrorsOutThatAreNotKnown) {
+    BakedProbes baked;
+    baked.standard_error = {0.0f, 0.25f, 0.0f, 0.5f, 0.0f};
+    baked.direction_count.assign(5, 16);
+    const BakeStatistics statistics = bake_statistics(baked, 0.0);
+    EXPECT_EQ(statistics.known_error_count, 2u);
+    EXPECT_EQ(statistics.median_error, 0.25f);
+    EXPECT_EQ(statistics.worst_error, 0.5f);
+    EXPECT_EQ(statistics.median_directions, 16u);
+}
+
 TEST(BakeStatistics, WithoutATargetNoProbeIsOverIt) {
     BakedProbes baked;
     baked.standard_error = {0.5f};

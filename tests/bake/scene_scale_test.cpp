@@ -88,6 +88,16 @@ TEST(SceneScale, TenKilometresAwayTheLightIsTheSame) {
     expect_same_light(room.light(), lit_room().light());
 }
 
+TEST(SceneScale, WhatStandsFarAwayByMistakeTakesNoPrecisionFromTheRest) {
+    const RadianceSh expected = lit_room().light();
+    for (const float distance : {1e6f, 1e9f}) {
+        Placed room = lit_room();
+        test::add_quad(room.scene, test::diffuse(glm::vec3(0.5f)), glm::vec3(distance), {1, 0, 0},
+                       {0, 1, 0});
+        expect_same_light(room.light(), expected);
+    }
+}
+
 /// A closed room, two-sided or seen from behind through its front, right beside a bright one.
 Placed dark_room(bool is_double_sided) {
     Placed room;

@@ -335,6 +335,17 @@ TEST(TraceScene, PositionsLieOnTheTriangleHoweverLongTheRay) {
     }
 }
 
+TEST(TraceScene, NamesAnInstanceThatRaysDoNotReach) {
+    Scene scene;
+    test::add_box(scene, Material{}, test::Facing::Outward, {-1, -1, -1}, {1, 1, 1});
+    test::add_floor(scene, Material{}, 1.0f).world_from_mesh[3].x = 1e13;
+    scene.instances[1].name = "lost";
+    const auto trace = TraceScene::make_static(scene);
+    ASSERT_FALSE(trace);
+    EXPECT_TRUE(trace.error().message.starts_with("instance 1 \"lost\": vertex 0 is 1e+13 m away"))
+        << trace.error().message;
+}
+
 TEST(TraceScene, WithoutGeometryRaysMiss) {
     const Scene scene;
     EXPECT_FALSE(look_down(traced(scene), 0, 0));

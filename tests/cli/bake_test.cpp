@@ -233,6 +233,21 @@ TEST_F(Bake, RefusesASkyThatCannotBeReadAndKeepsTheOldVolume) {
     }
 }
 
+TEST_F(Bake, RefusesASkyThatIsTooBrightAndKeepsTheOldVolume) {
+    ASSERT_TRUE(write_exr(path("sky.exr"), ImageF{2, 1, {glm::vec3(1e5f), glm::vec3(1.0f)}}));
+    const std::string message = fail_and_keep(
+        "old.probes",
+        {"bake", kCourtyard, "--sky", "sky.exr", "--sky-intensity", "1e30", "-o", "old.probes"});
+    EXPECT_TRUE(contains(message, "sky.exr: the sky's radiance")) << message;
+}
+
+TEST_F(Bake, SaysWhenNothingShines) {
+    const CommandResult result =
+        succeed({"bake", "empty.gltf", "-g", "five.json", "-o", "v.probes", "-s", "64", "--json"});
+    EXPECT_TRUE(contains(result.err, "warning: no probe receives any light")) << result.err;
+    EXPECT_TRUE(Json::parse(result.out)["standard_error"].is_null());
+}
+
 TEST_F(Bake, NamesFilesThatAreNotThere) {
     EXPECT_TRUE(contains(fail({"bake", "none.glb", "-o", "v.probes"}), "none.glb: cannot open"));
     EXPECT_TRUE(contains(fail({"bake", kCourtyard, "-g", "none.json", "-o", "v.probes"}),

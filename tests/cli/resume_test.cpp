@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bakes that are interrupted, and what --resume makes of them.
 #include <csignal>
+#include <filesystem>
 #include <thread>
 
 #include "tests/cli/command_fixture.h"
@@ -105,6 +106,43 @@ TEST_F(Resume, RefusesABadPartAndKeepsTheOldVolume) {
             "v.probes", {"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--resume"});
         EXPECT_TRUE(contains(message, kPart + ": ")) << message;
     }
+}
+
+TEST_F(Resume, KeepsNoPartInThePlaceOfAnotherFile) {
+    write(kPart, "precious");
+    const std::string message = fail({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
+    EXPECT_TRUE(contains(message, kPart + ": is no interrupted bake")) << message;
+    EXPECT_EQ(read(kPart), "precious");
+    EXPECT_EQ(file_names(), std::vector<std::string>{kPart});
+}
+
+TEST_F(Resume, KeepsNoPartInThePlaceOfAnInput) {
+    std::filesystem::copy_file(kCourtyard, path("scene.part"));
+    const std::string scene = read("scene.part");
+    EXPECT_TRUE(contains(fail({"bake", "scene.part", "-o", "scene", "-s", "16"}),
+                         "scene.part: is an input of this command"));
+    write("g.probes.part", kFiveProbes);
+    for (const Arguments& more : {Arguments{}, Arguments{"--resume"}}) {
+        Arguments arguments{"bake", kCourtyard, "-g", "g.probes.part", "-o", "g.probes"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_TRUE(contains(fail(arguments), "g.probes.part: is an input of this command"));
+    }
+    EXPECT_EQ(read("g.probes.part"), kFiveProbes);
+    EXPECT_TRUE(read("scene.part") == scene);
+}
+
+TEST_F(Resume, InfoSaysHowFarAPartIs) {
+    static_cast<void>(interrupted(kLong));
+    const Json part = run_json({"info", kPart})["part"];
+    EXPECT_EQ(part["range"], (Json{0, 255}));
+    EXPECT_EQ(part["is_finished"], false);
+    EXPECT_LT(part["begun"].get<int>(), 255);
+    EXPECT_TRUE(
+        contains(succeed({"info", kPart}).out, "part of a bake: probes 0..255 of 255, not "));
+
+    succeed({"bake", kCourtyard, "-o", "few.part", "-s", "16", "--probes", "3..5"});
+    EXPECT_TRUE(contains(succeed({"info", "few.part"}).out,
+                         "part of a bake: probes 3..5 of 255, finished"));
 }
 
 TEST_F(Resume, SaysThatAPartIsLeftAloneWithoutIt) {

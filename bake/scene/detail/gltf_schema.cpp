@@ -9,7 +9,7 @@ constexpr GltfNeed kRequired = GltfNeed::Required;
 
 constexpr GltfRule kScenes[] = {
     {"nodes", IndexList, "nodes"},
-    {"extras/sky/radiance", Numbers, "", 3},
+    {"extras/sky/radiance", Numbers, "", 3, kRequired},
 };
 
 constexpr GltfRule kNodes[] = {

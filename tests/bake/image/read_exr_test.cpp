@@ -86,12 +86,16 @@ TEST(ReadExr, RejectsEveryTruncation) {
 
 TEST(ReadExr, BadTexelsAreMendedAndCounted) {
     const TempFolder folder;
-    const ImageF image{4, 1, {{kNan, 1, 1}, {1, -3, -4}, {kInfinity, 2, -kInfinity}, {1, 2, 3}}};
+    const ImageF image{
+        5,
+        1,
+        {{kNan, 1, 1}, {1, -3, -4}, {kInfinity, 2, -kInfinity}, {1, 2, 3}, {3e38f, 1e30f, 1}}};
     ASSERT_TRUE(write_exr(folder.path("bad.exr"), image));
     const auto read = read_hdr_image(folder.path("bad.exr"));
     ASSERT_TRUE(read);
-    EXPECT_EQ(read->mended_pixel_count, 3u);
-    const std::vector<glm::vec3> mended = {{0, 1, 1}, {1, 0, 0}, {65504, 2, 0}, {1, 2, 3}};
+    EXPECT_EQ(read->mended_pixel_count, 4u);
+    const std::vector<glm::vec3> mended = {
+        {0, 1, 1}, {1, 0, 0}, {65504, 2, 0}, {1, 2, 3}, {1e30f, 1e30f, 1}};
     EXPECT_EQ(read->image.pixels, mended);
 }
 

@@ -97,5 +97,13 @@ TEST(GltfSky, RejectsWhatIsNotThreeNumbers) {
     EXPECT_NE(with_sky("blue").error().find("sky"), std::string::npos);
 }
 
+TEST(GltfSky, NamesASkyThatIsNone) {
+    GltfBuilder gltf;
+    gltf.json["scenes"][0]["extras"] = {{"sky", 1}};
+    EXPECT_NE(gltf.error().find("extras/sky is not an object (1)"), std::string::npos);
+    gltf.json["scenes"][0]["extras"] = {{"sky", {{"radience", {1, 1, 1}}}}};
+    EXPECT_NE(gltf.error().find("extras/sky/radiance is missing"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tetralight

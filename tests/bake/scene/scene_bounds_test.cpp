@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/support/scenes.h"
@@ -50,6 +51,38 @@ TEST(SceneBounds, OfNothingAreNone) {
     scene.meshes[0] = Mesh{};
     EXPECT_FALSE(instance_bounds(scene, scene.instances[0]));
     EXPECT_FALSE(scene_bounds(scene, is_static));
+}
+
+TEST(SceneMiddle, IsTheCenterOfTheBounds) {
+    Scene scene = one_box();
+    test::add_floor(scene, Material{}, 200.0f);
+    test::add_floor(scene, Material{}, 1e9f).contributes_gi = false;
+    EXPECT_EQ(scene_middle(scene, is_static), glm::dvec3(0.0, 1.0, 0.0));
+}
+
+TEST(SceneMiddle, StaysWhereMostVerticesAre) {
+    Scene scene = one_box();
+    test::add_quad(scene, Material{}, {1e9f, 1e9f, 1e9f}, {1, 0, 0}, {0, 1, 0});
+    EXPECT_LE(glm::length(scene_middle(scene, is_static)), 4.0);
+}
+
+TEST(SceneMiddle, OfManyVerticesIsThatOfSome) {
+    // More vertices than are asked; those of the second mesh are the majority.
+    Scene scene = one_box();
+    for (const double x : {0.0, 1e6}) {
+        scene.meshes.push_back(scene.meshes[0]);
+        const size_t count = x > 0.0 ? 300'001 : 60'000;
+        scene.meshes.back().positions.assign(count, glm::vec3(0.25f));
+        MeshInstance instance = scene.instances[0];
+        instance.mesh = static_cast<uint32_t>(scene.meshes.size() - 1);
+        instance.world_from_mesh = glm::translate(glm::dmat4(1.0), {x, 0, 0});
+        scene.instances.push_back(instance);
+    }
+    EXPECT_EQ(scene_middle(scene, is_static), glm::dvec3(1e6 + 0.25, 0.25, 0.25));
+}
+
+TEST(SceneMiddle, OfNothingIsTheOrigin) {
+    EXPECT_EQ(scene_middle(Scene{}, is_static), glm::dvec3(0.0));
 }
 
 TEST(SceneBounds, BoxHasACenterAndASize) {
