@@ -108,9 +108,17 @@ struct RayCaster::Handles {
         return number;
     }
 
+    void tell(const Ray& ray, RayKind kind, std::optional<float> distance) const {
+        if (listener.on_ray == nullptr) [[likely]]
+            return;
+        listener.on_ray(listener.context, ray, kind,
+                        distance.value_or(std::numeric_limits<float>::infinity()));
+    }
+
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     HitFilter filter;
+    RayListener listener;
     std::vector<Triangles> geometries;  // Embree numbers them from 0 as well
 };
 
@@ -153,13 +161,19 @@ Status RayCaster::commit() {
     return Error{"Embree failed with error " + std::to_string(static_cast<int>(error))};
 }
 
+void RayCaster::listen(RayListener listener) {
+    handles_->listener = listener;
+}
+
 std::optional<RayHit> RayCaster::cast(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit ray_hit{embree_ray(ray), {}};
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(handles_->scene, &context, &ray_hit);
-    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    const bool is_hit = ray_hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    handles_->tell(ray, RayKind::Nearest, is_hit ? std::optional(ray_hit.ray.tfar) : std::nullopt);
+    if (!is_hit) return std::nullopt;
     return hit_from(ray_hit.hit, ray_hit.ray.tfar);
 }
 
@@ -168,7 +182,9 @@ bool RayCaster::is_blocked(const Ray& ray) const {
     rtcInitIntersectContext(&context);
     RTCRay embree = embree_ray(ray);
     rtcOccluded1(handles_->scene, &context, &embree);
-    return embree.tfar < 0.0f;
+    const bool is_hit = embree.tfar < 0.0f;
+    handles_->tell(ray, RayKind::Shadow, is_hit ? std::optional(0.0f) : std::nullopt);
+    return is_hit;
 }
 
 std::optional<glm::vec3> RayCaster::nearest_point(glm::vec3 position) const {

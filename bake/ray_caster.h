@@ -37,6 +37,15 @@ struct HitFilter {
     const void* context = nullptr;
 };
 
+enum class RayKind : uint8_t { Nearest, Shadow };
+
+/// Is told of every ray and the distance of its hit, from the thread that casts it: how benchmarks
+/// see what is traced. Infinity: no hit. Shadow rays look for any hit: 0.
+struct RayListener {
+    void (*on_ray)(void* context, const Ray& ray, RayKind kind, float distance) = nullptr;
+    void* context = nullptr;
+};
+
 /// Finds what rays hit; the only part that knows Embree. Add geometry, commit once, then cast from
 /// any number of threads. Same answers for any number of threads on one instruction set.
 class RayCaster {
@@ -57,6 +66,9 @@ class RayCaster {
 
     /// Builds the search structure. Error: not enough memory.
     [[nodiscard]] Status commit();
+
+    /// Default: none. Not while rays are cast.
+    void listen(RayListener listener);
 
     [[nodiscard]] std::optional<RayHit> cast(const Ray& ray) const;
     [[nodiscard]] bool is_blocked(const Ray& ray) const;

@@ -82,6 +82,12 @@ class TraceScene {
 
     [[nodiscard]] bool is_blocked(const Ray& ray) const { return caster_.is_blocked(ray); }
 
+    /// What finds the hits, in traced space.
+    [[nodiscard]] const RayCaster& caster() const { return caster_; }
+
+    /// Default: none. Not while rays are cast.
+    void listen(RayListener listener) { caster_.listen(listener); }
+
     /// The nearest point of any surface, in traced space; transparency does not count.
     [[nodiscard]] std::optional<glm::vec3> nearest_surface(glm::vec3 position) const {
         return caster_.nearest_point(position);

@@ -17,8 +17,6 @@
 namespace tetralight::bench {
 namespace {
 
-constexpr uint32_t kBounces = 4;
-
 /// Towards the faces, edges and corners of a cube.
 std::vector<glm::vec3> normals() {
     std::vector<glm::vec3> result;
@@ -196,9 +194,11 @@ void threads(const BakeSubject& subject, const Options& options) {
 
 void bench_bake(const Options& options) {
     bench_direction_sets();
+    bench_bake_validity();
     for (const BakeSubject& subject : bake_subjects(options)) {
         const Traced traced(subject);
         time_to_1_percent(traced, options);
+        bench_bake_rays(subject, options);
         noise(subject);
         dering_min(subject);
         threads(subject, options);

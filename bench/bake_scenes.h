@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "bench/harness.h"
 
 namespace tetralight::bench {
+
+/// Reflections in all benchmarks.
+inline constexpr uint32_t kBounces = 4;
 
 /// A scene and where its light is measured.
 struct BakeSubject {
@@ -19,6 +23,12 @@ struct BakeSubject {
 
 /// The courtyard with its own probes, the scene of the options, and a room with 10 000 emitters.
 [[nodiscard]] std::vector<BakeSubject> bake_subjects(const Options& options);
+
+/// Rays a second of the whole baker, against those of the same rays alone.
+void bench_bake_rays(const BakeSubject& subject, const Options& options);
+
+/// How often the survey agrees with the winding number on what is inside of closed meshes.
+void bench_bake_validity();
 
 /// A grey room of 20 × 6 × 20 m, with 10 000 emitters of 2 × 2 cm that hang in it, each of its own
 /// colour and strength.

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace tetralight {
@@ -150,6 +152,24 @@ TEST(RayCaster, StaysValidWhenMoved) {
     const RayCaster moved = std::move(source);
     EXPECT_TRUE(moved.cast({{3, 0.5f, 1}, {0, 0, -1}}));
     EXPECT_FALSE(moved.cast({{1, 0.5f, 1}, {0, 0, -1}}));
+}
+
+TEST(RayCaster, TellsAListenerOfEachRayAndTheDistanceOfItsHit) {
+    RayCaster caster = two_triangles();
+    std::vector<std::pair<RayKind, float>> heard;
+    caster.listen({[](void* context, const Ray&, RayKind kind, float distance) {
+                       static_cast<decltype(heard)*>(context)->emplace_back(kind, distance);
+                   },
+                   &heard});
+    (void)caster.cast({{1, 1, 7}, {0, 0, -1}});
+    (void)caster.cast({{1, 1, 7}, {0, 0, 1}});
+    (void)caster.is_blocked({{1, 1, 7}, {0, 0, -1}});
+    caster.listen({});
+    (void)caster.is_blocked({{1, 1, 7}, {0, 0, -1}});
+    constexpr float kNone = std::numeric_limits<float>::infinity();
+    const decltype(heard) expected{
+        {RayKind::Nearest, 2.0f}, {RayKind::Nearest, kNone}, {RayKind::Shadow, 0.0f}};
+    EXPECT_EQ(heard, expected);
 }
 
 TEST(RayCaster, EmptySceneAndEmptyGeometryHitNothing) {
