@@ -64,7 +64,7 @@ void EmissiveTriangles::add(uint32_t geometry, uint32_t primitive,
     emitter.high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
     if (!(area > 0.0f) || !std::isfinite(area)) return;
     emitter.power = area * mean_emission(traced_, geometry, primitive);
-    if (traced_.is_double_sided(geometry)) return;
+    emitter.is_two_sided = traced_.is_double_sided(geometry);
     emitter.axis = area_vector / area;
     emitter.cos_axes = 1.0f;
     emitter.cos_emission = 0.0f;

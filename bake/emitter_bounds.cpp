@@ -42,9 +42,18 @@ void unite_cones(EmitterBounds& a, const EmitterBounds& b) {
 
 }  // namespace
 
-EmitterBounds united(EmitterBounds a, const EmitterBounds& b) noexcept {
+EmitterBounds united(EmitterBounds a, EmitterBounds b) noexcept {
     if (b.power <= 0.0f) return a;
     if (a.power <= 0.0f) return b;
+    // Both axes of what is two-sided are as good; together they take the narrower cone.
+    if (glm::dot(a.axis, b.axis) < 0.0f) {
+        if (b.is_two_sided) {
+            b.axis = -b.axis;
+        } else if (a.is_two_sided) {
+            a.axis = -a.axis;
+        }
+    }
+    a.is_two_sided = a.is_two_sided || b.is_two_sided;
     unite_cones(a, b);
     a.low = glm::min(a.low, b.low);
     a.high = glm::max(a.high, b.high);

@@ -17,6 +17,8 @@ struct EmitterBounds {
     float cos_axes = -1.0f;
     /// Cosine of the angle to its own axis beyond which an emitter sends nothing.
     float cos_emission = -1.0f;
+    /// Whether it sends the same to the other side, against its axis.
+    bool is_two_sided = false;
     /// What it sends straight ahead over squared distance, any unit.
     float power = 0.0f;
     /// Distance from the box beyond which it sends nothing.
@@ -31,7 +33,7 @@ struct EmitterBounds {
 }
 
 /// Bounds of both. What has no power does not count.
-[[nodiscard]] EmitterBounds united(EmitterBounds a, const EmitterBounds& b) noexcept;
+[[nodiscard]] EmitterBounds united(EmitterBounds a, EmitterBounds b) noexcept;
 
 /// How likely it is that emitters within bounds matter: how much light leaves in how many
 /// directions from how large a surface (Conty Estevez & Kulla 2018, equation 1 and the paragraph

@@ -59,8 +59,12 @@ Lamps::Lamps(std::span<const Light> lights) {
 }
 
 LightSample Lamps::sample_sun(const Receiver& receiver, PathNumbers& numbers) const noexcept {
-    const float choice = numbers.next2().x;
-    const glm::vec2 u = numbers.next2();
+    float choice = 0.0f;
+    if (suns_.size() > 1) {
+        choice = numbers.next();
+    } else {
+        numbers.skip();
+    }
     float total = 0.0f;
     for (const Light& sun : suns_) total += sun_importance(sun, receiver);
     float rest = choice * total;
@@ -69,10 +73,11 @@ LightSample Lamps::sample_sun(const Receiver& receiver, PathNumbers& numbers) co
         if (!(own > 0.0f)) continue;
         rest -= own;
         if (rest >= 0.0f) continue;
-        LightSample sample = sample_light(sun, receiver.position, u);
+        LightSample sample = sample_light(sun, receiver.position, numbers.next2());
         if (own != total) sample.irradiance *= total / own;
         return sample;
     }
+    numbers.skip();
     return {};
 }
 

@@ -11,6 +11,9 @@
 #include "base/assert.h"
 
 namespace tetralight {
+
+using detail::all4, detail::Float4, detail::max4, detail::min4, detail::sqrt4;
+
 namespace {
 
 /// Rounding of a cosine; what is this near to its limit counts as within it.
@@ -19,68 +22,78 @@ constexpr float kSlack = 1e-4f;
 /// Importance never falls below this share for being slanted, so that no sample weighs too much.
 constexpr float kLeastCosine = 0.01f;
 
+/// Keeps sums of importances finite.
+constexpr float kMostImportance = 1e30f;
+
 float sine_of(float cosine) {
     return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
 }
 
-/// An angle by its cosine and sine.
-struct Angle {
-    float cosine;
-    float sine;
-};
-
-/// max(0, a − b)
-Angle difference(Angle a, Angle b) {
-    if (a.cosine > b.cosine) return {1.0f, 0.0f};
-    return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
+Float4 sine_of(Float4 cosine) {
+    return sqrt4(max4(all4(1.0f) - cosine * cosine, all4(0.0f)));
 }
 
 }  // namespace
 
-LightTree::Node LightTree::make_node(const EmitterBounds& bounds, uint32_t second,
-                                     uint32_t emitter) {
-    Node node;
+void LightTree::set_lane(Node& node, uint32_t lane, const EmitterBounds& bounds) {
     const glm::vec3 half_size = 0.5f * (bounds.high - bounds.low);
-    node.center = bounds.low + half_size;
-    node.radius2 = glm::dot(half_size, half_size);
-    node.axis = bounds.axis;
-    node.cos_axes = bounds.cos_axes;
-    node.sin_axes = sine_of(bounds.cos_axes);
-    node.cos_emission = bounds.cos_emission;
-    node.power = bounds.power;
-    const float reach = bounds.reach + glm::length(half_size);
-    node.reach2 = reach * reach * (1.0f + kSlack);
-    node.second = second;
-    node.emitter = emitter;
-    return node;
+    const glm::vec3 center = bounds.low + half_size;
+    node.center_x[lane] = center.x;
+    node.center_y[lane] = center.y;
+    node.center_z[lane] = center.z;
+    node.radius[lane] = glm::length(half_size);
+    node.axis_x[lane] = bounds.axis.x;
+    node.axis_y[lane] = bounds.axis.y;
+    node.axis_z[lane] = bounds.axis.z;
+    // A cone of all directions holds each of them, whatever the rounding.
+    node.cos_axes[lane] = bounds.cos_axes > -1.0f ? bounds.cos_axes : -2.0f;
+    node.sin_axes[lane] = sine_of(bounds.cos_axes);
+    node.cos_emission[lane] = bounds.cos_emission - kSlack;
+    node.back[lane] = bounds.is_two_sided ? -1.0f : 1.0f;
+    node.power[lane] = bounds.power;
+    node.reach[lane] = (bounds.reach + glm::length(half_size)) * (1.0f + kSlack);
 }
 
-float LightTree::importance(const Node& node, const Receiver& receiver) noexcept {
-    const glm::vec3 offset = receiver.position - node.center;
-    const float distance2 = glm::dot(offset, offset);
-    if (distance2 > node.reach2) return 0.0f;
-    // Near the box any direction is possible, and distance means little.
-    if (distance2 <= node.radius2) return node.power / std::max(node.radius2, 1e-30f);
+/// Without branches, for four children at a time. Angles are known by cosine and sine: that of
+/// max(0, a − b) has the cosine 1 where cos a > cos b, else cos a cos b + sin a sin b.
+detail::Float4 LightTree::importance(const Node& node, const Receiver& receiver) noexcept {
+    const glm::vec3 position = receiver.position, normal = receiver.normal;
+    const Float4 x = all4(position.x) - node.center_x;
+    const Float4 y = all4(position.y) - node.center_y;
+    const Float4 z = all4(position.z) - node.center_z;
+    const Float4 distance = sqrt4(x * x + y * y + z * z);
+    const Float4 inverse = all4(1.0f) / distance;
+    const Float4 radius = node.radius;
+    const Float4 sin_box = min4(radius * inverse, all4(1.0f));
+    const Float4 cos_box = sine_of(sin_box);
 
-    const float inverse = 1.0f / distance2;
-    const glm::vec3 from_light = offset * std::sqrt(inverse);
-    const float sin2_box = node.radius2 * inverse;
-    const Angle box{std::sqrt(std::max(0.0f, 1.0f - sin2_box)), std::sqrt(sin2_box)};
-    float result = node.power * inverse;
-    if (node.cos_axes > -1.0f) {
-        const float cosine = glm::dot(node.axis, from_light);
-        const Angle to_axes = difference({cosine, sine_of(cosine)}, {node.cos_axes, node.sin_axes});
-        const float leaving = difference(to_axes, box).cosine;
-        if (leaving < node.cos_emission - kSlack) return 0.0f;
-        result *= std::max(leaving, kLeastCosine);
+    const Float4 axis = node.axis_x * x + node.axis_y * y + node.axis_z * z;
+    const Float4 ahead = axis * inverse;
+    const Float4 cos_out = max4(ahead, ahead * node.back);
+    const Float4 sin_out = sine_of(cos_out);
+    const Float4 cone_cos = node.cos_axes, cone_sin = node.sin_axes;
+    const Float4 cos_axes = cos_out * cone_cos + sin_out * cone_sin;
+    const Float4 sin_axes = sin_out * cone_cos - cos_out * cone_sin;
+    const Float4 off_axes = cos_axes * cos_box + sin_axes * sin_box;
+    const auto is_ahead = (cos_out > cone_cos) | (cos_axes > cos_box);
+    const Float4 leaving = is_ahead ? all4(1.0f) : off_axes;
+
+    Float4 arriving = all4(1.0f);
+    if (normal != glm::vec3(0.0f)) {
+        const Float4 height = all4(-normal.x) * x + all4(-normal.y) * y + all4(-normal.z) * z;
+        const Float4 cos_in = height * inverse;
+        const Float4 off_normal = cos_in * cos_box + sine_of(cos_in) * sin_box;
+        arriving = cos_in > cos_box ? all4(1.0f) : off_normal;
     }
-    if (receiver.normal != glm::vec3(0.0f)) {
-        const float cosine = -glm::dot(receiver.normal, from_light);
-        const float arriving = difference({cosine, sine_of(cosine)}, box).cosine;
-        if (arriving < -kSlack) return 0.0f;
-        result *= std::max(arriving, kLeastCosine);
-    }
-    return result;
+    const Float4 least = all4(kLeastCosine), power = node.power;
+    const Float4 slanted = max4(leaving, least) * max4(arriving, least);
+    const auto is_useful =
+        (distance <= node.reach) & (leaving >= node.cos_emission) & (arriving >= all4(-kSlack));
+    const Float4 afar = is_useful ? power * inverse * inverse * slanted : all4(0.0f);
+    // Near the box any direction is possible, and distance means little.
+    const Float4 size = max4(radius, all4(1e-15f));
+    const Float4 nearby = power / (size * size);
+    return min4(distance > radius ? afar : nearby, all4(kMostImportance));
 }
 
 struct LightTree::Item {
@@ -90,29 +103,49 @@ struct LightTree::Item {
 };
 
 /// Splits emitters in two by the smallest cost, over twelve slices of each axis, until each is
-/// alone (pbrt-4, BVHLightSampler::buildBVH).
+/// alone (pbrt-4, BVHLightSampler::buildBVH). Two splits in turn make one node.
 class LightTree::Builder {
   public:
     explicit Builder(LightTree& tree) : tree_(tree) {}
 
-    void build(std::span<Item> items, uint64_t turns, uint32_t depth) {
-        const size_t node = tree_.nodes_.size();
+    /// Makes the node of these items, which are split at `depth`, and returns its number.
+    uint32_t build(std::span<Item> items, uint64_t turns, uint32_t depth) {
+        const auto number = static_cast<uint32_t>(tree_.nodes_.size());
         tree_.nodes_.emplace_back();
         if (items.size() == 1) {
-            tree_.nodes_[node] = make_node(items[0].bounds, 0, items[0].emitter);
-            tree_.turns_[items[0].emitter] = turns;
-            return;
+            add_lane(number, 0, items, turns, depth);
+            return number;
         }
-        EmitterBounds bounds;
-        for (const Item& item : items) bounds = united(bounds, item.bounds);
         const size_t first_count = split(items, depth);
-        build(items.first(first_count), turns, depth + 1);
-        const auto second = static_cast<uint32_t>(tree_.nodes_.size());
-        build(items.subspan(first_count), turns | uint64_t{1} << depth, depth + 1);
-        tree_.nodes_[node] = make_node(bounds, second, kNoIndex);
+        add_half(number, 0, items.first(first_count), turns, depth);
+        add_half(number, 2, items.subspan(first_count), turns, depth);
+        return number;
     }
 
   private:
+    /// Two lanes, or one for an item that is alone.
+    void add_half(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t turns,
+                  uint32_t depth) {
+        if (items.size() == 1) return add_lane(node, lane, items, turns, depth);
+        const size_t first_count = split(items, depth + 1);
+        add_lane(node, lane, items.first(first_count), turns, depth);
+        add_lane(node, lane + 1, items.subspan(first_count), turns, depth);
+    }
+
+    void add_lane(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t turns,
+                  uint32_t depth) {
+        turns |= uint64_t{lane} << depth;
+        EmitterBounds bounds;
+        for (const Item& item : items) bounds = united(bounds, item.bounds);
+        const bool is_emitter = items.size() == 1;
+        const uint32_t emitter = items[0].emitter;
+        if (is_emitter) tree_.turns_[emitter] = turns;
+        const uint32_t child = is_emitter ? emitter : build(items, turns, depth + 2);
+        set_lane(tree_.nodes_[node], lane, bounds);
+        tree_.nodes_[node].child[lane] = child;
+        tree_.nodes_[node].is_emitter[lane] = is_emitter;
+    }
+
     static constexpr int kSlices = 12;
     /// From here on halves have the same number of emitters, so that 2^32 fit into 64 turns.
     static constexpr uint32_t kBalancedDepth = 32;
@@ -188,51 +221,51 @@ LightTree::LightTree(std::span<const EmitterBounds> emitters) : turns_(emitters.
         if (e.power > 0.0f) items.push_back({i, e, 0.5f * (e.low + e.high)});
     }
     if (items.empty()) return;
-    nodes_.reserve(2 * items.size() - 1);
     Builder(*this).build(items, 0, 0);
-}
-
-double LightTree::first_share(uint32_t node, const Receiver& receiver) const noexcept {
-    const double first = importance(nodes_[node + 1], receiver);
-    const double second = importance(nodes_[nodes_[node].second], receiver);
-    return first + second > 0.0 ? first / (first + second) : -1.0;
 }
 
 std::optional<LightTree::Choice> LightTree::sample(const Receiver& receiver,
                                                    double u) const noexcept {
     if (nodes_.empty()) return std::nullopt;
-    uint32_t node = 0;
     double probability = 1.0;
-    while (nodes_[node].emitter == kNoIndex) {
-        const double share = first_share(node, receiver);
-        if (share < 0.0) return std::nullopt;
-        if (u < share) {
-            u /= share;
-            probability *= share;
-            node = node + 1;
-        } else {
-            u = (u - share) / (1.0 - share);
-            probability *= 1.0 - share;
-            node = nodes_[node].second;
+    for (uint32_t node = 0;;) {
+        const Float4 shares = importance(nodes_[node], receiver);
+        const float total = (shares[0] + shares[1]) + (shares[2] + shares[3]);
+        if (!(total > 0.0f)) return std::nullopt;
+        double rest = u * total;
+        uint32_t lane = kNoIndex;  // the last one with a share takes what rounding leaves over
+        for (uint32_t i = 0; i < kLanes; ++i) {
+            if (!(shares[i] > 0.0f)) continue;
+            if (lane != kNoIndex) rest -= shares[lane];
+            lane = i;
+            if (rest < shares[i]) break;
         }
+        const double share = shares[lane];
+        u = std::clamp(rest / share, 0.0, 1.0);
+        probability *= share / total;
+        if (nodes_[node].is_emitter[lane]) {
+            return Choice{nodes_[node].child[lane], static_cast<float>(probability)};
+        }
+        node = nodes_[node].child[lane];
     }
-    return Choice{nodes_[node].emitter, static_cast<float>(probability)};
 }
 
 float LightTree::probability(const Receiver& receiver, uint32_t emitter) const noexcept {
+    if (nodes_.empty()) return 0.0f;
     double probability = 1.0;
     uint64_t turns = turns_[emitter];
-    uint32_t node = 0;
-    while (node < nodes_.size() && nodes_[node].emitter == kNoIndex) {
-        const double share = first_share(node, receiver);
-        if (share < 0.0) return 0.0f;
-        const bool takes_second = (turns & 1) != 0;
-        probability *= takes_second ? 1.0 - share : share;
-        node = takes_second ? nodes_[node].second : node + 1;
-        turns >>= 1;
+    for (uint32_t node = 0;; turns >>= 2) {
+        const Float4 shares = importance(nodes_[node], receiver);
+        const float total = (shares[0] + shares[1]) + (shares[2] + shares[3]);
+        if (!(total > 0.0f)) return 0.0f;
+        const uint32_t lane = turns & 3;
+        probability *= static_cast<double>(shares[lane]) / total;
+        if (nodes_[node].is_emitter[lane]) {
+            const bool is_found = nodes_[node].child[lane] == emitter;
+            return is_found ? static_cast<float>(probability) : 0.0f;
+        }
+        node = nodes_[node].child[lane];
     }
-    const bool is_found = node < nodes_.size() && nodes_[node].emitter == emitter;
-    return is_found ? static_cast<float>(probability) : 0.0f;
 }
 
 }  // namespace tetralight

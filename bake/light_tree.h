@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "bake/detail/float4.h"
 #include "bake/emitter_bounds.h"
 #include "probes/no_index.h"
 
@@ -19,7 +21,7 @@ struct Receiver {
 };
 
 /// Draws one of many emitters about as often as its light at a receiver is of all light there, in
-/// logarithmic time: a binary tree of bounds, in which each turn is drawn by importance, an
+/// logarithmic time: a tree of bounds, in which each turn is drawn by importance, an
 /// estimate of what leaves the bounds and reaches the receiver, shadows left out. It is positive
 /// unless they can send nothing. (Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights
 /// with Adaptive Tree Splitting", section 4.)
@@ -44,30 +46,31 @@ class LightTree {
     [[nodiscard]] float probability(const Receiver& receiver, uint32_t emitter) const noexcept;
 
   private:
-    /// Bounds in the form in which importance is found fastest, within one cache line.
+    static constexpr uint32_t kLanes = 4;
+
+    using Lanes = detail::Float4;
+
+    /// Four children, each property of all of them side by side, so that importance is found for
+    /// four at a time.
     struct Node {
-        glm::vec3 center{0.0f};
-        float radius2 = 0.0f;  ///< of the sphere around the box
-        glm::vec3 axis{0.0f};
-        float cos_axes = 0.0f, sin_axes = 0.0f, cos_emission = 0.0f;
-        float power = 0.0f;
-        float reach2 = 0.0f;          ///< of the center
-        uint32_t second = 0;          ///< second child; the first follows its parent
-        uint32_t emitter = kNoIndex;  ///< of a leaf
+        Lanes center_x{}, center_y{}, center_z{};
+        Lanes radius{};  ///< of the sphere around the box
+        Lanes axis_x{}, axis_y{}, axis_z{};
+        Lanes cos_axes{}, sin_axes{}, cos_emission{};
+        Lanes back{};                          ///< −1: shines from both sides alike; 1: does not
+        Lanes power{};                         ///< 0: no child
+        Lanes reach{};                         ///< of the center
+        std::array<uint32_t, kLanes> child{};  ///< number of a node, or of an emitter
+        std::array<bool, kLanes> is_emitter{};
     };
 
-    static_assert(sizeof(Node) <= 64);
-
-    static Node make_node(const EmitterBounds& bounds, uint32_t second, uint32_t emitter);
-    static float importance(const Node& node, const Receiver& receiver) noexcept;
-
-    /// Share of the draws at a node that turn to its first child; negative where neither is of use.
-    [[nodiscard]] double first_share(uint32_t node, const Receiver& receiver) const noexcept;
+    static void set_lane(Node& node, uint32_t lane, const EmitterBounds& bounds);
+    static detail::Float4 importance(const Node& node, const Receiver& receiver) noexcept;
 
     struct Item;
     class Builder;
 
-    /// The way from the root to a leaf, first turn in the lowest bit: 1 = second child.
+    /// The way from the root to each emitter: lanes, two bits each, the first in the lowest bits.
     std::vector<uint64_t> turns_;
     std::vector<Node> nodes_;
 };

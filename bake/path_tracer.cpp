@@ -76,7 +76,7 @@ PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers) const 
             const float survival =
                 std::max(kLeastSurvival, kSurvivalPerThroughput * brightest(throughput));
             if (survival < 1.0f) {
-                if (numbers.next2().x >= survival) break;
+                if (numbers.next() >= survival) break;
                 throughput /= survival;
             }
         }

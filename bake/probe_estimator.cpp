@@ -74,7 +74,7 @@ void add_baked_light(const PathTracer& tracer, const Light& light, glm::vec3 ori
         const LightSample sample = sample_light(light, origin, numbers.next2());
         if (sample.irradiance == glm::vec3(0.0f)) continue;
         ++estimate.ray_count;
-        if (tracer.is_blocked(origin, sample, numbers.next2().x)) continue;
+        if (tracer.is_blocked(origin, sample, numbers.next())) continue;
         sum.add(sample.to_light, sample.irradiance);
     }
     estimate.radiance += radiance_from_sum(sum, 1.0 / count);

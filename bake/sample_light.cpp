@@ -31,11 +31,12 @@ float cone_weight(float cosine) {
 }
 
 LightSample sample_sun(const Light& light, glm::vec2 u) {
-    const float cosine = std::cos(std::min(light.radius, 0.5f * kPi));
-    LightSample sample;
-    sample.to_light = sample_cone(-light.direction, cosine, u);
-    sample.irradiance = light.intensity * cone_weight(cosine);
+    LightSample sample{light.intensity, -light.direction};
     sample.is_distant = true;
+    if (light.radius <= 0.0f) return sample;
+    const float cosine = std::cos(std::min(light.radius, 0.5f * kPi));
+    sample.to_light = sample_cone(-light.direction, cosine, u);
+    sample.irradiance *= cone_weight(cosine);
     return sample;
 }
 

@@ -43,22 +43,41 @@ float unit_number(uint32_t digits) {
     return static_cast<float>(reverse_bits(digits) >> 8) * 0x1p-24f;
 }
 
+float first_of_pair(uint32_t index, uint64_t seed) {
+    return unit_number(permute_upwards(index, static_cast<uint32_t>(seed)));
+}
+
 }  // namespace
 
 glm::vec2 owen_sobol2(uint32_t index, uint64_t seed) noexcept {
     return {
-        unit_number(permute_upwards(index, static_cast<uint32_t>(seed))),
+        first_of_pair(index, seed),
         unit_number(permute_upwards(second_dimension(index), static_cast<uint32_t>(seed >> 32)))};
 }
 
-glm::vec2 PathNumbers::next2() noexcept {
+PathNumbers::PathNumbers(uint64_t key, uint32_t path) noexcept
+    : key_(key), reversed_path_(reverse_bits(path)) {}
+
+void PathNumbers::skip() noexcept {
     key_ += detail::kGoldenRatio64;
+}
+
+PathNumbers::Place PathNumbers::next_place() noexcept {
+    skip();
     const uint64_t order = detail::mix(key_);
     const uint64_t seed = detail::mix(order);
     // Scrambled itself, the index keeps aligned blocks together: few paths are as even as many.
-    const uint32_t index =
-        reverse_bits(permute_upwards(reverse_bits(path_), static_cast<uint32_t>(order)));
-    return owen_sobol2(index, seed);
+    return {reverse_bits(permute_upwards(reversed_path_, static_cast<uint32_t>(order))), seed};
+}
+
+glm::vec2 PathNumbers::next2() noexcept {
+    const Place place = next_place();
+    return owen_sobol2(place.index, place.seed);
+}
+
+float PathNumbers::next() noexcept {
+    const Place place = next_place();
+    return first_of_pair(place.index, place.seed);
 }
 
 double PathNumbers::next_fine() noexcept {

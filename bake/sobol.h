@@ -17,17 +17,31 @@ namespace tetralight {
 /// (key, path, number of calls before).
 class PathNumbers {
   public:
-    PathNumbers(uint64_t key, uint32_t path) noexcept : key_(key), path_(path) {}
+    PathNumbers(uint64_t key, uint32_t path) noexcept;
 
     /// Uniform in [0, 1)².
     [[nodiscard]] glm::vec2 next2() noexcept;
+
+    /// The first of the next pair.
+    [[nodiscard]] float next() noexcept;
+
+    /// Passes over a pair that is of no use.
+    void skip() noexcept;
 
     /// Uniform in [0, 1) with 48 bits, for choices among many. Takes one pair.
     [[nodiscard]] double next_fine() noexcept;
 
   private:
+    /// Index and scrambling of the next pair.
+    struct Place {
+        uint32_t index;
+        uint64_t seed;
+    };
+
+    Place next_place() noexcept;
+
     uint64_t key_;
-    uint32_t path_;
+    uint32_t reversed_path_;  ///< its bits, the last one first
 };
 
 }  // namespace tetralight

@@ -109,6 +109,29 @@ TEST(LightTree, EveryLightThatCanContributeIsDrawn) {
     EXPECT_GT(contributing, 5000);
 }
 
+/// A floor tile that shines up and down, and a lamp, each 2 m beside the origin.
+LightTree tile_and_lamp() {
+    std::vector<EmitterBounds> emitters(2);
+    emitters[0].low = emitters[0].high = {2, 0, 0};
+    emitters[0].axis = {0, 1, 0};
+    emitters[0].cos_axes = 1.0f;
+    emitters[0].cos_emission = 0.0f;
+    emitters[0].is_two_sided = true;
+    emitters[1].low = emitters[1].high = {-2, 0, 0};
+    emitters[0].power = emitters[1].power = 1.0f;
+    return LightTree(emitters);
+}
+
+TEST(LightTree, TwoSidedEmittersShineToBothSidesByTheirCosine) {
+    const LightTree tree = tile_and_lamp();
+    // Right above and below the tile at 2 m, the lamp is √20 m away: 1/4 against 1/20.
+    EXPECT_NEAR(tree.probability({{2, 2, 0}}, 0), 5.0 / 6.0, 1e-5);
+    EXPECT_NEAR(tree.probability({{2, -2, 0}}, 0), 5.0 / 6.0, 1e-5);
+    // 45° off the axis at √8 m; the lamp at √8 m as well.
+    const float slanted = std::sqrt(0.5f);
+    EXPECT_NEAR(tree.probability({{0, -2, 0}}, 0), slanted / (slanted + 1.0f), 1e-5);
+}
+
 TEST(LightTree, NearAndBrightLightsAreDrawnMoreOften) {
     std::vector<EmitterBounds> lamps(2);
     lamps[0].low = lamps[0].high = {1, 0, 0};
