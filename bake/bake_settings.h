@@ -31,4 +31,12 @@ struct BakeSettings {
     bool operator==(const BakeSettings&) const = default;
 };
 
+/// What `tetralight bake` does when it is told neither samples nor an error nor a time: as many
+/// samples as each probe needs, within bounds.
+[[nodiscard]] inline BakeSettings with_default_target(BakeSettings settings) {
+    settings.target_error = 0.005;
+    settings.max_sample_count = 131'072;
+    return settings;
+}
+
 }  // namespace tetralight

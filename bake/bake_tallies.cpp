@@ -114,12 +114,16 @@ class TallyBaker {
         std::vector<std::atomic<uint32_t>> missing(probes.size());
         for (auto& count : missing) count.store(estimates_each, std::memory_order_relaxed);
         progress_.set_worst_error(worst_error_beside(probes));
+        // The first estimates may have one direction more than the last ones.
+        const DirectionSet first(plan_.directions_of_estimate(round, 0));
+        const DirectionSet last(plan_.directions_of_estimate(round, estimates_each - 1));
 
         parallel_for(estimates.size(), settings_.thread_count, [&](size_t item) {
             if (progress_.is_cancelled() || is_time_over(round)) return;
             const size_t place = item / estimates_each;
-            estimates[item] = estimate(probes[place], round,
-                                       static_cast<uint32_t>(item - place * estimates_each));
+            const auto number = static_cast<uint32_t>(item - place * estimates_each);
+            const bool is_first = plan_.directions_of_estimate(round, number) == first.size();
+            estimates[item] = estimate(probes[place], round, number, is_first ? first : last);
             if (missing[place].fetch_sub(1, std::memory_order_acq_rel) == 1) {
                 const auto all =
                     std::span(estimates).subspan(place * estimates_each, estimates_each);
@@ -129,11 +133,12 @@ class TallyBaker {
         });
     }
 
-    [[nodiscard]] ProbeEstimate estimate(uint32_t probe, uint64_t round, uint32_t number) const {
+    [[nodiscard]] ProbeEstimate estimate(uint32_t probe, uint64_t round, uint32_t number,
+                                         const DirectionSet& directions) const {
         const glm::dvec3& position = work_.positions[probe];
         const uint64_t key = estimate_key(probe_key(settings_.seed, position), round, number);
         return estimate_probe(work_.tracer, work_.traced.traced_from_world(position), key,
-                              plan_.directions_of_estimate(round, number));
+                              directions);
     }
 
     void end_round(ProbeTally& tally, std::span<const ProbeEstimate> estimates) {

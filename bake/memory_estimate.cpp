@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "bake/scene/surface_color.h"
 #include "base/text.h"
 
 namespace tetralight {
@@ -16,6 +17,10 @@ namespace {
 constexpr uint64_t kBytesPerTriangle = 300;
 /// A vertex in traced space, ours and Embree's.
 constexpr uint64_t kBytesPerVertex = 24;
+/// Bounds, their tree, and what builds it.
+constexpr uint64_t kBytesPerEmissiveTriangle = 350;
+/// A cumulated share, and the integrals that it is made from.
+constexpr uint64_t kBytesPerSkyTexel = 12;
 /// Light as radiance and irradiance, compact, health, positions: 450 bytes; about 6.8 tetrahedra of
 /// 32 bytes; CGAL's vertices and cells while it builds them.
 constexpr uint64_t kBytesPerProbe = 450 + 7 * 32 + 1500;
@@ -43,6 +48,10 @@ uint64_t free_in_group() {
     return limit - std::min(limit, used);
 }
 
+bool emits(const Material& material) {
+    return material.bakes_emission && emission_source(material).factor != glm::vec3(0.0f);
+}
+
 /// "20.3 GB"
 std::string gigabytes(uint64_t bytes) {
     return text(std::round(static_cast<double>(bytes) / 1e8) / 10.0, " GB");
@@ -53,13 +62,16 @@ std::string gigabytes(uint64_t bytes) {
 BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count) {
     BakeMemory memory;
     memory.probe_count = probe_count;
-    uint64_t vertex_count = 0;
+    uint64_t vertex_count = 0, emissive_count = 0;
     for (const MeshInstance& instance : scene.instances) {
         if (!instance.contributes_gi) continue;
         const Mesh& mesh = scene.meshes[instance.mesh];
         memory.triangle_count += mesh.indices.size() / 3;
         vertex_count += mesh.positions.size();
+        if (emits(scene.materials[mesh.material])) emissive_count += mesh.indices.size() / 3;
     }
+    memory.light_bytes = emissive_count * kBytesPerEmissiveTriangle +
+                         scene.environment.image.pixels.size() * kBytesPerSkyTexel;
     memory.scene_bytes = memory.triangle_count * kBytesPerTriangle + vertex_count * kBytesPerVertex;
     memory.probe_bytes = probe_count * kBytesPerProbe;
     return memory;
@@ -75,9 +87,10 @@ Status check_bake_memory(const Scene& scene, size_t probe_count, uint64_t limit_
     const BakeMemory memory = estimate_bake_memory(scene, probe_count);
     if (memory.total_bytes() <= limit_bytes) return Ok{};
     return Error{text("the bake needs about ", gigabytes(memory.total_bytes()), " of memory (",
-                      memory.triangle_count, " triangles ", gigabytes(memory.scene_bytes), ", ",
-                      probe_count, " probes ", gigabytes(memory.probe_bytes), "), ",
-                      gigabytes(limit_bytes), " are free")};
+                      memory.triangle_count, " triangles ",
+                      gigabytes(memory.scene_bytes + memory.light_bytes), ", ", probe_count,
+                      " probes ", gigabytes(memory.probe_bytes), "), ", gigabytes(limit_bytes),
+                      " are free")};
 }
 
 }  // namespace tetralight

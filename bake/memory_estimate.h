@@ -15,10 +15,12 @@ struct BakeMemory {
     size_t probe_count = 0;
     /// Traced triangles: copies of their vertices and Embree's tree.
     uint64_t scene_bytes = 0;
+    /// What light is drawn from: emissive triangles with their tree, and the sky's texels.
+    uint64_t light_bytes = 0;
     /// Probes, their cells and what builds them.
     uint64_t probe_bytes = 0;
 
-    [[nodiscard]] uint64_t total_bytes() const { return scene_bytes + probe_bytes; }
+    [[nodiscard]] uint64_t total_bytes() const { return scene_bytes + light_bytes + probe_bytes; }
 };
 
 [[nodiscard]] BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count);

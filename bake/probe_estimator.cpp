@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <glm/mat3x3.hpp>
-#include <limits>
 #include <numbers>
 
 #include "bake/detail/mix.h"
 #include "bake/sampling.h"
-#include "base/assert.h"
 
 namespace tetralight {
 namespace {
@@ -28,22 +26,22 @@ uint64_t key_of(uint64_t key, Purpose purpose) {
     return detail::mix(key + (static_cast<uint64_t>(purpose) + 1) * detail::kGoldenRatio64);
 }
 
-/// Light along the probe's own directions.
-void add_paths(const PathTracer& tracer, glm::vec3 origin, uint64_t key, float pdf,
-               ProbeEstimate& estimate) {
-    const uint32_t count = estimate.direction_count;
+/// Light along the probe's own directions; that of `start` has no say.
+void add_paths(const PathTracer& tracer, const PathStart& start, const DirectionSet& directions,
+               uint64_t key, ProbeEstimate& estimate) {
     RandomStream rotation_stream(key, static_cast<uint64_t>(Purpose::Rotation));
     const glm::mat3 rotation = sample_rotation(rotation_stream);
     const uint64_t paths_key = key_of(key, Purpose::Paths);
     RadianceShSum sum;
-    for (uint32_t i = 0; i < count; ++i) {
-        const glm::vec3 direction = rotation * spherical_fibonacci(i, count);
-        const PathSample sample = tracer.trace({origin, direction, pdf}, PathNumbers(paths_key, i));
-        sum.add(direction, sample.radiance);
+    PathStart path = start;
+    for (uint32_t i = 0; i < directions.size(); ++i) {
+        path.direction = rotation * directions[i];
+        const PathSample sample = tracer.trace(path, PathNumbers(paths_key, i));
+        sum.add(path.direction, sample.radiance);
         estimate.behind_count += sample.is_behind_surface;
         estimate.ray_count += sample.ray_count;
     }
-    estimate.radiance += radiance_from_sum(sum, kSphere / count);
+    estimate.radiance += radiance_from_sum(sum, kSphere / directions.size());
 }
 
 /// Light straight from `count` emissive triangles and directions of the sky that are drawn.
@@ -97,17 +95,18 @@ void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
 }  // namespace
 
 ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
-                             uint32_t direction_count) {
-    TETRALIGHT_ASSERT(direction_count > 0, "an estimate takes directions");
+                             const DirectionSet& directions) {
+    const uint32_t direction_count = directions.size();
     ProbeEstimate estimate;
     estimate.direction_count = direction_count;
     if (tracer.can_sample_emission()) {
         const uint32_t drawn = std::max(1u, direction_count / kDirectionsPerEmitter);
         const double pdf = direction_count / (kSphere * drawn);
-        add_paths(tracer, origin, key, static_cast<float>(pdf), estimate);
+        const PathStart start{.origin = origin, .pdf = static_cast<float>(pdf)};
+        add_paths(tracer, start, directions, key, estimate);
         add_emission(tracer, origin, key, drawn, estimate);
     } else {
-        add_paths(tracer, origin, key, std::numeric_limits<float>::infinity(), estimate);
+        add_paths(tracer, {.origin = origin}, directions, key, estimate);
     }
     add_baked_lights(tracer, origin, key, estimate);
     return estimate;

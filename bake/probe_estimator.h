@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "bake/direction_set.h"
 #include "bake/path_tracer.h"
 #include "bake/trace_scene.h"
 #include "probes/sh.h"
@@ -20,10 +21,10 @@ struct ProbeEstimate {
     uint64_t ray_count = 0;
 };
 
-/// Gathers the light at `origin` (traced space) over `direction_count` directions: sky, emission,
-/// the bounces of all lights, and the direct light of those whose mode is `Baked`. Unbiased for any
-/// count; a pure function of its arguments. Precondition: at least one direction.
+/// Gathers the light at `origin` (traced space) over a set of directions, which is turned at
+/// random: sky, emission, the bounces of all lights, and the direct light of those whose mode is
+/// `Baked`. Unbiased for any set; a pure function of its arguments.
 [[nodiscard]] ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
-                                           uint32_t direction_count);
+                                           const DirectionSet& directions);
 
 }  // namespace tetralight

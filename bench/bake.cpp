@@ -47,11 +47,6 @@ Moments compare(const RadianceSh& a, const RadianceSh& reference) {
     return moments;
 }
 
-double relative_rmse(const RadianceSh& a, const RadianceSh& reference) {
-    const Moments moments = compare(a, reference);
-    return moments.light > 0.0 ? std::sqrt(moments.error) / moments.light : 0.0;
-}
-
 /// Everything that estimates share.
 struct Traced {
     const BakeSubject& subject;
@@ -67,10 +62,10 @@ struct Traced {
     [[nodiscard]] RadianceSh estimate(const glm::dvec3& probe, uint64_t seed,
                                       uint32_t direction_count) const {
         RadianceSh sum;
+        const DirectionSet directions(direction_count / 8);
         for (uint64_t set = 0; set < 8; ++set) {
             const uint64_t key = probe_key(8 * seed + set, probe);
-            sum += estimate_probe(tracer, scene.traced_from_world(probe), key, direction_count / 8)
-                       .radiance;
+            sum += estimate_probe(tracer, scene.traced_from_world(probe), key, directions).radiance;
         }
         return 0.125f * sum;
     }
@@ -118,21 +113,29 @@ double parseval_error(const RadianceSh& a, const RadianceSh& reference) {
     return sum > 0.0 ? std::sqrt(error / sum) : 0.0;
 }
 
+/// A bake that takes `factor` times as long: errors fall with the root of that.
+BakeSettings longer(BakeSettings settings, uint64_t factor) {
+    settings.target_error /= std::sqrt(static_cast<double>(factor));
+    settings.max_sample_count *= factor;
+    settings.seed = 1000;
+    return settings;
+}
+
 /// Whole bakes at default settings against one that is 64 times as long, and their error bars
 /// against their errors.
-void noise(const BakeSubject& subject) {
-    constexpr uint64_t kBakes = 8;
-    BakeSettings settings;
+void noise(const BakeSubject& subject, const Options& options) {
+    const uint64_t bakes = options.is_quick ? 2 : 8;
+    BakeSettings settings = with_default_target({});
     settings.bounces = kBounces;
-    settings.sample_count *= 64;
-    settings.seed = kBakes;
-    const auto reference = bake_probes(subject.scene, subject.probes, settings);
+    const auto reference =
+        bake_probes(subject.scene, subject.probes, longer(settings, options.is_quick ? 4 : 64));
     require(bool(reference), "bake");
-    settings.sample_count /= 64;
-    std::vector<double> errors;
+    std::vector<double> errors, bake_seconds;
     std::vector<double> squares(subject.probes.size()), predicted(subject.probes.size());
-    for (settings.seed = 0; settings.seed < kBakes; ++settings.seed) {
-        const auto baked = bake_probes(subject.scene, subject.probes, settings);
+    for (settings.seed = 0; settings.seed < bakes; ++settings.seed) {
+        auto baked = Result<BakedProbes>(BakedProbes{});
+        bake_seconds.push_back(
+            seconds([&] { baked = bake_probes(subject.scene, subject.probes, settings); }));
         require(bool(baked), "bake");
         for (size_t i = 0; i < subject.probes.size(); ++i) {
             const RadianceSh& exact = reference->radiance[i];
@@ -150,6 +153,7 @@ void noise(const BakeSubject& subject) {
     std::ranges::sort(errors);
     report("bake.noise.median." + subject.name, median(errors), "%");
     report("bake.noise.p99." + subject.name, errors[(errors.size() - 1) * 99 / 100], "%");
+    report("bake.noise.seconds." + subject.name, median(bake_seconds), "s a bake");
     report("bake.error_bar." + subject.name, median(ratios), "predicted / actual");
 }
 
@@ -181,6 +185,7 @@ void threads(const BakeSubject& subject, const Options& options) {
     contest.work = static_cast<double>(subject.probes.size());
     const auto bake = [&](uint32_t thread_count) {
         BakeSettings settings;
+        settings.sample_count = 16384;  // long against building the ray tree, which one thread does
         settings.thread_count = thread_count;
         return seconds(
             [&] { require(bool(bake_probes(subject.scene, subject.probes, settings)), "bake"); });
@@ -192,14 +197,20 @@ void threads(const BakeSubject& subject, const Options& options) {
 
 }  // namespace
 
+double relative_rmse(const RadianceSh& a, const RadianceSh& reference) {
+    const Moments moments = compare(a, reference);
+    return moments.light > 0.0 ? std::sqrt(moments.error) / moments.light : 0.0;
+}
+
 void bench_bake(const Options& options) {
+    if (options.convergence) return write_convergence(*options.convergence, options);
     bench_direction_sets();
     bench_bake_validity();
     for (const BakeSubject& subject : bake_subjects(options)) {
         const Traced traced(subject);
         time_to_1_percent(traced, options);
         bench_bake_rays(subject, options);
-        noise(subject);
+        noise(subject, options);
         dering_min(subject);
         threads(subject, options);
     }

@@ -72,12 +72,13 @@ class RayContest {
     void estimate(size_t item) const {
         const glm::dvec3& probe = subject_.probes[item / kEstimates];
         const uint64_t key = probe_key(item % kEstimates, probe);
-        (void)estimate_probe(tracer_, scene_.traced_from_world(probe), key, kDirections);
+        (void)estimate_probe(tracer_, scene_.traced_from_world(probe), key, directions_);
     }
 
     const BakeSubject& subject_;
     TraceScene scene_;
     PathTracer tracer_;
+    const DirectionSet directions_{kDirections};
     std::vector<std::vector<RecordedRay>> rays_;
     size_t ray_count_ = 0;
 };

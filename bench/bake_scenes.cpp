@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
+#include "bake/bake_probes.h"
+#include "bake/emitter_bounds.h"
 #include "bake/scene/read_gltf.h"
 #include "bake/scene/scene_bounds.h"
 #include "bake/survey.h"
@@ -64,6 +67,22 @@ std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
     return free;
 }
 
+/// Those that light gets to: a thousandth of the mean or more. What else is free are sealed hollows
+/// between walls, whose relative errors mean nothing, or are none.
+std::vector<glm::dvec3> lit_positions(const Scene& scene, std::span<const glm::dvec3> positions) {
+    const auto baked = bake_probes(scene, positions, {});
+    require(bool(baked), "bake");
+    const auto light = [&](size_t i) { return power_of(baked->radiance[i].coefficients[0]); };
+    double mean = 0.0;
+    for (size_t i = 0; i < positions.size(); ++i)
+        mean += light(i) / static_cast<double>(positions.size());
+    std::vector<glm::dvec3> lit;
+    for (size_t i = 0; i < positions.size() && lit.size() < kProbeCount; ++i) {
+        if (light(i) > 1e-3 * mean) lit.push_back(positions[i]);
+    }
+    return lit;
+}
+
 /// Every n-th probe of the scene's groups.
 std::vector<glm::dvec3> group_positions(const Scene& scene, size_t count) {
     std::vector<glm::dvec3> all;
@@ -84,7 +103,6 @@ BakeSubject read_subject(const std::string& name, const std::string& path) {
     require(bool(scene), scene ? "" : scene.error().message);
     BakeSubject subject{name, std::move(*scene), {}};
     subject.probes = group_positions(subject.scene, kProbeCount);
-    if (subject.probes.empty()) subject.probes = free_positions(subject.scene, kProbeCount);
     if (subject.scene.lights.empty() && subject.scene.environment.radiance == glm::vec3(0.0f)) {
         subject.scene.environment.radiance = glm::vec3(1.0f);
         Light sun;
@@ -92,6 +110,10 @@ BakeSubject read_subject(const std::string& name, const std::string& path) {
         sun.direction = glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f));
         subject.scene.lights.push_back(sun);
         subject.scene.light_names.push_back("sun");
+    }
+    if (subject.probes.empty()) {
+        subject.probes =
+            lit_positions(subject.scene, free_positions(subject.scene, 4 * kProbeCount));
     }
     return subject;
 }

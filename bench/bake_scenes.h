@@ -8,6 +8,7 @@
 
 #include "bake/scene/scene.h"
 #include "bench/harness.h"
+#include "probes/sh.h"
 
 namespace tetralight::bench {
 
@@ -23,6 +24,12 @@ struct BakeSubject {
 
 /// The courtyard with its own probes, the scene of the options, and a room with 10 000 emitters.
 [[nodiscard]] std::vector<BakeSubject> bake_subjects(const Options& options);
+
+/// Root mean square error of irradiance over 26 normals, as a share of the mean irradiance.
+[[nodiscard]] double relative_rmse(const RadianceSh& a, const RadianceSh& reference);
+
+/// Writes a line for each scene, method and number of rays a probe: the relative error.
+void write_convergence(const std::string& path, const Options& options);
 
 /// Rays a second of the whole baker, against those of the same rays alone.
 void bench_bake_rays(const BakeSubject& subject, const Options& options);

@@ -21,6 +21,8 @@ struct Options {
     int repetitions = 7;
     /// Leave out what takes minutes.
     bool is_quick = false;
+    /// Where `bake` writes how its errors fall with its rays, instead of its figures.
+    std::optional<std::string> convergence;
 };
 
 /// Two ways to do the same amount of work. Each returns the seconds that count, so that preparation

@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     app.add_flag("--quick", options.is_quick, "Leave out what takes minutes");
+    app.add_option("--convergence", options.convergence,
+                   "CSV file for `bake` to write errors over rays to, instead of its figures");
     CLI11_PARSE(app, argc, argv);
     for (const auto& [name, bench] : benches) {
         if (names.empty() || std::ranges::find(names, name) != names.end()) bench(options);

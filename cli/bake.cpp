@@ -76,15 +76,23 @@ struct Bake {
         add_health_options(command, settings.health);
         add_dering_options(command, settings.dering);
         common.add_to(command);
-        command.parse_complete_callback([this] { check_usage(); });
+        command.parse_complete_callback([this, &command] {
+            check_usage();
+            const auto is_told = [&](const char* option) { return command.count(option) > 0; };
+            if (is_told("--samples") || is_told("--target-error") || is_told("--time-budget"))
+                return;
+            settings.bake = with_default_target(settings.bake);
+        });
     }
 
     void add_sampling(CLI::App& command) {
-        command.add_option("-s,--samples", settings.bake.sample_count, "Directions a probe")
-            ->check(CLI::Range(1u, 1u << 24))
-            ->capture_default_str();
+        command
+            .add_option("-s,--samples", settings.bake.sample_count,
+                        "Directions a probe, 1024 at first; alone: neither more nor less")
+            ->check(CLI::Range(1u, 1u << 24));
         add_share(command, "--target-error", settings.bake.target_error,
-                  "Double the samples of a probe until its standard error is below this");
+                  "Double the samples of a probe until its standard error is below this;\n"
+                  "without --samples and --time-budget 0.5%, with at most 131072 samples");
         command
             .add_option("--max-samples", settings.bake.max_sample_count,
                         "Directions a probe at most then (default 64 times --samples)")

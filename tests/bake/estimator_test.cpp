@@ -29,10 +29,11 @@ Measured measure(const Scene& scene, const glm::dvec3& position, const PathSetti
     const auto traced = TraceScene::make_static(scene);
     EXPECT_TRUE(traced);
     const PathTracer tracer(scene, *traced, settings);
+    const DirectionSet set(directions);
     std::array<double, kShCoefficientCount> sum{}, squares{};
     for (uint32_t trial = 0; trial < trials; ++trial) {
         const ProbeEstimate probe = estimate_probe(tracer, traced->traced_from_world(position),
-                                                   probe_key(trial, position), directions);
+                                                   probe_key(trial, position), set);
         for (size_t i = 0; i < sum.size(); ++i) {
             const double value = probe.radiance.coefficients[i].x;
             sum[i] += value;

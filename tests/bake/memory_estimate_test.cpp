@@ -24,6 +24,19 @@ TEST(MemoryEstimate, EveryInstanceCountsAndWhatMovesDoesNot) {
     EXPECT_EQ(estimate_bake_memory(scene, 0).probe_bytes, 0u);
 }
 
+TEST(MemoryEstimate, CountsWhatLightIsDrawnFrom) {
+    Scene scene = instanced(1000);
+    EXPECT_EQ(estimate_bake_memory(scene, 0).light_bytes, 0u);
+    scene.environment.image = {64, 32, std::vector<glm::vec3>(64 * 32)};
+    const uint64_t sky = estimate_bake_memory(scene, 0).light_bytes;
+    EXPECT_GE(sky, 64 * 32 * sizeof(float));
+    scene.materials[0].emission = glm::vec3(1.0f);
+    const uint64_t light = estimate_bake_memory(scene, 0).light_bytes;
+    EXPECT_GE(light - sky, 2000 * 9 * sizeof(float));  // their corners at the very least
+    scene.materials[0].bakes_emission = false;
+    EXPECT_EQ(estimate_bake_memory(scene, 0).light_bytes, sky);
+}
+
 TEST(MemoryEstimate, GrowsWithTheNumberOfProbes) {
     const uint64_t one = estimate_bake_memory({}, 1).total_bytes();
     EXPECT_EQ(estimate_bake_memory({}, 1000000).total_bytes(), 1000000 * one);

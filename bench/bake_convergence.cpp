@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// How errors fall with the rays that are taken, for bench/plot_convergence.py.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "bake/direction_set.h"
+#include "bake/parallel.h"
+#include "bake/path_tracer.h"
+#include "bake/probe_estimator.h"
+#include "bake/sampling.h"
+#include "bench/bake_scenes.h"
+#include "bench/plain_tracer.h"
+
+namespace tetralight::bench {
+namespace {
+
+constexpr size_t kProbes = 16;
+constexpr uint64_t kTrials = 8;
+constexpr uint32_t kFewest = 64, kMost = 65536;
+constexpr uint32_t kReference = 1u << 20;
+
+class Convergence {
+  public:
+    Convergence(const BakeSubject& subject, std::ostream& csv)
+        : subject_(subject),
+          scene_(*TraceScene::make_static(subject.scene)),
+          tracer_(subject.scene, scene_, {kBounces}),
+          csv_(csv) {
+        scene_.listen(
+            {[](void* rays, const Ray&, RayKind, float) { ++*static_cast<uint64_t*>(rays); },
+             &rays_});
+    }
+
+    void write() {
+        for (size_t i = 0; i < std::min(kProbes, subject_.probes.size()); ++i) {
+            const RadianceSh light = ours(subject_.probes[i], kTrials, kReference);
+            if (light == RadianceSh{}) continue;
+            probes_.push_back(subject_.probes[i]);
+            references_.push_back(light);
+        }
+        for (uint32_t n = kFewest; n <= kMost; n *= 4) {
+            write_line("ours", [&](const glm::dvec3& probe, uint64_t trial) {
+                return ours(probe, trial, n);
+            });
+            PlainTracer plain(subject_.scene, scene_, kBounces);
+            write_line("random", [&](const glm::dvec3& probe, uint64_t trial) {
+                return plain.gather(scene_.traced_from_world(probe), n, trial);
+            });
+        }
+    }
+
+  private:
+    [[nodiscard]] RadianceSh ours(const glm::dvec3& probe, uint64_t trial, uint32_t n) const {
+        constexpr uint32_t kSets = 8;
+        const DirectionSet directions(n / kSets);
+        RadianceSh sum;
+        for (uint64_t set = 0; set < kSets; ++set) {
+            const uint64_t key = probe_key(kSets * trial + set, probe);
+            sum +=
+                estimate_probe(tracer_, scene_.traced_from_world(probe), key, directions).radiance;
+        }
+        return (1.0f / kSets) * sum;
+    }
+
+    /// The median over probes of the root mean square over trials.
+    template <class Gather>
+    void write_line(const char* method, Gather gather) {
+        rays_ = 0;
+        std::vector<double> errors;
+        for (size_t i = 0; i < probes_.size(); ++i) {
+            double squares = 0.0;
+            for (uint64_t trial = 0; trial < kTrials; ++trial) {
+                const double error = relative_rmse(gather(probes_[i], trial), references_[i]);
+                squares += error * error / kTrials;
+            }
+            errors.push_back(std::sqrt(squares));
+        }
+        const auto gathered = static_cast<double>(kTrials * probes_.size());
+        csv_ << subject_.name << ',' << method << ',' << static_cast<double>(rays_) / gathered
+             << ',' << median(errors) << std::endl;
+    }
+
+    const BakeSubject& subject_;
+    TraceScene scene_;
+    PathTracer tracer_;
+    std::ostream& csv_;
+    uint64_t rays_ = 0;
+    std::vector<glm::dvec3> probes_;
+    std::vector<RadianceSh> references_;
+};
+
+}  // namespace
+
+void write_convergence(const std::string& path, const Options& options) {
+    std::ofstream csv(path);
+    require(bool(csv), path + ": cannot be written");
+    csv << "scene,method,rays,error\n";
+    for (const BakeSubject& subject : bake_subjects(options)) {
+        // One thread counts rays, under the processor modes of a bake.
+        parallel_for(1, 1, [&](size_t) { Convergence(subject, csv).write(); });
+    }
+}
+
+}  // namespace tetralight::bench
