@@ -284,6 +284,22 @@ TEST_F(Bake, SamplesUntilEveryProbeIsBelowTheTarget) {
     EXPECT_GT(json["samples_per_probe"]["max"], 128);
 }
 
+TEST_F(Bake, TakesWhatHalfAPercentNeedsWhenToldNothing) {
+    const auto made_with = [&](const Arguments& more) {
+        Arguments arguments{"bake", "empty.gltf", "-g", "five.json", "-o", "v.probes"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        succeed(arguments);
+        return run_json({"info", "v.probes"})["made_with"];
+    };
+    const Json by_default = made_with({});
+    EXPECT_EQ(by_default["samples"], 1024);
+    EXPECT_EQ(by_default["target_error"], 0.005);
+    EXPECT_EQ(by_default["max_samples"], 131072);
+    EXPECT_FALSE(made_with({"-s", "2"}).contains("target_error"));
+    EXPECT_FALSE(made_with({"--time-budget", "1ms"}).contains("target_error"));
+    EXPECT_FALSE(made_with({"--target-error", "20%"}).contains("max_samples"));
+}
+
 TEST_F(Bake, SaysWhichProbesAreAboveTheTarget) {
     const CommandResult result = succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "128",
                                           "--target-error", "1e-9", "--max-samples", "256"});
