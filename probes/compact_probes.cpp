@@ -18,16 +18,6 @@ float largest_coefficient(const std::vector<IrradianceSh>& irradiance) {
     return largest;
 }
 
-/// Smallest power of two that brings `largest` to at most 2^12.
-float compact_scale(float largest) {
-    constexpr int kLargestExponent = 12;
-    int exponent = 0;
-    const float fraction = std::frexp(largest, &exponent);  // largest = fraction · 2^exponent
-    if (fraction == 0.5f) --exponent;
-    constexpr int kSmallestExponent = -126;  // of normal floats
-    return std::ldexp(1.0f, std::max(exponent - kLargestExponent, kSmallestExponent));
-}
-
 /// Halves have 11 bits, and below 2^-14 a step of 2^-24.
 bool is_rounded(uint16_t half, float value) {
     const float step = std::max(std::abs(value) * 0x1p-10f, 0x1p-24f);
@@ -49,6 +39,15 @@ bool is_rounded(const CompactProbe& compact, const ProbeVolumeView& volume, size
 }
 
 }  // namespace
+
+float compact_scale(float largest) noexcept {
+    constexpr int kLargestExponent = 12;
+    int exponent = 0;
+    const float fraction = std::frexp(largest, &exponent);  // largest = fraction · 2^exponent
+    if (fraction == 0.5f) --exponent;
+    constexpr int kSmallestExponent = -126;  // of normal floats
+    return std::ldexp(1.0f, std::max(exponent - kLargestExponent, kSmallestExponent));
+}
 
 void make_compact_probes(ProbeVolume& volume) {
     volume.compact.clear();

@@ -11,6 +11,9 @@ namespace tetralight {
 /// Without irradiance there are no compact probes.
 void make_compact_probes(ProbeVolume& volume);
 
+/// The smallest power of two that brings a coefficient of this size to at most 2^12.
+[[nodiscard]] float compact_scale(float largest) noexcept;
+
 /// What a compact probe holds, in floats.
 [[nodiscard]] IrradianceSh compact_irradiance(const CompactProbe& probe, float scale) noexcept;
 [[nodiscard]] glm::vec4 compact_occlusion(const CompactProbe& probe) noexcept;

@@ -12,10 +12,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "probes/distant_light.h"
 #include "probes/hilbert.h"
+#include "probes/layer.h"
 #include "probes/light.h"
+#include "probes/mixed_lighting.h"
 #include "probes/no_index.h"
 #include "probes/sh.h"
+#include "probes/transfer.h"
 
 // The probe volume: baked probes joined by one Delaunay tetrahedralization, whose tetrahedra and
 // hull cells together fill space. ProbeVolume owns, ProbeVolumeView is what queries read: of a
@@ -120,6 +124,9 @@ struct ProbeHealth {
 
 static_assert(sizeof(ProbeHealth) == 24 && std::is_trivially_copyable_v<ProbeHealth>);
 
+/// Whose visibility each channel of a probe's occlusion is: lights by index, kNoIndex for none.
+using OcclusionLights = std::array<uint32_t, 4>;
+
 /// The fixed-size facts of a volume.
 struct VolumeInfo {
     /// World position of the local origin. Arrays of float positions are relative to it, so that a
@@ -172,6 +179,18 @@ struct ProbeVolumeView {
     std::string_view light_names;          ///< each ended by '\n'
     std::string_view metadata;             ///< how the volume was made: a JSON object, or empty
 
+    // Light that can change after the bake (probes/recombine.h, probes/relight.h). May be empty.
+    std::span<const LightState> light_states;           ///< one a light
+    std::span<const OcclusionLights> occlusion_lights;  ///< one a probe
+    std::span<const Layer> layers;
+    std::string_view layer_names;  ///< each ended by '\n'
+    /// Layer after layer, one a probe each; `irradiance` is their weighted sum.
+    std::span<const IrradianceSh> layer_irradiance;
+    std::span<const ProbeTransfer> transfer;  ///< one a probe: how layer "sky" follows the sky
+    std::span<const DistantLight> sky;        ///< one: the sky that layer "sky" comes from
+    /// One a probe, when it has a transfer: 0, or 1 + the `DeringWindow` that its layers took.
+    std::span<const uint8_t> dering;
+
     [[nodiscard]] uint32_t probe_count() const noexcept {
         return static_cast<uint32_t>(positions.size());
     }
@@ -202,11 +221,22 @@ struct ProbeVolume {
     std::vector<Light> lights;
     std::string light_names;
     std::string metadata;
+    std::vector<LightState> light_states;
+    std::vector<OcclusionLights> occlusion_lights;
+    std::vector<Layer> layers;
+    std::string layer_names;
+    std::vector<IrradianceSh> layer_irradiance;
+    std::vector<ProbeTransfer> transfer;
+    std::vector<DistantLight> sky;
+    std::vector<uint8_t> dering;
 
     [[nodiscard]] ProbeVolumeView view() const noexcept;
 
     bool operator==(const ProbeVolume&) const = default;
 };
+
+/// A volume that owns what a view shows.
+[[nodiscard]] ProbeVolume copy_volume(const ProbeVolumeView& view);
 
 /// The lines of `group_names` or `light_names`.
 [[nodiscard]] std::vector<std::string_view> split_names(std::string_view names);

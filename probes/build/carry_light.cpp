@@ -9,6 +9,8 @@
 namespace tetralight {
 namespace {
 
+constexpr OcclusionLights kNobody{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+
 /// One value a probe: that of its twin, or `unlit`. Empty stays empty.
 template <class T>
 std::vector<T> carry(std::span<const T> values, std::span<const uint32_t> twins, const T& unlit) {
@@ -41,6 +43,19 @@ CarriedLight carry_light(const ProbeVolumeView& from, ProbeVolume& to) {
     to.info.ambient = from.info.ambient;
     to.lights.assign(from.lights.begin(), from.lights.end());
     to.light_names = from.light_names;
+    to.light_states.assign(from.light_states.begin(), from.light_states.end());
+    to.occlusion_lights = carry(from.occlusion_lights, twins, kNobody);
+    to.transfer = carry(from.transfer, twins, ProbeTransfer());
+    to.sky.assign(from.sky.begin(), from.sky.end());
+    to.dering = carry(from.dering, twins, uint8_t{0});
+    to.layers.assign(from.layers.begin(), from.layers.end());
+    to.layer_names = from.layer_names;
+    to.layer_irradiance.clear();
+    for (size_t begin = 0; begin < from.layer_irradiance.size(); begin += from.positions.size()) {
+        const auto layer = from.layer_irradiance.subspan(begin, from.positions.size());
+        const auto carried = carry(layer, twins, IrradianceSh());
+        to.layer_irradiance.insert(to.layer_irradiance.end(), carried.begin(), carried.end());
+    }
     return result;
 }
 

@@ -16,9 +16,10 @@ struct CarriedLight {
 };
 
 /// Gives the probes of a volume that is not lit the light of those that stand at exactly the same
-/// world position in another one: irradiance, occlusion and validity, and for the whole volume the
-/// ambient light and the lights of the bake. A bake depends on a probe's position, not on the other
-/// probes, so that what is carried is what a new bake of the same scene would give.
+/// world position in another one: irradiance, layers, transfer, occlusion and validity, and for the
+/// whole volume the ambient light and the lights of the bake. A bake depends on a probe's position,
+/// not on the other probes, so that what is carried is what a new bake of the same scene would
+/// give.
 ///
 /// Probes that find no other are unlit until someone bakes them: no irradiance, occlusion 1,
 /// validity 0. Where `from` has no light (or no occlusion, or no validity), neither has `to`.

@@ -94,6 +94,15 @@ void for_each_section(View& view, Visit&& visit) {
     visit("lights", view.lights);
     visit("light_names", view.light_names);
     visit("metadata", view.metadata);
+    // Light that can change after the bake.
+    visit("light_states", view.light_states);
+    visit("occlusion_lights", view.occlusion_lights);
+    visit("layers", view.layers);
+    visit("layer_names", view.layer_names);
+    visit("layer_irradiance", view.layer_irradiance);
+    visit("transfer", view.transfer);
+    visit("sky", view.sky);
+    visit("dering", view.dering);
 }
 
 }  // namespace tetralight::detail

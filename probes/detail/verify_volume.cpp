@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/text.h"
+#include "probes/detail/verify_layers.h"
 #include "probes/detail/verify_text.h"
 #include "probes/is_finite.h"
 #include "probes/probe_file.h"
@@ -232,7 +233,8 @@ Status verify(const ProbeVolumeView& volume) {
     if (auto status = check_counts(volume); !status) return status;
     if (auto status = check_numbers(volume); !status) return status;
     if (auto status = check_cells(volume); !status) return status;
-    return check_tables(volume);
+    if (auto status = check_tables(volume); !status) return status;
+    return detail::check_layers(volume);
 }
 
 }  // namespace tetralight

@@ -26,6 +26,12 @@ ProbeVolume make_full_volume() {
     volume.lights.resize(2);
     volume.light_names = "sun\nlamp\n";
     volume.metadata = "{\"samples\":16}";
+    volume.light_states.resize(2);
+    volume.occlusion_lights.assign(volume.positions.size(), {1, kNoIndex, kNoIndex, kNoIndex});
+    volume.layers.resize(2);
+    volume.layer_names = "sky\nrest\n";
+    volume.layer_irradiance.assign(2 * volume.positions.size(), test::linear_light({0, 0, 1}));
+    volume.sky.resize(1);
     return volume;
 }
 
@@ -145,7 +151,7 @@ TEST_F(ProbeFileTest, SkipsSectionsItDoesNotKnow) {
     write(bytes);
     const auto file = open_probe_file(path);
     ASSERT_TRUE(file) << file.error().message;
-    EXPECT_TRUE(file->view().metadata.empty());
+    EXPECT_TRUE(file->view().sky.empty());
 }
 
 TEST_F(ProbeFileTest, NamesThePathAndTheSection) {
@@ -154,7 +160,7 @@ TEST_F(ProbeFileTest, NamesThePathAndTheSection) {
     write(bytes);
     const auto file = open_probe_file(path);
     ASSERT_FALSE(file);
-    EXPECT_EQ(file.error().message, path + ": section \"metadata\" is corrupt (wrong checksum)");
+    EXPECT_EQ(file.error().message, path + ": section \"sky\" is corrupt (wrong checksum)");
 }
 
 TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/blend_volumes.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "probes/compact_probes.h"
+#include "probes/recombine.h"
+
+namespace tetralight {
+namespace {
+
+Status check_positions(const ProbeVolumeView& a, const ProbeVolumeView& b) {
+    if (a.positions.size() != b.positions.size()) {
+        return Error{
+            text("the volumes have ", a.positions.size(), " and ", b.positions.size(), " probes")};
+    }
+    for (size_t i = 0; i < a.positions.size(); ++i) {
+        if (a.positions[i] == b.positions[i] && a.info.world_origin == b.info.world_origin) {
+            continue;
+        }
+        return Error{text("probe ", i, " is not at the same position in both volumes")};
+    }
+    if (!std::ranges::equal(a.cells, b.cells)) return Error{"the volumes have different cells"};
+    if (a.irradiance.empty() != b.irradiance.empty()) {
+        return Error{"one of the volumes has light and the other none"};
+    }
+    return Ok{};
+}
+
+/// A light with what a runtime needs to know of it.
+struct Share {
+    Light light;
+    LightState state;
+    std::string_view name;
+};
+
+/// Each light dimmed by its layer and by `share`.
+std::vector<Share> lights_of(const ProbeVolumeView& volume, float share) {
+    const auto names = split_names(volume.light_names);
+    std::vector<Share> lights;
+    for (size_t i = 0; i < volume.lights.size(); ++i) {
+        Share& one = lights.emplace_back();
+        one.light = volume.lights[i];
+        one.light.intensity *= light_weight(volume, i) * share;
+        if (i < volume.light_states.size()) one.state = volume.light_states[i];
+        one.state.layer = kNoIndex;
+        if (i < names.size()) one.name = names[i];
+    }
+    return lights;
+}
+
+bool is_same_but_for_intensity(const Share& a, const Share& b) {
+    Light light = a.light;
+    light.intensity = b.light.intensity;
+    return light == b.light && a.name == b.name && a.state == b.state;
+}
+
+bool has_channel(const Share& share) {
+    return share.state.channel != kNoIndex;
+}
+
+/// Puts the lights of `b` among those of `a`, and returns where each went.
+Result<std::vector<uint32_t>> add_lights(const std::vector<Share>& of_b,
+                                         std::vector<Share>& lights) {
+    const size_t count = lights.size();
+    const bool has_channels = std::ranges::any_of(lights, has_channel);
+    std::vector<bool> is_taken(count, false);
+    std::vector<uint32_t> places;
+    for (const Share& share : of_b) {
+        size_t i = 0;
+        while (i < count && (is_taken[i] || !is_same_but_for_intensity(lights[i], share))) ++i;
+        places.push_back(static_cast<uint32_t>(i < count ? i : lights.size()));
+        if (i < count) {
+            lights[i].light.intensity += share.light.intensity;
+            is_taken[i] = true;
+        } else if (has_channel(share) && has_channels) {
+            return Error{text("light \"", share.name,
+                              "\" has occlusion, and the other volume has that of other lights")};
+        } else {
+            lights.push_back(share);
+        }
+    }
+    return places;
+}
+
+void store_lights(const std::vector<Share>& lights, ProbeVolume& volume) {
+    volume.lights.clear();
+    volume.light_states.clear();
+    volume.light_names.clear();
+    for (const Share& share : lights) {
+        volume.lights.push_back(share.light);
+        volume.light_states.push_back(share.state);
+        volume.light_names += std::string(share.name) + "\n";
+    }
+}
+
+template <class T>
+std::vector<T> copy(std::span<const T> elements) {
+    return {elements.begin(), elements.end()};
+}
+
+/// What both scenarios share, and what is the first one's.
+ProbeVolume without_light(const ProbeVolumeView& view) {
+    ProbeVolumeView kept = view;
+    kept.irradiance = {};
+    kept.occlusion = {};
+    kept.compact = {};
+    kept.occlusion_lights = {};
+    kept.layers = {};
+    kept.layer_names = {};
+    kept.layer_irradiance = {};
+    kept.transfer = {};
+    kept.sky = {};
+    kept.dering = {};
+    return copy_volume(kept);
+}
+
+/// Where only one scenario has occlusion, its lights are in its channels and nobody else's.
+/// `places`: where the lights of `b` went.
+void blend_occlusion(const ProbeVolumeView& a, const ProbeVolumeView& b, float t,
+                     const std::vector<uint32_t>& places, ProbeVolume& volume) {
+    volume.occlusion = copy(a.occlusion.empty() ? b.occlusion : a.occlusion);
+    volume.occlusion_lights = copy(a.occlusion_lights);
+    if (a.occlusion.empty()) {
+        volume.occlusion_lights = copy(b.occlusion_lights);
+        for (OcclusionLights& lights : volume.occlusion_lights) {
+            for (uint32_t& light : lights) light = light < places.size() ? places[light] : kNoIndex;
+        }
+    }
+    if (a.occlusion.empty() || b.occlusion.empty()) return;
+    for (size_t i = 0; i < volume.occlusion.size(); ++i) {
+        volume.occlusion[i] = (1.0f - t) * a.occlusion[i] + t * b.occlusion[i];
+    }
+}
+
+}  // namespace
+
+Result<ProbeVolume> blend(const ProbeVolumeView& a, const ProbeVolumeView& b, float t) {
+    if (!(t >= 0.0f && t <= 1.0f)) return Error{text("a blend of ", t, " is not in [0, 1]")};
+    if (auto status = check_positions(a, b); !status) return status.error();
+    std::vector<Share> lights = lights_of(a, 1.0f - t);
+    const auto places = add_lights(lights_of(b, t), lights);
+    if (!places) return places.error();
+    ProbeVolume volume = without_light(a);
+    volume.info.ambient = (1.0f - t) * a.info.ambient + t * b.info.ambient;
+    for (size_t i = 0; i < a.irradiance.size(); ++i) {
+        volume.irradiance.push_back((1.0f - t) * a.irradiance[i] + t * b.irradiance[i]);
+    }
+    store_lights(lights, volume);
+    blend_occlusion(a, b, t, *places, volume);
+    if (!a.compact.empty()) make_compact_probes(volume);
+    return volume;
+}
+
+}  // namespace tetralight

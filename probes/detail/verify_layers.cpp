@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/detail/verify_layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "base/text.h"
+#include "probes/dering.h"
+#include "probes/detail/verify_text.h"
+
+namespace tetralight::detail {
+namespace {
+
+Error in_section(std::string_view section, const std::string& what) {
+    return {text("section \"", section, "\": ", what)};
+}
+
+Status check_count(std::string_view section, size_t count, size_t expected) {
+    if (count == 0 || count == expected) return Ok{};
+    return in_section(section, text(count, " elements instead of ", expected));
+}
+
+/// Sections of plain floats, whatever they stand for.
+template <class T>
+Status check_floats(std::string_view section, std::span<const T> elements) {
+    static_assert(sizeof(T) % sizeof(float) == 0);
+    const auto* floats = reinterpret_cast<const float*>(elements.data());
+    const size_t each = sizeof(T) / sizeof(float);
+    for (size_t i = 0; i < elements.size() * each; ++i) {
+        if (std::isfinite(floats[i])) continue;
+        return in_section(section, text("element ", i / each, ": is not finite"));
+    }
+    return Ok{};
+}
+
+template <class T, class Predicate>
+Status check_each(std::string_view section, std::span<const T> elements, Predicate is_good) {
+    for (size_t i = 0; i < elements.size(); ++i) {
+        if (is_good(elements[i])) continue;
+        return in_section(section, text("element ", i, ": is out of range"));
+    }
+    return Ok{};
+}
+
+bool is_index(uint32_t index, size_t count) {
+    return index < count || index == kNoIndex;
+}
+
+bool is_finite(const Layer& layer) {
+    return std::isfinite(layer.weight) && layer.weight >= 0.0f && std::isfinite(layer.largest) &&
+           layer.largest >= 0.0f &&
+           std::ranges::all_of(layer.ambient.coefficients, [](const glm::vec3& c) {
+               return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+           });
+}
+
+Status check_counts(const ProbeVolumeView& v) {
+    const size_t probes = v.positions.size();
+    const size_t names = split_names(v.layer_names).size();
+    if (names != v.layers.size()) {
+        return in_section("layer_names", text(names, " names for ", v.layers.size(), " layers"));
+    }
+    for (const Status& status :
+         {check_count("light_states", v.light_states.size(), v.lights.size()),
+          check_count("occlusion_lights", v.occlusion_lights.size(), probes),
+          check_count("layer_irradiance", v.layer_irradiance.size(), v.layers.size() * probes),
+          check_count("transfer", v.transfer.size(), probes), check_count("sky", v.sky.size(), 1),
+          check_count("dering", v.dering.size(), probes)}) {
+        if (!status) return status;
+    }
+    return Ok{};
+}
+
+}  // namespace
+
+Status check_layers(const ProbeVolumeView& v) {
+    if (auto status = check_counts(v); !status) return status;
+    const auto is_state = [&](const LightState& state) {
+        return state.mixed_lighting <= MixedLighting::Subtractive &&
+               (state.channel < 4 || state.channel == kNoIndex) &&
+               is_index(state.layer, v.layers.size());
+    };
+    const auto are_lights = [&](const OcclusionLights& lights) {
+        return std::ranges::all_of(
+            lights, [&](uint32_t light) { return is_index(light, v.lights.size()); });
+    };
+    const auto is_window = [](uint8_t window) {
+        return window <= 1 + static_cast<uint8_t>(DeringWindow::Lanczos);
+    };
+    for (const Status& status :
+         {check_names("layer_names", v.layer_names),
+          check_each("light_states", v.light_states, is_state),
+          check_each("occlusion_lights", v.occlusion_lights, are_lights),
+          check_each("layers", v.layers, [](const Layer& layer) { return is_finite(layer); }),
+          check_floats("layer_irradiance", v.layer_irradiance),
+          check_floats("transfer", v.transfer), check_floats("sky", v.sky),
+          check_each("dering", v.dering, is_window)}) {
+        if (!status) return status;
+    }
+    return Ok{};
+}
+
+}  // namespace tetralight::detail

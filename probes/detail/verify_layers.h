@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/result.h"
+#include "probes/probe_volume.h"
+
+namespace tetralight::detail {
+
+/// What docs/file_format.md says of the sections of mixed lighting, layers and transfer. Errors
+/// name the section.
+[[nodiscard]] Status check_layers(const ProbeVolumeView& volume);
+
+}  // namespace tetralight::detail

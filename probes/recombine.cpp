@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probes/recombine.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "base/text.h"
+#include "probes/compact_probes.h"
+#include "probes/detail/recombine_kernel.h"
+
+namespace tetralight {
+namespace {
+
+constexpr size_t kFloats = 3 * size_t{kShCoefficientCount};
+
+/// Probes whose sums fit beside the layers they come from in the fastest cache.
+constexpr size_t kBlockSize = 32;
+
+std::string listed(const ProbeVolumeView& volume) {
+    std::string names;
+    for (const std::string_view name : split_names(volume.layer_names)) {
+        names += text(names.empty() ? "" : ", ", "\"", name, "\"");
+    }
+    return names.empty() ? "it holds no layers" : "it holds " + names;
+}
+
+Status check_weight(std::string_view name, float weight) {
+    if (std::isfinite(weight) && weight >= 0.0f) return Ok{};
+    return Error{text("layer \"", name, "\": weight ", weight, " is ",
+                      std::isnan(weight) ? "no number"
+                      : weight < 0.0f    ? "negative"
+                                         : "not finite")};
+}
+
+/// Whether a name is that of a layer, or what is behind its colon.
+bool is_short_for(std::string_view name, std::string_view layer) {
+    const size_t colon = layer.find(':');
+    return name == layer || (colon != std::string_view::npos && name == layer.substr(colon + 1));
+}
+
+Result<size_t> find_named(const ProbeVolumeView& volume, std::string_view name) {
+    const uint32_t exact = find_layer(volume, name);
+    if (exact != kNoIndex) return size_t{exact};
+    const auto names = split_names(volume.layer_names);
+    const auto is_meant = [&](std::string_view layer) { return is_short_for(name, layer); };
+    const auto count = std::ranges::count_if(names, is_meant);
+    if (count == 1) {
+        return static_cast<size_t>(std::ranges::find_if(names, is_meant) - names.begin());
+    }
+    return Error{text(count == 0 ? "there is no layer \"" : "there are several layers \"", name,
+                      "\"; ", listed(volume))};
+}
+
+}  // namespace
+
+std::vector<float> layer_weights(const ProbeVolumeView& volume) {
+    std::vector<float> weights;
+    for (const Layer& layer : volume.layers) weights.push_back(layer.weight);
+    return weights;
+}
+
+Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
+                                         std::span<const LayerWeight> changes) {
+    std::vector<float> weights = layer_weights(volume);
+    for (const LayerWeight& change : changes) {
+        const auto layer = find_named(volume, change.name);
+        if (!layer) return layer.error();
+        if (auto status = check_weight(change.name, change.weight); !status) return status.error();
+        if (*layer < weights.size()) weights[*layer] = change.weight;
+    }
+    return weights;
+}
+
+uint32_t find_layer(const ProbeVolumeView& volume, std::string_view name) noexcept {
+    const auto names = split_names(volume.layer_names);
+    const auto found = std::ranges::find(names, name);
+    return found == names.end() ? kNoIndex : static_cast<uint32_t>(found - names.begin());
+}
+
+float light_weight(const ProbeVolumeView& volume, size_t light) noexcept {
+    if (light >= volume.light_states.size()) return 1.0f;
+    const uint32_t layer = volume.light_states[light].layer;
+    return layer < volume.layers.size() ? volume.layers[layer].weight : 1.0f;
+}
+
+Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
+                                     std::span<const float> weights) {
+    const size_t layer_count = volume.layers.size();
+    if (layer_count == 0) {
+        return Error{"the volume holds no layers (bake it with --layers to change its light)"};
+    }
+    if (volume.layer_irradiance.size() != layer_count * volume.positions.size()) {
+        return Error{text("section \"layer_irradiance\": ", volume.layer_irradiance.size(),
+                          " elements for ", layer_count, " layers of ", volume.positions.size(),
+                          " probes")};
+    }
+    if (weights.size() != layer_count) {
+        return Error{text(weights.size(), " weights for ", layer_count, " layers")};
+    }
+    const auto names = split_names(volume.layer_names);
+    RecombinedInfo info;
+    double bound = 0.0;
+    for (size_t k = 0; k < layer_count; ++k) {
+        const std::string_view name = k < names.size() ? names[k] : "";
+        if (auto status = check_weight(name, weights[k]); !status) return status.error();
+        bound += static_cast<double>(weights[k]) * static_cast<double>(volume.layers[k].largest);
+        info.ambient += weights[k] * volume.layers[k].ambient;
+    }
+    if (!(bound < 1e37)) return Error{"the weights make light too bright to be finite"};
+    info.compact_scale = compact_scale(static_cast<float>(bound));
+    return info;
+}
+
+void recombine_probes(const ProbeVolumeView& volume, std::span<const float> weights, size_t begin,
+                      size_t end, std::span<IrradianceSh> irradiance,
+                      std::span<CompactProbe> compact, float scale) noexcept {
+    std::array<float, kBlockSize * kFloats> sums;
+    std::array<uint16_t, kBlockSize * kFloats> halves;
+    const auto* layers = reinterpret_cast<const float*>(volume.layer_irradiance.data());
+    for (size_t first = begin; first < end; first += kBlockSize) {
+        const size_t count = std::min(kBlockSize, end - first);
+        const size_t to = first - begin;
+        detail::RecombineBlock block;
+        block.layers = layers + first * kFloats;
+        block.layer_stride = volume.positions.size() * kFloats;
+        block.weights = weights;
+        block.count = count * kFloats;
+        block.sums = irradiance.empty() ? sums.data() : &irradiance[to].coefficients[0].x;
+        block.halves = compact.empty() ? nullptr : halves.data();
+        block.half_factor = 1.0f / scale;
+        detail::recombine_fast(block);
+        if (compact.empty()) continue;
+        for (size_t i = 0; i < count; ++i) {
+            std::memcpy(compact[to + i].irradiance.data(), halves.data() + i * kFloats,
+                        sizeof compact[0].irradiance);
+        }
+    }
+}
+
+Status recombine(ProbeVolume& volume, std::span<const float> weights) {
+    return recombine(volume, weights, [](size_t count, const auto& task) {
+        for (size_t i = 0; i < count; ++i) task(i);
+    });
+}
+
+void detail::store_weights(ProbeVolume& volume, std::span<const float> weights,
+                           const RecombinedInfo& info) noexcept {
+    for (size_t k = 0; k < weights.size(); ++k) volume.layers[k].weight = weights[k];
+    volume.info.ambient = info.ambient;
+    if (!volume.compact.empty()) volume.info.compact_scale = info.compact_scale;
+}
+
+void detail::recombine_task(ProbeVolume& volume, std::span<const float> weights,
+                            size_t task) noexcept {
+    const size_t begin = task * kRecombineTaskSize;
+    const size_t end = std::min(begin + kRecombineTaskSize, volume.positions.size());
+    const auto part = [&](auto& probes) {
+        return probes.empty() ? std::span(probes) : std::span(probes).subspan(begin, end - begin);
+    };
+    recombine_probes(volume.view(), weights, begin, end, part(volume.irradiance),
+                     part(volume.compact), volume.info.compact_scale);
+}
+
+}  // namespace tetralight

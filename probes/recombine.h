@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "probes/probe_volume.h"
+
+// Light that can change after the bake. A volume with layers keeps the light of each (the sun, the
+// sky, a lamp, a material); what queries read is their weighted sum, written anew in place:
+//
+//     const auto weights = layer_weights(volume.view(), {{"lamp", 0.0f}, {"neon", 2.0f}});
+//     if (!weights) return weights.error();
+//     auto status = recombine(volume, *weights);
+//
+// To spread it over frames while others read: probes/live_light.h.
+
+namespace tetralight {
+
+/// A layer by its name, or by what is behind the colon of it: "lamp" for "light:lamp".
+struct LayerWeight {
+    std::string_view name;
+    float weight = 1.0f;
+};
+
+/// The weights that the volume's light has now.
+[[nodiscard]] std::vector<float> layer_weights(const ProbeVolumeView& volume);
+
+/// The same with some of them replaced. Errors: no layer, or more than one, has a name (the message
+/// lists the layers); a weight is negative or not finite.
+[[nodiscard]] Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
+                                                       std::span<const LayerWeight> changes);
+
+/// The index of a layer by its full name; kNoIndex: there is none.
+[[nodiscard]] uint32_t find_layer(const ProbeVolumeView& volume, std::string_view name) noexcept;
+
+/// The weight that a light has now: that of its layer, 1 without one. Whoever adds the direct term
+/// of a `Mixed` light multiplies it by this.
+[[nodiscard]] float light_weight(const ProbeVolumeView& volume, size_t light) noexcept;
+
+/// What follows from the weights for the volume as a whole.
+struct RecombinedInfo {
+    /// Of compact probes: from the bound Σ w_k · largest_k, so that it is known beforehand.
+    float compact_scale = 0.0f;
+    IrradianceSh ambient;
+
+    bool operator==(const RecombinedInfo&) const = default;
+};
+
+/// Errors: the volume has no layers; not one weight for each layer; a weight that is negative or
+/// not finite, or so large that light would not be finite.
+[[nodiscard]] Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
+                                                   std::span<const float> weights);
+
+/// Probes [begin, end) of the sum, into spans that begin with probe `begin`. Either may be empty.
+/// Of compact probes the irradiance alone is written. Precondition: `check_weights`, whose scale it
+/// takes; the layers hold all probes.
+void recombine_probes(const ProbeVolumeView& volume, std::span<const float> weights, size_t begin,
+                      size_t end, std::span<IrradianceSh> irradiance,
+                      std::span<CompactProbe> compact, float compact_scale) noexcept;
+
+/// Probes of one task of a parallel recombination.
+inline constexpr size_t kRecombineTaskSize = 4096;
+
+/// Rewrites the volume's light as Σ w_k · layer_k, added in the order of the layers: irradiance,
+/// compact probes where there are some, ambient light, and the weights that the layers record.
+/// Where no layer is anywhere negative, neither is the sum. The same bits for any tasks. Errors as
+/// `check_weights`.
+///
+/// `parallel_for(count, task)` calls task(0) .. task(count − 1) in any order, on any threads, and
+/// returns when all are done.
+template <class ParallelFor>
+[[nodiscard]] Status recombine(ProbeVolume& volume, std::span<const float> weights,
+                               ParallelFor&& parallel_for);
+
+[[nodiscard]] Status recombine(ProbeVolume& volume, std::span<const float> weights);
+
+namespace detail {
+
+/// Records weights and what follows from them.
+void store_weights(ProbeVolume& volume, std::span<const float> weights,
+                   const RecombinedInfo& info) noexcept;
+
+/// One task of `recombine`.
+void recombine_task(ProbeVolume& volume, std::span<const float> weights, size_t task) noexcept;
+
+}  // namespace detail
+
+template <class ParallelFor>
+Status recombine(ProbeVolume& volume, std::span<const float> weights, ParallelFor&& parallel_for) {
+    const auto info = check_weights(volume.view(), weights);
+    if (!info) return info.error();
+    detail::store_weights(volume, weights, *info);
+    const size_t count = (volume.positions.size() + kRecombineTaskSize - 1) / kRecombineTaskSize;
+    parallel_for(count, [&](size_t task) { detail::recombine_task(volume, weights, task); });
+    return Ok{};
+}
+
+}  // namespace tetralight
