@@ -34,7 +34,8 @@ struct BakedProbes {
 /// and the direct light of those whose mode is `Baked`. The same as `bake_tallies`, from the start
 /// to the end.
 ///
-/// A pure function of (scene, positions, settings), time budgets aside: the same bits for any
+/// Precondition: the plan of the settings splits no light. A pure function of (scene, positions,
+/// settings), time budgets aside: the same bits for any
 /// number of threads and any other positions beside. Errors: settings out of range, a position that
 /// is not finite, not enough memory, "cancelled".
 [[nodiscard]] Result<BakedProbes> bake_probes(const Scene& scene,

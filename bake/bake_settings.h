@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "bake/light_plan.h"
 #include "bake/scene/surface_color.h"
 
 namespace tetralight {
@@ -24,6 +25,8 @@ struct BakeSettings {
     /// Reflections that light may take before it arrives; 0 = direct light only.
     uint32_t bounces = 4;
     SurfaceSettings surfaces;
+    /// What is baked of each light, and what light is split into.
+    LightPlan plan;
     uint64_t seed = 0;
     /// 0 = all.
     uint32_t thread_count = 0;

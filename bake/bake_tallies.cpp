@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bake/memory_estimate.h"
+#include "bake/occlusion.h"
 #include "bake/parallel.h"
 #include "bake/path_tracer.h"
 #include "bake/probe_estimator.h"
@@ -55,7 +56,15 @@ struct Work {
     const PathTracer& tracer;
     std::span<const glm::dvec3> positions;
     std::span<ProbeTally> tallies;
+    const SplitRows& split;
+    /// In traced space.
+    std::vector<Light> lights;
 };
+
+/// Whether a probe's occlusion is part of an estimate: the first one's.
+bool has_occlusion(const SplitLayout& layout, uint64_t round, uint32_t number) {
+    return layout.has_occlusion && round == 0 && number == 0;
+}
 
 class TallyBaker {
   public:
@@ -63,6 +72,7 @@ class TallyBaker {
         : work_(work),
           settings_(settings),
           plan_(settings),
+          layout_(settings.plan),
           hooks_(hooks),
           progress_(hooks.progress, work.positions.size()) {
         for (const ProbeTally& tally : work.tallies) {
@@ -127,7 +137,7 @@ class TallyBaker {
             if (missing[place].fetch_sub(1, std::memory_order_acq_rel) == 1) {
                 const auto all =
                     std::span(estimates).subspan(place * estimates_each, estimates_each);
-                end_round(work_.tallies[probes[place]], all);
+                end_round(probes[place], all);
             }
             progress_.add_rays(estimates[item].ray_count);
         });
@@ -136,12 +146,20 @@ class TallyBaker {
     [[nodiscard]] ProbeEstimate estimate(uint32_t probe, uint64_t round, uint32_t number,
                                          const DirectionSet& directions) const {
         const glm::dvec3& position = work_.positions[probe];
+        const glm::vec3 origin = work_.traced.traced_from_world(position);
         const uint64_t key = estimate_key(probe_key(settings_.seed, position), round, number);
-        return estimate_probe(work_.tracer, work_.traced.traced_from_world(position), key,
-                              directions);
+        ProbeEstimate estimate = estimate_probe(work_.tracer, origin, key, directions);
+        if (has_occlusion(layout_, round, number)) {
+            const glm::vec4 occlusion = probe_occlusion(
+                work_.tracer, work_.lights, work_.split.occlusion_lights[probe], origin, key);
+            for (int i = 0; i < 4; ++i) estimate.split.push_back(occlusion[i]);
+        }
+        return estimate;
     }
 
-    void end_round(ProbeTally& tally, std::span<const ProbeEstimate> estimates) {
+    void end_round(uint32_t probe, std::span<const ProbeEstimate> estimates) {
+        ProbeTally& tally = work_.tallies[probe];
+        add_split(probe, tally.round_count, estimates);
         const uint64_t expected_before = plan_.expected_directions(tally);
         const uint64_t directions_before = tally.direction_count;
         tally.add_round(estimates);
@@ -151,6 +169,21 @@ class TallyBaker {
                              .is_first = tally.round_count == 1,
                              .is_done = plan_.is_done(tally),
                              .standard_error = tally.standard_error()});
+    }
+
+    void add_split(uint32_t probe, uint64_t round, std::span<const ProbeEstimate> estimates) {
+        const auto row = work_.split.rows.subspan(probe * layout_.size(), layout_.size());
+        const size_t summed = layout_.occlusion_begin();
+        for (const ProbeEstimate& estimate : estimates) {
+            const auto weight = static_cast<double>(estimate.direction_count);
+            for (size_t i = 0; i < summed; ++i) {
+                row[i] += weight * static_cast<double>(estimate.split[i]);
+            }
+        }
+        if (!has_occlusion(layout_, round, 0)) return;
+        for (size_t i = summed; i < row.size(); ++i) {
+            row[i] = static_cast<double>(estimates[0].split[i]);
+        }
     }
 
     /// Of the probes that are not among `probes`, which are sorted.
@@ -186,6 +219,7 @@ class TallyBaker {
     const Work work_;
     const BakeSettings& settings_;
     const RoundPlan plan_;
+    const SplitLayout layout_;
     const BakeHooks& hooks_;
     ProgressReporter progress_;
     const Clock::time_point start_ = Clock::now();
@@ -198,15 +232,23 @@ class TallyBaker {
 
 Status bake_tallies(const Scene& scene, std::span<const glm::dvec3> positions,
                     const BakeSettings& settings, std::span<ProbeTally> tallies,
-                    const BakeHooks& hooks) {
+                    const BakeHooks& hooks, const SplitRows& split) {
     TETRALIGHT_ASSERT(tallies.size() == positions.size(), "one tally for each position");
+    const SplitLayout layout(settings.plan);
+    TETRALIGHT_ASSERT(split.rows.size() == layout.size() * positions.size(),
+                      "one row for each position when the plan splits light");
+    TETRALIGHT_ASSERT(!layout.has_occlusion || split.occlusion_lights.size() == positions.size(),
+                      "lights of the occlusion for each position");
     if (auto status = RoundPlan::check(settings); !status) return status;
     if (auto status = check_positions(positions); !status) return status;
     if (auto status = check_bake_memory(scene, positions.size()); !status) return status.error();
     const auto traced = TraceScene::make_static(scene, settings.surfaces);
     if (!traced) return traced.error();
-    const PathTracer tracer(scene, *traced, {settings.bounces, settings.clamp});
-    const auto status = TallyBaker({*traced, tracer, positions, tallies}, settings, hooks).run();
+    const PathTracer tracer(scene, *traced, {settings.bounces, settings.clamp}, settings.plan);
+    std::vector<Light> lights;
+    for (const Light& light : scene.lights) lights.push_back(traced->traced_from_world(light));
+    const Work work{*traced, tracer, positions, tallies, split, std::move(lights)};
+    const auto status = TallyBaker(work, settings, hooks).run();
     return status ? check_light(positions, tallies) : status;
 }
 

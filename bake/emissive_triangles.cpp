@@ -101,6 +101,7 @@ LightSample EmissiveTriangles::sample(const Receiver& receiver, double choice,
                                    point,
                                    glm::normalize(area_vector)},
                                   receiver.position);
+    sample.source = triangle.geometry;
     return sample;
 }
 

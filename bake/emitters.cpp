@@ -6,12 +6,13 @@
 namespace tetralight {
 namespace {
 
+/// All lights, those that do not bounce without intensity.
 Lamps bounced_lamps(const Scene& scene, const TraceScene& traced) {
     std::vector<Light> lights;
     for (const Light& light : scene.lights) {
-        if (light.mode != LightMode::Mixed && light.mode != LightMode::Baked) continue;
+        const bool is_bounced = light.mode == LightMode::Mixed || light.mode == LightMode::Baked;
         lights.push_back(traced.traced_from_world(light));
-        lights.back().intensity *= light.indirect_multiplier;
+        lights.back().intensity *= is_bounced ? light.indirect_multiplier : 0.0f;
     }
     return Lamps(lights);
 }

@@ -46,12 +46,15 @@ EmitterBounds lamp_bounds(const Light& light) noexcept {
 
 Lamps::Lamps(std::span<const Light> lights) {
     std::vector<EmitterBounds> bounds;
-    for (const Light& light : lights) {
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
         if (!(power_of(light.intensity) > 0.0f)) continue;
         if (light.type == LightType::Directional) {
             suns_.push_back(light);
+            sun_sources_.push_back(i);
         } else {
             local_.push_back(light);
+            local_sources_.push_back(i);
             bounds.push_back(lamp_bounds(light));
         }
     }
@@ -68,13 +71,15 @@ LightSample Lamps::sample_sun(const Receiver& receiver, PathNumbers& numbers) co
     float total = 0.0f;
     for (const Light& sun : suns_) total += sun_importance(sun, receiver);
     float rest = choice * total;
-    for (const Light& sun : suns_) {
+    for (size_t i = 0; i < suns_.size(); ++i) {
+        const Light& sun = suns_[i];
         const float own = sun_importance(sun, receiver);
         if (!(own > 0.0f)) continue;
         rest -= own;
         if (rest >= 0.0f) continue;
         LightSample sample = sample_light(sun, receiver.position, numbers.next2());
         if (own != total) sample.irradiance *= total / own;
+        sample.source = sun_sources_[i];
         return sample;
     }
     numbers.skip();
@@ -88,6 +93,7 @@ LightSample Lamps::sample_local(const Receiver& receiver, PathNumbers& numbers) 
     if (!chosen) return {};
     LightSample sample = sample_light(local_[chosen->emitter], receiver.position, u);
     sample.irradiance /= chosen->probability;
+    sample.source = local_sources_[chosen->emitter];
     return sample;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace tetralight {
 class Lamps {
   public:
     Lamps() = default;
+    /// Lights without intensity are never drawn; `LightSample::source` counts them too.
     explicit Lamps(std::span<const Light> lights);
 
     [[nodiscard]] bool has_suns() const { return !suns_.empty(); }
@@ -36,6 +38,8 @@ class Lamps {
   private:
     std::vector<Light> suns_;
     std::vector<Light> local_;
+    std::vector<uint32_t> sun_sources_;  // where they stand among all lights
+    std::vector<uint32_t> local_sources_;
     LightTree tree_;  // of `local_`
 };
 

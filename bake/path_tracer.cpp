@@ -38,28 +38,36 @@ bool is_light(glm::vec3 irradiance) {
 
 }  // namespace
 
-PathTracer::PathTracer(const Scene& scene, const TraceScene& traced, const PathSettings& settings)
-    : scene_(scene), traced_(traced), settings_(settings), emitters_(scene, traced) {
-    for (const Light& light : scene.lights) {
-        if (light.mode == LightMode::Baked)
-            baked_lights_.push_back(traced.traced_from_world(light));
+PathTracer::PathTracer(const Scene& scene, const TraceScene& traced, const PathSettings& settings,
+                       const LightPlan& plan)
+    : scene_(scene), traced_(traced), settings_(settings), plan_(plan), emitters_(scene, traced) {
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        if (plan.mode_of(scene, i) != LightMode::Baked) continue;
+        baked_lights_.push_back(traced.traced_from_world(scene.lights[i]));
+        layer_of_baked_light_.push_back(plan.layer_of(plan.layer_of_light, i));
     }
 }
 
-PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers) const {
+PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers, PathSplit* split) const {
     PathSample sample;
     glm::vec3 reflected(0.0f);
-    glm::vec3 throughput(1.0f);
+    Path path{numbers, glm::vec3(1.0f), 0, split};
+    glm::vec3& throughput = path.throughput;
     Ray ray{start.origin, start.direction};
     Receiver receiver{start.origin};
     float pdf = start.pdf;
     for (uint32_t bounce = 0;; ++bounce) {
+        const auto way = bounce == 0 ? PathSplit::Way::Seen : PathSplit::Way::Reflected;
         glm::vec3& sum = bounce == 0 ? sample.radiance : reflected;
-        ++sample.ray_count;
+        ++path.ray_count;
         const std::optional<Surface> surface = traced_.cast(ray, TraceScene::Detail::LightOnly);
         if (!surface) {
             const glm::vec3 sky = environment_radiance(scene_.environment, ray.direction);
-            sum += throughput * sky * weight_of_met(pdf, emitters_.pdf(ray.direction));
+            const glm::vec3 light =
+                throughput * sky * weight_of_met(pdf, emitters_.pdf(ray.direction));
+            sum += light;
+            path.add(plan_.layer_of_sky, light, way);
+            if (split != nullptr) split->leave({ray.direction, throughput, bounce == 0});
             break;
         }
         if (surface->is_back_face) {
@@ -68,7 +76,9 @@ PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers) const 
         }
         if (surface->emission != glm::vec3(0.0f)) {
             const float weight = weight_of_met(pdf, emitters_.pdf(receiver, *surface));
-            sum += throughput * surface->emission * weight;
+            const glm::vec3 light = throughput * surface->emission * weight;
+            sum += light;
+            path.add(layer_of_geometry(surface->geometry), light, way);
         }
         throughput *= surface->albedo;  // cosine-weighted: albedo/π · cos θ over cos θ/π
         if (bounce == settings_.bounces || throughput == glm::vec3(0.0f)) break;
@@ -76,22 +86,24 @@ PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers) const 
             const float survival =
                 std::max(kLeastSurvival, kSurvivalPerThroughput * brightest(throughput));
             if (survival < 1.0f) {
-                if (numbers.next() >= survival) break;
+                if (path.numbers.next() >= survival) break;
                 throughput /= survival;
             }
         }
-        reflected += throughput * reflected_light(*surface, numbers, sample.ray_count);
+        reflected += throughput * reflected_light(*surface, path);
 
         receiver = {surface->position, surface->geometric_normal};
         ray = {TraceScene::ray_origin(*surface, receiver.normal),
-               sample_cosine_hemisphere(receiver.normal, numbers.next2())};
+               sample_cosine_hemisphere(receiver.normal, path.numbers.next2())};
         pdf = sample_cosine_hemisphere_pdf(receiver.normal, ray.direction);
     }
     const float brightness = brightest(reflected);
     if (settings_.clamp > 0.0f && brightness > settings_.clamp) {
         reflected *= settings_.clamp / brightness;
+        if (split != nullptr) split->scale_reflected(settings_.clamp / brightness);
     }
     sample.radiance += reflected;
+    sample.ray_count = path.ray_count;
     return sample;
 }
 
@@ -115,23 +127,44 @@ bool PathTracer::is_blocked(glm::vec3 origin, const LightSample& sample, float b
     return traced_.is_blocked({origin, (sample.target - origin) * scale, 1.0f / scale});
 }
 
-glm::vec3 PathTracer::reflected_light(const Surface& surface, PathNumbers& numbers,
-                                      uint32_t& ray_count) const {
+glm::vec3 PathTracer::reflected_light(const Surface& surface, Path& path) const {
     const Receiver receiver{surface.position, surface.geometric_normal};
     const glm::vec3 ray_origin = TraceScene::ray_origin(surface, receiver.normal);
     glm::vec3 irradiance(0.0f);
     for (const EmitterKind kind :
          {EmitterKind::Sun, EmitterKind::Lamp, EmitterKind::Triangle, EmitterKind::Sky}) {
         if (!emitters_.has(kind)) continue;
-        const LightSample sample = emitters_.sample(kind, receiver, numbers);
+        const LightSample sample = emitters_.sample(kind, receiver, path.numbers);
         const float cosine = glm::dot(receiver.normal, sample.to_light);
         if (cosine <= 0.0f || !is_light(sample.irradiance)) continue;
         const float weight = weight_of_drawn(sample.pdf, cosine * std::numbers::inv_pi_v<float>);
         if (weight <= 0.0f) continue;
-        ++ray_count;
-        if (!is_blocked(ray_origin, sample)) irradiance += sample.irradiance * (cosine * weight);
+        ++path.ray_count;
+        if (is_blocked(ray_origin, sample)) continue;
+        const glm::vec3 light = sample.irradiance * (cosine * weight);
+        irradiance += light;
+        path.add(layer_of(kind, sample), path.throughput * light * std::numbers::inv_pi_v<float>,
+                 PathSplit::Way::Reflected);
     }
     return irradiance * std::numbers::inv_pi_v<float>;
+}
+
+uint32_t PathTracer::layer_of_geometry(uint32_t geometry) const {
+    if (plan_.layer_of_material.empty()) return kNoIndex;
+    return plan_.layer_of(plan_.layer_of_material, traced_.material(geometry));
+}
+
+uint32_t PathTracer::layer_of(EmitterKind kind, const LightSample& sample) const {
+    switch (kind) {
+        case EmitterKind::Sun:
+        case EmitterKind::Lamp:
+            return plan_.layer_of(plan_.layer_of_light, sample.source);
+        case EmitterKind::Triangle:
+            return layer_of_geometry(sample.source);
+        case EmitterKind::Sky:
+            break;
+    }
+    return plan_.layer_of_sky;
 }
 
 float PathTracer::weight_of_drawn(float pdf, float other_pdf) const {

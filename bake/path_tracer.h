@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bake/emitters.h"
+#include "bake/light_plan.h"
+#include "bake/path_split.h"
 #include "bake/scene/scene.h"
 #include "bake/sobol.h"
 #include "bake/trace_scene.h"
@@ -55,12 +57,14 @@ struct PathSample {
 /// that carry little are ended at random without bias. Thread-safe.
 class PathTracer {
   public:
-    /// Keeps references.
-    PathTracer(const Scene& scene, const TraceScene& traced, const PathSettings& settings);
+    /// Keeps references to the scenes. The plan says which lights are baked, and splits paths.
+    PathTracer(const Scene& scene, const TraceScene& traced, const PathSettings& settings,
+               const LightPlan& plan = {});
 
     /// Radiance that arrives along a path. The direct light of punctual and area lights is no part
-    /// of it: no ray meets them.
-    [[nodiscard]] PathSample trace(const PathStart& start, PathNumbers numbers) const;
+    /// of it: no ray meets them. `split`: where it came from; the sum has the same bits with it.
+    [[nodiscard]] PathSample trace(const PathStart& start, PathNumbers numbers,
+                                   PathSplit* split = nullptr) const;
 
     /// Whether anything that rays meet by chance can be drawn as well.
     [[nodiscard]] bool can_sample_emission() const;
@@ -78,22 +82,46 @@ class PathTracer {
     /// The lights whose direct light belongs into probes, in the scene's order, in traced space.
     [[nodiscard]] const std::vector<Light>& baked_lights() const { return baked_lights_; }
 
+    /// The layer of one of them.
+    [[nodiscard]] uint32_t layer_of_baked_light(size_t light) const {
+        return layer_of_baked_light_[light];
+    }
+
+    /// The layer of what was drawn.
+    [[nodiscard]] uint32_t layer_of(EmitterKind kind, const LightSample& sample) const;
+
+    [[nodiscard]] const LightPlan& plan() const { return plan_; }
+
     [[nodiscard]] const TraceScene& traced() const { return traced_; }
 
     [[nodiscard]] const Emitters& emitters() const { return emitters_; }
 
   private:
+    /// What is known of a path while it is followed.
+    struct Path {
+        PathNumbers numbers;
+        glm::vec3 throughput{1.0f};
+        uint32_t ray_count = 0;
+        PathSplit* split = nullptr;
+
+        void add(uint32_t layer, glm::vec3 light, PathSplit::Way way) const {
+            if (split != nullptr) split->add(layer, light, way);
+        }
+    };
+
     /// Light that a surface reflects straight from emitters, over its albedo.
-    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, PathNumbers& numbers,
-                                            uint32_t& ray_count) const;
+    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, Path& path) const;
+    [[nodiscard]] uint32_t layer_of_geometry(uint32_t geometry) const;
     [[nodiscard]] float weight_of_drawn(float pdf, float other_pdf) const;
     [[nodiscard]] float weight_of_met(float pdf, float emitter_pdf) const;
 
     const Scene& scene_;
     const TraceScene& traced_;
     PathSettings settings_;
+    LightPlan plan_;
     Emitters emitters_;
     std::vector<Light> baked_lights_;
+    std::vector<uint32_t> layer_of_baked_light_;
 };
 
 }  // namespace tetralight

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <glm/mat3x3.hpp>
 #include <numbers>
+#include <utility>
 
 #include "bake/detail/mix.h"
 #include "bake/sampling.h"
+#include "bake/split_sum.h"
 
 namespace tetralight {
 namespace {
@@ -26,18 +28,30 @@ uint64_t key_of(uint64_t key, Purpose purpose) {
     return detail::mix(key + (static_cast<uint64_t>(purpose) + 1) * detail::kGoldenRatio64);
 }
 
+/// What an estimate gathers, whole and split.
+struct Gathered {
+    ProbeEstimate estimate;
+    SplitSum split;
+};
+
 /// Light along the probe's own directions; that of `start` has no say.
 void add_paths(const PathTracer& tracer, const PathStart& start, const DirectionSet& directions,
-               uint64_t key, ProbeEstimate& estimate) {
+               uint64_t key, Gathered& gathered) {
+    ProbeEstimate& estimate = gathered.estimate;
     RandomStream rotation_stream(key, static_cast<uint64_t>(Purpose::Rotation));
     const glm::mat3 rotation = sample_rotation(rotation_stream);
     const uint64_t paths_key = key_of(key, Purpose::Paths);
+    const bool is_split = tracer.plan().has_split();
+    PathSplit split(tracer.plan().layer_count);
     RadianceShSum sum;
     PathStart path = start;
     for (uint32_t i = 0; i < directions.size(); ++i) {
         path.direction = rotation * directions[i];
-        const PathSample sample = tracer.trace(path, PathNumbers(paths_key, i));
+        if (is_split) split.clear();
+        const PathSample sample =
+            tracer.trace(path, PathNumbers(paths_key, i), is_split ? &split : nullptr);
         sum.add(path.direction, sample.radiance);
+        if (is_split) gathered.split.add(path.direction, split, kSphere / directions.size());
         estimate.behind_count += sample.is_behind_surface;
         estimate.ray_count += sample.ray_count;
     }
@@ -46,7 +60,8 @@ void add_paths(const PathTracer& tracer, const PathStart& start, const Direction
 
 /// Light straight from `count` emissive triangles and directions of the sky that are drawn.
 void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint32_t count,
-                  ProbeEstimate& estimate) {
+                  Gathered& gathered) {
+    ProbeEstimate& estimate = gathered.estimate;
     const double directions_each = static_cast<double>(estimate.direction_count) / count;
     const auto other_pdf = static_cast<float>(directions_each / kSphere);
     const uint64_t emission_key = key_of(key, Purpose::Emission);
@@ -56,16 +71,22 @@ void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint
         for (const EmitterKind kind : {EmitterKind::Triangle, EmitterKind::Sky}) {
             if (!tracer.emitters().has(kind)) continue;
             const LightSample sample = tracer.sample_emission(kind, {origin}, other_pdf, numbers);
-            if (sample.irradiance != glm::vec3(0.0f)) sum.add(sample.to_light, sample.irradiance);
             ++estimate.ray_count;
+            if (sample.irradiance == glm::vec3(0.0f)) continue;
+            sum.add(sample.to_light, sample.irradiance);
+            gathered.split.add(sample.to_light, tracer.layer_of(kind, sample), sample.irradiance,
+                               1.0 / count);
         }
     }
     estimate.radiance += radiance_from_sum(sum, 1.0 / count);
 }
 
-/// Direct light of one light by `count` shadow rays.
-void add_baked_light(const PathTracer& tracer, const Light& light, glm::vec3 origin, uint64_t key,
-                     uint32_t count, ProbeEstimate& estimate) {
+/// Direct light of one of the baked lights by `count` shadow rays.
+void add_baked_light(const PathTracer& tracer, size_t light_index, glm::vec3 origin, uint64_t key,
+                     uint32_t count, Gathered& gathered) {
+    ProbeEstimate& estimate = gathered.estimate;
+    const Light& light = tracer.baked_lights()[light_index];
+    const uint32_t layer = tracer.layer_of_baked_light(light_index);
     RadianceShSum sum;
     for (uint32_t i = 0; i < count; ++i) {
         PathNumbers numbers(key, i);
@@ -74,20 +95,21 @@ void add_baked_light(const PathTracer& tracer, const Light& light, glm::vec3 ori
         ++estimate.ray_count;
         if (tracer.is_blocked(origin, sample, numbers.next())) continue;
         sum.add(sample.to_light, sample.irradiance);
+        gathered.split.add(sample.to_light, layer, sample.irradiance, 1.0 / count);
     }
     estimate.radiance += radiance_from_sum(sum, 1.0 / count);
 }
 
 void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
-                      ProbeEstimate& estimate) {
+                      Gathered& gathered) {
     const std::vector<Light>& lights = tracer.baked_lights();
     const auto light_count = std::max<size_t>(1, lights.size());
-    const auto soft_count = static_cast<uint32_t>(
-        std::max<size_t>(1, estimate.direction_count / (kDirectionsPerShadowRay * light_count)));
+    const auto soft_count = static_cast<uint32_t>(std::max<size_t>(
+        1, gathered.estimate.direction_count / (kDirectionsPerShadowRay * light_count)));
     uint64_t light_key = key_of(key, Purpose::BakedLights);
-    for (const Light& light : lights) {
-        const bool is_hard = has_hard_shadows(light) && !tracer.traced().has_blending();
-        add_baked_light(tracer, light, origin, light_key, is_hard ? 1 : soft_count, estimate);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const bool is_hard = has_hard_shadows(lights[i]) && !tracer.traced().has_blending();
+        add_baked_light(tracer, i, origin, light_key, is_hard ? 1 : soft_count, gathered);
         light_key = detail::mix(light_key + detail::kGoldenRatio64);
     }
 }
@@ -97,19 +119,22 @@ void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
 ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
                              const DirectionSet& directions) {
     const uint32_t direction_count = directions.size();
-    ProbeEstimate estimate;
-    estimate.direction_count = direction_count;
+    SplitLayout layout(tracer.plan());
+    layout.has_occlusion = false;  // no part of what directions gather
+    Gathered gathered{{}, SplitSum(layout)};
+    gathered.estimate.direction_count = direction_count;
     if (tracer.can_sample_emission()) {
         const uint32_t drawn = std::max(1u, direction_count / kDirectionsPerEmitter);
         const double pdf = direction_count / (kSphere * drawn);
         const PathStart start{.origin = origin, .pdf = static_cast<float>(pdf)};
-        add_paths(tracer, start, directions, key, estimate);
-        add_emission(tracer, origin, key, drawn, estimate);
+        add_paths(tracer, start, directions, key, gathered);
+        add_emission(tracer, origin, key, drawn, gathered);
     } else {
-        add_paths(tracer, {.origin = origin}, directions, key, estimate);
+        add_paths(tracer, {.origin = origin}, directions, key, gathered);
     }
-    add_baked_lights(tracer, origin, key, estimate);
-    return estimate;
+    add_baked_lights(tracer, origin, key, gathered);
+    gathered.estimate.split = gathered.split.values();
+    return std::move(gathered.estimate);
 }
 
 }  // namespace tetralight

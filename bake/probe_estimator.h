@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "bake/direction_set.h"
 #include "bake/path_tracer.h"
@@ -19,6 +20,8 @@ struct ProbeEstimate {
     /// Directions that met the back of a single-sided surface first.
     uint32_t behind_count = 0;
     uint64_t ray_count = 0;
+    /// What the light is split into, as a row of `SplitLayout`; empty when the plan splits nothing.
+    std::vector<float> split;
 };
 
 /// Gathers the light at `origin` (traced space) over a set of directions, which is turned at

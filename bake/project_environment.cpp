@@ -2,6 +2,7 @@
 #include "bake/project_environment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -12,40 +13,78 @@
 namespace tetralight {
 namespace {
 
-/// Sum over one row of the sky, whose samples all have the same solid angle.
-RadianceShSum environment_row(const Environment& environment, double polar_angle,
-                              uint32_t columns) {
-    RadianceShSum sum;
-    const double y = std::cos(polar_angle), radius = std::sin(polar_angle);
-    for (uint32_t column = 0; column < columns; ++column) {
-        const double azimuth = 2.0 * std::numbers::pi * (column + 0.5) / columns;
-        const glm::vec3 direction(radius * std::cos(azimuth), y, radius * std::sin(azimuth));
-        sum.add(direction, environment_radiance(environment, direction));
+template <size_t kCount>
+using Coefficients = std::array<glm::dvec3, kCount>;
+
+/// The environment's coefficients by `basis_of(direction)`, which has kCount functions.
+template <size_t kCount, class BasisOf>
+class Projection {
+  public:
+    Projection(const Environment& environment, BasisOf basis_of)
+        : environment_(environment), basis_of_(basis_of) {
+        const ImageF& image = environment.image;
+        const uint32_t split = 1 + 255 / std::min(image.width, image.height);
+        columns_ = image.width * split;
+        rows_ = image.height * split;
     }
-    return sum;
-}
+
+    [[nodiscard]] Coefficients<kCount> all(uint32_t thread_count) const {
+        std::vector<Coefficients<kCount>> row_sums(rows_);
+        parallel_for(rows_, thread_count, [&](size_t i) { row_sums[i] = row(i); });
+        Coefficients<kCount> sum{};
+        const double row_angle = std::numbers::pi / rows_;
+        for (uint32_t i = 0; i < rows_; ++i) {
+            const double height = std::cos(i * row_angle) - std::cos((i + 1) * row_angle);
+            for (size_t k = 0; k < kCount; ++k) sum[k] += row_sums[i][k] * height;
+        }
+        for (glm::dvec3& coefficient : sum) coefficient *= 2.0 * std::numbers::pi / columns_;
+        return sum;
+    }
+
+  private:
+    /// Sum over one row of the sky, whose samples all have the same solid angle.
+    [[nodiscard]] Coefficients<kCount> row(size_t index) const {
+        Coefficients<kCount> sum{};
+        const double polar_angle = (static_cast<double>(index) + 0.5) * (std::numbers::pi / rows_);
+        const double y = std::cos(polar_angle), radius = std::sin(polar_angle);
+        for (uint32_t column = 0; column < columns_; ++column) {
+            const double azimuth = 2.0 * std::numbers::pi * (column + 0.5) / columns_;
+            const glm::vec3 direction(radius * std::cos(azimuth), y, radius * std::sin(azimuth));
+            const glm::dvec3 light(environment_radiance(environment_, direction));
+            const auto basis = basis_of_(direction);
+            for (size_t k = 0; k < kCount; ++k) sum[k] += light * static_cast<double>(basis[k]);
+        }
+        return sum;
+    }
+
+    const Environment& environment_;
+    BasisOf basis_of_;
+    uint32_t columns_ = 0;
+    uint32_t rows_ = 0;
+};
 
 }  // namespace
 
 RadianceSh project_environment(const Environment& environment, uint32_t thread_count) {
-    const ImageF& image = environment.image;
-    if (image.pixels.empty()) return constant_radiance(environment.radiance);
-    const uint32_t split = 1 + 255 / std::min(image.width, image.height);
-    const uint32_t columns = image.width * split, rows = image.height * split;
-    const double row_angle = std::numbers::pi / rows;
-    std::vector<RadianceShSum> row_sums(rows);
-    parallel_for(rows, thread_count, [&](size_t row) {
-        const double polar_angle = (static_cast<double>(row) + 0.5) * row_angle;
-        row_sums[row] = environment_row(environment, polar_angle, columns);
-    });
-    RadianceShSum sum;
-    for (uint32_t row = 0; row < rows; ++row) {
-        const double height = std::cos(row * row_angle) - std::cos((row + 1) * row_angle);
-        for (int i = 0; i < kShCoefficientCount; ++i) {
-            sum.coefficients[i] += row_sums[row].coefficients[i] * height;
-        }
+    if (environment.image.pixels.empty()) return constant_radiance(environment.radiance);
+    const Projection<kShCoefficientCount, decltype(&sh_basis)> projection(environment, &sh_basis);
+    const auto sum = projection.all(thread_count);
+    RadianceSh radiance;
+    for (size_t k = 0; k < sum.size(); ++k) radiance.coefficients[k] = glm::vec3(sum[k]);
+    return radiance;
+}
+
+DistantLight project_sky(const Environment& environment, uint32_t thread_count) {
+    DistantLight sky;
+    if (environment.image.pixels.empty()) {
+        sky.coefficients[0] = constant_radiance(environment.radiance).coefficients[0];
+        return sky;
     }
-    return radiance_from_sum(sum, 2.0 * std::numbers::pi / columns);
+    const Projection<kDistantCoefficientCount, decltype(&distant_basis)> projection(environment,
+                                                                                    &distant_basis);
+    const auto sum = projection.all(thread_count);
+    for (size_t k = 0; k < sum.size(); ++k) sky.coefficients[k] = glm::vec3(sum[k]);
+    return sky;
 }
 
 }  // namespace tetralight

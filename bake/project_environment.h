@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "bake/scene/scene.h"
+#include "probes/distant_light.h"
 #include "probes/sh.h"
 
 namespace tetralight {
@@ -13,5 +14,8 @@ namespace tetralight {
 /// are split, as the light varies within them. `thread_count` 0 = all; same bits for any.
 [[nodiscard]] RadianceSh project_environment(const Environment& environment,
                                              uint32_t thread_count = 0);
+
+/// The same with one band more.
+[[nodiscard]] DistantLight project_sky(const Environment& environment, uint32_t thread_count = 0);
 
 }  // namespace tetralight

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -19,6 +20,8 @@ struct LightSample {
     bool is_distant = false;
     /// Density of the direction, per steradian; 0 when rays cannot meet the light by chance.
     float pdf = 0.0f;
+    /// Which emitter of its kind: a light of the scene, a geometry of the traced scene.
+    uint32_t source = 0;
 
     bool operator==(const LightSample&) const = default;
 };

@@ -122,6 +122,11 @@ class TraceScene {
 
     [[nodiscard]] bool is_double_sided(uint32_t geometry) const;
 
+    /// Index of a geometry's material in the scene.
+    [[nodiscard]] uint32_t material(uint32_t geometry) const {
+        return state_->placed[geometry].mesh->material;
+    }
+
     /// Whether any point of a geometry may emit light, and whether its points may differ.
     [[nodiscard]] bool can_emit(uint32_t geometry) const;
     [[nodiscard]] bool has_varied_emission(uint32_t geometry) const;

@@ -87,9 +87,21 @@ void add(ContentHash& hash, const Scene& scene) {
     add(hash, environment);
 }
 
+void add(ContentHash& hash, const LightPlan& plan) {
+    const auto& [light_modes, layer_of_light, layer_of_material, layer_of_sky, layer_count,
+                 has_transfer, has_occlusion] = plan;
+    hash.add(light_modes);
+    hash.add(layer_of_light);
+    hash.add(layer_of_material);
+    hash.add(layer_of_sky);
+    hash.add(layer_count);
+    hash.add(has_transfer);
+    hash.add(has_occlusion);
+}
+
 void add(ContentHash& hash, const BakeSettings& settings) {
     const auto& [sample_count, target_error, max_sample_count, time_budget_seconds, clamp, bounces,
-                 surfaces, seed, thread_count] = settings;
+                 surfaces, plan, seed, thread_count] = settings;
     hash.add(sample_count);
     hash.add(target_error);
     hash.add(max_sample_count);
@@ -98,12 +110,13 @@ void add(ContentHash& hash, const BakeSettings& settings) {
     hash.add(bounces);
     hash.add(surfaces.albedo_boost);
     hash.add(surfaces.max_albedo);
+    add(hash, plan);
     hash.add(seed);
 }
 
-/// How probes are merged and surveyed is seen in the volume.
+/// How probes are merged and surveyed is seen in the volume; lighting is in it and in the plan.
 void add(ContentHash& hash, const BakeVolumeSettings& settings) {
-    const auto& [merge, bake, health, dering] = settings;
+    const auto& [merge, bake, health, dering, lighting] = settings;
     add(hash, bake);
     hash.add(health.invalid);
     hash.add(dering.window);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/occlusion.h"
+
+#include "bake/detail/mix.h"
+#include "bake/sample_light.h"
+
+namespace tetralight {
+namespace {
+
+/// The light without what dims it: samples of it are its shape alone.
+Light shape_of(Light light) {
+    if (light.type == LightType::Spot) light.type = LightType::Point;
+    light.intensity = glm::vec3(1.0f);
+    light.range = 0.0f;
+    light.falloff = LightFalloff::Gltf;
+    return light;
+}
+
+}  // namespace
+
+float light_visibility(const PathTracer& tracer, const Light& light, glm::vec3 origin,
+                       uint64_t key) {
+    if (!can_have_occlusion(light.type)) return 0.0f;
+    const Light shape = shape_of(light);
+    const bool is_hard = has_hard_shadows(light) && !tracer.traced().has_blending();
+    const uint32_t count = is_hard ? 1 : kOcclusionRays;
+    uint32_t visible = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        PathNumbers numbers(key, i);
+        const LightSample sample = sample_light(shape, origin, numbers.next2());
+        visible += !tracer.is_blocked(origin, sample, numbers.next());
+    }
+    return static_cast<float>(visible) / static_cast<float>(count);
+}
+
+glm::vec4 probe_occlusion(const PathTracer& tracer, std::span<const Light> lights,
+                          const OcclusionLights& owners, glm::vec3 origin, uint64_t key) {
+    glm::vec4 occlusion(1.0f);
+    for (uint32_t channel = 0; channel < owners.size(); ++channel) {
+        if (owners[channel] == kNoIndex) continue;
+        const uint64_t light_key = detail::mix(key + (channel + 1) * detail::kGoldenRatio64);
+        occlusion[static_cast<int>(channel)] =
+            light_visibility(tracer, lights[owners[channel]], origin, light_key);
+    }
+    return occlusion;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Half-transparent and cut-out surfaces: what stops at them is theirs, the rest goes on.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "bake/bake_probes.h"
+#include "tests/support/scenes.h"
+
+namespace tetralight {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kBand1 = 0.48860251190291992;
+
+RadianceSh bake(const Scene& scene, uint32_t bounces = 3) {
+    const glm::dvec3 position(0.3, 1.0, 0.1);
+    BakeSettings settings;
+    settings.sample_count = 1 << 14;
+    settings.bounces = bounces;
+    const auto baked = bake_probes(scene, std::span(&position, 1), settings);
+    EXPECT_TRUE(baked) << baked.error().message;
+    return baked->radiance[0];
+}
+
+/// A very large ground with an alpha mode and an alpha.
+Scene ground(AlphaMode mode, float alpha, glm::vec3 albedo, glm::vec3 emission) {
+    Scene scene;
+    Material material = test::diffuse(albedo, emission);
+    material.alpha_mode = mode;
+    material.base_color.a = alpha;
+    test::add_floor(scene, material, 10'000.0f);
+    return scene;
+}
+
+/// What a surface that faces down gathers (red): exact, as all light comes from below.
+double from_below(const RadianceSh& light) {
+    return -static_cast<double>(light.coefficients[1].x) / kBand1;
+}
+
+TEST(Transparency, OpacityScalesEmission) {
+    for (const float alpha : {0.25f, 0.5f, 1.0f}) {
+        const Scene scene = ground(AlphaMode::Blend, alpha, glm::vec3(0.0f), glm::vec3(2.0f));
+        EXPECT_NEAR(from_below(bake(scene)), static_cast<double>(alpha) * 2.0 * kPi,
+                    0.02 * 2.0 * kPi)
+            << alpha;
+    }
+}
+
+TEST(Transparency, OpacityScalesWhatIsReflected) {
+    // A sun of π from above: radiance albedo · alpha. The light that came through is gone below.
+    for (const float alpha : {0.25f, 0.5f, 1.0f}) {
+        Scene scene = ground(AlphaMode::Blend, alpha, glm::vec3(0.8f), glm::vec3(0.0f));
+        test::add_sun(scene, LightMode::Mixed, glm::vec3(static_cast<float>(kPi)));
+        EXPECT_NEAR(from_below(bake(scene)), static_cast<double>(alpha) * 0.8 * kPi,
+                    0.02 * 0.8 * kPi)
+            << alpha;
+    }
+}
+
+TEST(Transparency, WhatIsInvisibleContributesNothing) {
+    for (const AlphaMode mode : {AlphaMode::Blend, AlphaMode::Mask}) {
+        Scene scene = ground(mode, 0.0f, glm::vec3(0.9f), glm::vec3(5.0f));
+        test::add_sun(scene, LightMode::Baked, glm::vec3(3.0f)).radius = 0.05f;
+        scene.environment.radiance = {1, 2, 3};
+        Scene empty;
+        empty.lights = scene.lights;
+        empty.light_names = scene.light_names;
+        empty.environment = scene.environment;
+        const RadianceSh with = bake(scene), without = bake(empty);
+        for (size_t i = 0; i < kShCoefficientCount; ++i) {
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(with.coefficients[i][c], without.coefficients[i][c], 0.01f) << i;
+            }
+        }
+    }
+}
+
+TEST(Transparency, CutOutSurfacesShineAndReflectWhereTheyAre) {
+    // Half of the ground, in stripes that are small beside the distance.
+    Scene scene;
+    Texture stripes;
+    stripes.image = {2, 1, {{255, 255, 255, 255}, {255, 255, 255, 0}}};
+    scene.textures.push_back(stripes);
+    Material material = test::diffuse(glm::vec3(0.0f), glm::vec3(2.0f));
+    material.base_color_texture.texture = 0;
+    material.alpha_mode = AlphaMode::Mask;
+    material.base_color_texture.image_from_mesh[0][0] = 4000.0f;
+    test::add_floor(scene, material, 100.0f);
+    // The horizon beyond 100 m takes 1e-4 of the cosine.
+    EXPECT_NEAR(from_below(bake(scene)), 0.5 * 2.0 * kPi, 0.03 * 2.0 * kPi);
+}
+
+TEST(Transparency, BouncesPassThroughAsRaysDo) {
+    // Light of the ground reaches the probe through a pane that lets 60 % through.
+    Scene scene = ground(AlphaMode::Opaque, 1.0f, glm::vec3(0.0f), glm::vec3(1.0f));
+    Material pane = test::diffuse(glm::vec3(0.0f));
+    pane.alpha_mode = AlphaMode::Blend;
+    pane.base_color.a = 0.4f;
+    pane.is_double_sided = true;
+    test::add_floor(scene, pane, 10'000.0f, 0.5f);
+    EXPECT_NEAR(from_below(bake(scene)), 0.6 * kPi, 0.02 * kPi);
+}
+
+}  // namespace
+}  // namespace tetralight
