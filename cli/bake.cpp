@@ -9,6 +9,7 @@
 #include "cli/common.h"
 #include "cli/group_files.h"
 #include "cli/health_options.h"
+#include "cli/lighting_options.h"
 #include "cli/paths.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
@@ -27,11 +28,13 @@ struct Bake {
     BakeVolumeSettings settings;
     std::optional<IndexRange> probes;
     bool is_resumed = false;
+    bool is_explained = false;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
         scene_options.add_to(command);
-        add_output(command, output, ".probes,.part", "Probe volume to write, or part of it");
+        add_output(command, output, ".probes,.part", "Probe volume to write, or part of it")
+            ->required(false);
         auto* groups_option =
             add_paths(command, "-g,--groups", group_paths,
                       "Probe groups beside the scene's own: a .json file or a glTF scene; may be "
@@ -75,6 +78,10 @@ struct Bake {
                          "Go on with what an interrupted bake left beside the output");
         add_health_options(command, settings.health);
         add_dering_options(command, settings.dering);
+        add_lighting_options(command, settings.lighting);
+        command.add_flag("--explain", is_explained,
+                         "Bake nothing; print what a bake takes of each light of the scene, and "
+                         "what is left to the runtime");
         common.add_to(command);
         command.parse_complete_callback([this, &command] {
             check_usage();
@@ -103,6 +110,7 @@ struct Bake {
 
     /// What no option can tell of itself.
     void check_usage() const {
+        if (output.empty() && !is_explained) throw CLI::RequiredError("--output");
         const bool has_rounds =
             settings.bake.target_error > 0.0 || settings.bake.time_budget_seconds > 0.0;
         if (settings.bake.max_sample_count > 0 && !has_rounds) {
@@ -133,11 +141,20 @@ struct Bake {
 
     [[nodiscard]] std::vector<std::string> inputs() const {
         std::vector<std::string> paths = group_paths;
-        paths.insert(paths.end(), {scene_options.path, scene_options.sky});
+        paths.insert(paths.end(), {scene_options.path, scene_options.sky.sky});
         return paths;
     }
 
-    Status run() {
+    Status run() { return is_explained ? run_explain() : run_bake(); }
+
+    [[nodiscard]] Status run_explain() const {
+        const auto scene = scene_options.read();
+        if (!scene) return scene.error();
+        common.warn(scene->warnings);
+        return explain(*scene, settings.lighting, common);
+    }
+
+    Status run_bake() {
         if (auto status = check_output(output, inputs()); !status) return status;
         if (auto status = check_kept_file(); !status) return status;
         auto scene = scene_options.read();
@@ -222,7 +239,8 @@ struct Bake {
     }
 
     Status write_whole(PreparedBake prepared, const RangeBake& baked, double seconds) const {
-        const BakedVolume result = finish_bake(std::move(prepared), baked.partial.tallies);
+        const BakedVolume result =
+            finish_bake(std::move(prepared), baked.partial.tallies, baked.partial.split_rows);
         common.warn(result.report.warnings);
         if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
         report_volume(common, {output, settings.bake, seconds, baked.earlier_ray_count}, result);

@@ -6,6 +6,7 @@
 
 #include "bake/bake_tallies.h"
 #include "bake/memory_estimate.h"
+#include "bake/occlusion_channels.h"
 #include "bake/project_environment.h"
 #include "bake/round_plan.h"
 #include "base/assert.h"
@@ -13,6 +14,7 @@
 #include "pipeline/bake_key.h"
 #include "pipeline/dilate_probes.h"
 #include "pipeline/probe_warnings.h"
+#include "pipeline/split_light.h"
 #include "probes/build/make_probe_volume.h"
 #include "probes/build/merge_warnings.h"
 #include "probes/compact_probes.h"
@@ -52,20 +54,50 @@ std::string metadata(const BakeVolumeSettings& settings, bool has_dering) {
         add("albedo_boost", bake.surfaces.albedo_boost);
         add("max_albedo", bake.surfaces.max_albedo);
     }
+    if (settings.lighting.mixed_lighting != MixedLighting::Indirect) {
+        json += text(",\"mixed_lighting\":\"", name_of(settings.lighting.mixed_lighting), "\"");
+    }
     if (has_dering) {
         json += text(",\"dering\":\"", name_of(settings.dering.window), "\"");
     }
     return json + "}";
 }
 
+/// The layers that the bake will fill.
+void store_layers(const Scene& scene, const LightingPlan& plan, uint32_t thread_count,
+                  ProbeVolume& volume) {
+    for (uint32_t i = 0; i < plan.layer_names.size(); ++i) {
+        const uint32_t rest = plan.has_rest() ? plan.bake.layer_count : kNoIndex;
+        const bool has_sky = i == std::min(plan.bake.layer_of_sky, rest);
+        volume.layers.emplace_back();
+        if (has_sky) volume.layers[i].ambient = volume.info.ambient;
+        volume.layer_names += plan.layer_names[i] + "\n";
+    }
+    if (plan.bake.has_transfer) volume.sky = {project_sky(scene.environment, thread_count)};
+}
+
+/// Whose visibility each probe will keep.
+void store_occlusion_lights(const LightingPlan& plan, ProbeVolume& volume) {
+    if (!plan.bake.has_occlusion) return;
+    std::vector<uint32_t> channels;
+    for (const LightState& state : plan.light_states) channels.push_back(state.channel);
+    for (const glm::dvec3& position : volume.exact_positions) {
+        volume.occlusion_lights.push_back(occlusion_lights_at(position, plan.lights, channels));
+    }
+}
+
 /// What every part of the volume is lit by, known before the bake.
-void store_lights(const Scene& scene, PreparedBake& prepared) {
+void store_lights(const Scene& scene, const LightingPlan& plan, PreparedBake& prepared) {
     TETRALIGHT_ASSERT(scene.light_names.size() == scene.lights.size(), "one name for each light");
     const BakeVolumeSettings& settings = prepared.settings;
     ProbeVolume& volume = prepared.volume;
     volume.info.ambient = irradiance_from_radiance(
         project_environment(scene.environment, settings.bake.thread_count));
-    volume.lights = scene.lights;
+    volume.lights = plan.lights;
+    const bool has_states = settings.lighting != LightingSettings{};
+    if (has_states) volume.light_states = plan.light_states;
+    store_layers(scene, plan, settings.bake.thread_count, volume);
+    store_occlusion_lights(plan, volume);
     for (const std::string& name : scene.light_names) volume.light_names += name + "\n";
     const auto& asks = prepared.merged.group_dering;
     const bool has_dering = settings.dering.is_for_all_groups ||
@@ -98,10 +130,17 @@ void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport&
     if (settings.health.invalid == InvalidProbes::Dilate) {
         report.dilated_count = dilate_probes(prepared.is_invalid, volume);
     }
+    store_rest(volume);
     add_dark_warnings(prepared.merged, volume.irradiance, settings.bake.sample_count,
                       report.warnings);
-    dering_probes(prepared.merged, settings.dering, volume.irradiance);
-    make_compact_probes(volume);
+    if (volume.layers.empty()) {
+        dering_probes(prepared.merged, settings.dering, volume.irradiance);
+        make_compact_probes(volume);
+    } else {
+        make_compact_probes(volume);  // for what recombining leaves alone
+        finish_layers(dering_asked_for(prepared.merged, settings.dering), settings.dering.window,
+                      volume);
+    }
 }
 
 }  // namespace
@@ -112,8 +151,11 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     size_t position_count = 0;
     for (const ProbeGroup& group : groups) position_count += group.positions.size();
     if (auto status = check_bake_memory(scene, position_count); !status) return status.error();
+    auto plan = plan_lighting(scene, settings.lighting);
+    if (!plan) return plan.error();
     PreparedBake prepared;
     prepared.settings = settings;
+    prepared.settings.bake.plan = plan->bake;
     BakeReport& report = prepared.report;
     Stopwatch watch;
     auto merged = merge(groups, settings.merge);
@@ -129,6 +171,7 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     report.moved_count = probes->moved_count;
     report.left_out_count = probes->left_out_count;
     report.warnings = std::move(probes->warnings);
+    report.warnings.insert(report.warnings.end(), plan->warnings.begin(), plan->warnings.end());
     prepared.merged = std::move(probes->merged);
     prepared.capture_positions = std::move(probes->capture_positions);
     prepared.is_invalid = std::move(probes->is_invalid);
@@ -138,17 +181,19 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     prepared.volume.health = std::move(probes->health);
     report.tetrahedralize_seconds = watch.lap();
 
-    store_lights(scene, prepared);
+    store_lights(scene, *plan, prepared);
     prepared.key = bake_key(scene, prepared);
     return prepared;
 }
 
-BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies) {
+BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies,
+                        std::span<const double> split_rows) {
     TETRALIGHT_ASSERT(tallies.size() == prepared.volume.positions.size(), "one for each probe");
     const BakedProbes baked = baked_probes(tallies);
     ProbeVolume volume = std::move(prepared.volume);
     BakeReport report = std::move(prepared.report);
     store_light(baked, volume);
+    store_split(tallies, split_rows, volume);
 
     const double target_error = prepared.settings.bake.target_error;
     report.ray_count = baked.ray_count;
@@ -166,10 +211,13 @@ Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> 
     if (!prepared) return prepared.error();
     Stopwatch watch;
     std::vector<ProbeTally> tallies(prepared->capture_positions.size());
-    const auto status = bake_tallies(scene, prepared->capture_positions, settings.bake, tallies,
-                                     {.progress = callback});
+    const BakeSettings& with_plan = prepared->settings.bake;
+    std::vector<double> rows(SplitLayout(with_plan.plan).size() * tallies.size());
+    const auto status =
+        bake_tallies(scene, prepared->capture_positions, with_plan, tallies, {.progress = callback},
+                     {rows, prepared->volume.occlusion_lights});
     if (!status) return status.error();
-    BakedVolume baked = finish_bake(std::move(*prepared), tallies);
+    BakedVolume baked = finish_bake(std::move(*prepared), tallies, rows);
     baked.report.bake_seconds = watch.lap();
     return baked;
 }

@@ -11,6 +11,7 @@
 #include "bake/scene/scene.h"
 #include "base/result.h"
 #include "pipeline/dering_probes.h"
+#include "pipeline/lighting_plan.h"
 #include "pipeline/prepare_probes.h"
 #include "probes/build/merge.h"
 #include "probes/probe_group.h"
@@ -32,6 +33,7 @@ struct BakeVolumeSettings {
     BakeSettings bake;
     HealthSettings health;
     DeringSettings dering;
+    LightingSettings lighting{};
 
     bool operator==(const BakeVolumeSettings&) const = default;
 };
@@ -72,6 +74,7 @@ struct PreparedBake {
     std::vector<glm::dvec3> capture_positions;
     /// One a probe: it looks from inside geometry.
     std::vector<bool> is_invalid;
+    /// With the plan of `settings.bake` made for the scene.
     BakeVolumeSettings settings;
     /// Hash of all that the light depends on, and of the volume: what has another key is no part of
     /// the same bake.
@@ -84,8 +87,10 @@ struct PreparedBake {
                                                 const BakeVolumeSettings& settings);
 
 /// Puts the light of all probes into the volume. A function of the volume, `merged`, `is_invalid`,
-/// the settings and the tallies alone. Precondition: one tally for each probe.
-[[nodiscard]] BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies);
+/// the settings, the tallies and the rows of what light was split into (`SplitRows`) alone.
+/// Precondition: one tally for each probe, and one row of `split_layout(volume)`.
+[[nodiscard]] BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies,
+                                      std::span<const double> split_rows = {});
 
 /// Bakes a scene's light at the probes of all `groups` and joins them in one volume. The scene's
 /// own groups count only if they are among `groups`. No group at all gives a volume that answers

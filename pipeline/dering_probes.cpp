@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/dering_probes.h"
 
-#include <vector>
-
 #include "base/assert.h"
 
 namespace tetralight {
@@ -12,14 +10,19 @@ const char* name_of(DeringWindow window) {
     return kNames[static_cast<size_t>(window)];
 }
 
-size_t dering_probes(const MergedProbes& merged, const DeringSettings& settings,
-                     std::span<IrradianceSh> irradiance) {
-    TETRALIGHT_ASSERT(irradiance.size() == merged.positions.size(), "one irradiance a probe");
-    std::vector<bool> is_asked_for(irradiance.size(), settings.is_for_all_groups);
+std::vector<bool> dering_asked_for(const MergedProbes& merged, const DeringSettings& settings) {
+    std::vector<bool> is_asked_for(merged.positions.size(), settings.is_for_all_groups);
     for (const ProbeSource& source : merged.sources) {
         const bool is_there = source.probe != kNoIndex;
         if (is_there && merged.group_dering[source.group]) is_asked_for[source.probe] = true;
     }
+    return is_asked_for;
+}
+
+size_t dering_probes(const MergedProbes& merged, const DeringSettings& settings,
+                     std::span<IrradianceSh> irradiance) {
+    TETRALIGHT_ASSERT(irradiance.size() == merged.positions.size(), "one irradiance a probe");
+    const std::vector<bool> is_asked_for = dering_asked_for(merged, settings);
     size_t count = 0;
     for (size_t i = 0; i < irradiance.size(); ++i) {
         if (!is_asked_for[i]) continue;

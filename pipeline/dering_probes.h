@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "probes/build/merge.h"
 #include "probes/dering.h"
@@ -20,9 +21,13 @@ struct DeringSettings {
 /// "mildest", "hann", "lanczos".
 [[nodiscard]] const char* name_of(DeringWindow window);
 
-/// Removes ringing from the probes of all groups that ask for it, and returns how many these are. A
-/// probe of several groups counts as asked for when one of them asks. Precondition: one irradiance
-/// a probe.
+/// One a probe: whether its group asks for less ringing. A probe of several groups counts as asked
+/// for when one of them asks.
+[[nodiscard]] std::vector<bool> dering_asked_for(const MergedProbes& merged,
+                                                 const DeringSettings& settings);
+
+/// Removes ringing from the probes of all groups that ask for it, and returns how many these are.
+/// Precondition: one irradiance a probe.
 size_t dering_probes(const MergedProbes& merged, const DeringSettings& settings,
                      std::span<IrradianceSh> irradiance);
 

@@ -30,36 +30,89 @@ std::vector<Edge> edges_of(const std::vector<bool>& probes, const ProbeVolume& v
     return edges;
 }
 
-/// The mean light of the lit ends of a probe's edges; none when there is no such end.
-std::optional<IrradianceSh> light_around(std::span<const Edge> edges, const ProbeVolume& volume,
-                                         const std::vector<bool>& is_lit) {
-    IrradianceSh sum;
-    float weights = 0.0f;
+/// A probe and the lit ends of its edges, by weights whose sum is `total`.
+struct Blend {
+    uint32_t probe = 0;
+    std::vector<std::pair<uint32_t, float>> parts;
+    float total = 0.0f;
+};
+
+/// None when there is no lit end.
+std::optional<Blend> blend_around(std::span<const Edge> edges, const ProbeVolume& volume,
+                                  const std::vector<bool>& is_lit) {
+    Blend blend{edges[0].first, {}, 0.0f};
     for (const auto& [from, to] : edges) {
         if (!is_lit[to]) continue;
         const float distance = glm::distance(volume.positions[from], volume.positions[to]);
         const float weight = 1.0f / std::max(distance * distance, 1e-30f);
-        sum += weight * volume.irradiance[to];
-        weights += weight;
+        blend.parts.emplace_back(to, weight);
+        blend.total += weight;
     }
-    if (weights == 0.0f) return std::nullopt;
-    return sum * (1.0f / weights);
+    if (blend.parts.empty()) return std::nullopt;
+    return blend;
+}
+
+void apply(const Blend& blend, std::span<IrradianceSh> light) {
+    IrradianceSh sum;
+    for (const auto& [probe, weight] : blend.parts) sum += weight * light[probe];
+    light[blend.probe] = sum * (1.0f / blend.total);
+}
+
+void apply(const Blend& blend, std::vector<ProbeTransfer>& transfer) {
+    ProbeTransfer sum;
+    for (const auto& [probe, part] : blend.parts) {
+        const float weight = part / blend.total;
+        for (int i = 0; i < kShCoefficientCount; ++i) {
+            for (int j = 0; j < kDistantCoefficientCount; ++j) {
+                sum.direct[i][j] += weight * transfer[probe].direct[i][j];
+                sum.bounced[i][j] += weight * transfer[probe].bounced[i][j];
+            }
+        }
+    }
+    transfer[blend.probe] = sum;
+}
+
+/// Of each channel the neighbors that keep the same light in it count.
+void apply_to_occlusion(const Blend& blend, ProbeVolume& volume) {
+    const OcclusionLights& own = volume.occlusion_lights[blend.probe];
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto index = static_cast<size_t>(channel);
+        float sum = 0.0f, total = 0.0f;
+        for (const auto& [probe, weight] : blend.parts) {
+            if (volume.occlusion_lights[probe][index] != own[index]) continue;
+            sum += weight * volume.occlusion[probe][channel];
+            total += weight;
+        }
+        if (total > 0.0f) {
+            volume.occlusion[blend.probe][channel] = std::clamp(sum / total, 0.0f, 1.0f);
+        }
+    }
+}
+
+void apply(const Blend& blend, ProbeVolume& volume) {
+    const size_t count = volume.positions.size();
+    apply(blend, std::span(volume.irradiance));
+    for (size_t first = 0; first < volume.layer_irradiance.size(); first += count) {
+        apply(blend, std::span(volume.layer_irradiance).subspan(first, count));
+    }
+    if (!volume.transfer.empty()) apply(blend, volume.transfer);
+    if (!volume.occlusion.empty()) apply_to_occlusion(blend, volume);
+    volume.health[blend.probe].is_dilated = 1;
 }
 
 /// Lights all probes that are next to lit ones, from what was lit before, and returns how many.
 size_t spread(std::span<const Edge> edges, std::vector<bool>& is_lit, ProbeVolume& volume) {
-    std::vector<std::pair<uint32_t, IrradianceSh>> found;
+    std::vector<Blend> found;
     for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         const uint32_t probe = edges[begin].first;
         while (end < edges.size() && edges[end].first == probe) ++end;
         if (is_lit[probe]) continue;
-        const auto light = light_around(edges.subspan(begin, end - begin), volume, is_lit);
-        if (light) found.emplace_back(probe, *light);
+        auto blend = blend_around(edges.subspan(begin, end - begin), volume, is_lit);
+        if (blend) found.push_back(std::move(*blend));
     }
-    for (const auto& [probe, light] : found) {
-        volume.irradiance[probe] = light;
-        volume.health[probe].is_dilated = 1;
-        is_lit[probe] = true;
+    for (const Blend& blend : found) {
+        apply(blend, volume);  // from probes that were lit before: none of `found`
+        is_lit[blend.probe] = true;
     }
     return found.size();
 }

@@ -80,11 +80,14 @@ Result<BakedVolume> merge_parts(const std::vector<std::string>& paths) {
     if (auto status = check_cover(pieces, probe_count); !status) return status.error();
 
     std::vector<ProbeTally> tallies;
+    std::vector<double> rows;
     for (const Piece& piece : pieces) {
         const auto& some = piece.partial.tallies;
         tallies.insert(tallies.end(), some.begin(), some.end());
+        const auto& some_rows = piece.partial.split_rows;
+        rows.insert(rows.end(), some_rows.begin(), some_rows.end());
     }
-    return finish_bake(std::move(*bake), tallies);
+    return finish_bake(std::move(*bake), tallies, rows);
 }
 
 }  // namespace tetralight

@@ -11,6 +11,7 @@
 #include "bake/sampling.h"
 #include "probes/packed_sh.h"
 #include "runtime/pack_instances.h"
+#include "runtime/runtime_lights.h"
 #include "runtime/shade.h"
 
 namespace tetralight {
@@ -38,8 +39,8 @@ class LitBall {
             const ProbeVolumeView& volume)
         : instances_(instances), scene_(scene) {
         if (!instances.empty()) origin_ = instances[0].center;
-        for (const Light& light : volume.lights) {
-            if (light.mode != LightMode::Baked) direct_lights_.push_back(light);
+        for (const RuntimeLight& light : runtime_lights(volume)) {
+            if (light.lights_moving) direct_lights_.push_back(light);
         }
     }
 
@@ -59,8 +60,10 @@ class LitBall {
             positions.emplace_back(instance.center);
         }
         light_.resize(positions.size());
+        occlusion_.resize(positions.size());
         const auto start = std::chrono::steady_clock::now();
-        const auto report = pack_instances(volume, {.positions = positions, .packed = light_});
+        const auto report = pack_instances(
+            volume, {.positions = positions, .packed = light_, .occlusion = occlusion_});
         picture.query_seconds = seconds_since(start);
         if (!report) return report.error();
         return Ok{};
@@ -76,7 +79,7 @@ class LitBall {
         const glm::dvec3 surface =
             instance.center + glm::dvec3(normal) * (instance.radius * (1.0 + 1e-4));
         const glm::vec3 radiance = shade_diffuse(instance.albedo, light_[hit->primitive], normal,
-                                                 direct_term(surface, normal));
+                                                 direct_term(surface, normal, hit->primitive));
         return SceneShader::Shaded{radiance, hit->distance};
     }
 
@@ -86,16 +89,22 @@ class LitBall {
     }
 
   private:
-    [[nodiscard]] glm::vec3 direct_term(const glm::dvec3& position, glm::vec3 normal) const {
+    /// Shadows of the scene come from the probes where they hold those of a light, else from rays;
+    /// those of spheres and of what moves in the scene from rays.
+    [[nodiscard]] glm::vec3 direct_term(const glm::dvec3& position, glm::vec3 normal,
+                                        uint32_t sphere) const {
         glm::vec3 sum(0.0f);
-        for (const Light& light : direct_lights_) {
-            const glm::vec3 direct = direct_light(light, glm::vec3(position), normal);
+        for (const RuntimeLight& runtime : direct_lights_) {
+            const glm::vec3 direct = direct_light(runtime.light, glm::vec3(position), normal) *
+                                     runtime.visibility(occlusion_[sphere]);
             if (direct == glm::vec3(0.0f)) continue;
-            const Illumination arriving = illuminate(light, glm::vec3(position));
+            const Illumination arriving = illuminate(runtime.light, glm::vec3(position));
+            const auto casters = runtime.channel == kNoIndex ? SceneShader::Casters::All
+                                                             : SceneShader::Casters::Moving;
             const bool is_shadowed =
                 is_blocked(position, arriving.to_light, arriving.distance) ||
                 (scene_ != nullptr &&
-                 scene_->is_blocked(position, arriving.to_light, arriving.distance));
+                 scene_->is_blocked(position, arriving.to_light, arriving.distance, casters));
             if (!is_shadowed) sum += direct;
         }
         return sum;
@@ -104,9 +113,10 @@ class LitBall {
     std::span<const BallInstance> instances_;
     const SceneShader* scene_;
     glm::dvec3 origin_{0.0};
-    std::vector<Light> direct_lights_;
+    std::vector<RuntimeLight> direct_lights_;
     RayCaster caster_;
     std::vector<PackedSh> light_;
+    std::vector<glm::vec4> occlusion_;
 };
 
 }  // namespace

@@ -43,7 +43,8 @@ struct MeshBallPicture {
 
 /// Lights all instances by one batch query and renders them, each with its own probe light, plus
 /// the direct term of the volume's lights that are not `Baked`, with shadow rays among the spheres
-/// and into the scene. `scene` may be null: then the ball hangs in the sky.
+/// and into the scene; where probes hold the occlusion of a light, that of each instance stands for
+/// the shadow of the static scene. `scene` may be null: then the ball hangs in the sky.
 [[nodiscard]] Result<MeshBallPicture> render_mesh_ball(std::span<const BallInstance> instances,
                                                        const SceneShader* scene,
                                                        const ProbeVolumeView& volume,

@@ -11,6 +11,7 @@
 #include "bake/round_plan.h"
 #include "base/assert.h"
 #include "base/text.h"
+#include "pipeline/split_light.h"
 #include "probes/is_finite.h"
 
 namespace tetralight {
@@ -44,26 +45,15 @@ std::vector<T> read_section(const ProbeFile& file, std::string_view name) {
     return elements;
 }
 
-template <class T>
-std::vector<T> copy(std::span<const T> elements) {
-    return {elements.begin(), elements.end()};
-}
-
-ProbeVolume unlit_volume(const ProbeVolumeView& view) {
-    ProbeVolume volume;
-    volume.info = view.info;
-    volume.positions = copy(view.positions);
-    volume.health = copy(view.health);
-    volume.exact_positions = copy(view.exact_positions);
-    volume.cells = copy(view.cells);
-    volume.hull_rays = copy(view.hull_rays);
-    volume.seeds = copy(view.seeds);
-    volume.sources = copy(view.sources);
-    volume.group_names = view.group_names;
-    volume.lights = copy(view.lights);
-    volume.light_names = view.light_names;
-    volume.metadata = view.metadata;
-    return volume;
+/// Without what an unfinished bake should not have.
+ProbeVolume unlit_volume(ProbeVolumeView view) {
+    view.occlusion = {};
+    view.validity = {};
+    view.compact = {};
+    view.layer_irradiance = {};
+    view.transfer = {};
+    view.dering = {};
+    return copy_volume(view);
 }
 
 MergedProbes merged_probes(const ProbeVolume& volume, const std::vector<uint8_t>& dering) {
@@ -103,7 +93,7 @@ bool is_possible(const ProbeTally& tally, const RoundPlan& plan) {
 
 Status check_tallies(const PartFile& part) {
     const RoundPlan plan(part.prepared.settings.bake);
-    const auto& [range, tallies, is_finished] = part.partial;
+    const auto& [range, tallies, is_finished, split_rows] = part.partial;
     const size_t probe_count = part.prepared.volume.positions.size();
     if (range.begin > range.end || range.end > probe_count) {
         return Error{text("probes ", range.begin, "..", range.end, " are out of range (there are ",
@@ -111,6 +101,16 @@ Status check_tallies(const PartFile& part) {
     }
     if (tallies.size() != range.count()) {
         return Error{text(tallies.size(), " tallies for ", range.count(), " probes")};
+    }
+    const size_t row_size = split_layout(part.prepared.volume.view()).size();
+    if (split_rows.size() != row_size * tallies.size()) {
+        return Error{text("section \"split_rows\": ", split_rows.size(), " numbers for ",
+                          tallies.size(), " probes of ", row_size)};
+    }
+    for (size_t i = 0; i < split_rows.size(); ++i) {
+        if (std::isfinite(split_rows[i])) continue;
+        return Error{text("what the light of probe ", range.begin + i / row_size,
+                          " is split into is not finite")};
     }
     for (size_t i = 0; i < tallies.size(); ++i) {
         const bool has_light = tallies[i].round_count > 0 || !is_finished;
@@ -132,6 +132,7 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
     part.path = path;
     part.partial.range = {info.begin, info.end};
     part.partial.tallies = read_section<ProbeTally>(file, "tallies");
+    part.partial.split_rows = read_section<double>(file, "split_rows");
     part.partial.is_finished = info.is_finished != 0;
     part.prepared.key = info.key;
     part.prepared.settings = settings_of(info);
@@ -173,7 +174,7 @@ bool is_part(const ProbeFile& file) noexcept {
 
 Status write_part(const std::string& path, const PreparedBake& prepared,
                   const PartialBake& partial) {
-    const auto& [range, tallies, is_finished] = partial;
+    const auto& [range, tallies, is_finished, split_rows] = partial;
     TETRALIGHT_ASSERT(tallies.size() == range.count(), "one tally for each probe of the range");
     const BakeSettings& settings = prepared.settings.bake;
     const PartInfo info{prepared.key,
@@ -198,6 +199,7 @@ Status write_part(const std::string& path, const PreparedBake& prepared,
         {"group_dering", std::as_bytes(std::span(dering)), 1},
         {"is_invalid", std::as_bytes(std::span(invalid)), 1},
         {"tallies", std::as_bytes(std::span(tallies)), sizeof(ProbeTally)},
+        {"split_rows", std::as_bytes(std::span(split_rows)), sizeof(double)},
     };
     return write_probe_file(path, prepared.volume.view(), sections);
 }

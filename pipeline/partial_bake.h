@@ -32,6 +32,8 @@ struct PartialBake {
     std::vector<ProbeTally> tallies;
     /// Nothing is left to do; with a time budget the tallies alone do not tell.
     bool is_finished = false;
+    /// A row for each tally, when light is split (`SplitRows`).
+    std::vector<double> split_rows{};
 
     /// Probes that have had a round.
     [[nodiscard]] size_t begun_count() const;

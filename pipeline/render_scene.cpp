@@ -8,6 +8,7 @@
 #include "bake/scene/scene_bounds.h"
 #include "probes/interpolate.h"
 #include "probes/locate.h"
+#include "probes/recombine.h"
 #include "runtime/shade.h"
 
 namespace tetralight {
@@ -27,26 +28,60 @@ PackedSh light_at(const ProbeVolumeView& volume, const glm::dvec3& position) {
 
 }  // namespace
 
-SceneShader::SceneShader(const Scene& scene, const ProbeVolumeView& volume, TraceScene traced)
-    : scene_(&scene), volume_(volume), traced_(std::move(traced)) {
-    light_of_mover_.resize(scene.instances.size());
-    for (size_t i = 0; i < scene.instances.size(); ++i) {
-        const MeshInstance& instance = scene.instances[i];
-        const auto bounds = instance_bounds(scene, instance);
-        if (instance.contributes_gi || !bounds) continue;
-        light_of_mover_[i] = light_at(volume, bounds->center());
+SceneShader::SceneShader(const Scene& scene, const ProbeVolumeView& volume, TraceScene traced,
+                         TraceScene moving)
+    : scene_(&scene), volume_(volume), traced_(std::move(traced)), moving_(std::move(moving)) {
+    for (RuntimeLight& light : runtime_lights(volume)) {
+        direct_lights_.push_back({std::move(light), {}});
     }
-    for (const Light& light : volume.lights) {
-        if (light.mode != LightMode::Baked) {
-            direct_lights_.push_back(traced_.traced_from_world(light));
+    light_movers();
+    for (DirectLight& direct : direct_lights_) {
+        direct.light.light = traced_.traced_from_world(direct.light.light);
+    }
+    find_emission_weights();
+}
+
+void SceneShader::light_movers() {
+    const size_t count = scene_->instances.size();
+    light_of_mover_.resize(count);
+    for (DirectLight& direct : direct_lights_) direct.visibility_of_mover.assign(count, 1.0f);
+    for (size_t i = 0; i < count; ++i) {
+        const MeshInstance& instance = scene_->instances[i];
+        const auto bounds = instance_bounds(*scene_, instance);
+        if (instance.contributes_gi || !bounds) continue;
+        const CellLocation location = locate(volume_, glm::vec3(bounds->center()));
+        light_of_mover_[i] = pack_sh(interpolate(volume_, location).irradiance);
+        for (DirectLight& direct : direct_lights_) {
+            direct.visibility_of_mover[i] = interpolate_visibility(volume_, location, direct.light);
         }
+    }
+}
+
+/// What the bake did not see shines as it does.
+void SceneShader::find_emission_weights() {
+    emission_weights_.assign(scene_->materials.size(), 1.0f);
+    if (volume_.layers.empty()) return;
+    const auto weight_of = [&](uint32_t layer) {
+        return layer < volume_.layers.size() ? volume_.layers[layer].weight : 1.0f;
+    };
+    for (size_t i = 0; i < scene_->materials.size(); ++i) {
+        const Material& material = scene_->materials[i];
+        if (!material.bakes_emission) continue;
+        uint32_t layer = find_layer(volume_, "material:" + material.name);
+        if (layer == kNoIndex) layer = find_layer(volume_, "emission");
+        if (layer == kNoIndex) layer = find_layer(volume_, "rest");
+        emission_weights_[i] = weight_of(layer);
     }
 }
 
 Result<SceneShader> SceneShader::make(const Scene& scene, const ProbeVolumeView& volume) {
     auto traced = TraceScene::make(scene, [](const MeshInstance&) { return true; });
     if (!traced) return traced.error();
-    return SceneShader(scene, volume, std::move(*traced));
+    // Rays meet what moves in the same space as all the rest.
+    auto moving = TraceScene::make(
+        scene, [](const MeshInstance& instance) { return !instance.contributes_gi; });
+    if (!moving) return moving.error();
+    return SceneShader(scene, volume, std::move(*traced), std::move(*moving));
 }
 
 PackedSh SceneShader::probe_light(const Surface& surface) const {
@@ -58,13 +93,20 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
 }
 
 glm::vec3 SceneShader::direct_term(const Surface& surface) const {
-    const glm::vec3 position = TraceScene::ray_origin(surface, surface.geometric_normal);
+    const bool moves = !scene_->instances[surface.instance].contributes_gi;
+    const glm::vec3 origin = TraceScene::ray_origin(surface, surface.geometric_normal);
+    const glm::dvec3 world_origin = traced_.world_from_traced(origin);
     glm::vec3 sum(0.0f);
-    for (const Light& light : direct_lights_) {
-        const glm::vec3 direct = direct_light(light, surface.position, surface.shading_normal);
+    for (const auto& [runtime, visibility_of_mover] : direct_lights_) {
+        if (moves && !runtime.lights_moving) continue;
+        glm::vec3 direct = direct_light(runtime.light, surface.position, surface.shading_normal);
+        const bool has_static_shadow = moves && runtime.channel != kNoIndex;
+        if (has_static_shadow) direct *= visibility_of_mover[surface.instance];
         if (direct == glm::vec3(0.0f)) continue;
-        const Illumination arriving = illuminate(light, surface.position);
-        if (!traced_.is_blocked({position, arriving.to_light, arriving.distance})) sum += direct;
+        const Illumination arriving = illuminate(runtime.light, surface.position);
+        const bool is_shadowed = is_blocked(world_origin, arriving.to_light, arriving.distance,
+                                            has_static_shadow ? Casters::Moving : Casters::All);
+        if (!is_shadowed) sum += direct;
     }
     return sum;
 }
@@ -86,7 +128,8 @@ std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
     const float distance = glm::distance(traced_origin, surface->position);
     const glm::vec3 reflected = shade_diffuse(surface->albedo, probe_light(*surface),
                                               surface->shading_normal, direct_term(*surface));
-    return Shaded{surface->emission + reflected, distance};
+    const uint32_t material = scene_->meshes[scene_->instances[surface->instance].mesh].material;
+    return Shaded{surface->emission * emission_weights_[material] + reflected, distance};
 }
 
 std::optional<float> SceneShader::distance(const glm::dvec3& origin, glm::vec3 direction) const {
@@ -96,8 +139,10 @@ std::optional<float> SceneShader::distance(const glm::dvec3& origin, glm::vec3 d
     return glm::distance(traced_origin, surface->position);
 }
 
-bool SceneShader::is_blocked(const glm::dvec3& origin, glm::vec3 direction, float distance) const {
-    return traced_.is_blocked({traced_.traced_from_world(origin), direction, distance});
+bool SceneShader::is_blocked(const glm::dvec3& origin, glm::vec3 direction, float distance,
+                             Casters who) const {
+    const TraceScene& traced = casters(who);
+    return traced.is_blocked({traced.traced_from_world(origin), direction, distance});
 }
 
 glm::vec3 sky_radiance(const ProbeVolumeView& volume, glm::vec3 direction) {

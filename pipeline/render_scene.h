@@ -11,13 +11,16 @@
 #include "pipeline/image_renderer.h"
 #include "probes/packed_sh.h"
 #include "probes/probe_volume.h"
+#include "runtime/runtime_lights.h"
 
 namespace tetralight {
 
 /// Shades a scene with a volume's light: what an engine would show with this runtime. Static
 /// surfaces take the probe light of each point, things that move (`contributes_gi` false) that of
 /// their bounds' centre; the volume's lights that are not `Baked` add their direct term with shadow
-/// rays.
+/// rays. Where probes hold the occlusion of a light, it stands for the shadows of static things on
+/// moving ones, and only moving things are asked by rays. Lights, and emission that the bake saw,
+/// are dimmed as the volume's layers are.
 class SceneShader {
   public:
     /// Keeps references. Error: not enough memory.
@@ -37,12 +40,29 @@ class SceneShader {
     [[nodiscard]] std::optional<float> distance(const glm::dvec3& origin,
                                                 glm::vec3 direction) const;
 
+    /// What casts a shadow.
+    enum class Casters : bool { All, Moving };
+
     /// Whether the scene blocks the way from a world position.
-    [[nodiscard]] bool is_blocked(const glm::dvec3& origin, glm::vec3 direction,
-                                  float distance) const;
+    [[nodiscard]] bool is_blocked(const glm::dvec3& origin, glm::vec3 direction, float distance,
+                                  Casters casters = Casters::All) const;
 
   private:
-    SceneShader(const Scene& scene, const ProbeVolumeView& volume, TraceScene traced);
+    SceneShader(const Scene& scene, const ProbeVolumeView& volume, TraceScene traced,
+                TraceScene moving);
+
+    /// A light in traced space, and what each instance that moves sees of it.
+    struct DirectLight {
+        RuntimeLight light;
+        std::vector<float> visibility_of_mover;
+    };
+
+    void light_movers();
+    void find_emission_weights();
+
+    [[nodiscard]] const TraceScene& casters(Casters casters) const {
+        return casters == Casters::All ? traced_ : moving_;
+    }
 
     /// Back faces of single-sided materials are culled, as rasterizers do.
     [[nodiscard]] std::optional<Surface> first_front_face(glm::vec3 origin,
@@ -53,8 +73,10 @@ class SceneShader {
     const Scene* scene_;
     ProbeVolumeView volume_;
     TraceScene traced_;
+    TraceScene moving_;
     std::vector<PackedSh> light_of_mover_;  // by instance
-    std::vector<Light> direct_lights_;      // in traced space
+    std::vector<DirectLight> direct_lights_;
+    std::vector<float> emission_weights_;  // by material
 };
 
 /// Light of the sky in a direction, as the volume's ambient probe knows it.

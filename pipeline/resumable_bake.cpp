@@ -47,7 +47,9 @@ Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, P
         return Error{text(asked, ": there are ", probe_count, " probes")};
     }
     RangeBake bake;
-    bake.partial = {range, std::vector<ProbeTally>(range.count()), false};
+    const SplitLayout layout(prepared.settings.bake.plan);
+    bake.partial = {range, std::vector<ProbeTally>(range.count()), false,
+                    std::vector<double>(range.count() * layout.size())};
     if (keeping.is_resumed && std::filesystem::exists(keeping.path)) {
         auto kept = resume(keeping.path, prepared, range);
         if (!kept) return kept.error();
@@ -67,7 +69,12 @@ Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, P
     if (!keeping.path.empty()) hooks.save = keep;
     const auto positions =
         std::span(prepared.capture_positions).subspan(range.begin, range.count());
-    const Status status = bake_tallies(scene, positions, prepared.settings.bake, tallies, hooks);
+    SplitRows split{bake.partial.split_rows, prepared.volume.occlusion_lights};
+    if (layout.has_occlusion) {
+        split.occlusion_lights = split.occlusion_lights.subspan(range.begin, range.count());
+    }
+    const Status status =
+        bake_tallies(scene, positions, prepared.settings.bake, tallies, hooks, split);
     if (!status) {
         if (hooks.save) keep();
         return bake.warning.empty() ? status.error() : Error{bake.warning};

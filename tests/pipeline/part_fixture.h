@@ -37,7 +37,7 @@ class PartFixture : public testing::Test {
     ~PartFixture() override { std::filesystem::remove_all(folder); }
 
     [[nodiscard]] PreparedBake prepare() const {
-        auto prepared = prepare_bake(scene, groups, {{}, settings, {}, {}});
+        auto prepared = prepare_bake(scene, groups, {{}, settings, {}, {}, lighting});
         EXPECT_TRUE(prepared) << prepared.error().message;
         return std::move(*prepared);
     }
@@ -47,7 +47,14 @@ class PartFixture : public testing::Test {
         PartialBake partial{range, std::vector<ProbeTally>(range.count()), true};
         const auto positions =
             std::span(prepared.capture_positions).subspan(range.begin, range.count());
-        const Status status = bake_tallies(scene, positions, settings, partial.tallies);
+        const BakeSettings& with_plan = prepared.settings.bake;
+        const SplitLayout layout(with_plan.plan);
+        partial.split_rows.resize(layout.size() * range.count());
+        SplitRows split{partial.split_rows, prepared.volume.occlusion_lights};
+        if (layout.has_occlusion) {
+            split.occlusion_lights = split.occlusion_lights.subspan(range.begin, range.count());
+        }
+        const Status status = bake_tallies(scene, positions, with_plan, partial.tallies, {}, split);
         EXPECT_TRUE(status) << status.error().message;
         return partial;
     }
@@ -61,7 +68,7 @@ class PartFixture : public testing::Test {
     }
 
     [[nodiscard]] std::vector<std::byte> whole() const {
-        const auto baked = bake_volume(scene, groups, {{}, settings, {}, {}});
+        const auto baked = bake_volume(scene, groups, {{}, settings, {}, {}, lighting});
         EXPECT_TRUE(baked);
         return probe_file_bytes(baked->volume.view());
     }
@@ -74,6 +81,7 @@ class PartFixture : public testing::Test {
     Scene scene;
     std::vector<ProbeGroup> groups;
     BakeSettings settings;
+    LightingSettings lighting;
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("tetralight_parts_" + std::to_string(::getpid()));
 };

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/split_light.h"
+
+#include "base/assert.h"
+#include "probes/recombine.h"
+#include "probes/relight.h"
+
+namespace tetralight {
+namespace {
+
+/// Clamped-cosine factors A_l of each coefficient.
+constexpr double cosine_factor(int i) {
+    constexpr double kPi = 3.14159265358979323846;
+    return i == 0 ? kPi : i < 4 ? 2.0 * kPi / 3.0 : kPi / 4.0;
+}
+
+IrradianceSh irradiance_from_row(std::span<const double> row, double direction_count) {
+    RadianceSh radiance;
+    for (int i = 0; i < kShCoefficientCount; ++i) {
+        for (int channel = 0; channel < 3; ++channel) {
+            radiance.coefficients[i][channel] =
+                static_cast<float>(row[static_cast<size_t>(3 * i + channel)] / direction_count);
+        }
+    }
+    return irradiance_from_radiance(radiance);
+}
+
+ProbeTransfer transfer_from_row(std::span<const double> row, double direction_count) {
+    ProbeTransfer transfer;
+    const double* direct = row.data();
+    const double* bounced = direct + SplitLayout::kDirect;
+    for (int i = 0; i < kShCoefficientCount; ++i) {
+        const double factor = cosine_factor(i) / direction_count;
+        for (int j = 0; j < kDistantCoefficientCount; ++j) {
+            transfer.direct[i][j] = static_cast<float>(*direct++ * factor);
+            for (int channel = 0; channel < 3; ++channel) {
+                transfer.bounced[i][j][channel] = static_cast<float>(*bounced++ * factor);
+            }
+        }
+    }
+    return transfer;
+}
+
+glm::vec4 occlusion_from_row(std::span<const double> row) {
+    return {row[0], row[1], row[2], row[3]};
+}
+
+bool has_rest(const ProbeVolumeView& volume) {
+    return !volume.layers.empty() &&
+           find_layer(volume, "rest") == static_cast<uint32_t>(volume.layers.size() - 1);
+}
+
+/// The light of one layer of a volume.
+std::span<IrradianceSh> layer_light(ProbeVolume& volume, size_t layer) {
+    const size_t count = volume.positions.size();
+    return std::span(volume.layer_irradiance).subspan(layer * count, count);
+}
+
+}  // namespace
+
+SplitLayout split_layout(const ProbeVolumeView& volume) noexcept {
+    SplitLayout layout;
+    layout.layer_count = static_cast<uint32_t>(volume.layers.size()) - (has_rest(volume) ? 1 : 0);
+    layout.has_transfer = !volume.sky.empty();
+    layout.has_occlusion = !volume.occlusion_lights.empty();
+    return layout;
+}
+
+void store_split(std::span<const ProbeTally> tallies, std::span<const double> rows,
+                 ProbeVolume& volume) {
+    const SplitLayout layout = split_layout(volume.view());
+    TETRALIGHT_ASSERT(rows.size() == layout.size() * tallies.size(), "one row a probe");
+    volume.layer_irradiance.resize(volume.layers.size() * tallies.size());
+    if (layout.has_transfer) volume.transfer.resize(tallies.size());
+    if (layout.has_occlusion) volume.occlusion.resize(tallies.size());
+    for (size_t i = 0; i < tallies.size(); ++i) {
+        const auto row = rows.subspan(i * layout.size(), layout.size());
+        const auto directions = static_cast<double>(tallies[i].direction_count);
+        for (uint32_t layer = 0; layer < layout.layer_count; ++layer) {
+            layer_light(volume, layer)[i] =
+                irradiance_from_row(row.subspan(layer * SplitLayout::kLayer), directions);
+        }
+        if (layout.has_transfer) {
+            volume.transfer[i] = transfer_from_row(row.subspan(layout.direct_begin()), directions);
+        }
+        if (layout.has_occlusion) {
+            volume.occlusion[i] = occlusion_from_row(row.subspan(layout.occlusion_begin()));
+        }
+    }
+}
+
+void store_rest(ProbeVolume& volume) {
+    if (!has_rest(volume.view())) return;
+    const size_t rest = volume.layers.size() - 1;
+    const auto light = layer_light(volume, rest);
+    for (size_t i = 0; i < light.size(); ++i) {
+        IrradianceSh sum;
+        for (size_t layer = 0; layer < rest; ++layer) sum += layer_light(volume, layer)[i];
+        light[i] = volume.irradiance[i] + -1.0f * sum;
+    }
+}
+
+void finish_layers(const std::vector<bool>& is_dering_asked_for, DeringWindow window,
+                   ProbeVolume& volume) {
+    if (!volume.transfer.empty()) {
+        const auto mark = static_cast<uint8_t>(1 + static_cast<uint8_t>(window));
+        for (const bool is_asked_for : is_dering_asked_for) {
+            volume.dering.push_back(is_asked_for ? mark : uint8_t{0});
+        }
+    }
+    for (size_t layer = 0; layer < volume.layers.size(); ++layer) {
+        const auto light = layer_light(volume, layer);
+        for (size_t i = 0; i < light.size(); ++i) {
+            if (is_dering_asked_for[i]) light[i] = dering(light[i], window);
+        }
+        volume.layers[layer].largest = largest_coefficient(light);
+    }
+    const Status status = recombine(volume, layer_weights(volume.view()));
+    TETRALIGHT_ASSERT(status, "weights of 1 are fine");
+}
+
+}  // namespace tetralight

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "bake/light_plan.h"
+#include "bake/probe_tally.h"
+#include "pipeline/dering_probes.h"
+#include "probes/build/merge.h"
+#include "probes/probe_volume.h"
+
+// From what a bake split light into to the layers, transfer and occlusion of a volume.
+
+namespace tetralight {
+
+/// The parts that a volume without light asks for: its layers but for "rest", a transfer where it
+/// has a sky, occlusion where it has lights of it.
+[[nodiscard]] SplitLayout split_layout(const ProbeVolumeView& volume) noexcept;
+
+/// Fills layers (but for "rest"), transfer and occlusion from `rows`, one a tally. Precondition:
+/// rows of `split_layout(volume)`.
+void store_split(std::span<const ProbeTally> tallies, std::span<const double> rows,
+                 ProbeVolume& volume);
+
+/// Fills "rest", where there is one, with what the other layers leave of the light: their sum with
+/// it last then has the bits of the whole, or differs by the rounding of one addition.
+void store_rest(ProbeVolume& volume);
+
+/// Removes ringing from each layer of the probes that ask for it, so that every sum with weights
+/// that are not negative has none; and makes the light of the volume the sum. Probes of volumes
+/// with a transfer keep in mind what was done. Precondition: the volume has layers.
+void finish_layers(const std::vector<bool>& is_dering_asked_for, DeringWindow window,
+                   ProbeVolume& volume);
+
+}  // namespace tetralight
