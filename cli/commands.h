@@ -19,6 +19,7 @@ void add_info(CLI::App& app, Run& run);
 void add_merge(CLI::App& app, Run& run);
 void add_meshball(CLI::App& app, Run& run);
 void add_query(CLI::App& app, Run& run);
+void add_relight(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 void add_tetrahedralize(CLI::App& app, Run& run);
 void add_validate(CLI::App& app, Run& run);

@@ -48,6 +48,7 @@ void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
     add_merge(app, run);
     add_tetrahedralize(app, run);
     add_query(app, run);
+    add_relight(app, run);
     add_render(app, run);
     add_meshball(app, run);
     add_info(app, run);

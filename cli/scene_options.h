@@ -7,15 +7,14 @@
 
 #include "bake/scene/scene.h"
 #include "base/result.h"
+#include "cli/sky_options.h"
 
 namespace tetralight::cli {
 
 /// The scene to work on, and light that the command line adds to it.
 struct SceneOptions {
     std::string path;
-    std::string sky;
-    double sky_intensity = 1.0;
-    double sky_rotation_degrees = 0.0;
+    SkyOptions sky;
     glm::dvec3 sun_direction{0.0};
     glm::dvec3 sun_irradiance{0.0};
     double sun_angle_degrees = 0.0;
@@ -28,7 +27,6 @@ struct SceneOptions {
     [[nodiscard]] Result<Scene> read() const;
 
   private:
-    [[nodiscard]] Status add_sky(Scene& scene) const;
     void add_sun(Scene& scene) const;
 };
 

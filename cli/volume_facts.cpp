@@ -4,42 +4,18 @@
 #include <algorithm>
 
 #include "cli/info_probes.h"
+#include "cli/light_words.h"
 #include "probes/build/quality.h"
 
 namespace tetralight::cli {
 namespace {
 
 /// Sections that no query reads (docs/file_format.md).
-constexpr const char* kColdSections[] = {"validity",    "health", "exact_positions", "sources",
-                                         "group_names", "lights", "light_names",     "metadata"};
-
-const char* name_of(LightType type) {
-    switch (type) {
-        case LightType::Directional:
-            return "directional";
-        case LightType::Point:
-            return "point";
-        case LightType::Spot:
-            return "spot";
-        case LightType::Rectangle:
-            return "rectangle";
-        case LightType::Disc:
-            return "disc";
-    }
-    return "unknown";
-}
-
-const char* name_of(LightMode mode) {
-    switch (mode) {
-        case LightMode::Mixed:
-            return "mixed";
-        case LightMode::Baked:
-            return "baked";
-        case LightMode::Realtime:
-            return "realtime";
-    }
-    return "unknown";
-}
+constexpr const char* kColdSections[] = {
+    "validity", "health",   "exact_positions", "sources",          "group_names",
+    "lights",   "metadata", "light_names",     "light_states",     "occlusion_lights",
+    "layers",   "transfer", "layer_names",     "layer_irradiance", "sky",
+    "dering"};
 
 Json groups_json(const ProbeVolumeView& volume) {
     const auto names = split_names(volume.group_names);
@@ -61,11 +37,24 @@ Json lights_json(const ProbeVolumeView& volume) {
     Json lights = Json::array();
     for (size_t i = 0; i < volume.lights.size(); ++i) {
         const Light& light = volume.lights[i];
+        const LightState state =
+            i < volume.light_states.size() ? volume.light_states[i] : LightState{};
+        const bool has_channel = state.channel != kNoIndex;
         lights.push_back({{"name", i < names.size() ? names[i] : ""},
                           {"type", name_of(light.type)},
-                          {"mode", name_of(light.mode)}});
+                          {"mode", name_of(light.mode)},
+                          {"occlusion_channel", has_channel ? Json(state.channel) : Json()}});
     }
     return lights;
+}
+
+Json layers_json(const ProbeVolumeView& volume) {
+    const auto names = split_names(volume.layer_names);
+    Json layers = Json::array();
+    for (size_t i = 0; i < volume.layers.size() && i < names.size(); ++i) {
+        layers.push_back({{"name", names[i]}, {"weight", volume.layers[i].weight}});
+    }
+    return layers;
 }
 
 Json bounds_json(const ProbeVolumeView& volume) {
@@ -156,6 +145,8 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.counts["left_out"] = left_out_count(volume);
     facts.groups = groups_json(volume);
     facts.lights = lights_json(volume);
+    facts.layers = layers_json(volume);
+    facts.has_transfer = !volume.transfer.empty();
     facts.bounds = bounds_json(volume);
     facts.made_with = Json::parse(volume.metadata, nullptr, false);
     if (facts.made_with.is_discarded()) facts.made_with = nullptr;
@@ -179,6 +170,8 @@ Json to_json(const VolumeFacts& facts) {
                  {"walks", walks_json(facts)},
                  {"group_list", facts.groups},
                  {"lights", facts.lights},
+                 {"layers", facts.layers},
+                 {"has_transfer", facts.has_transfer},
                  {"made_with", facts.made_with}});
     for (const SectionFacts& section : facts.sections) {
         json["section_bytes"][section.name] = section.bytes;

@@ -32,6 +32,8 @@ struct VolumeFacts {
     Json counts;
     Json groups;
     Json lights;
+    Json layers;
+    bool has_transfer = false;
     Json bounds;
     Json made_with;
     bool is_baked = false;

@@ -62,10 +62,23 @@ std::string name_text(const Json& name) {
 std::string lights_text(const Json& lights) {
     std::string line;
     for (const Json& light : lights) {
+        const Json& channel = light["occlusion_channel"];
         line += text(line.empty() ? "" : ", ", name_text(light["name"]), " (",
-                     name_text(light["type"]), ", ", name_text(light["mode"]), ")");
+                     name_text(light["type"]), ", ", name_text(light["mode"]),
+                     channel.is_null() ? "" : text(", occlusion ", channel.get<uint32_t>()), ")");
     }
     return line.empty() ? "none" : line;
+}
+
+/// "sun 1, lamp 0.5, transfer".
+std::string layers_text(const VolumeFacts& facts) {
+    std::string line;
+    for (const Json& layer : facts.layers) {
+        line += text(line.empty() ? "" : ", ", name_text(layer["name"]), " ",
+                     layer["weight"].get<float>());
+    }
+    if (facts.has_transfer) line += "; transfer of distant light";
+    return line.empty() ? "none (light cannot change; bake with --layers)" : line;
 }
 
 std::string made_with_text(const Json& made_with) {
@@ -100,6 +113,7 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
     }
     rows.push_back({"light", facts.is_baked ? "baked" : "none (not baked)"});
     rows.push_back({"lights", lights_text(facts.lights)});
+    rows.push_back({"layers", layers_text(facts)});
     if (facts.made_with.is_object()) rows.push_back({"made with", made_with_text(facts.made_with)});
     return rows;
 }

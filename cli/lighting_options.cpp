@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/lighting_options.h"
+
+#include "bake/scene/surface_color.h"
+#include "base/text.h"
+#include "cli/choice.h"
+#include "cli/light_words.h"
+#include "cli/table.h"
+
+namespace tetralight::cli {
+namespace {
+
+/// Who adds what while the scene is shown.
+std::string runtime_part(const Light& light, const LightState& state, bool is_main_sun) {
+    if (light.mode == LightMode::Baked) return "nothing";
+    const bool is_mixed = light.mode == LightMode::Mixed;
+    if (is_mixed && state.mixed_lighting == MixedLighting::Subtractive && !is_main_sun) {
+        return "nothing on what moves";
+    }
+    return is_mixed && state.channel != kNoIndex ? "direct × occlusion, shadows of what moves"
+                                                 : "direct, shadows of everything";
+}
+
+/// The light that `Subtractive` leaves to the runtime.
+size_t main_sun(const std::vector<Light>& lights) {
+    size_t sun = lights.size();
+    float most = -1.0f;
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const glm::vec3& c = lights[i].intensity;
+        const bool is_sun =
+            lights[i].type == LightType::Directional && lights[i].mode == LightMode::Mixed;
+        if (!is_sun || c.x + c.y + c.z <= most) continue;
+        sun = i;
+        most = c.x + c.y + c.z;
+    }
+    return sun;
+}
+
+std::string layer_name(const LightingPlan& plan, uint32_t layer) {
+    return layer < plan.layer_names.size() ? plan.layer_names[layer] : "";
+}
+
+Json source_json(const std::string& name, const std::string& type, const std::string& mode,
+                 const BakedTerms& terms) {
+    return {{"name", name},
+            {"type", type},
+            {"mode", mode},
+            {"direct_in_probes", terms.has_direct},
+            {"bounces_in_probes", terms.has_bounces}};
+}
+
+Json light_json(const Scene& scene, const LightingPlan& plan, size_t i, size_t sun) {
+    const Light& light = plan.lights[i];
+    const LightState& state = plan.light_states[i];
+    Json json = source_json(scene.light_names[i], name_of(light.type), name_of(light.mode),
+                            baked_terms(light.mode, state.mixed_lighting));
+    json["occlusion_channel"] = state.channel == kNoIndex ? Json() : Json(state.channel);
+    json["fell_back"] = state.fell_back != 0;
+    json["layer"] = layer_name(plan, state.layer);
+    json["runtime"] = runtime_part(light, state, i == sun);
+    return json;
+}
+
+/// Sky and materials, which count whatever the mode is.
+Json constant_json(const LightingPlan& plan, const std::string& name, const std::string& type,
+                   uint32_t layer) {
+    Json json = source_json(name, type, "baked", {.has_direct = true, .has_bounces = true});
+    const auto rest = plan.has_rest() ? plan.bake.layer_count : kNoIndex;
+    json["occlusion_channel"] = nullptr;
+    json["fell_back"] = false;
+    json["layer"] = layer_name(plan, std::min(layer, rest));
+    json["runtime"] = "nothing";
+    return json;
+}
+
+Json sources_json(const Scene& scene, const LightingPlan& plan) {
+    Json sources = Json::array();
+    const size_t sun = main_sun(plan.lights);
+    for (size_t i = 0; i < plan.lights.size(); ++i) {
+        sources.push_back(light_json(scene, plan, i, sun));
+    }
+    if (scene.environment.radiance != glm::vec3(0.0f)) {
+        sources.push_back(constant_json(plan, "sky", "sky", plan.bake.layer_of_sky));
+    }
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        const bool shines =
+            material.bakes_emission && emission_source(material).factor != glm::vec3(0.0f);
+        const uint32_t layer = plan.bake.layer_of(plan.bake.layer_of_material, i);
+        if (shines) sources.push_back(constant_json(plan, material.name, "material", layer));
+    }
+    return sources;
+}
+
+std::string yes(const Json& flag) {
+    return flag.get<bool>() ? "yes" : "-";
+}
+
+std::string table_of(const Json& sources) {
+    std::vector<std::vector<std::string>> rows{
+        {"source", "type", "mode", "direct", "bounces", "occlusion", "layer", "added at run time"}};
+    for (const Json& source : sources) {
+        const Json& channel = source["occlusion_channel"];
+        const std::string layer = source["layer"];
+        const std::string mode = source["mode"];
+        rows.push_back({printable(source["name"]), source["type"],
+                        source["fell_back"].get<bool>() ? mode + " (no channel left)" : mode,
+                        yes(source["direct_in_probes"]), yes(source["bounces_in_probes"]),
+                        channel.is_null() ? "-" : text("channel ", channel.get<uint32_t>()),
+                        layer.empty() ? "-" : printable(layer), source["runtime"]});
+    }
+    std::string lines = aligned(rows, "llllllll");
+    if (!lines.empty()) lines.pop_back();
+    return lines;
+}
+
+}  // namespace
+
+void add_lighting_options(CLI::App& command, LightingSettings& settings) {
+    add_choice(command, "--mixed-lighting", settings.mixed_lighting,
+               {{name_of(MixedLighting::Indirect), MixedLighting::Indirect},
+                {name_of(MixedLighting::Shadowmask), MixedLighting::Shadowmask},
+                {name_of(MixedLighting::Subtractive), MixedLighting::Subtractive}},
+               "Shadows of mixed lights: indirect = all in real time; shadowmask, subtractive = "
+               "probes also hold how much of up to four of them they see");
+    command
+        .add_option(
+            "--layers", settings.layers,
+            "Keep the light of these apart, to dim it later with `tetralight relight`: sun, "
+            "sky, emission, light:NAME, material:NAME; transfer = how probes answer to "
+            "another sky or a moved sun")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("LIST");
+}
+
+Status explain(const Scene& scene, const LightingSettings& settings, const CommonOptions& common) {
+    const auto plan = plan_lighting(scene, settings);
+    if (!plan) return plan.error();
+    common.warn(plan->warnings);
+    const Json sources = sources_json(scene, *plan);
+    const std::string mode = name_of(settings.mixed_lighting);
+    common.print({{"mixed_lighting", mode}, {"sources", sources}},
+                 text("mixed lighting: ", mode, "\n", table_of(sources)));
+    return Ok{};
+}
+
+}  // namespace tetralight::cli
