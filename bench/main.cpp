@@ -7,7 +7,10 @@
 int main(int argc, char** argv) {
     using namespace tetralight::bench;
     const std::map<std::string, void (*)(const Options&)> benches{
-        {"bake", bench_bake}, {"query", bench_query}, {"tetrahedralize", bench_tetrahedralize}};
+        {"bake", bench_bake},
+        {"query", bench_query},
+        {"relight", bench_relight},
+        {"tetrahedralize", bench_tetrahedralize}};
 
     CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");
     Options options;
