@@ -241,7 +241,9 @@ Status bake_tallies(const Scene& scene, std::span<const glm::dvec3> positions,
                       "lights of the occlusion for each position");
     if (auto status = RoundPlan::check(settings); !status) return status;
     if (auto status = check_positions(positions); !status) return status;
-    if (auto status = check_bake_memory(scene, positions.size()); !status) return status.error();
+    if (auto status = check_bake_memory(scene, positions.size(), layout); !status) {
+        return status.error();
+    }
     const auto traced = TraceScene::make_static(scene, settings.surfaces);
     if (!traced) return traced.error();
     const PathTracer tracer(scene, *traced, {settings.bounces, settings.clamp}, settings.plan);

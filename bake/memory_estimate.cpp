@@ -25,6 +25,9 @@ constexpr uint64_t kBytesPerSkyTexel = 12;
 /// 32 bytes; CGAL's vertices and cells while it builds them.
 constexpr uint64_t kBytesPerProbe = 450 + 7 * 32 + 1500;
 
+/// A sum in double while it is baked, a float in the volume and one in its file.
+constexpr uint64_t kBytesPerSplitNumber = 8 + 4 + 4;
+
 constexpr uint64_t kUnknown = std::numeric_limits<uint64_t>::max();
 
 /// The number behind a word at the start of a line; without a word the first of the file.
@@ -59,7 +62,7 @@ std::string gigabytes(uint64_t bytes) {
 
 }  // namespace
 
-BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count) {
+BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count, const SplitLayout& split) {
     BakeMemory memory;
     memory.probe_count = probe_count;
     uint64_t vertex_count = 0, emissive_count = 0;
@@ -73,7 +76,7 @@ BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count) {
     memory.light_bytes = emissive_count * kBytesPerEmissiveTriangle +
                          scene.environment.image.pixels.size() * kBytesPerSkyTexel;
     memory.scene_bytes = memory.triangle_count * kBytesPerTriangle + vertex_count * kBytesPerVertex;
-    memory.probe_bytes = probe_count * kBytesPerProbe;
+    memory.probe_bytes = probe_count * (kBytesPerProbe + split.size() * kBytesPerSplitNumber);
     return memory;
 }
 
@@ -84,7 +87,12 @@ uint64_t free_memory() {
 }
 
 Status check_bake_memory(const Scene& scene, size_t probe_count, uint64_t limit_bytes) {
-    const BakeMemory memory = estimate_bake_memory(scene, probe_count);
+    return check_bake_memory(scene, probe_count, SplitLayout(), limit_bytes);
+}
+
+Status check_bake_memory(const Scene& scene, size_t probe_count, const SplitLayout& split,
+                         uint64_t limit_bytes) {
+    const BakeMemory memory = estimate_bake_memory(scene, probe_count, split);
     if (memory.total_bytes() <= limit_bytes) return Ok{};
     return Error{text("the bake needs about ", gigabytes(memory.total_bytes()), " of memory (",
                       memory.triangle_count, " triangles ",

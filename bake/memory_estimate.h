@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bake/light_plan.h"
 #include "bake/scene/scene.h"
 #include "base/result.h"
 
@@ -23,7 +24,9 @@ struct BakeMemory {
     [[nodiscard]] uint64_t total_bytes() const { return scene_bytes + light_bytes + probe_bytes; }
 };
 
-[[nodiscard]] BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count);
+/// `split`: what the light of each probe is split into.
+[[nodiscard]] BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count,
+                                              const SplitLayout& split = {});
 
 /// Memory that this process may still take: the system's free memory, or what is left of a limit of
 /// its control group. The largest number where the system does not say.
@@ -31,6 +34,9 @@ struct BakeMemory {
 
 /// Refuses a bake that `limit_bytes` do not hold, with the estimate: "needs about 20.3 GB ...".
 [[nodiscard]] Status check_bake_memory(const Scene& scene, size_t probe_count,
+                                       uint64_t limit_bytes = free_memory());
+[[nodiscard]] Status check_bake_memory(const Scene& scene, size_t probe_count,
+                                       const SplitLayout& split,
                                        uint64_t limit_bytes = free_memory());
 
 }  // namespace tetralight

@@ -150,9 +150,12 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     if (auto status = RoundPlan::check(settings.bake); !status) return status.error();
     size_t position_count = 0;
     for (const ProbeGroup& group : groups) position_count += group.positions.size();
-    if (auto status = check_bake_memory(scene, position_count); !status) return status.error();
     auto plan = plan_lighting(scene, settings.lighting);
     if (!plan) return plan.error();
+    const SplitLayout split(plan->bake);
+    if (auto status = check_bake_memory(scene, position_count, split); !status) {
+        return status.error();
+    }
     PreparedBake prepared;
     prepared.settings = settings;
     prepared.settings.bake.plan = plan->bake;

@@ -43,6 +43,16 @@ TEST(MemoryEstimate, GrowsWithTheNumberOfProbes) {
     EXPECT_GE(one, 27 * sizeof(float) * 2);  // radiance and irradiance at the very least
 }
 
+TEST(MemoryEstimate, GrowsWithWhatLightIsSplitInto) {
+    LightPlan plan;
+    plan.layer_count = 4;
+    plan.has_transfer = true;
+    const SplitLayout split(plan);
+    ASSERT_EQ(split.size(), 4u * 27 + 144 + 3 * 144);
+    const uint64_t more = estimate_bake_memory({}, 1, split).probe_bytes;
+    EXPECT_GE(more, estimate_bake_memory({}, 1).probe_bytes + 12 * split.size());
+}
+
 TEST(MemoryEstimate, RefusesTwentyGigabytesWithTheEstimate) {
     const size_t probes = 20'000'000'000 / estimate_bake_memory({}, 1).total_bytes() + 1;
     const Status status = check_bake_memory(instanced(1), probes, 8'000'000'000);
