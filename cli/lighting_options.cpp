@@ -1,39 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/lighting_options.h"
 
+#include <algorithm>
+
 #include "bake/scene/surface_color.h"
 #include "base/text.h"
 #include "cli/choice.h"
 #include "cli/light_words.h"
 #include "cli/table.h"
+#include "runtime/runtime_lights.h"
 
 namespace tetralight::cli {
 namespace {
 
-/// Who adds what while the scene is shown.
-std::string runtime_part(const Light& light, const LightState& state, bool is_main_sun) {
-    if (light.mode == LightMode::Baked) return "nothing";
-    const bool is_mixed = light.mode == LightMode::Mixed;
-    if (is_mixed && state.mixed_lighting == MixedLighting::Subtractive && !is_main_sun) {
-        return "nothing on what moves";
-    }
-    return is_mixed && state.channel != kNoIndex ? "direct × occlusion, shadows of what moves"
-                                                 : "direct, shadows of everything";
-}
-
-/// The light that `Subtractive` leaves to the runtime.
-size_t main_sun(const std::vector<Light>& lights) {
-    size_t sun = lights.size();
-    float most = -1.0f;
-    for (size_t i = 0; i < lights.size(); ++i) {
-        const glm::vec3& c = lights[i].intensity;
-        const bool is_sun =
-            lights[i].type == LightType::Directional && lights[i].mode == LightMode::Mixed;
-        if (!is_sun || c.x + c.y + c.z <= most) continue;
-        sun = i;
-        most = c.x + c.y + c.z;
-    }
-    return sun;
+/// Who adds what of a light while the scene is shown.
+std::string runtime_part(const std::vector<RuntimeLight>& lights, size_t index) {
+    const auto light =
+        std::ranges::find(lights, static_cast<uint32_t>(index), &RuntimeLight::index);
+    if (light == lights.end()) return "nothing";
+    if (!light->lights_moving) return "nothing on what moves";
+    return light->channel != kNoIndex ? "direct × occlusion, shadows of what moves"
+                                      : "direct, shadows of everything";
 }
 
 std::string layer_name(const LightingPlan& plan, uint32_t layer) {
@@ -49,7 +36,7 @@ Json source_json(const std::string& name, const std::string& type, const std::st
             {"bounces_in_probes", terms.has_bounces}};
 }
 
-Json light_json(const Scene& scene, const LightingPlan& plan, size_t i, size_t sun) {
+Json light_json(const Scene& scene, const LightingPlan& plan, size_t i) {
     const Light& light = plan.lights[i];
     const LightState& state = plan.light_states[i];
     Json json = source_json(scene.light_names[i], name_of(light.type), name_of(light.mode),
@@ -57,7 +44,6 @@ Json light_json(const Scene& scene, const LightingPlan& plan, size_t i, size_t s
     json["occlusion_channel"] = state.channel == kNoIndex ? Json() : Json(state.channel);
     json["fell_back"] = state.fell_back != 0;
     json["layer"] = layer_name(plan, state.layer);
-    json["runtime"] = runtime_part(light, state, i == sun);
     return json;
 }
 
@@ -75,9 +61,13 @@ Json constant_json(const LightingPlan& plan, const std::string& name, const std:
 
 Json sources_json(const Scene& scene, const LightingPlan& plan) {
     Json sources = Json::array();
-    const size_t sun = main_sun(plan.lights);
+    ProbeVolume volume;
+    volume.lights = plan.lights;
+    volume.light_states = plan.light_states;
+    const std::vector<RuntimeLight> added = runtime_lights(volume.view());
     for (size_t i = 0; i < plan.lights.size(); ++i) {
-        sources.push_back(light_json(scene, plan, i, sun));
+        sources.push_back(light_json(scene, plan, i));
+        sources.back()["runtime"] = runtime_part(added, i);
     }
     if (scene.environment.radiance != glm::vec3(0.0f)) {
         sources.push_back(constant_json(plan, "sky", "sky", plan.bake.layer_of_sky));

@@ -39,11 +39,10 @@ Json lights_json(const ProbeVolumeView& volume) {
         const Light& light = volume.lights[i];
         const LightState state =
             i < volume.light_states.size() ? volume.light_states[i] : LightState{};
-        const bool has_channel = state.channel != kNoIndex;
-        lights.push_back({{"name", i < names.size() ? names[i] : ""},
-                          {"type", name_of(light.type)},
-                          {"mode", name_of(light.mode)},
-                          {"occlusion_channel", has_channel ? Json(state.channel) : Json()}});
+        Json& one = lights.emplace_back(Json{{"name", i < names.size() ? names[i] : ""},
+                                             {"type", name_of(light.type)},
+                                             {"mode", name_of(light.mode)}});
+        if (state.channel != kNoIndex) one["occlusion_channel"] = state.channel;
     }
     return lights;
 }

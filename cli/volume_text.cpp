@@ -62,10 +62,12 @@ std::string name_text(const Json& name) {
 std::string lights_text(const Json& lights) {
     std::string line;
     for (const Json& light : lights) {
-        const Json& channel = light["occlusion_channel"];
+        const std::string channel =
+            light.contains("occlusion_channel")
+                ? text(", occlusion ", light["occlusion_channel"].get<uint32_t>())
+                : "";
         line += text(line.empty() ? "" : ", ", name_text(light["name"]), " (",
-                     name_text(light["type"]), ", ", name_text(light["mode"]),
-                     channel.is_null() ? "" : text(", occlusion ", channel.get<uint32_t>()), ")");
+                     name_text(light["type"]), ", ", name_text(light["mode"]), channel, ")");
     }
     return line.empty() ? "none" : line;
 }

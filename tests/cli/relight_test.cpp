@@ -81,6 +81,22 @@ TEST_F(Relight, AnotherSkyTakesThePlaceOfThatOfTheBake) {
     EXPECT_NEAR(light_of("x.probes")[0], 1.5 * kSky + kSun, 0.05);
 }
 
+TEST_F(Relight, RangesOfSplitBakesMergeToTheBytesOfOne) {
+    const Arguments more{"--mixed-lighting", "shadowmask", "-s", "64"};
+    const auto bake_range = [&](const std::string& output, const Arguments& range) {
+        Arguments arguments{"bake", kCourtyard, "-o",
+                            output, "--layers", "sun,transfer,material:emissive_warm"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.insert(arguments.end(), range.begin(), range.end());
+        succeed(arguments);
+    };
+    bake_range("whole.probes", {});
+    bake_range("a.part", {"--probes", "0..100"});
+    bake_range("b.part", {"--probes", "100.."});
+    succeed({"merge", "b.part", "a.part", "-o", "merged.probes"});
+    EXPECT_EQ(read("merged.probes"), read("whole.probes"));
+}
+
 TEST_F(Relight, AMovedSunShinesFromItsNewSide) {
     bake("sun,transfer");
     succeed({"relight", "v.probes", "--sun-direction", "-1,0,0", "--weights", "sky=0", "-o",
