@@ -17,14 +17,17 @@ std::span<const glm::vec3> survey_directions() {
 Surroundings look_around(const TraceScene& traced, glm::vec3 position) {
     uint32_t back_faces = 0;
     uint32_t behind = 0;
+    uint32_t escaped = 0;
     for (const glm::vec3& direction : survey_directions()) {
-        const auto surface = traced.cast({position, direction});
-        if (!surface) continue;
-        back_faces += surface->is_back_face;
-        behind += surface->is_from_behind;
+        const auto side = traced.cast_side({position, direction});
+        escaped += !side;
+        back_faces += side && side->is_back_face;
+        behind += side && side->is_from_behind;
     }
     const auto count = static_cast<float>(survey_directions().size());
-    Surroundings result{static_cast<float>(back_faces) / count, static_cast<float>(behind) / count};
+    Surroundings result{.back_face_share = static_cast<float>(back_faces) / count,
+                        .behind_share = static_cast<float>(behind) / count,
+                        .escape_share = static_cast<float>(escaped) / count};
     if (const auto nearest = traced.nearest_surface(position)) {
         result.surface_distance = glm::distance(position, *nearest);
     }

@@ -19,6 +19,8 @@ struct Surroundings {
     float back_face_share = 0.0f;
     /// Share of rays that meet any surface from behind.
     float behind_share = 0.0f;
+    /// Share of rays that meet nothing.
+    float escape_share = 0.0f;
     /// Metres to the nearest point of any surface; infinite: there is none.
     float surface_distance = std::numeric_limits<float>::infinity();
 

@@ -218,6 +218,19 @@ std::optional<Surface> TraceScene::cast(const Ray& ray, Detail detail) const {
     return surface;
 }
 
+std::optional<SurfaceSide> TraceScene::cast_side(const Ray& ray) const {
+    const std::optional<RayHit> hit = caster_.cast(ray);
+    if (!hit) return std::nullopt;
+    const Placed& placed = state_->placed[hit->geometry];
+    SurfaceSide side{hit->distance, glm::normalize(hit->normal), placed.instance};
+    if (glm::dot(side.normal, ray.direction) > 0.0f) {
+        side.normal = -side.normal;
+        side.is_from_behind = true;
+        side.is_back_face = !placed.material->is_double_sided;
+    }
+    return side;
+}
+
 uint32_t TraceScene::triangle_count(uint32_t geometry) const {
     return static_cast<uint32_t>(state_->placed[geometry].mesh->indices.size() / 3);
 }

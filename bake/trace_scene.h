@@ -41,6 +41,17 @@ struct Surface {
     bool is_back_face = false;
 };
 
+/// Which side of a surface a ray sees.
+struct SurfaceSide {
+    float distance = 0.0f;
+    /// Unit normal of the triangle, on the side that the ray came from.
+    glm::vec3 normal{0.0f};
+    uint32_t instance = 0;
+    /// As in `Surface`.
+    bool is_from_behind = false;
+    bool is_back_face = false;
+};
+
 /// A scene's triangles ready for rays. Rays and surfaces are in traced space: world space moved so
 /// that the scene's middle is the origin, done in double, because rays are float.
 ///
@@ -79,6 +90,9 @@ class TraceScene {
     };
 
     [[nodiscard]] std::optional<Surface> cast(const Ray& ray, Detail detail = Detail::Full) const;
+
+    /// The side of the surface that `cast` finds, without its material: at the price of the ray.
+    [[nodiscard]] std::optional<SurfaceSide> cast_side(const Ray& ray) const;
 
     [[nodiscard]] bool is_blocked(const Ray& ray) const { return caster_.is_blocked(ray); }
 

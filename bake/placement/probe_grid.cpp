@@ -2,104 +2,109 @@
 #include "bake/placement/probe_grid.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
-#include "bake/survey.h"
+#include "bake/placement/candidates.h"
+#include "bake/placement/canonical_scene.h"
+#include "bake/placement/grid_bounds.h"
+#include "bake/placement/group_by_region.h"
+#include "bake/placement/lattice.h"
+#include "bake/placement/reach.h"
+#include "bake/placement/space_map.h"
 #include "base/text.h"
 
 namespace tetralight {
 namespace {
 
-constexpr const char* kAxisNames[] = {"x", "y", "z"};
-constexpr int kUp = 1;
+/// Moves stay below half of the way to the next candidate.
+constexpr double kReachShare = 0.45;
+/// Probes on surfaces keep this share of the spacing from each other.
+constexpr double kCrowdedShare = 0.5;
 
-/// Layers of the lattice along one axis.
-struct Layers {
-    double first = 0.0;
-    double spacing = 1.0;
-    double count = 0.0;  // may be beyond any integer until it was checked
-};
-
-Layers layers_along(const Box& bounds, double spacing, int axis) {
-    const double size = bounds.high[axis] - bounds.low[axis];
-    // What is short of a whole spacing by rounding only (bounds come from float vertices) is whole.
-    const double count = std::max(2.0, std::floor(size / spacing + 1e-6));
-    const double centered = bounds.low[axis] + 0.5 * (size - (count - 1.0) * spacing);
-    const double standing = bounds.low[axis] + 0.5 * spacing;
-    return {axis == kUp ? std::max(centered, standing) : centered, spacing, count};
-}
-
-Status check(const Box& bounds, const glm::dvec3& spacing) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (!(spacing[axis] > 0.0) || !std::isfinite(spacing[axis])) {
-            return Error{text("spacing ", spacing[axis], " along ", kAxisNames[axis],
-                              " is not a positive length")};
-        }
-        const double low = bounds.low[axis], high = bounds.high[axis];
-        if (!std::isfinite(low) || !std::isfinite(high) || high < low) {
-            return Error{text("bounds ", low, " to ", high, " along ", kAxisNames[axis],
-                              " are empty or not finite")};
-        }
+Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, PlacementMode mode,
+                                                const CandidateRule& rule) {
+    switch (mode) {
+        case PlacementMode::Regular:
+            return lattice_candidates(rule);
+        case PlacementMode::Layers:
+            return layer_candidates(traced, rule);
+        case PlacementMode::Surface:
+            return surface_candidates(traced, rule);
     }
-    return Ok{};
+    return Error{"unknown mode"};
 }
 
-Result<Box> bounds_to_fill(const Scene& scene, const ProbeGridSettings& settings) {
-    if (settings.bounds) return *settings.bounds;
-    const auto bounds =
-        scene_bounds(scene, [](const MeshInstance& instance) { return instance.contributes_gi; });
-    if (!bounds) return Error{"the scene has no static geometry to take bounds from"};
-    return *bounds;
-}
-
-std::vector<glm::dvec3> lattice(const std::array<Layers, 3>& layers) {
+std::vector<glm::dvec3> kept_positions(const std::vector<PlacedProbe>& probes) {
     std::vector<glm::dvec3> positions;
-    for (double y = 0; y < layers[1].count; ++y) {
-        for (double z = 0; z < layers[2].count; ++z) {
-            for (double x = 0; x < layers[0].count; ++x) {
-                positions.emplace_back(layers[0].first + x * layers[0].spacing,
-                                       layers[1].first + y * layers[1].spacing,
-                                       layers[2].first + z * layers[2].spacing);
-            }
-        }
+    for (const PlacedProbe& probe : probes) {
+        if (is_kept(probe.fate)) positions.push_back(probe.position);
     }
     return positions;
+}
+
+/// Drops what stands beside another probe on the same side of a wall.
+void drop_crowded(const TraceScene& traced, double distance, std::vector<PlacedProbe>& probes) {
+    const std::vector<bool> is_crowded = find_crowded(traced, kept_positions(probes), distance);
+    size_t i = 0;
+    for (PlacedProbe& probe : probes) {
+        if (is_kept(probe.fate) && is_crowded[i++]) probe.fate = Fate::Crowded;
+    }
+}
+
+std::string none_left(const ProbeGrid& grid) {
+    return text("no probe is left of ", grid.candidate_count, ": ", grid.count(Fate::Inside),
+                " inside geometry, ", grid.count(Fate::TooClose), " too close to it, ",
+                grid.count(Fate::Unreachable), " unreachable, ", grid.count(Fate::Forbidden),
+                " forbidden");
+}
+
+Result<ProbeGrid> make_groups(const std::vector<PlacedProbe>& probes, Reach reach,
+                              const ProbeGridSettings& settings) {
+    ProbeGrid grid;
+    grid.candidate_count = probes.size();
+    std::vector<float> distances;
+    for (const PlacedProbe& probe : probes) {
+        ++grid.fate_counts[static_cast<size_t>(probe.fate)];
+        if (is_kept(probe.fate)) distances.push_back(probe.surface_distance);
+    }
+    if (distances.empty()) return Error{none_left(grid)};
+    RegionGroups regions = group_by_region(kept_positions(probes), reach.spaces,
+                                           {settings.group_name, settings.region_size});
+    grid.groups = std::move(regions.groups);
+    for (const uint32_t i : regions.order) grid.surface_distances.push_back(distances[i]);
+    grid.pockets = std::move(reach.pockets);
+    return grid;
 }
 
 }  // namespace
 
 Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& settings) {
-    const auto bounds = bounds_to_fill(scene, settings);
+    const auto bounds = grid_bounds(scene, settings);
     if (!bounds) return bounds.error();
-    if (auto status = check(*bounds, settings.spacing); !status) return status.error();
-    std::array<Layers, 3> layers;
-    for (int axis = 0; axis < 3; ++axis) {
-        layers[axis] = layers_along(*bounds, settings.spacing[axis], axis);
+    const auto clearance = checked_clearance(settings);
+    if (!clearance) return clearance.error();
+    // Before anything that takes time.
+    const CandidateRule rule{*bounds,          settings.spacing,         *clearance,
+                             settings.heights, settings.max_probe_count, settings.thread_count};
+    if (auto status = make_lattice(rule.bounds, rule.spacing, rule.max_count); !status) {
+        return status.error();
     }
-    const double count = layers[0].count * layers[1].count * layers[2].count;
-    if (!(count <= static_cast<double>(settings.max_probe_count))) {
-        return Error{text("a grid of ", count, " probes is more than the limit of ",
-                          settings.max_probe_count)};
-    }
+    const Scene canonical = canonical_scene(scene);
+    const auto traced = TraceScene::make_static(canonical);
+    if (!traced) return traced.error();
+    const auto candidates = make_candidates(*traced, settings.mode, rule);
+    if (!candidates) return candidates.error();
 
-    const std::vector<glm::dvec3> candidates = lattice(layers);
-    const auto surroundings = survey(scene, candidates, settings.thread_count);
-    if (!surroundings) return surroundings.error();
-    ProbeGrid grid;
-    grid.group.name = settings.group_name;
-    grid.candidate_count = candidates.size();
-    for (size_t i = 0; i < candidates.size(); ++i) {
-        if ((*surroundings)[i].is_inside()) {
-            ++grid.inside_count;
-        } else {
-            grid.group.positions.push_back(candidates[i]);
-        }
+    const double smallest = std::min({rule.spacing.x, rule.spacing.y, rule.spacing.z});
+    std::vector<PlacedProbe> probes = place_probes(
+        *traced, *candidates, {rule.clearance, kReachShare * smallest}, settings.thread_count);
+    if (settings.mode == PlacementMode::Surface) {
+        drop_crowded(*traced, kCrowdedShare * smallest, probes);
     }
-    if (grid.group.positions.empty()) {
-        return Error{text("all ", candidates.size(), " grid positions lie inside geometry")};
-    }
-    return grid;
+    const auto reach = drop_unreachable(*traced, *bounds, settings, probes);
+    if (!reach) return reach.error();
+    return make_groups(probes, std::move(*reach), settings);
 }
 
 }  // namespace tetralight

@@ -1,42 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "bake/placement/free_space.h"
 #include "bake/scene/scene.h"
 #include "bake/scene/scene_bounds.h"
 #include "base/result.h"
 #include "probes/probe_group.h"
 
+// The probe-grid generator: probes for a scene that nobody has to place by hand.
+//
+//     candidates → place_probe (in or out, clearance) → SpaceMap (reach) → group_by_region → groups
+
 namespace tetralight {
 
+/// Where candidates stand.
+enum class PlacementMode : uint8_t {
+    Regular,  ///< on a lattice
+    Layers,   ///< at heights above every floor
+    Surface,  ///< on both sides of every surface
+};
+
+/// What becomes of spaces without a seed.
+enum class OtherSpaces : bool { Drop, Keep };
+
 struct ProbeGridSettings {
+    PlacementMode mode = PlacementMode::Regular;
     /// Metres between probes on each axis.
     glm::dvec3 spacing{1.0};
     /// What to fill; none = the bounds of what contributes global illumination.
     std::optional<Box> bounds;
+    /// Nodes whose bounds to fill instead, by name.
+    std::vector<std::string> bounds_of;
+    /// Layers: metres above the floor.
+    std::vector<double> heights{0.3, 1.7};
+    /// Metres that probes keep from surfaces; none = a tenth of the smallest spacing, 0.25 at most.
+    std::optional<double> clearance;
+    /// World positions in the spaces to fill; none = the space that most probes are in.
+    std::vector<glm::dvec3> seeds;
+    OtherSpaces other_spaces = OtherSpaces::Drop;
+    /// Metres along the side of the cubes that groups are split by; 0 = one group for each space.
+    double region_size = 0.0;
     std::string group_name = "grid";
     uint64_t max_probe_count = 10'000'000;
     /// 0 = all.
     uint32_t thread_count = 0;
 };
 
-struct ProbeGrid {
-    ProbeGroup group;
-    uint64_t candidate_count = 0;
-    /// Candidates that were dropped because they lie inside geometry.
-    uint64_t inside_count = 0;
+/// A space that no seed lies in.
+struct Pocket {
+    uint64_t probe_count = 0;
+    /// One of its probes: a seed that would keep it.
+    glm::dvec3 position{0.0};
+
+    bool operator==(const Pocket&) const = default;
 };
 
-/// A lattice of probes in the middle of the bounds, half a spacing or more from their sides,
-/// without the probes that lie inside geometry. Each axis has two layers at least; where the bounds
-/// are thinner they stand on the lower end of Y and around the middle of X and Z.
+struct ProbeGrid {
+    /// Of one region each, in world space; none is empty.
+    std::vector<ProbeGroup> groups;
+    /// Metres from each probe of the groups, in their order, to the nearest surface.
+    std::vector<float> surface_distances;
+    uint64_t candidate_count = 0;
+    /// How many candidates had which `Fate`.
+    std::array<uint64_t, kFateCount> fate_counts{};
+    /// The spaces that were dropped, the largest first.
+    std::vector<Pocket> pockets;
+
+    [[nodiscard]] uint64_t count(Fate fate) const { return fate_counts[static_cast<size_t>(fate)]; }
+
+    [[nodiscard]] uint64_t probe_count() const { return surface_distances.size(); }
+};
+
+/// Fills a scene with probes. Deterministic, and the same for every order of the scene's meshes.
 ///
 /// Errors: spacing that is not positive, bounds that are empty or not finite, nothing to take
-/// bounds from, more candidates than `max_probe_count` (the message says how many), no probe left.
+/// bounds from, a node that is not there, more candidates than `max_probe_count` (the message says
+/// how many), a seed inside geometry or out of bounds, no floor, no probe left.
 [[nodiscard]] Result<ProbeGrid> make_probe_grid(const Scene& scene,
                                                 const ProbeGridSettings& settings);
 

@@ -11,7 +11,65 @@ TEST_F(Grid, WritesTheProbesThatItCounts) {
     const Json groups = Json::parse(read("grid.json"))["groups"];
     ASSERT_EQ(groups.size(), 1u);
     EXPECT_EQ(groups[0]["positions"].size(), json["probes"]);
-    EXPECT_EQ(json["probes"].get<int>() + json["inside_geometry"].get<int>(), json["candidates"]);
+    EXPECT_EQ(json["kept_in_place"].get<int>() + json["pushed"].get<int>(), json["probes"]);
+    int all = json["probes"].get<int>();
+    for (const char* reason :
+         {"inside_geometry", "too_close", "unreachable", "forbidden", "crowded"}) {
+        all += json[reason].get<int>();
+    }
+    EXPECT_EQ(all, json["candidates"]);
+    int in_bins = 0;
+    for (const Json& bin : json["surface_distance"]) in_bins += bin["probes"].get<int>();
+    EXPECT_EQ(in_bins, json["probes"]);
+}
+
+TEST_F(Grid, SaysAsATableWhatItKeptAndDropped) {
+    const std::string table =
+        succeed({"grid", kCourtyard, "-o", "grid.json", "--spacing", "2"}).out;
+    for (const char* words : {"grid.json: ", " candidates\n", "kept where it stood", "pushed",
+                              "to the nearest surface:", "from 4 m on"}) {
+        EXPECT_TRUE(contains(table, words)) << words << "\n" << table;
+    }
+}
+
+TEST_F(Grid, AGlbBakesToTheVolumeOfTheJson) {
+    const Arguments common{"--spacing", "3", "--mode", "layers", "--region-size", "8"};
+    for (const char* output : {"g.json", "g.glb"}) {
+        Arguments arguments{"grid", kCourtyard, "-o", output};
+        arguments.insert(arguments.end(), common.begin(), common.end());
+        succeed(arguments);
+        succeed({"bake", kCourtyard, "-g", output, "--only-given-groups", "-o",
+                 std::string(output) + ".probes", "-s", "16"});
+    }
+    const Json json = run_json({"info", "g.json.probes"}), glb = run_json({"info", "g.glb.probes"});
+    EXPECT_GT(json["groups"], 1);
+    for (const char* count : {"probes", "groups", "welded"}) EXPECT_EQ(json[count], glb[count]);
+}
+
+TEST_F(Grid, KeepsAllSpacesWithoutAWordWhenAsked) {
+    const CommandResult result =
+        succeed({"grid", kCourtyard, "-o", "g.json", "--spacing", "2", "--min", "-10,-6,-10",
+                 "--max", "10,8,10", "--unreachable", "keep"});
+    EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Grid, RefusesAPositionInAWallOrOutside) {
+    const std::string message = fail_and_keep(
+        "g.json", {"grid", kCourtyard, "-o", "g.json", "--spacing", "2", "--from", "0,900,0"});
+    EXPECT_TRUE(contains(message, "seed 0,900,0 lies outside of the bounds")) << message;
+}
+
+TEST_F(Grid, RefusesWhatDoesNotGoTogether) {
+    const Arguments start{"grid", kCourtyard, "-o", "g.json"};
+    const auto misuse_with = [&](Arguments more) {
+        more.insert(more.begin(), start.begin(), start.end());
+        return misuse(more);
+    };
+    EXPECT_TRUE(contains(misuse_with({}), "--spacing is required"));
+    EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--heights", "1"}), "--heights"));
+    EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--from", "1,2"}), "--from"));
+    EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--clearance", "-1"}), "--clearance"));
+    EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--mode", "best"}), "--mode"));
 }
 
 TEST_F(Grid, NamesTheGroupAsAsked) {

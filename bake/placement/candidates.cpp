@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <tuple>
+
+#include "bake/parallel.h"
+#include "bake/placement/free_space.h"
+#include "bake/placement/lattice.h"
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+constexpr int kUp = 1;
+/// A line through more surfaces than this goes no further.
+constexpr int kMaxHits = 1024;
+
+struct LineHit {
+    glm::dvec3 position{0.0};
+    SurfaceSide side;
+};
+
+/// All surfaces along a line through the bounds, from its high end down.
+std::vector<LineHit> hits_along(const TraceScene& traced, const Box& bounds, glm::dvec3 start,
+                                int axis) {
+    // From a little outside, so that a roof that bounds the scene is met from above.
+    const double margin = 1e-3 * std::max(bounds.size()[axis], 1.0);
+    start[axis] = bounds.high[axis] + margin;
+    const double length = bounds.size()[axis] + 2.0 * margin;
+    glm::vec3 direction(0.0f);
+    direction[axis] = -1.0f;
+    glm::vec3 from = traced.traced_from_world(start);
+    const float end = from[axis] - static_cast<float>(length);
+    std::vector<LineHit> hits;
+    for (int i = 0; i < kMaxHits && from[axis] > end; ++i) {
+        const auto side = traced.cast_side({from, direction, from[axis] - end});
+        if (!side) break;
+        const glm::vec3 hit = from + side->distance * direction;
+        hits.push_back({traced.world_from_traced(hit), *side});
+        from = traced.ray_origin(hit, direction);
+    }
+    return hits;
+}
+
+/// The lines along one axis: a lattice over the other two.
+Result<std::vector<glm::dvec3>> lines_along(const CandidateRule& rule, int axis) {
+    Box flat = rule.bounds;
+    flat.low[axis] = flat.high[axis] = 0.0;
+    const auto lattice = make_lattice(flat, rule.spacing, 2 * rule.max_count);
+    if (!lattice) return lattice.error();
+    Lattice one_layer = *lattice;
+    one_layer.axes[axis].count = 1;
+    return one_layer.positions();
+}
+
+Status check_count(size_t count, uint64_t max_count) {
+    if (count <= max_count) return Ok{};
+    return Error{text("a grid of ", count, " probes is more than the limit of ", max_count)};
+}
+
+bool is_in(const Box& bounds, const glm::dvec3& position) {
+    constexpr double kRounding = 1e-6;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double slack = kRounding * std::max(1.0, bounds.size()[axis]);
+        if (position[axis] < bounds.low[axis] - slack ||
+            position[axis] > bounds.high[axis] + slack) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Calls `add(line, found)` for each line and joins what was found in the lines' order.
+template <class Add>
+Result<std::vector<glm::dvec3>> join_lines(const std::vector<glm::dvec3>& lines,
+                                           const CandidateRule& rule, const Add& add) {
+    std::vector<std::vector<glm::dvec3>> found(lines.size());
+    parallel_for(lines.size(), rule.thread_count, [&](size_t i) { add(lines[i], found[i]); });
+    std::vector<glm::dvec3> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    if (auto status = check_count(all.size(), rule.max_count); !status) return status.error();
+    return all;
+}
+
+bool is_floor(const LineHit& hit) {
+    constexpr float kLeastCosine = 0.5f;
+    return !hit.side.is_back_face && hit.side.normal.y > kLeastCosine;
+}
+
+}  // namespace
+
+Result<std::vector<glm::dvec3>> lattice_candidates(const CandidateRule& rule) {
+    const auto lattice = make_lattice(rule.bounds, rule.spacing, rule.max_count);
+    if (!lattice) return lattice.error();
+    return lattice->positions();
+}
+
+Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
+                                                 const CandidateRule& rule) {
+    const auto columns = lines_along(rule, kUp);
+    if (!columns) return columns.error();
+    auto candidates = join_lines(*columns, rule, [&](const glm::dvec3& column, auto& found) {
+        for (const LineHit& hit : hits_along(traced, rule.bounds, column, kUp)) {
+            if (!is_floor(hit)) continue;
+            const glm::vec3 foot =
+                traced.ray_origin(traced.traced_from_world(hit.position), {0, 1, 0});
+            for (const double height : rule.heights) {
+                const glm::vec3 top(0.0f, static_cast<float>(height), 0.0f);
+                if (!sees(traced, foot, foot + top)) continue;
+                found.push_back(hit.position + glm::dvec3(0.0, height, 0.0));
+            }
+        }
+    });
+    if (candidates && candidates->empty()) {
+        return Error{text("there is no floor below any of ", columns->size(), " columns")};
+    }
+    return candidates;
+}
+
+Result<std::vector<glm::dvec3>> surface_candidates(const TraceScene& traced,
+                                                   const CandidateRule& rule) {
+    std::vector<glm::dvec3> all;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto lines = lines_along(rule, axis);
+        if (!lines) return lines.error();
+        const auto some = join_lines(*lines, rule, [&](const glm::dvec3& line, auto& found) {
+            for (const LineHit& hit : hits_along(traced, rule.bounds, line, axis)) {
+                const glm::vec3 facing = glm::abs(hit.side.normal);
+                const int main = facing.x >= facing.y && facing.x >= facing.z ? 0
+                                 : facing.y >= facing.z                       ? 1
+                                                                              : 2;
+                if (main != axis || !is_in(rule.bounds, hit.position)) continue;
+                const glm::dvec3 off = rule.clearance * glm::dvec3(hit.side.normal);
+                found.push_back(hit.position + off);
+                found.push_back(hit.position - off);
+            }
+        });
+        if (!some) return some.error();
+        all.insert(all.end(), some->begin(), some->end());
+    }
+    if (auto status = check_count(all.size(), rule.max_count); !status) return status.error();
+    if (all.empty()) return Error{"there is no surface in the bounds"};
+    return all;
+}
+
+std::vector<bool> find_crowded(const TraceScene& traced, std::span<const glm::dvec3> positions,
+                               double distance) {
+    using Key = std::tuple<int64_t, int64_t, int64_t>;
+    const auto cell = [&](double x) { return static_cast<int64_t>(std::floor(x / distance)); };
+    std::map<Key, std::vector<size_t>> kept;
+    std::vector<bool> is_crowded(positions.size(), false);
+    for (size_t i = 0; i < positions.size(); ++i) {
+        const glm::dvec3& p = positions[i];
+        const auto [x, y, z] = Key{cell(p.x), cell(p.y), cell(p.z)};
+        for (int n = 0; n < 27 && !is_crowded[i]; ++n) {
+            const auto near = kept.find({x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1});
+            if (near == kept.end()) continue;
+            is_crowded[i] = std::ranges::any_of(near->second, [&](size_t other) {
+                const glm::dvec3& q = positions[other];
+                return glm::distance(p, q) < distance &&
+                       (p == q ||
+                        sees(traced, traced.traced_from_world(p), traced.traced_from_world(q)));
+            });
+        }
+        if (!is_crowded[i]) kept[{x, y, z}].push_back(i);
+    }
+    return is_crowded;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/free_space.h"
+
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "bake/capture_offset.h"
+#include "bake/parallel.h"
+#include "bake/survey.h"
+
+namespace tetralight {
+namespace {
+
+/// Of the clearance: what a move goes beyond it, and what rounding may take from it.
+constexpr float kSlack = 1e-3f;
+
+float surface_distance(const TraceScene& traced, glm::vec3 position) {
+    const auto nearest = traced.nearest_surface(position);
+    return nearest ? glm::distance(position, *nearest) : std::numeric_limits<float>::infinity();
+}
+
+/// The search for a better place for one candidate.
+class Push {
+  public:
+    Push(const TraceScene& traced, glm::vec3 start, const ClearanceRule& rule)
+        : traced_(traced),
+          start_(start),
+          clearance_(static_cast<float>(rule.clearance)),
+          reach_(static_cast<float>(rule.reach)) {}
+
+    /// Out of geometry, and then away from what is there.
+    [[nodiscard]] std::optional<glm::vec3> out_of_geometry() const {
+        const CaptureSearch search{reach_, clearance_ * (1.0f + 2.0f * kSlack), kMinValidity};
+        const auto offset = find_capture_offset(traced_, start_, search);
+        if (!offset) return std::nullopt;
+        return along_gradient(start_ + *offset);
+    }
+
+    /// Away from the nearest surface, from a place that is free.
+    [[nodiscard]] std::optional<glm::vec3> along_gradient(glm::vec3 from) const {
+        constexpr int kMaxSteps = 8;
+        glm::vec3 place = from;
+        for (int i = 0; i < kMaxSteps; ++i) {
+            const auto nearest = traced_.nearest_surface(place);
+            const float distance = nearest ? glm::distance(place, *nearest) : clearance_;
+            if (distance >= clearance_)
+                return is_fine(from, place) ? std::optional(place) : std::nullopt;
+            if (distance <= kSlack * clearance_) return std::nullopt;
+            place += (clearance_ * (1.0f + kSlack) - distance) / distance * (place - *nearest);
+        }
+        return std::nullopt;
+    }
+
+    /// For candidates on a surface, which have no gradient, and in corners, where it leads nowhere.
+    [[nodiscard]] std::optional<glm::vec3> along_axes() const {
+        constexpr glm::vec3 kAxes[] = {{0, 1, 0},  {0, -1, 0}, {1, 0, 0},
+                                       {-1, 0, 0}, {0, 0, 1},  {0, 0, -1}};
+        for (const glm::vec3& axis : kAxes) {
+            // From a little off the surface, so that the way is not blocked by it.
+            const glm::vec3 from = start_ + 2.0f * kSlack * clearance_ * axis;
+            if (const auto place = along_gradient(from)) return place;
+        }
+        return std::nullopt;
+    }
+
+  private:
+    static constexpr float kMinValidity = 0.75f;
+
+    [[nodiscard]] bool is_fine(glm::vec3 from, glm::vec3 place) const {
+        return glm::distance(place, start_) <= reach_ &&
+               (place == from || sees(traced_, from, place)) &&
+               !look_around(traced_, place).is_inside(kMinValidity);
+    }
+
+    const TraceScene& traced_;
+    glm::vec3 start_;
+    float clearance_;
+    float reach_;
+};
+
+}  // namespace
+
+bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
+    return !traced.is_blocked({from, to - from, 1.0f});
+}
+
+PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
+                        const ClearanceRule& rule) {
+    const glm::vec3 start = traced.traced_from_world(candidate);
+    const Surroundings around = look_around(traced, start);
+    const bool is_inside = around.is_inside();
+    PlacedProbe placed{candidate, Fate::Kept, around.surface_distance};
+    if (!is_inside && around.surface_distance >= (1.0 - kSlack) * rule.clearance) return placed;
+
+    const Push push(traced, start, rule);
+    auto place = is_inside ? push.out_of_geometry() : push.along_gradient(start);
+    if (!place && rule.clearance > 0.0) place = push.along_axes();
+    if (!place) {
+        placed.fate = is_inside ? Fate::Inside : Fate::TooClose;
+        return placed;
+    }
+    placed.position = traced.world_from_traced(*place);
+    placed.fate = Fate::Pushed;
+    placed.surface_distance = surface_distance(traced, *place);
+    return placed;
+}
+
+std::vector<PlacedProbe> place_probes(const TraceScene& traced,
+                                      std::span<const glm::dvec3> candidates,
+                                      const ClearanceRule& rule, uint32_t thread_count) {
+    std::vector<PlacedProbe> placed(candidates.size());
+    parallel_for(candidates.size(), thread_count,
+                 [&](size_t i) { placed[i] = place_probe(traced, candidates[i], rule); });
+    return placed;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "bake/trace_scene.h"
+
+namespace tetralight {
+
+/// What became of a candidate for a probe.
+enum class Fate : uint8_t {
+    Kept,
+    Pushed,       ///< kept, out of geometry or away from a surface
+    Inside,       ///< inside geometry, and no way out in reach
+    TooClose,     ///< nearer to a surface than the clearance, and no better place in reach
+    Unreachable,  ///< in a space that is not asked for
+    Forbidden,    ///< in an adjustment volume that forbids probes
+    Crowded,      ///< beside another probe
+};
+
+inline constexpr int kFateCount = 7;
+
+[[nodiscard]] inline bool is_kept(Fate fate) {
+    return fate == Fate::Kept || fate == Fate::Pushed;
+}
+
+/// Where probes may stand.
+struct ClearanceRule {
+    /// Metres from every surface; 0 = only not inside.
+    double clearance = 0.0;
+    /// A candidate that has to move moves this far at most, metres.
+    double reach = 0.0;
+};
+
+/// A candidate, and where it stands in the end.
+struct PlacedProbe {
+    glm::dvec3 position{0.0};
+    Fate fate = Fate::Kept;
+    /// Metres to the nearest surface; infinite: there is none.
+    float surface_distance = 0.0f;
+
+    bool operator==(const PlacedProbe&) const = default;
+};
+
+/// Keeps a candidate where it stands, moves it out of geometry and away from surfaces, or says why
+/// it cannot be kept. A move leads through no surface but the one that the candidate is behind of:
+/// along the way from the nearest surface, or else along one of the axes. Pure.
+[[nodiscard]] PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
+                                      const ClearanceRule& rule);
+
+/// Many at once.
+[[nodiscard]] std::vector<PlacedProbe> place_probes(const TraceScene& traced,
+                                                    std::span<const glm::dvec3> candidates,
+                                                    const ClearanceRule& rule,
+                                                    uint32_t thread_count = 0);
+
+/// Whether nothing stands between two positions in traced space.
+[[nodiscard]] bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to);
+
+}  // namespace tetralight

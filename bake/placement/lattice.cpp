@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+constexpr const char* kAxisNames[] = {"x", "y", "z"};
+constexpr int kUp = 1;
+
+Status check(const Box& bounds, const glm::dvec3& spacing) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!(spacing[axis] > 0.0) || !std::isfinite(spacing[axis])) {
+            return Error{text("spacing ", spacing[axis], " along ", kAxisNames[axis],
+                              " is not a positive length")};
+        }
+        const double low = bounds.low[axis], high = bounds.high[axis];
+        if (!std::isfinite(low) || !std::isfinite(high) || high < low) {
+            return Error{text("bounds ", low, " to ", high, " along ", kAxisNames[axis],
+                              " are empty or not finite")};
+        }
+    }
+    return Ok{};
+}
+
+/// How many layers fit; may be beyond any integer.
+double layer_count(const Box& bounds, double spacing, int axis) {
+    // What is short of a whole spacing by rounding only (bounds come from float vertices) is whole.
+    return std::max(2.0, std::floor(bounds.size()[axis] / spacing + 1e-6));
+}
+
+/// A power of two, multiples of which floats hold exactly wherever the lattice may reach.
+double float_step(const Box& bounds, const glm::dvec3& spacing) {
+    double farthest = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        farthest = std::max({farthest, std::abs(bounds.low[axis]) + 2.0 * spacing[axis],
+                             std::abs(bounds.high[axis]) + 2.0 * spacing[axis]});
+    }
+    constexpr int kFloatBits = 24;
+    return std::ldexp(1.0, std::ilogb(farthest) + 1 - kFloatBits);
+}
+
+double rounded(double value, double step) {
+    return std::round(value / step) * step;
+}
+
+LatticeAxis layers_along(const Box& bounds, double spacing, double step, int axis) {
+    const double count = layer_count(bounds, spacing, axis);
+    // Spacings that are not many steps would change visibly.
+    constexpr double kFewSteps = 1024.0;
+    const bool is_rounded = spacing > kFewSteps * step;
+    if (is_rounded) spacing = rounded(spacing, step);
+    const double size = bounds.size()[axis];
+    const double centered = bounds.low[axis] + 0.5 * (size - (count - 1.0) * spacing);
+    const double standing = bounds.low[axis] + 0.5 * spacing;
+    const double first = axis == kUp ? std::max(centered, standing) : centered;
+    return {is_rounded ? rounded(first, step) : first, spacing, static_cast<uint64_t>(count)};
+}
+
+}  // namespace
+
+glm::dvec3 Lattice::at(uint64_t i) const {
+    const uint64_t row = i / axes[0].count;
+    return {axes[0].at(i % axes[0].count), axes[1].at(row / axes[2].count),
+            axes[2].at(row % axes[2].count)};
+}
+
+std::vector<glm::dvec3> Lattice::positions() const {
+    std::vector<glm::dvec3> positions(count());
+    for (uint64_t i = 0; i < positions.size(); ++i) positions[i] = at(i);
+    return positions;
+}
+
+Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing, uint64_t max_count) {
+    if (auto status = check(bounds, spacing); !status) return status.error();
+    double count = 1.0;
+    for (int axis = 0; axis < 3; ++axis) count *= layer_count(bounds, spacing[axis], axis);
+    if (!(count <= static_cast<double>(max_count))) {
+        return Error{text("a grid of ", count, " probes is more than the limit of ", max_count)};
+    }
+    const double step = float_step(bounds, spacing);
+    Lattice lattice;
+    for (int axis = 0; axis < 3; ++axis) {
+        lattice.axes[axis] = layers_along(bounds, spacing[axis], step, axis);
+    }
+    return lattice;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "bake/scene/scene_bounds.h"
+#include "base/result.h"
+
+namespace tetralight {
+
+/// Layers of a lattice along one axis.
+struct LatticeAxis {
+    double first = 0.0;
+    double spacing = 1.0;
+    uint64_t count = 0;
+
+    [[nodiscard]] double at(uint64_t layer) const {
+        return first + static_cast<double>(layer) * spacing;
+    }
+
+    bool operator==(const LatticeAxis&) const = default;
+};
+
+/// A lattice along the world's axes.
+struct Lattice {
+    std::array<LatticeAxis, 3> axes;
+
+    [[nodiscard]] uint64_t count() const { return axes[0].count * axes[1].count * axes[2].count; }
+
+    /// Position number i: x counts fastest, then z, then y.
+    [[nodiscard]] glm::dvec3 at(uint64_t i) const;
+
+    [[nodiscard]] std::vector<glm::dvec3> positions() const;
+
+    bool operator==(const Lattice&) const = default;
+};
+
+/// The lattice in the middle of the bounds, half a spacing or more from their sides. Each axis has
+/// two layers at least; where the bounds are thinner they stand on the lower end of Y and around
+/// the middle of X and Z. Spacing and start are rounded to what floats hold exactly, by less than
+/// 1e-6 of the farthest coordinate, so that neighbors stand exactly in line: that is what keeps
+/// the tetrahedra between them from degenerating.
+///
+/// Errors: spacing that is not positive, bounds that are empty or not finite, more positions than
+/// `max_count` (the message says how many).
+[[nodiscard]] Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing,
+                                           uint64_t max_count);
+
+}  // namespace tetralight

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/reach.h"
+
+#include <algorithm>
+#include <map>
+
+#include "bake/placement/group_by_region.h"
+#include "bake/survey.h"
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+Status check_seed(const TraceScene& traced, const SpaceMap& map, const glm::dvec3& seed) {
+    const std::string place = text("seed ", seed.x, ",", seed.y, ",", seed.z);
+    if (!map.contains(seed)) return Error{place + " lies outside of the bounds"};
+    if (look_around(traced, traced.traced_from_world(seed)).is_inside()) {
+        return Error{place + " lies inside geometry"};
+    }
+    return Ok{};
+}
+
+std::vector<uint32_t> wanted_spaces(const SpaceMap& map, const ProbeGridSettings& settings,
+                                    const std::vector<uint32_t>& spaces) {
+    std::vector<uint32_t> wanted = spaces;
+    if (settings.other_spaces == OtherSpaces::Drop) {
+        wanted = spaces_by_size(spaces);
+        wanted.resize(std::min<size_t>(wanted.size(), 1));
+        if (!settings.seeds.empty()) wanted = map.spaces_of(settings.seeds);
+    }
+    std::ranges::sort(wanted);
+    wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+    return wanted;
+}
+
+}  // namespace
+
+Result<Reach> drop_unreachable(const TraceScene& traced, const Box& bounds,
+                               const ProbeGridSettings& settings,
+                               std::vector<PlacedProbe>& probes) {
+    SpaceMap map(traced, bounds, settings.spacing, settings.thread_count);
+    return drop_unreachable(traced, map, settings, probes);
+}
+
+Result<Reach> drop_unreachable(const TraceScene& traced, SpaceMap& map,
+                               const ProbeGridSettings& settings,
+                               std::vector<PlacedProbe>& probes) {
+    std::vector<glm::dvec3> positions;
+    for (const PlacedProbe& probe : probes) {
+        if (is_kept(probe.fate)) positions.push_back(probe.position);
+    }
+    for (const glm::dvec3& seed : settings.seeds) {
+        if (auto status = check_seed(traced, map, seed); !status) return status.error();
+    }
+    map.join(positions, settings.thread_count);
+    map.join(settings.seeds, settings.thread_count);
+    const std::vector<uint32_t> spaces = map.spaces_of(positions, settings.thread_count);
+    Reach reach;
+    reach.wanted = wanted_spaces(map, settings, spaces);
+    std::map<uint32_t, Pocket> pockets;
+    size_t i = 0;
+    for (PlacedProbe& probe : probes) {
+        if (!is_kept(probe.fate)) continue;
+        const uint32_t space = spaces[i++];
+        if (std::ranges::binary_search(reach.wanted, space)) {
+            reach.spaces.push_back(space);
+            continue;
+        }
+        Pocket& pocket = pockets[space];
+        if (pocket.probe_count++ == 0) pocket.position = probe.position;
+        probe.fate = Fate::Unreachable;
+    }
+    for (const auto& [space, pocket] : pockets) reach.pockets.push_back(pocket);
+    std::ranges::stable_sort(reach.pockets, std::greater{}, &Pocket::probe_count);
+    return reach;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/placement/free_space.h"
+#include "bake/placement/probe_grid.h"
+#include "bake/placement/space_map.h"
+#include "bake/trace_scene.h"
+#include "base/result.h"
+
+namespace tetralight {
+
+/// What flood fill found.
+struct Reach {
+    /// One a probe that is kept.
+    std::vector<uint32_t> spaces;
+    std::vector<Pocket> pockets;
+    /// The spaces to fill, sorted.
+    std::vector<uint32_t> wanted;
+};
+
+/// Drops the probes that cannot be reached from the seeds, or from the space that most probes are
+/// in, when other spaces are not kept. Error: a seed inside geometry or out of bounds.
+[[nodiscard]] Result<Reach> drop_unreachable(const TraceScene& traced, const Box& bounds,
+                                             const ProbeGridSettings& settings,
+                                             std::vector<PlacedProbe>& probes);
+
+/// The same over a map that is already there.
+[[nodiscard]] Result<Reach> drop_unreachable(const TraceScene& traced, SpaceMap& map,
+                                             const ProbeGridSettings& settings,
+                                             std::vector<PlacedProbe>& probes);
+
+}  // namespace tetralight

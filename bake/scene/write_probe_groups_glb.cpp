@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <bit>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bake/scene/detail/probe_group_check.h"
+#include "bake/scene/probe_groups_gltf.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "base/utf8.h"
+
+namespace tetralight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
+
+// glTF 2.0, sections 3.6.2, 3.7.2 and 4.4.
+constexpr uint32_t kFloat = 5126;
+constexpr uint32_t kArrayBuffer = 34962;
+constexpr uint32_t kPoints = 0;
+constexpr uint32_t kGlbMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+
+Json array(const glm::vec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+Json array(const glm::dmat4& m) {
+    Json numbers = Json::array();
+    for (int i = 0; i < 16; ++i) numbers.push_back(m[i / 4][i % 4]);
+    return numbers;
+}
+
+/// Grows the document and its binary chunk group by group.
+class Document {
+  public:
+    Document() {
+        json_ = {{"asset", {{"version", "2.0"}, {"generator", "Tetralight"}}},
+                 {"scene", 0},
+                 {"scenes", Json::array({{{"nodes", Json::array()}}})},
+                 {"nodes", Json::array()}};
+    }
+
+    void add(const ProbeGroup& group) {
+        const glm::dvec3 first =
+            group.positions.empty() ? glm::dvec3(0.0) : group.positions.front();
+        Json node = {{"name", group.name},
+                     {"matrix", array(glm::translate(group.world_from_group, first))},
+                     {"extras", {{"light_probe_group", true}}}};
+        if (group.dering) node["extras"]["dering"] = true;
+        if (!group.positions.empty()) node["mesh"] = add_points(group, first);
+        json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
+        json_["nodes"].push_back(node);
+    }
+
+    [[nodiscard]] std::vector<std::byte> bytes() {
+        if (!binary_.empty()) {
+            json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+        }
+        std::string json = json_.dump();
+        json.resize((json.size() + 3) / 4 * 4, ' ');
+        const std::span json_bytes = std::as_bytes(std::span(json));
+        std::vector<std::byte> out;
+        const size_t binary_size = binary_.empty() ? 0 : 8 + binary_.size();
+        append(out, {kGlbMagic, 2, static_cast<uint32_t>(20 + json.size() + binary_size)});
+        append(out, {static_cast<uint32_t>(json.size()), kJsonChunk});
+        out.insert(out.end(), json_bytes.begin(), json_bytes.end());
+        if (binary_.empty()) return out;
+        append(out, {static_cast<uint32_t>(binary_.size()), kBinaryChunk});
+        out.insert(out.end(), binary_.begin(), binary_.end());
+        return out;
+    }
+
+  private:
+    static void append(std::vector<std::byte>& out, std::initializer_list<uint32_t> words) {
+        for (const uint32_t word : words) {
+            const auto bytes = std::bit_cast<std::array<std::byte, 4>>(word);
+            out.insert(out.end(), bytes.begin(), bytes.end());
+        }
+    }
+
+    /// Returns the index of a new mesh with the group's points, relative to the first of them.
+    size_t add_points(const ProbeGroup& group, const glm::dvec3& first) {
+        std::vector<glm::vec3> points;
+        glm::vec3 low(0.0f), high(0.0f);
+        for (const glm::dvec3& position : group.positions) {
+            points.emplace_back(position - first);
+            low = glm::min(low, points.back());
+            high = glm::max(high, points.back());
+        }
+        const std::span bytes = std::as_bytes(std::span(points));
+        const size_t index = json_["meshes"].size();
+        json_["bufferViews"].push_back({{"buffer", 0},
+                                        {"byteOffset", binary_.size()},
+                                        {"byteLength", bytes.size()},
+                                        {"target", kArrayBuffer}});
+        json_["accessors"].push_back({{"bufferView", index},
+                                      {"componentType", kFloat},
+                                      {"count", points.size()},
+                                      {"type", "VEC3"},
+                                      {"min", array(low)},
+                                      {"max", array(high)}});
+        const Json primitive = {{"attributes", {{"POSITION", index}}}, {"mode", kPoints}};
+        json_["meshes"].push_back({{"name", group.name}, {"primitives", Json::array({primitive})}});
+        binary_.insert(binary_.end(), bytes.begin(), bytes.end());
+        return index;
+    }
+
+    Json json_;
+    std::vector<std::byte> binary_;
+};
+
+}  // namespace
+
+Status write_probe_groups_glb(const std::string& path, std::span<const ProbeGroup> groups) {
+    if (groups.empty()) return Error{path + ": there are no probe groups to write"};
+    if (auto status = detail::check_probe_groups(groups); !status) {
+        return status.error().in(path);
+    }
+    Document document;
+    for (const ProbeGroup& group : groups) {
+        if (!is_utf8(group.name)) {
+            return Error{text(path, ": group \"", group.name, "\": the name is not UTF-8")};
+        }
+        document.add(group);
+    }
+    return write_file(path, document.bytes());
+}
+
+}  // namespace tetralight

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/grid_options.h"
+
+#include "base/text.h"
+#include "cli/choice.h"
+#include "cli/common.h"
+
+namespace tetralight::cli {
+namespace {
+
+constexpr double kLongest = 1e9;
+
+/// The names that `merge` takes.
+CLI::Validator name_check() {
+    const auto check = [](const std::string& name) -> std::string {
+        if (name.empty()) return "the name is empty";
+        return name.find('\n') == std::string::npos ? "" : "the name holds a line break";
+    };
+    return {check, ""};
+}
+
+CLI::Validator position_check() {
+    const auto check = [](const std::string& position) -> std::string {
+        return parse_vec3(position) ? "" : "\"" + position + "\" is not of the form x,y,z";
+    };
+    return {check, ""};
+}
+
+}  // namespace
+
+void GridOptions::add_to(CLI::App& command) {
+    add_choice(command, "--mode", settings.mode,
+               {{"regular", PlacementMode::Regular},
+                {"layers", PlacementMode::Layers},
+                {"surface", PlacementMode::Surface}},
+               "regular = a lattice; layers = at heights above every floor; surface = on both "
+               "sides of walls");
+    spacing_option_ =
+        add_vec3_or_number(command, "--spacing", settings.spacing, "Metres between probes");
+    spacing_option_->check(numbers_in(1e-6, kLongest).description(""));
+    add_bounds(command);
+    add_rules(command);
+    add_reach(command);
+    command.add_option("--name", settings.group_name, "Name of the probe groups")
+        ->check(name_check())
+        ->capture_default_str();
+    command
+        .add_option("--region-size", settings.region_size,
+                    "Split the groups by cubes of this size, metres (0 = not split)")
+        ->check(numbers_in(0.0, kLongest))
+        ->capture_default_str();
+    command
+        .add_option("--max-probes", settings.max_probe_count,
+                    "Refuse grids with more candidates than this")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+}
+
+void GridOptions::add_bounds(CLI::App& command) {
+    low_option_ = add_vec3(command, "--min", bounds_.low, "Lower corner of the box to fill");
+    auto* high = add_vec3(command, "--max", bounds_.high, "Upper corner of the box");
+    low_option_->needs(high);
+    high->needs(low_option_);
+    command
+        .add_option("--bounds-of", settings.bounds_of,
+                    "Fill the box around the node of this name; may be given several times")
+        ->allow_extra_args(false)
+        ->excludes(low_option_);
+}
+
+void GridOptions::add_rules(CLI::App& command) {
+    heights_option_ = command
+                          .add_option("--heights", settings.heights,
+                                      "With --mode layers: metres above the floor, with commas")
+                          ->delimiter(',')
+                          ->check(numbers_in(1e-6, kLongest))
+                          ->capture_default_str();
+    clearance_option_ =
+        command
+            .add_option("--clearance", clearance_,
+                        "Metres that probes keep from surfaces (default: a tenth of the spacing, "
+                        "0.25 at most)")
+            ->check(numbers_in(0.0, kLongest));
+}
+
+void GridOptions::add_reach(CLI::App& command) {
+    command
+        .add_option("--from", seeds_,
+                    "Fill the space that this position lies in; may be given several times "
+                    "(default: the largest space)")
+        ->allow_extra_args(false)
+        ->check(position_check())
+        ->type_name("X,Y,Z");
+    add_choice(command, "--unreachable", settings.other_spaces,
+               {{"drop", OtherSpaces::Drop}, {"keep", OtherSpaces::Keep}},
+               "What becomes of probes in other spaces");
+}
+
+void GridOptions::check_usage() const {
+    constexpr const char* kAxes[] = {"x", "y", "z"};
+    for (int i = 0; i < 3; ++i) {
+        if (bounds_.low[i] <= bounds_.high[i]) continue;
+        throw CLI::ValidationError("--max", text(bounds_.high[i], " is less than --min ",
+                                                 bounds_.low[i], " along ", kAxes[i]));
+    }
+    if (spacing_option_->count() == 0) throw CLI::RequiredError("--spacing");
+    if (heights_option_->count() > 0 && settings.mode != PlacementMode::Layers) {
+        throw CLI::ValidationError("--heights", "is for --mode layers");
+    }
+}
+
+void GridOptions::finish() {
+    if (low_option_->count() > 0) settings.bounds = bounds_;
+    if (clearance_option_->count() > 0) settings.clearance = clearance_;
+    for (const std::string& seed : seeds_) settings.seeds.push_back(*parse_vec3(seed));
+}
+
+}  // namespace tetralight::cli

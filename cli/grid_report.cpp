@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/grid_report.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "base/text.h"
+#include "cli/amounts.h"
+#include "cli/table.h"
+
+namespace tetralight::cli {
+namespace {
+
+struct Reason {
+    Fate fate;
+    const char* key;
+    const char* words;
+};
+
+constexpr Reason kReasons[] = {{Fate::Inside, "inside_geometry", "inside geometry"},
+                               {Fate::TooClose, "too_close", "too close to a surface"},
+                               {Fate::Unreachable, "unreachable", "unreachable"},
+                               {Fate::Forbidden, "forbidden", "forbidden by a volume"},
+                               {Fate::Crowded, "crowded", "beside another probe"}};
+
+/// Upper ends of the histogram's bins, metres.
+constexpr std::array<float, 8> kEnds{0.05f, 0.1f, 0.25f, 0.5f,
+                                     1.0f,  2.0f, 4.0f,  std::numeric_limits<float>::infinity()};
+
+std::array<uint64_t, kEnds.size()> histogram(const ProbeGrid& grid) {
+    std::array<uint64_t, kEnds.size()> counts{};
+    for (const float distance : grid.surface_distances) {
+        const auto end = std::ranges::upper_bound(kEnds, distance);
+        ++counts[std::min<size_t>(end - kEnds.begin(), kEnds.size() - 1)];
+    }
+    return counts;
+}
+
+std::string bin_name(size_t bin) {
+    const float low = bin == 0 ? 0.0f : kEnds[bin - 1];
+    return bin + 1 == kEnds.size() ? text("from ", low, " m on")
+                                   : text(low, " to ", kEnds[bin], " m");
+}
+
+std::string bar(uint64_t count, uint64_t most) {
+    constexpr uint64_t kWidth = 32;
+    return std::string((count * kWidth + most - 1) / most, '#');
+}
+
+std::string histogram_text(const ProbeGrid& grid) {
+    const auto counts = histogram(grid);
+    const uint64_t most = std::max<uint64_t>(1, *std::ranges::max_element(counts));
+    std::vector<std::vector<std::string>> rows;
+    for (size_t i = 0; i < counts.size(); ++i) {
+        rows.push_back({bin_name(i), grouped(counts[i]), bar(counts[i], most)});
+    }
+    return "to the nearest surface:\n" + aligned(rows, "lrl");
+}
+
+std::string share_text(uint64_t count, uint64_t all) {
+    return all == 0 ? "" : percent(static_cast<double>(count) / static_cast<double>(all));
+}
+
+}  // namespace
+
+Json grid_json(const std::string& output, const ProbeGrid& grid) {
+    Json json{{"output", output},
+              {"probes", grid.probe_count()},
+              {"groups", grid.groups.size()},
+              {"candidates", grid.candidate_count},
+              {"kept_in_place", grid.count(Fate::Kept)},
+              {"pushed", grid.count(Fate::Pushed)}};
+    for (const Reason& reason : kReasons) json[reason.key] = grid.count(reason.fate);
+    Json pockets = Json::array();
+    for (const Pocket& pocket : grid.pockets) {
+        pockets.push_back({{"probes", pocket.probe_count}, {"position", to_json(pocket.position)}});
+    }
+    json["pockets"] = pockets;
+    Json bins = Json::array();
+    const auto counts = histogram(grid);
+    for (size_t i = 0; i < counts.size(); ++i) {
+        Json bin{{"from", i == 0 ? 0.0f : kEnds[i - 1]}};
+        if (i + 1 < kEnds.size()) bin["to"] = kEnds[i];
+        bin["probes"] = counts[i];
+        bins.push_back(bin);
+    }
+    json["surface_distance"] = bins;
+    return json;
+}
+
+std::string grid_text(const std::string& output, const ProbeGrid& grid) {
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&](const std::string& words, uint64_t count) {
+        rows.push_back({words, grouped(count), share_text(count, grid.candidate_count)});
+    };
+    add("kept where it stood", grid.count(Fate::Kept));
+    add("pushed", grid.count(Fate::Pushed));
+    for (const Reason& reason : kReasons) {
+        if (grid.count(reason.fate) > 0)
+            add(text("dropped: ", reason.words), grid.count(reason.fate));
+    }
+    return text(output, ": ", counted(grid.probe_count(), "probe"), " in ",
+                counted(grid.groups.size(), "group"), ", of ",
+                counted(grid.candidate_count, "candidate"), "\n", aligned(rows, "lrr"),
+                histogram_text(grid));
+}
+
+std::vector<std::string> grid_warnings(const ProbeGrid& grid) {
+    constexpr size_t kMost = 3;
+    std::vector<std::string> lines;
+    for (size_t i = 0; i < std::min(grid.pockets.size(), kMost); ++i) {
+        const auto& [count, position] = grid.pockets[i];
+        lines.push_back(text(counted(count, "probe"), " around ", position.x, ",", position.y, ",",
+                             position.z, " cannot be reached and ", count == 1 ? "was" : "were",
+                             " dropped; --from ", position.x, ",", position.y, ",", position.z,
+                             " would keep them"));
+    }
+    if (grid.pockets.size() > kMost) {
+        lines.push_back(text("and ", grid.pockets.size() - kMost,
+                             " smaller spaces; --unreachable keep keeps all"));
+    }
+    return lines;
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bake/placement/probe_grid.h"
+#include "cli/common.h"
+
+namespace tetralight::cli {
+
+/// The grid in numbers: what was kept, pushed and dropped by reason, and how far probes stand from
+/// surfaces.
+[[nodiscard]] Json grid_json(const std::string& output, const ProbeGrid& grid);
+
+/// The same as a table.
+[[nodiscard]] std::string grid_text(const std::string& output, const ProbeGrid& grid);
+
+/// Spaces that were left out, one line each for the largest.
+[[nodiscard]] std::vector<std::string> grid_warnings(const ProbeGrid& grid);
+
+}  // namespace tetralight::cli

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/candidates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/bake/placement/grid_support.h"
+
+namespace tetralight {
+namespace {
+
+using test::add_box;
+using test::Facing;
+
+CandidateRule rule_for(const Box& bounds, double spacing) {
+    CandidateRule rule;
+    rule.bounds = bounds;
+    rule.spacing = glm::dvec3(spacing);
+    rule.clearance = 0.1;
+    rule.heights = {0.5, 1.5};
+    rule.max_count = 1000000;
+    return rule;
+}
+
+std::vector<glm::dvec3> layers_over(const Scene& scene, const CandidateRule& rule) {
+    const auto traced = TraceScene::make_static(scene);
+    const auto found = layer_candidates(*traced, rule);
+    EXPECT_TRUE(found) << found.error().message;
+    return *found;
+}
+
+std::multiset<double> heights_of(const std::vector<glm::dvec3>& candidates) {
+    std::multiset<double> heights;
+    for (const auto& p : candidates) heights.insert(std::round(p.y * 1000.0) / 1000.0);
+    return heights;
+}
+
+TEST(LayerCandidates, StandAboveEveryStorey) {
+    Scene scene;
+    for (const float y : {0.0f, 3.0f}) {
+        add_box(scene, test::grey(), Facing::Outward, {-2, y - 0.2f, -2}, {2, y, 2});
+    }
+    const auto found = layers_over(scene, rule_for({{-2, -0.2, -2}, {2, 3, 2}}, 2.0));
+    // Four columns, each with two heights over two floors.
+    EXPECT_EQ(heights_of(found), (std::multiset<double>{0.5, 0.5, 0.5, 0.5, 1.5, 1.5, 1.5, 1.5, 3.5,
+                                                        3.5, 3.5, 3.5, 4.5, 4.5, 4.5, 4.5}));
+}
+
+TEST(LayerCandidates, FindNoRoomAboveALowCeiling) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 5.0f);
+    test::add_ceiling(scene, test::grey(), 5.0f, 1.0f);
+    const auto found = layers_over(scene, rule_for({{-2, 0, -2}, {2, 1, 2}}, 2.0));
+    EXPECT_EQ(heights_of(found), (std::multiset<double>{0.5, 0.5, 0.5, 0.5}));
+}
+
+TEST(LayerCandidates, SteepAndDownwardSurfacesAreNoFloors) {
+    Scene scene;
+    test::add_ceiling(scene, test::two_sided(), 5.0f, 3.0f);  // two-sided: a floor from above
+    test::add_quad(scene, test::grey(), {-5, 0, -5}, {0, 0, 10}, {5, 10, 0});  // 63° steep
+    const auto found = layers_over(scene, rule_for({{-4, 0, -4}, {4, 10, 4}}, 4.0));
+    const auto heights = heights_of(found);
+    EXPECT_EQ(std::set<double>(heights.begin(), heights.end()), (std::set<double>{3.5, 4.5}));
+}
+
+TEST(LayerCandidates, ASceneWithoutAFloorIsAnError) {
+    Scene scene;
+    test::add_ceiling(scene, test::grey(), 5.0f, 3.0f);
+    const auto traced = TraceScene::make_static(scene);
+    const auto found = layer_candidates(*traced, rule_for({{-2, 0, -2}, {2, 3, 2}}, 2.0));
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().message, "there is no floor below any of 4 columns");
+}
+
+TEST(SurfaceCandidates, StandOnBothSidesAtTheClearance) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 2.0f, 1.0f);
+    const auto traced = TraceScene::make_static(scene);
+    const auto found = surface_candidates(*traced, rule_for({{-2, 0, -2}, {2, 2, 2}}, 1.0));
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->size(), 32u);
+    for (const glm::dvec3& p : *found) EXPECT_NEAR(std::abs(p.y - 1.0), 0.1, 1e-6);
+}
+
+TEST(SurfaceCandidates, FollowWallsOfAllDirections) {
+    Scene scene;
+    add_box(scene, test::grey(), Facing::Outward, {-1, -1, -1}, {1, 1, 1});
+    const auto traced = TraceScene::make_static(scene);
+    const auto found = surface_candidates(*traced, rule_for({{-1, -1, -1}, {1, 1, 1}}, 1.0));
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->size(), 6u * 4u * 2u);
+    for (const glm::dvec3& p : *found) {
+        const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        EXPECT_NEAR(std::abs(farthest - 1.0), 0.1, 1e-6);
+    }
+}
+
+TEST(Crowded, FlagsTheSecondOfTwoThatSeeEachOther) {
+    Scene scene;
+    test::add_floor(scene, test::two_sided(), 5.0f);
+    const auto traced = TraceScene::make_static(scene);
+    const std::vector<glm::dvec3> positions{{0, 0.1, 0}, {0.3, 0.1, 0}, {0, -0.1, 0}, {1, 0.1, 0}};
+    EXPECT_EQ(find_crowded(*traced, positions, 0.5),
+              (std::vector<bool>{false, true, false, false}));
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/free_space.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/bake/placement/grid_support.h"
+#include "tests/support/random_probes.h"
+
+namespace tetralight {
+namespace {
+
+using test::add_box;
+using test::Facing;
+
+PlacedProbe place(const Scene& scene, const glm::dvec3& candidate, const ClearanceRule& rule) {
+    const auto traced = TraceScene::make_static(scene);
+    EXPECT_TRUE(traced);
+    return place_probe(*traced, candidate, rule);
+}
+
+Scene solid(const Material& material) {
+    Scene scene;
+    add_box(scene, material, Facing::Outward, {-1, -1, -1}, {1, 1, 1});
+    return scene;
+}
+
+TEST(FreeSpace, KeepsWhatHasRoom) {
+    const PlacedProbe probe = place(solid(test::grey()), {1.5, 0, 0}, {0.2, 0.4});
+    EXPECT_EQ(probe, (PlacedProbe{{1.5, 0, 0}, Fate::Kept, 0.5f}));
+}
+
+TEST(FreeSpace, PushesWhatIsTooCloseToTheClearance) {
+    const PlacedProbe probe = place(solid(test::grey()), {1.05, 0.2, 0}, {0.2, 0.4});
+    EXPECT_EQ(probe.fate, Fate::Pushed);
+    EXPECT_NEAR(probe.position.x, 1.2, 1e-3);
+    EXPECT_NEAR(probe.position.y, 0.2, 1e-6);
+    EXPECT_NEAR(probe.surface_distance, 0.2, 1e-3);
+}
+
+TEST(FreeSpace, PushesWhatIsInsideOutThroughTheNearestFace) {
+    const PlacedProbe probe = place(solid(test::grey()), {0, 0.9, 0.3}, {0.1, 0.4});
+    EXPECT_EQ(probe.fate, Fate::Pushed);
+    EXPECT_NEAR(glm::distance(probe.position, glm::dvec3(0, 1.1, 0.3)), 0.0, 1e-3);
+}
+
+TEST(FreeSpace, DropsWhatWouldHaveToMoveTooFar) {
+    EXPECT_EQ(place(solid(test::grey()), {0, 0, 0}, {0.1, 0.4}).fate, Fate::Inside);
+    EXPECT_EQ(place(solid(test::two_sided()), {0, 0, 0}, {0.1, 0.4}).fate, Fate::Inside);
+}
+
+TEST(FreeSpace, OnAFloorItStandsUp) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 5.0f);
+    const PlacedProbe probe = place(scene, {1, 0, 1}, {0.1, 0.4});
+    EXPECT_EQ(probe.fate, Fate::Pushed);
+    EXPECT_NEAR(probe.position.y, 0.1, 1e-3);
+}
+
+TEST(FreeSpace, ASlabThinnerThanTheClearanceKeepsBothSidesApart) {
+    // 2 cm thick; the clearance is 10 cm.
+    Scene scene;
+    add_box(scene, test::grey(), Facing::Outward, {-5, -5, -0.01f}, {5, 5, 0.01f});
+    const PlacedProbe front = place(scene, {0, 0, 0.03}, {0.1, 0.4});
+    const PlacedProbe back = place(scene, {0, 0, -0.03}, {0.1, 0.4});
+    EXPECT_NEAR(front.position.z, 0.11, 1e-3);
+    EXPECT_NEAR(back.position.z, -0.11, 1e-3);
+    EXPECT_EQ(place(scene, {0, 0, 0}, {0.1, 0.4}).fate, Fate::Pushed);
+}
+
+TEST(FreeSpace, AGapNarrowerThanTheClearanceHoldsNoProbe) {
+    Scene scene;
+    test::add_floor(scene, test::two_sided(), 50.0f, 0.0f);
+    test::add_ceiling(scene, test::two_sided(), 50.0f, 0.1f);
+    EXPECT_EQ(place(scene, {0, 0.05, 0}, {0.2, 0.4}).fate, Fate::TooClose);
+}
+
+TEST(FreeSpace, AnOpenPlaneHasTwoSidesOnlyWhenItsMaterialHas) {
+    Scene one_sided, two_sided;
+    test::add_floor(one_sided, test::grey(), 100.0f);
+    test::add_floor(two_sided, test::two_sided(), 100.0f);
+    EXPECT_EQ(place(one_sided, {0, 1, 0}, {0.1, 0.4}).fate, Fate::Kept);
+    EXPECT_EQ(place(one_sided, {0, -1, 0}, {0.1, 0.4}).fate, Fate::Inside);
+    EXPECT_EQ(place(two_sided, {0, -1, 0}, {0.1, 0.4}).fate, Fate::Kept);
+}
+
+TEST(FreeSpace, IntersectingTurnedSolidsAgainstAnExactTest) {
+    // Two boxes that cross, one of them turned: inside is inside of either.
+    Scene scene = solid(test::grey());
+    auto& turned =
+        add_box(scene, test::grey(), Facing::Outward, {-2, -0.5f, -0.5f}, {2, 0.5f, 0.5f});
+    turned.world_from_mesh = glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
+    const glm::dmat4 mesh_from_world = glm::inverse(turned.world_from_mesh);
+    const auto in_box = [](const glm::dvec3& p, const glm::dvec3& half) {
+        return std::abs(p.x) < half.x && std::abs(p.y) < half.y && std::abs(p.z) < half.z;
+    };
+    const auto traced = TraceScene::make_static(scene);
+    size_t inside_count = 0;
+    for (const glm::dvec3& p : test::random_positions(4000, 3, 2.5)) {
+        const bool is_inside =
+            in_box(p, glm::dvec3(1.0)) ||
+            in_box(glm::dvec3(mesh_from_world * glm::dvec4(p, 1.0)), {2.0, 0.5, 0.5});
+        inside_count += is_inside;
+        EXPECT_EQ(place_probe(*traced, p, {}).fate, is_inside ? Fate::Inside : Fate::Kept);
+    }
+    EXPECT_GT(inside_count, 200u);
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/lattice.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+namespace tetralight {
+namespace {
+
+TEST(Lattice, CountsXFastestThenZThenY) {
+    const auto lattice = make_lattice({{0, 0, 0}, {2, 4, 3}}, glm::dvec3(1.0), 100);
+    ASSERT_TRUE(lattice);
+    ASSERT_EQ(lattice->count(), 24u);
+    EXPECT_EQ(lattice->at(0), glm::dvec3(0.5, 0.5, 0.5));
+    EXPECT_EQ(lattice->at(1), glm::dvec3(1.5, 0.5, 0.5));
+    EXPECT_EQ(lattice->at(2), glm::dvec3(0.5, 0.5, 1.5));
+    EXPECT_EQ(lattice->at(6), glm::dvec3(0.5, 1.5, 0.5));
+    EXPECT_EQ(lattice->positions().back(), glm::dvec3(1.5, 3.5, 2.5));
+}
+
+RC_GTEST_PROP(Lattice, FloatsHoldItExactly, ()) {
+    const auto coordinate = [] { return *rc::gen::inRange(-1000000, 1000000) / 997.0; };
+    const double spacing = *rc::gen::inRange(100, 3000) / 983.0;
+    Box bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+        bounds.low[axis] = coordinate();
+        bounds.high[axis] = bounds.low[axis] + *rc::gen::inRange(0, 30);
+    }
+    const auto lattice = make_lattice(bounds, glm::dvec3(spacing), 1'000'000'000);
+    RC_ASSERT(static_cast<bool>(lattice));
+    for (const LatticeAxis& axis : lattice->axes) {
+        for (const uint64_t i : {uint64_t{0}, uint64_t{1}, axis.count - 1}) {
+            RC_ASSERT(static_cast<double>(static_cast<float>(axis.at(i))) == axis.at(i));
+        }
+        RC_ASSERT(std::abs(axis.spacing - spacing) < 1e-3 * spacing);
+    }
+}
+
+TEST(Lattice, TenBillionProbesAreRefusedWithTheNumber) {
+    const auto lattice = make_lattice({{0, 0, 0}, {1e4, 1e3, 1e3}}, glm::dvec3(1.0), 10'000'000);
+    ASSERT_FALSE(lattice);
+    EXPECT_EQ(lattice.error().message, "a grid of 1e+10 probes is more than the limit of 10000000");
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole grids in the modes that follow surfaces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/bake/placement/grid_support.h"
+
+namespace tetralight {
+namespace {
+
+using test::add_box;
+using test::error_of;
+using test::Facing;
+using test::grid_of;
+using test::layers;
+using test::positions_of;
+using test::settings_for;
+
+TEST(PlacementModes, LayersStandAboveTheFloor) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 4.0f);
+    ProbeGridSettings settings = settings_for({{-4, 0, -4}, {4, 3, 4}}, 2.0);
+    settings.mode = PlacementMode::Layers;
+    settings.heights = {1.0, 2.0};
+    const ProbeGrid grid = grid_of(scene, settings);
+    EXPECT_EQ(grid.probe_count(), 32u);
+    EXPECT_EQ(layers(grid, 1), (std::vector<double>{1.0, 2.0}));
+}
+
+TEST(PlacementModes, SurfacesOfAThinWallHaveProbesOnBothSides) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 9.0f);
+    add_box(scene, test::grey(), Facing::Outward, {-0.02f, 0, -3}, {0.02f, 3, 3});
+    ProbeGridSettings settings = settings_for({{-2, 0, -3}, {2, 3, 3}}, 1.0);
+    settings.mode = PlacementMode::Surface;
+    const ProbeGrid grid = grid_of(scene, settings);
+    size_t left = 0, right = 0;
+    for (const glm::dvec3& p : positions_of(grid)) {
+        left += p.x < 0.0 && p.x > -0.2;
+        right += p.x > 0.0 && p.x < 0.2;
+        EXPECT_GT(p.y, 0.0);  // under the one-sided floor is inside: pushed up, beside others
+    }
+    EXPECT_GE(left, 12u);
+    EXPECT_EQ(left, right);
+    EXPECT_GT(grid.count(Fate::Crowded), 0u);
+}
+
+TEST(PlacementModes, BoundsOfNamedNodes) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 9.0f).name = "ground";
+    add_box(scene, test::grey(), Facing::Inward, {0, 0, 0}, {4, 4, 4}).name = "room";
+    ProbeGridSettings settings;
+    settings.bounds_of = {"room"};
+    const ProbeGrid grid = grid_of(scene, settings);
+    EXPECT_EQ(grid.candidate_count, 64u);
+    settings.bounds_of = {"room", "attic"};
+    EXPECT_EQ(error_of(scene, settings), "no node \"attic\" has a mesh to take bounds from");
+}
+
+TEST(PlacementModes, DistancesBelongToTheProbes) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 50.0f);
+    ProbeGridSettings settings = settings_for({{-4, 0, -4}, {4, 4, 4}}, 2.0);
+    settings.region_size = 4.0;
+    const ProbeGrid grid = grid_of(scene, settings);
+    EXPECT_EQ(grid.groups.size(), 4u);
+    const auto positions = positions_of(grid);
+    ASSERT_EQ(grid.surface_distances.size(), positions.size());
+    for (size_t i = 0; i < positions.size(); ++i) {
+        EXPECT_NEAR(grid.surface_distances[i], positions[i].y, 1e-5);
+    }
+}
+
+TEST(PlacementModes, AClearanceIsALength) {
+    ProbeGridSettings settings = settings_for({{0, 0, 0}, {2, 2, 2}}, 1.0);
+    settings.clearance = -0.5;
+    EXPECT_EQ(error_of(Scene{}, settings), "clearance -0.5 is not a length");
+}
+
+}  // namespace
+}  // namespace tetralight
