@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
         {"bake", bench_bake},
         {"query", bench_query},
         {"relight", bench_relight},
+        {"grid", bench_grid},
         {"tetrahedralize", bench_tetrahedralize}};
 
     CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");

@@ -70,7 +70,7 @@ Subject make_scene_subject(const Options& options) {
         grid.spacing = glm::dvec3(std::cbrt(size.x * size.y * size.z / 20'000.0));
         auto made = make_probe_grid(*scene, grid);
         require(bool(made), made ? "" : made.error().message);
-        groups.push_back(std::move(made->group));
+        groups = std::move(made->groups);
     }
     BakeVolumeSettings settings;
     settings.bake.sample_count = 64;

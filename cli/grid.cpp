@@ -4,11 +4,12 @@
 #include "bake/placement/probe_grid.h"
 #include "bake/scene/probe_groups_gltf.h"
 #include "bake/scene/probe_groups_json.h"
-#include "bake/scene/read_gltf.h"
 #include "cli/common.h"
 #include "cli/grid_options.h"
+#include "cli/grid_progress.h"
 #include "cli/grid_report.h"
 #include "cli/paths.h"
+#include "cli/scene_options.h"
 
 namespace tetralight::cli {
 namespace {
@@ -21,13 +22,13 @@ Status write_groups(const std::string& path, std::span<const ProbeGroup> groups)
 }
 
 struct Grid {
-    std::string scene_path;
+    SceneOptions scene_options;
     std::string output;
     GridOptions options;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
-        add_path(command, "SCENE", scene_path, "glTF 2.0 scene")->required();
+        scene_options.add_to(command);
         add_output(command, output, ".json,.glb", "Probe-group file to write");
         options.add_to(command);
         common.add_to(command);
@@ -35,18 +36,30 @@ struct Grid {
     }
 
     Status run() {
-        if (auto status = check_output(output, {scene_path}); !status) return status;
-        const auto scene = read_gltf(scene_path);
+        const std::string& path = scene_options.path;
+        if (auto status = check_output(output, {path, scene_options.sky}); !status) return status;
+        const auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         options.finish();
         options.settings.thread_count = common.thread_count;
-        const auto grid = make_probe_grid(*scene, options.settings);
-        if (!grid) return grid.error().in(scene_path);
+        const auto grid = make_grid(*scene);
+        if (!grid) return grid.error().in(path);
         if (auto status = write_groups(output, grid->groups); !status) return status;
         common.warn(grid_warnings(*grid));
         common.report(output, grid_json(output, *grid), grid_text(output, *grid));
-        return Ok{};
+        if (!grid->adaptive || grid->adaptive->end != AdaptiveEnd::Interrupted) return Ok{};
+        return Error{"interrupted; " + output + " holds the last whole result"};
+    }
+
+    [[nodiscard]] Result<ProbeGrid> make_grid(const Scene& scene) const {
+        if (options.settings.mode != PlacementMode::Adaptive) {
+            return make_probe_grid(scene, options.settings);
+        }
+        GridProgressDisplay display(common.is_quiet);
+        return make_probe_grid(scene, options.settings, [&](const AdaptiveProgress& progress) {
+            return display.show(progress);
+        });
     }
 };
 

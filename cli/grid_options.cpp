@@ -2,6 +2,7 @@
 #include "cli/grid_options.h"
 
 #include "base/text.h"
+#include "cli/amounts.h"
 #include "cli/choice.h"
 #include "cli/common.h"
 
@@ -32,15 +33,19 @@ void GridOptions::add_to(CLI::App& command) {
     add_choice(command, "--mode", settings.mode,
                {{"regular", PlacementMode::Regular},
                 {"layers", PlacementMode::Layers},
-                {"surface", PlacementMode::Surface}},
+                {"surface", PlacementMode::Surface},
+                {"adaptive", PlacementMode::Adaptive}},
                "regular = a lattice; layers = at heights above every floor; surface = on both "
-               "sides of walls");
+               "sides of walls; adaptive = where light changes");
     spacing_option_ =
-        add_vec3_or_number(command, "--spacing", settings.spacing, "Metres between probes");
+        add_vec3_or_number(command, "--spacing", settings.spacing,
+                           "Metres between probes; --mode adaptive begins with it, or with "
+                           "an eighth of the longest side");
     spacing_option_->check(numbers_in(1e-6, kLongest).description(""));
     add_bounds(command);
     add_rules(command);
     add_reach(command);
+    add_adaptive(command);
     command.add_option("--name", settings.group_name, "Name of the probe groups")
         ->check(name_check())
         ->capture_default_str();
@@ -51,7 +56,7 @@ void GridOptions::add_to(CLI::App& command) {
         ->capture_default_str();
     command
         .add_option("--max-probes", settings.max_probe_count,
-                    "Refuse grids with more candidates than this")
+                    "Refuse grids with more candidates than this; --mode adaptive stays below it")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
 }
@@ -96,6 +101,24 @@ void GridOptions::add_reach(CLI::App& command) {
                "What becomes of probes in other spaces");
 }
 
+void GridOptions::add_adaptive(CLI::App& command) {
+    AdaptiveSettings& adaptive = settings.adaptive;
+    auto* error = add_share(command, "--target-error", adaptive.target_error,
+                            "With --mode adaptive: done when interpolated light is this near to "
+                            "the light that is there (root mean square, of the mean irradiance)");
+    error->default_str("5%");
+    auto* time = add_time(command, "--time-budget", adaptive.time_budget_seconds,
+                          "With --mode adaptive: keep what there is after this time; not "
+                          "reproducible");
+    auto* bounces = command
+                        .add_option("-b,--bounces", adaptive.bake.bounces,
+                                    "With --mode adaptive: reflections that light may take")
+                        ->check(CLI::Range(0u, 1000u))
+                        ->capture_default_str();
+    auto* seed = add_seed(command, adaptive.bake.seed, "Seed of the random numbers");
+    adaptive_options_ = {error, time, bounces, seed};
+}
+
 void GridOptions::check_usage() const {
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (int i = 0; i < 3; ++i) {
@@ -103,7 +126,12 @@ void GridOptions::check_usage() const {
         throw CLI::ValidationError("--max", text(bounds_.high[i], " is less than --min ",
                                                  bounds_.low[i], " along ", kAxes[i]));
     }
-    if (spacing_option_->count() == 0) throw CLI::RequiredError("--spacing");
+    const bool is_adaptive = settings.mode == PlacementMode::Adaptive;
+    if (spacing_option_->count() == 0 && !is_adaptive) throw CLI::RequiredError("--spacing");
+    for (const CLI::Option* option : adaptive_options_) {
+        if (option->count() == 0 || is_adaptive) continue;
+        throw CLI::ValidationError(option->get_name(), "is for --mode adaptive");
+    }
     if (heights_option_->count() > 0 && settings.mode != PlacementMode::Layers) {
         throw CLI::ValidationError("--heights", "is for --mode layers");
     }
@@ -111,6 +139,7 @@ void GridOptions::check_usage() const {
 
 void GridOptions::finish() {
     if (low_option_->count() > 0) settings.bounds = bounds_;
+    if (spacing_option_->count() > 0) settings.adaptive.start_spacing = settings.spacing;
     if (clearance_option_->count() > 0) settings.clearance = clearance_;
     for (const std::string& seed : seeds_) settings.seeds.push_back(*parse_vec3(seed));
 }

@@ -25,6 +25,7 @@ struct GridOptions {
     void add_bounds(CLI::App& command);
     void add_rules(CLI::App& command);
     void add_reach(CLI::App& command);
+    void add_adaptive(CLI::App& command);
 
     Box bounds_;
     double clearance_ = 0.0;
@@ -33,6 +34,7 @@ struct GridOptions {
     CLI::Option* clearance_option_ = nullptr;
     CLI::Option* heights_option_ = nullptr;
     CLI::Option* spacing_option_ = nullptr;
+    std::vector<CLI::Option*> adaptive_options_;
 };
 
 }  // namespace tetralight::cli

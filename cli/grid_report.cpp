@@ -22,7 +22,8 @@ constexpr Reason kReasons[] = {{Fate::Inside, "inside_geometry", "inside geometr
                                {Fate::TooClose, "too_close", "too close to a surface"},
                                {Fate::Unreachable, "unreachable", "unreachable"},
                                {Fate::Forbidden, "forbidden", "forbidden by a volume"},
-                               {Fate::Crowded, "crowded", "beside another probe"}};
+                               {Fate::Crowded, "crowded", "beside another probe"},
+                               {Fate::Spared, "spared", "light is as good without"}};
 
 /// Upper ends of the histogram's bins, metres.
 constexpr std::array<float, 8> kEnds{0.05f, 0.1f, 0.25f, 0.5f,
@@ -58,6 +59,25 @@ std::string histogram_text(const ProbeGrid& grid) {
     return "to the nearest surface:\n" + aligned(rows, "lrl");
 }
 
+Json adaptive_json(const AdaptiveReport& report) {
+    return {{"error", report.error},
+            {"end", name_of(report.end)},
+            {"rounds", report.round_count},
+            {"start_probes", report.start_count},
+            {"most_probes", report.largest_count},
+            {"sampled_positions", report.position_count},
+            {"samples", report.direction_count},
+            {"rays", report.ray_count}};
+}
+
+std::string adaptive_text(const AdaptiveReport& report) {
+    return text("error ", percent(report.error), " (", name_of(report.end), ") after ",
+                counted(report.round_count, "round"), ", by the light of ",
+                counted(report.position_count, "position"), " with ",
+                counted(report.direction_count, "sample"), " each, ",
+                magnitude(static_cast<double>(report.ray_count)), "rays\n");
+}
+
 std::string share_text(uint64_t count, uint64_t all) {
     return all == 0 ? "" : percent(static_cast<double>(count) / static_cast<double>(all));
 }
@@ -86,6 +106,7 @@ Json grid_json(const std::string& output, const ProbeGrid& grid) {
         bins.push_back(bin);
     }
     json["surface_distance"] = bins;
+    if (grid.adaptive) json["adaptive"] = adaptive_json(*grid.adaptive);
     return json;
 }
 
@@ -102,7 +123,8 @@ std::string grid_text(const std::string& output, const ProbeGrid& grid) {
     }
     return text(output, ": ", counted(grid.probe_count(), "probe"), " in ",
                 counted(grid.groups.size(), "group"), ", of ",
-                counted(grid.candidate_count, "candidate"), "\n", aligned(rows, "lrr"),
+                counted(grid.candidate_count, "candidate"), "\n",
+                grid.adaptive ? adaptive_text(*grid.adaptive) : "", aligned(rows, "lrr"),
                 histogram_text(grid));
 }
 

@@ -78,7 +78,7 @@ void add_each(ContentHash& hash, const std::vector<T>& elements) {
 
 void add(ContentHash& hash, const Scene& scene) {
     const auto& [textures, materials, meshes, instances, lights, light_names, environment, cameras,
-                 probe_groups, warnings] = scene;
+                 probe_groups, probe_adjustments, warnings] = scene;
     add_each(hash, textures);
     add_each(hash, materials);
     add_each(hash, meshes);

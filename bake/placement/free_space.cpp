@@ -2,10 +2,10 @@
 #include "bake/placement/free_space.h"
 
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 
 #include "bake/capture_offset.h"
-#include "bake/parallel.h"
 #include "bake/survey.h"
 
 namespace tetralight {
@@ -102,15 +102,6 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
     placed.position = traced.world_from_traced(*place);
     placed.fate = Fate::Pushed;
     placed.surface_distance = surface_distance(traced, *place);
-    return placed;
-}
-
-std::vector<PlacedProbe> place_probes(const TraceScene& traced,
-                                      std::span<const glm::dvec3> candidates,
-                                      const ClearanceRule& rule, uint32_t thread_count) {
-    std::vector<PlacedProbe> placed(candidates.size());
-    parallel_for(candidates.size(), thread_count,
-                 [&](size_t i) { placed[i] = place_probe(traced, candidates[i], rule); });
     return placed;
 }
 

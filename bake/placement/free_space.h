@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <span>
-#include <vector>
 
 #include "bake/trace_scene.h"
 
@@ -19,9 +17,10 @@ enum class Fate : uint8_t {
     Unreachable,  ///< in a space that is not asked for
     Forbidden,    ///< in an adjustment volume that forbids probes
     Crowded,      ///< beside another probe
+    Spared,       ///< light is as good without it
 };
 
-inline constexpr int kFateCount = 7;
+inline constexpr int kFateCount = 8;
 
 [[nodiscard]] inline bool is_kept(Fate fate) {
     return fate == Fate::Kept || fate == Fate::Pushed;
@@ -50,12 +49,6 @@ struct PlacedProbe {
 /// along the way from the nearest surface, or else along one of the axes. Pure.
 [[nodiscard]] PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                                       const ClearanceRule& rule);
-
-/// Many at once.
-[[nodiscard]] std::vector<PlacedProbe> place_probes(const TraceScene& traced,
-                                                    std::span<const glm::dvec3> candidates,
-                                                    const ClearanceRule& rule,
-                                                    uint32_t thread_count = 0);
 
 /// Whether nothing stands between two positions in traced space.
 [[nodiscard]] bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to);

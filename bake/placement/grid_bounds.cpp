@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/placement/lattice.h"
 #include "base/text.h"
 
 namespace tetralight {
@@ -23,13 +24,34 @@ Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings) {
     return *bounds;
 }
 
-Result<double> checked_clearance(const ProbeGridSettings& settings) {
-    constexpr double kShare = 0.1, kLongest = 0.25;
-    const glm::dvec3& spacing = settings.spacing;
-    const double usual = std::min(kShare * std::min({spacing.x, spacing.y, spacing.z}), kLongest);
+Result<glm::dvec3> first_spacing(const Box& bounds, const ProbeGridSettings& settings) {
+    const uint64_t most = settings.max_probe_count;
+    if (settings.mode != PlacementMode::Adaptive) {
+        const auto lattice = make_lattice(bounds, settings.spacing, most);
+        if (!lattice) return lattice.error();
+        return settings.spacing;
+    }
+    constexpr double kLayers = 8.0, kWider = 1.1;
+    const glm::dvec3 size = bounds.size();
+    const double longest = std::max({size.x, size.y, size.z});
+    glm::dvec3 spacing = settings.adaptive.start_spacing.value_or(glm::dvec3(longest / kLayers));
+    // Refused when it is no length, or beyond anything; with few probes asked for it is wider.
+    constexpr uint64_t kAnything = 1'000'000'000;
+    auto lattice = make_lattice(bounds, spacing, kAnything);
+    while (lattice && lattice->count() > std::max<uint64_t>(most / 2, 8)) {
+        spacing *= kWider;
+        lattice = make_lattice(bounds, spacing, kAnything);
+    }
+    if (!lattice) return lattice.error();
+    return spacing;
+}
+
+Result<double> checked_clearance(const glm::dvec3& spacing, const ProbeGridSettings& settings) {
+    constexpr double kShare = 0.1;
+    const double longest = settings.mode == PlacementMode::Adaptive ? 0.05 : 0.25;
+    const double usual = std::min(kShare * std::min({spacing.x, spacing.y, spacing.z}), longest);
     const double clearance = settings.clearance.value_or(usual);
     if (clearance >= 0.0 && std::isfinite(clearance)) return clearance;
-    if (!settings.clearance) return 0.0;  // the spacing is no length, which is said elsewhere
     return Error{text("clearance ", clearance, " is not a length")};
 }
 

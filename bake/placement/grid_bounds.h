@@ -13,7 +13,14 @@ namespace tetralight {
 /// take bounds from.
 [[nodiscard]] Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings);
 
+/// Metres between the candidates. The adaptive mode's are an eighth of the longest side when it is
+/// not told, and farther apart where they would be more than half of its probes. Errors: those of
+/// `make_lattice`.
+[[nodiscard]] Result<glm::dvec3> first_spacing(const Box& bounds,
+                                               const ProbeGridSettings& settings);
+
 /// Metres that probes keep from surfaces. Error: it is negative or not finite.
-[[nodiscard]] Result<double> checked_clearance(const ProbeGridSettings& settings);
+[[nodiscard]] Result<double> checked_clearance(const glm::dvec3& spacing,
+                                               const ProbeGridSettings& settings);
 
 }  // namespace tetralight

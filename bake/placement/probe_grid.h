@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/placement/adaptive_grid.h"
 #include "bake/placement/free_space.h"
 #include "bake/scene/scene.h"
 #include "bake/scene/scene_bounds.h"
@@ -16,15 +17,18 @@
 
 // The probe-grid generator: probes for a scene that nobody has to place by hand.
 //
-//     candidates → place_probe (in or out, clearance) → SpaceMap (reach) → group_by_region → groups
+//     candidates → place_probe (in or out, clearance) → SpaceMap (reach) ┬→ group_by_region →
+//     groups
+//                                                                       └→ refine_grid ─┘
 
 namespace tetralight {
 
 /// Where candidates stand.
 enum class PlacementMode : uint8_t {
-    Regular,  ///< on a lattice
-    Layers,   ///< at heights above every floor
-    Surface,  ///< on both sides of every surface
+    Regular,   ///< on a lattice
+    Layers,    ///< at heights above every floor
+    Surface,   ///< on both sides of every surface
+    Adaptive,  ///< where light changes
 };
 
 /// What becomes of spaces without a seed.
@@ -32,7 +36,7 @@ enum class OtherSpaces : bool { Drop, Keep };
 
 struct ProbeGridSettings {
     PlacementMode mode = PlacementMode::Regular;
-    /// Metres between probes on each axis.
+    /// Metres between probes on each axis; `adaptive` has its own.
     glm::dvec3 spacing{1.0};
     /// What to fill; none = the bounds of what contributes global illumination.
     std::optional<Box> bounds;
@@ -40,7 +44,8 @@ struct ProbeGridSettings {
     std::vector<std::string> bounds_of;
     /// Layers: metres above the floor.
     std::vector<double> heights{0.3, 1.7};
-    /// Metres that probes keep from surfaces; none = a tenth of the smallest spacing, 0.25 at most.
+    /// Metres that probes keep from surfaces; none = a tenth of the smallest spacing, 0.25 at most
+    /// (0.05 when adaptive).
     std::optional<double> clearance;
     /// World positions in the spaces to fill; none = the space that most probes are in.
     std::vector<glm::dvec3> seeds;
@@ -48,7 +53,9 @@ struct ProbeGridSettings {
     /// Metres along the side of the cubes that groups are split by; 0 = one group for each space.
     double region_size = 0.0;
     std::string group_name = "grid";
+    /// More candidates are refused; the adaptive mode puts so many probes at most.
     uint64_t max_probe_count = 10'000'000;
+    AdaptiveSettings adaptive;
     /// 0 = all.
     uint32_t thread_count = 0;
 };
@@ -72,18 +79,21 @@ struct ProbeGrid {
     std::array<uint64_t, kFateCount> fate_counts{};
     /// The spaces that were dropped, the largest first.
     std::vector<Pocket> pockets;
+    std::optional<AdaptiveReport> adaptive;
 
     [[nodiscard]] uint64_t count(Fate fate) const { return fate_counts[static_cast<size_t>(fate)]; }
 
     [[nodiscard]] uint64_t probe_count() const { return surface_distances.size(); }
 };
 
-/// Fills a scene with probes. Deterministic, and the same for every order of the scene's meshes.
+/// Fills a scene with probes, as its adjustment volumes allow. Deterministic (time budgets aside),
+/// and the same for every order of the scene's meshes. `callback` is for the adaptive mode.
 ///
 /// Errors: spacing that is not positive, bounds that are empty or not finite, nothing to take
 /// bounds from, a node that is not there, more candidates than `max_probe_count` (the message says
 /// how many), a seed inside geometry or out of bounds, no floor, no probe left.
 [[nodiscard]] Result<ProbeGrid> make_probe_grid(const Scene& scene,
-                                                const ProbeGridSettings& settings);
+                                                const ProbeGridSettings& settings,
+                                                const AdaptiveCallback& callback = {});
 
 }  // namespace tetralight

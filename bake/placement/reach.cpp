@@ -35,13 +35,6 @@ std::vector<uint32_t> wanted_spaces(const SpaceMap& map, const ProbeGridSettings
 
 }  // namespace
 
-Result<Reach> drop_unreachable(const TraceScene& traced, const Box& bounds,
-                               const ProbeGridSettings& settings,
-                               std::vector<PlacedProbe>& probes) {
-    SpaceMap map(traced, bounds, settings.spacing, settings.thread_count);
-    return drop_unreachable(traced, map, settings, probes);
-}
-
 Result<Reach> drop_unreachable(const TraceScene& traced, SpaceMap& map,
                                const ProbeGridSettings& settings,
                                std::vector<PlacedProbe>& probes) {

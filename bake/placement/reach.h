@@ -22,12 +22,8 @@ struct Reach {
 };
 
 /// Drops the probes that cannot be reached from the seeds, or from the space that most probes are
-/// in, when other spaces are not kept. Error: a seed inside geometry or out of bounds.
-[[nodiscard]] Result<Reach> drop_unreachable(const TraceScene& traced, const Box& bounds,
-                                             const ProbeGridSettings& settings,
-                                             std::vector<PlacedProbe>& probes);
-
-/// The same over a map that is already there.
+/// in, when other spaces are not kept. Joins in the map what probes and seeds see. Error: a seed
+/// inside geometry or out of bounds.
 [[nodiscard]] Result<Reach> drop_unreachable(const TraceScene& traced, SpaceMap& map,
                                              const ProbeGridSettings& settings,
                                              std::vector<PlacedProbe>& probes);

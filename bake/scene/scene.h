@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bake/image/image.h"
+#include "bake/scene/probe_adjustment.h"
 #include "probes/light.h"
 #include "probes/no_index.h"
 #include "probes/probe_group.h"
@@ -127,6 +128,7 @@ struct Scene {
     Environment environment;
     std::vector<Camera> cameras;
     std::vector<ProbeGroup> probe_groups;
+    std::vector<ProbeAdjustment> probe_adjustments;
     /// What was left out or mended, one line each, for the user.
     std::vector<std::string> warnings;
 

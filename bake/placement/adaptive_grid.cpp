@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/adaptive_grid.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bake/placement/light_pool.h"
+#include "bake/placement/light_survey.h"
+#include "bake/placement/refine_cells.h"
+#include "bake/placement/remove_probes.h"
+#include "bake/placement/sensors.h"
+#include "base/assert.h"
+
+namespace tetralight {
+namespace {
+
+/// Sensors at first, for each probe, and at most.
+constexpr size_t kFewestSensors = 2048, kSensorsPerProbe = 10, kMostSensors = 1 << 16;
+/// Every so many sensors one is left out of all decisions, and tells the error.
+constexpr uint32_t kCheckEvery = 4;
+/// New probes of a round, as a share of those that are there.
+constexpr double kGrowth = 0.25;
+/// It refines this far beyond the goal, so that there is something to choose from.
+constexpr double kBeyondCount = 1.3, kBeyondError = 0.9;
+/// Noise of the sensors, as a share of the error, that is too much.
+constexpr double kLargestNoise = 0.5;
+/// Rounds of replacing the least useful probes, and their share.
+constexpr int kReplacements = 4;
+constexpr double kReplacedShare = 0.2;
+
+class AdaptiveGrid {
+  public:
+    AdaptiveGrid(const AdaptiveInput& input, const AdaptiveSettings& settings,
+                 const AdaptiveCallback& callback)
+        : input_(input),
+          settings_(settings),
+          callback_(callback),
+          pool_(input.scene, pool_settings(input, settings)),
+          places_(input.traced, input.bounds, input.clearance, input.may_stand),
+          remover_(pool_) {}
+
+    Result<AdaptiveReport> run(std::vector<PlacedProbe>& probes,
+                               const std::vector<bool>& is_protected) {
+        take_start(probes, is_protected);
+        report_.start_count = set_.probes.size();
+        Status status = refine();
+        if (status) status = remove_and_replace();
+        if (!status && status.error().message != "cancelled") return status.error();
+        if (!best_) return Error{"interrupted"};
+        if (!status)
+            report_.end = is_time_over() ? AdaptiveEnd::TimeOver : AdaptiveEnd::Interrupted;
+        finish(probes);
+        return report_;
+    }
+
+  private:
+    /// Probes and what their light is worth.
+    struct Set {
+        std::vector<uint32_t> probes;  ///< by number in the pool
+        ProbeVolume volume;
+        std::vector<SensorError> errors;  ///< one for each that decides
+        double error = std::numeric_limits<double>::infinity();
+    };
+
+    static BakeSettings pool_settings(const AdaptiveInput& input,
+                                      const AdaptiveSettings& settings) {
+        BakeSettings bake = settings.bake;
+        bake.thread_count = input.thread_count;
+        return bake;
+    }
+
+    void take_start(const std::vector<PlacedProbe>& probes, const std::vector<bool>& is_protected) {
+        for (size_t i = 0; i < probes.size(); ++i) {
+            if (!is_kept(probes[i].fate)) continue;
+            set_.probes.push_back(add_to_pool(probes[i].position));
+            is_protected_.back() = !is_protected.empty() && is_protected[i];
+            start_places_.push_back(i);
+        }
+        start_count_ = pool_.size();
+    }
+
+    uint32_t add_to_pool(const glm::dvec3& position) {
+        is_protected_.push_back(false);
+        return pool_.add(position);
+    }
+
+    [[nodiscard]] bool is_time_over() const {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+        return settings_.time_budget_seconds > 0.0 &&
+               elapsed.count() > settings_.time_budget_seconds;
+    }
+
+    /// Says how far it is; false ends everything.
+    bool goes_on() {
+        if (is_time_over()) return false;
+        const Set& shown = best_ ? *best_ : set_;
+        return !callback_ ||
+               callback_({report_.round_count, shown.probes.size(),
+                          std::isfinite(shown.error) ? shown.error : 0.0, is_removing_});
+    }
+
+    void add_sensors() {
+        const size_t wanted =
+            std::clamp(kSensorsPerProbe * set_.probes.size(), kFewestSensors, kMostSensors);
+        const size_t there = sensors_.size() + checks_.size();
+        if (there >= wanted) return;
+        for (const glm::dvec3& place :
+             places_.next(std::max(wanted - there, there / 2), input_.thread_count)) {
+            const uint32_t sensor = add_to_pool(place);
+            (++sensor_count_ % kCheckEvery == 0 ? checks_ : sensors_).push_back(sensor);
+        }
+    }
+
+    Status bake() {
+        return pool_.bake([this](const BakeProgress&) { return goes_on(); });
+    }
+
+    /// The light and the errors of the set, with less noise until errors stand out of it.
+    Status survey() {
+        while (true) {
+            add_sensors();
+            if (auto status = bake(); !status) return status;
+            set_.volume = volume_of(pool_, set_.probes);
+            const auto errors =
+                survey_light(set_.volume, pool_, checks_, nullptr, input_.thread_count);
+            const double error = relative_error(errors, pool_, checks_);
+            const double noise = relative_noise(pool_, checks_);
+            set_.error = std::sqrt(std::max(0.0, error * error - noise * noise));
+            if (noise < kLargestNoise * std::max(set_.error, settings_.target_error)) break;
+            if (!pool_.double_directions()) break;
+        }
+        set_.errors =
+            survey_light(set_.volume, pool_, sensors_, &input_.traced, input_.thread_count);
+        return Ok{};
+    }
+
+    /// Takes the set for the result so far.
+    Status accept() {
+        best_ = set_;
+        ++report_.round_count;
+        if (!goes_on()) return Error{"cancelled"};
+        return Ok{};
+    }
+
+    Status refine() {
+        const double most = kBeyondCount * static_cast<double>(input_.max_probe_count);
+        while (true) {
+            if (auto status = survey(); !status) return status;
+            // More than is asked for is no result.
+            if (set_.probes.size() <= input_.max_probe_count) {
+                if (auto status = accept(); !status) return status;
+            }
+            report_.end = AdaptiveEnd::TargetReached;
+            if (set_.error <= kBeyondError * settings_.target_error) return Ok{};
+            report_.end = AdaptiveEnd::MostProbes;
+            const auto room = most - static_cast<double>(set_.probes.size());
+            if (room < 1.0) return Ok{};
+            if (insert(static_cast<size_t>(room)) > 0) continue;
+            report_.end = AdaptiveEnd::NothingToRefine;
+            return Ok{};
+        }
+    }
+
+    /// Puts probes where errors are largest; returns how many.
+    size_t insert(size_t room) {
+        const auto growth = static_cast<size_t>(kGrowth * static_cast<double>(set_.probes.size()));
+        RefineRule rule{input_.clearance, [this](uint32_t i) { return may_become_probe(i); },
+                        input_.may_stand, std::min(room, std::max<size_t>(growth, 16))};
+        std::vector<bool> is_member(pool_.size(), false);
+        for (const uint32_t probe : set_.probes) is_member[probe] = true;
+        const Refinement refinement =
+            refine_cells({set_.volume, pool_, sensors_, set_.errors, input_.traced}, rule);
+        size_t count = 0;
+        for (const uint32_t sensor : refinement.sensors) {
+            if (is_member[sensor] || count == room) continue;
+            set_.probes.push_back(sensor);
+            ++count;
+        }
+        for (const glm::dvec3& position : refinement.positions) {
+            if (count == room) break;
+            set_.probes.push_back(add_to_pool(position));
+            ++count;
+        }
+        report_.largest_count = std::max<uint64_t>(report_.largest_count, set_.probes.size());
+        return count;
+    }
+
+    /// Sensors that are nearer to a surface than the clearance are for looking only.
+    [[nodiscard]] bool may_become_probe(uint32_t sensor) const {
+        const glm::vec3 position = input_.traced.traced_from_world(pool_.position(sensor));
+        const auto nearest = input_.traced.nearest_surface(position);
+        constexpr double kRounding = 0.99;
+        return !nearest ||
+               double{glm::distance(*nearest, position)} >= kRounding * input_.clearance;
+    }
+
+    /// The sum of squares over all sensors that an error comes to, by what the set has of both.
+    [[nodiscard]] double sum_at(double error) const {
+        double sum = 0.0;
+        for (const SensorError& e : set_.errors) sum += double{e.square};
+        const double share = set_.error > 0.0 ? error / set_.error : 1.0;
+        return sum * share * share;
+    }
+
+    /// Removes probes down to a number, while the error stays below one; false: none could go.
+    Result<bool> remove(size_t fewest, double largest_error) {
+        const RemoveRule rule{std::max<size_t>(fewest, 4), sum_at(largest_error), 0.125,
+                              input_.thread_count};
+        auto left =
+            remover_.pass(set_.probes, set_.volume, sensors_, set_.errors, is_protected_, rule);
+        if (left.size() == set_.probes.size()) return false;
+        set_.probes = std::move(left);
+        if (auto status = survey(); !status) return status.error();
+        return true;
+    }
+
+    Status remove_and_replace() {
+        is_removing_ = true;
+        constexpr double kAnyError = std::numeric_limits<double>::max();
+        while (set_.probes.size() > input_.max_probe_count) {
+            const auto removed = remove(input_.max_probe_count, kAnyError);
+            if (!removed) return removed.error();
+            if (!*removed) break;  // all that is left is protected
+        }
+        if (auto status = accept(); !status) return status;
+        if (report_.end == AdaptiveEnd::TargetReached || set_.error <= settings_.target_error) {
+            report_.end = AdaptiveEnd::TargetReached;
+            return remove_to_target();
+        }
+        return replace();
+    }
+
+    Status remove_to_target() {
+        while (true) {
+            const auto removed = remove(4, settings_.target_error);
+            if (!removed) return removed.error();
+            if (!*removed || set_.error > settings_.target_error) break;
+            if (auto status = accept(); !status) return status;
+        }
+        set_ = *best_;
+        return Ok{};
+    }
+
+    /// Gives the probes that do least another place, for as long as that helps.
+    Status replace() {
+        for (int i = 0; i < kReplacements; ++i) {
+            const size_t count = set_.probes.size();
+            const auto room = static_cast<size_t>(kReplacedShare * static_cast<double>(count));
+            if (insert(room) == 0) break;
+            if (auto status = survey(); !status) return status;
+            while (set_.probes.size() > count) {
+                const auto removed = remove(count, std::numeric_limits<double>::max());
+                if (!removed) return removed.error();
+                if (!*removed) break;
+            }
+            const bool is_better = set_.error < best_->error && set_.probes.size() <= count;
+            if (!is_better) break;
+            if (auto status = accept(); !status) return status;
+        }
+        set_ = *best_;
+        return Ok{};
+    }
+
+    /// Writes the best set back: the start with its fates, and new probes behind it.
+    void finish(std::vector<PlacedProbe>& probes) {
+        std::vector<bool> is_member(pool_.size(), false);
+        for (const uint32_t probe : best_->probes) is_member[probe] = true;
+        for (size_t i = 0; i < start_count_; ++i) {
+            if (!is_member[i]) probes[start_places_[i]].fate = Fate::Spared;
+        }
+        std::vector<uint32_t> added;
+        for (const uint32_t probe : best_->probes) {
+            if (probe >= start_count_) added.push_back(probe);
+        }
+        std::ranges::sort(added);
+        for (const uint32_t probe : added) {
+            const glm::vec3 position = input_.traced.traced_from_world(pool_.position(probe));
+            const auto nearest = input_.traced.nearest_surface(position);
+            const float distance = nearest ? glm::distance(*nearest, position)
+                                           : std::numeric_limits<float>::infinity();
+            probes.push_back({pool_.position(probe), Fate::Kept, distance});
+        }
+        report_.error = best_->error;
+        report_.position_count = pool_.size();
+        report_.direction_count = pool_.directions();
+        report_.ray_count = pool_.ray_count();
+    }
+
+    const AdaptiveInput& input_;
+    const AdaptiveSettings& settings_;
+    const AdaptiveCallback& callback_;
+    const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    LightPool pool_;
+    SensorPlaces places_;
+    ProbeRemover remover_;
+    AdaptiveReport report_;
+    Set set_;
+    std::optional<Set> best_;
+    std::vector<bool> is_protected_;    ///< one a position of the pool
+    std::vector<size_t> start_places_;  ///< of the first positions of the pool, in the start
+    size_t start_count_ = 0;
+    std::vector<uint32_t> sensors_, checks_;
+    uint32_t sensor_count_ = 0;
+    bool is_removing_ = false;
+};
+
+}  // namespace
+
+const char* name_of(AdaptiveEnd end) {
+    constexpr const char* kNames[] = {"target reached", "most probes", "time over", "interrupted",
+                                      "nothing to refine"};
+    return kNames[static_cast<size_t>(end)];
+}
+
+Result<AdaptiveReport> refine_grid(const AdaptiveInput& input, const AdaptiveSettings& settings,
+                                   std::vector<PlacedProbe>& probes,
+                                   const std::vector<bool>& is_protected,
+                                   const AdaptiveCallback& callback) {
+    return AdaptiveGrid(input, settings, callback).run(probes, is_protected);
+}
+
+}  // namespace tetralight

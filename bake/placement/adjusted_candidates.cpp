@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/adjusted_candidates.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "bake/parallel.h"
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+/// Moves stay below half of the way to the next candidate.
+constexpr double kReachShare = 0.45;
+
+Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, PlacementMode mode,
+                                                const CandidateRule& rule) {
+    switch (mode) {
+        case PlacementMode::Regular:
+        case PlacementMode::Adaptive:
+            return lattice_candidates(rule);
+        case PlacementMode::Layers:
+            return layer_candidates(traced, rule);
+        case PlacementMode::Surface:
+            return surface_candidates(traced, rule);
+    }
+    return Error{"unknown mode"};
+}
+
+/// The part of the bounds that a volume reaches into; none where it lies outside.
+std::optional<Box> bounds_in(const Box& bounds, const ProbeAdjustment& adjustment) {
+    const double half = adjustment.shape == AdjustmentShape::Sphere ? 1.0 : 0.5;
+    Box box{glm::dvec3(std::numeric_limits<double>::max()),
+            glm::dvec3(std::numeric_limits<double>::lowest())};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 local(corner & 1 ? half : -half, corner & 2 ? half : -half,
+                               corner & 4 ? half : -half, 1.0);
+        const glm::dvec3 world(adjustment.world_from_volume * local);
+        box = {glm::min(box.low, world), glm::max(box.high, world)};
+    }
+    box = {glm::max(box.low, bounds.low), glm::min(box.high, bounds.high)};
+    if (glm::any(glm::greaterThan(box.low, box.high))) return std::nullopt;
+    return box;
+}
+
+/// Adds what of a rule's candidates stands where `owner` sets the spacing; null: no volume does.
+Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustments,
+           PlacementMode mode, const CandidateRule& rule, const ProbeAdjustment* owner,
+           std::vector<Candidate>& candidates) {
+    const auto positions = make_candidates(traced, mode, rule);
+    if (!positions) return positions.error();
+    const glm::dvec3& s = rule.spacing;
+    const double reach = kReachShare * std::min({s.x, s.y, s.z});
+    for (const glm::dvec3& position : *positions) {
+        if (adjustment_at(adjustments, position).spacing != owner) continue;
+        candidates.push_back({position, reach, owner != nullptr});
+    }
+    if (candidates.size() <= rule.max_count) return Ok{};
+    return Error{text("a grid of ", candidates.size(), " probes is more than the limit of ",
+                      rule.max_count)};
+}
+
+}  // namespace
+
+Result<std::vector<Candidate>> adjusted_candidates(const TraceScene& traced,
+                                                   std::span<const ProbeAdjustment> adjustments,
+                                                   PlacementMode mode, const CandidateRule& rule) {
+    std::vector<Candidate> candidates;
+    auto status = add(traced, adjustments, mode, rule, nullptr, candidates);
+    if (!status) return status.error();
+    for (const ProbeAdjustment& adjustment : adjustments) {
+        const auto box = bounds_in(rule.bounds, adjustment);
+        if (!adjustment.spacing || !box) continue;
+        CandidateRule dense = rule;
+        dense.bounds = *box;
+        dense.spacing = glm::dvec3(*adjustment.spacing);
+        status = add(traced, adjustments, mode, dense, &adjustment, candidates);
+        if (!status) {
+            return status.error().in(text("adjustment volume \"", adjustment.name, "\""));
+        }
+    }
+    return candidates;
+}
+
+std::vector<PlacedProbe> place_candidates(const TraceScene& traced,
+                                          std::span<const ProbeAdjustment> adjustments,
+                                          std::span<const Candidate> candidates,
+                                          const CandidateRule& rule) {
+    std::vector<PlacedProbe> placed(candidates.size());
+    parallel_for(candidates.size(), rule.thread_count, [&](size_t i) {
+        const auto& [position, reach, is_adjusted] = candidates[i];
+        placed[i] = {position, Fate::Forbidden, 0.0f};
+        if (adjustment_at(adjustments, position).forbids_probes) return;
+        placed[i] = place_probe(traced, position, {rule.clearance, reach});
+        // Nothing is pushed into a volume that wants nothing.
+        if (adjustment_at(adjustments, placed[i].position).forbids_probes) {
+            placed[i].fate = Fate::Forbidden;
+        }
+    });
+    return placed;
+}
+
+}  // namespace tetralight

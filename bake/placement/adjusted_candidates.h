@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "bake/placement/candidates.h"
+#include "bake/placement/free_space.h"
+#include "bake/placement/probe_grid.h"
+#include "bake/scene/probe_adjustment.h"
+#include "bake/trace_scene.h"
+#include "base/result.h"
+
+namespace tetralight {
+
+/// A candidate of the scene's rule, or of an adjustment volume.
+struct Candidate {
+    glm::dvec3 position{0.0};
+    /// It may move this far to be kept, metres.
+    double reach = 0.0;
+    /// An adjustment volume asks for it.
+    bool is_adjusted = false;
+};
+
+/// Candidates of the mode by the rule where no volume sets a spacing, and by the volume's own
+/// spacing where one does. Errors as in candidates.h.
+[[nodiscard]] Result<std::vector<Candidate>> adjusted_candidates(
+    const TraceScene& traced, std::span<const ProbeAdjustment> adjustments, PlacementMode mode,
+    const CandidateRule& rule);
+
+/// `place_probe` for each, but where a volume forbids probes.
+[[nodiscard]] std::vector<PlacedProbe> place_candidates(
+    const TraceScene& traced, std::span<const ProbeAdjustment> adjustments,
+    std::span<const Candidate> candidates, const CandidateRule& rule);
+
+}  // namespace tetralight

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "probes/sh.h"
+
+// How different two lights are: over the 26 normals towards the faces, edges and corners of a cube,
+// and the three colour channels.
+
+namespace tetralight {
+
+/// Mean square of an irradiance, or of a difference of two.
+[[nodiscard]] double mean_square(const IrradianceSh& light);
+
+/// Mean irradiance.
+[[nodiscard]] double mean_irradiance(const IrradianceSh& light);
+
+}  // namespace tetralight

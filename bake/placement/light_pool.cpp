@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/light_pool.h"
+
+#include <utility>
+
+#include "bake/bake_tallies.h"
+
+namespace tetralight {
+
+LightPool::LightPool(const Scene& scene, BakeSettings settings)
+    : scene_(scene), settings_(std::move(settings)) {
+    settings_.sample_count = kFewestDirections;
+    // Never reached: rounds double until there are as many directions as allowed.
+    settings_.target_error = 1e-9;
+    settings_.time_budget_seconds = 0.0;
+}
+
+uint32_t LightPool::add(const glm::dvec3& position) {
+    positions_.push_back(position);
+    return static_cast<uint32_t>(positions_.size() - 1);
+}
+
+uint64_t LightPool::ray_count() const {
+    uint64_t count = 0;
+    for (const ProbeTally& tally : tallies_) count += tally.ray_count;
+    return count;
+}
+
+Status LightPool::bake(const BakeCallback& callback) {
+    settings_.max_sample_count = directions_;
+    tallies_.resize(positions_.size());
+    std::vector<uint32_t> missing;
+    for (uint32_t i = 0; i < tallies_.size(); ++i) {
+        if (tallies_[i].direction_count < directions_) missing.push_back(i);
+    }
+    if (missing.empty()) return Ok{};
+    std::vector<glm::dvec3> positions;
+    std::vector<ProbeTally> tallies;
+    for (const uint32_t i : missing) {
+        positions.push_back(positions_[i]);
+        tallies.push_back(tallies_[i]);
+    }
+    auto status = bake_tallies(scene_, positions, settings_, tallies, {.progress = callback});
+    if (!status) return status;
+    light_.resize(positions_.size());
+    for (size_t k = 0; k < missing.size(); ++k) {
+        tallies_[missing[k]] = tallies[k];
+        light_[missing[k]] = irradiance_from_radiance(tallies[k].radiance());
+    }
+    return Ok{};
+}
+
+bool LightPool::double_directions() {
+    if (directions_ >= kMostDirections) return false;
+    directions_ *= 2;
+    return true;
+}
+
+}  // namespace tetralight

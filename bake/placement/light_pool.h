@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "bake/bake_progress.h"
+#include "bake/bake_settings.h"
+#include "bake/probe_tally.h"
+#include "bake/scene/scene.h"
+#include "base/result.h"
+#include "probes/sh.h"
+
+namespace tetralight {
+
+/// Light at positions that are added one after the other, baked with few directions at first and
+/// with more when they are asked for: what was found before is kept.
+class LightPool {
+  public:
+    /// Directions of a position at first, and at most.
+    static constexpr uint32_t kFewestDirections = 128;
+    static constexpr uint32_t kMostDirections = 4096;
+
+    /// Keeps a reference. Of the settings the light's count; how many samples is the pool's matter.
+    LightPool(const Scene& scene, BakeSettings settings);
+
+    /// Returns the number of a new position, which has no light yet.
+    uint32_t add(const glm::dvec3& position);
+
+    [[nodiscard]] size_t size() const { return positions_.size(); }
+
+    [[nodiscard]] const glm::dvec3& position(uint32_t i) const { return positions_[i]; }
+
+    [[nodiscard]] const IrradianceSh& light(uint32_t i) const { return light_[i]; }
+
+    /// Standard error of the light, as a share of it.
+    [[nodiscard]] float standard_error(uint32_t i) const { return tallies_[i].standard_error(); }
+
+    [[nodiscard]] uint32_t directions() const { return directions_; }
+
+    [[nodiscard]] uint64_t ray_count() const;
+
+    /// Bakes what was added, with as many directions as the others have. Errors: those of
+    /// `bake_tallies`.
+    [[nodiscard]] Status bake(const BakeCallback& callback);
+
+    /// Twice the directions for all; false: they have the most already.
+    bool double_directions();
+
+  private:
+    const Scene& scene_;
+    BakeSettings settings_;
+    uint32_t directions_ = kFewestDirections;
+    std::vector<glm::dvec3> positions_;
+    std::vector<ProbeTally> tallies_;
+    std::vector<IrradianceSh> light_;
+};
+
+}  // namespace tetralight

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/remove_probes.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "bake/parallel.h"
+#include "base/assert.h"
+#include "probes/content_hash.h"
+
+namespace tetralight {
+namespace {
+
+/// Lists of numbers by what they belong to.
+using Lists = std::vector<std::vector<uint32_t>>;
+
+Lists cells_of_probes(const ProbeVolume& volume) {
+    Lists cells(volume.positions.size());
+    for (uint32_t c = 0; c < volume.cells.size(); ++c) {
+        for (const uint32_t probe : volume.cells[c].vertices) {
+            if (probe != kNoIndex) cells[probe].push_back(c);
+        }
+    }
+    return cells;
+}
+
+Lists sensors_of_cells(const ProbeVolume& volume, std::span<const SensorError> errors) {
+    Lists sensors(volume.cells.size());
+    for (uint32_t i = 0; i < errors.size(); ++i) {
+        if (errors[i].cell != kNoIndex) sensors[errors[i].cell].push_back(i);
+    }
+    return sensors;
+}
+
+/// What surrounds one probe.
+struct Star {
+    std::vector<uint32_t> neighbors;  ///< sorted, by number in the volume
+    std::vector<uint32_t> sensors;    ///< in its cells, as indices into the errors
+};
+
+Star star_of(uint32_t probe, const ProbeVolume& volume, const Lists& cells, const Lists& sensors) {
+    Star star;
+    for (const uint32_t c : cells[probe]) {
+        for (const uint32_t other : volume.cells[c].vertices) {
+            if (other != kNoIndex && other != probe) star.neighbors.push_back(other);
+        }
+        star.sensors.insert(star.sensors.end(), sensors[c].begin(), sensors[c].end());
+    }
+    std::ranges::sort(star.neighbors);
+    star.neighbors.erase(std::ranges::unique(star.neighbors).begin(), star.neighbors.end());
+    return star;
+}
+
+/// Numbers in the pool of what a star names otherwise.
+std::vector<uint32_t> in_pool(const std::vector<uint32_t>& numbers,
+                              std::span<const uint32_t> pool_numbers) {
+    std::vector<uint32_t> result;
+    for (const uint32_t number : numbers) result.push_back(pool_numbers[number]);
+    return result;
+}
+
+}  // namespace
+
+std::vector<uint32_t> ProbeRemover::pass(std::span<const uint32_t> probes,
+                                         const ProbeVolume& volume,
+                                         std::span<const uint32_t> sensors,
+                                         std::span<const SensorError> errors,
+                                         const std::vector<bool>& is_protected,
+                                         const RemoveRule& rule) {
+    TETRALIGHT_ASSERT(errors.size() == sensors.size(), "one error for each sensor");
+    const Lists cells = cells_of_probes(volume);
+    const Lists sensors_in = sensors_of_cells(volume, errors);
+    std::vector<Star> stars(probes.size());
+    std::vector<Cost> costs(probes.size());
+    parallel_for(probes.size(), rule.thread_count, [&](size_t i) {
+        const auto probe = static_cast<uint32_t>(i);
+        Star& star = stars[i] = star_of(probe, volume, cells, sensors_in);
+        const std::vector<uint32_t> neighbors = in_pool(star.neighbors, probes);
+        const std::vector<uint32_t> around = in_pool(star.sensors, sensors);
+        ContentHash key;
+        key.add(pool_.directions());
+        key.add(neighbors);
+        key.add(around);
+        costs[i].key = key.value();
+        const auto known = costs_.find(probes[i]);
+        if (known != costs_.end() && known->second.key == key.value()) {
+            costs[i] = known->second;
+            return;
+        }
+        for (const uint32_t sensor : star.sensors) costs[i].change -= double{errors[sensor].square};
+        if (neighbors.empty()) return;
+        const ProbeVolume without = volume_of(pool_, neighbors);
+        for (const SensorError& e : survey_light(without, pool_, around, nullptr, 1)) {
+            costs[i].change += double{e.square};
+        }
+    });
+    for (size_t i = 0; i < probes.size(); ++i) costs_[probes[i]] = costs[i];
+
+    std::vector<uint32_t> queue(probes.size());
+    std::iota(queue.begin(), queue.end(), 0u);
+    std::ranges::stable_sort(queue, {}, [&](uint32_t i) { return costs[i].change; });
+    double sum = 0.0;
+    for (const SensorError& error : errors) sum += double{error.square};
+    const auto most = static_cast<size_t>(rule.largest_share * static_cast<double>(probes.size()));
+    std::vector<bool> is_gone(probes.size(), false), is_stale(probes.size(), false);
+    size_t gone = 0;
+    for (const uint32_t i : queue) {
+        if (gone >= std::max<size_t>(most, 1) || probes.size() - gone <= rule.fewest) break;
+        if (is_stale[i] || is_protected[probes[i]]) continue;
+        if (sum + costs[i].change > rule.largest_sum) break;
+        sum += costs[i].change;
+        is_gone[i] = true;
+        ++gone;
+        for (const uint32_t neighbor : stars[i].neighbors) is_stale[neighbor] = true;
+    }
+    std::vector<uint32_t> left;
+    for (size_t i = 0; i < probes.size(); ++i) {
+        if (!is_gone[i]) left.push_back(probes[i]);
+    }
+    return left;
+}
+
+}  // namespace tetralight

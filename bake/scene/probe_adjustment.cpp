@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/probe_adjustment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+bool is_before(const ProbeAdjustment& a, const ProbeAdjustment& b) {
+    const double size_a = volume_of(a), size_b = volume_of(b);
+    return size_a != size_b ? size_a < size_b : a.name < b.name;
+}
+
+/// The smallest volume around a position that has a setting.
+template <class Has>
+const ProbeAdjustment* smallest(std::span<const ProbeAdjustment> adjustments,
+                                const glm::dvec3& position, const Has& has) {
+    const ProbeAdjustment* found = nullptr;
+    for (const ProbeAdjustment& adjustment : adjustments) {
+        if (!has(adjustment) || !contains(adjustment, position)) continue;
+        if (found == nullptr || is_before(adjustment, *found)) found = &adjustment;
+    }
+    return found;
+}
+
+Status check_transform(const glm::dmat4& transform) {
+    for (int i = 0; i < 16; ++i) {
+        if (!std::isfinite(transform[i / 4][i % 4])) return Error{"its transform is not finite"};
+    }
+    const bool is_affine = transform[0][3] == 0.0 && transform[1][3] == 0.0 &&
+                           transform[2][3] == 0.0 && transform[3][3] == 1.0;
+    if (!is_affine) return Error{"its transform is not affine"};
+    const double size = std::abs(glm::determinant(glm::dmat3(transform)));
+    if (!(size > 0.0) || !std::isfinite(size)) return Error{"it has no volume"};
+    return Ok{};
+}
+
+Status check_settings(const ProbeAdjustment& a) {
+    if (a.spacing && !(*a.spacing > 0.0 && std::isfinite(*a.spacing))) {
+        return Error{text("spacing ", *a.spacing, " is not a positive length")};
+    }
+    if (a.validity && !(*a.validity >= 0.0f && *a.validity <= 1.0f)) {
+        return Error{text("validity ", *a.validity, " is not from 0 to 1")};
+    }
+    if (a.intensity && !(*a.intensity >= 0.0f && std::isfinite(*a.intensity))) {
+        return Error{text("intensity ", *a.intensity, " is negative or not finite")};
+    }
+    if (!a.forbids_probes && !a.spacing && !a.validity && !a.intensity) {
+        return Error{"it adjusts nothing (forbid, spacing, validity, intensity)"};
+    }
+    return Ok{};
+}
+
+}  // namespace
+
+bool contains(const ProbeAdjustment& adjustment, const glm::dvec3& position) {
+    const glm::dvec3 local(glm::inverse(adjustment.world_from_volume) * glm::dvec4(position, 1.0));
+    if (adjustment.shape == AdjustmentShape::Sphere) return glm::dot(local, local) <= 1.0;
+    return std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) <= 0.5;
+}
+
+double volume_of(const ProbeAdjustment& adjustment) {
+    constexpr double kSphere = 4.0 / 3.0 * std::numbers::pi;
+    const double unit = adjustment.shape == AdjustmentShape::Sphere ? kSphere : 1.0;
+    return unit * std::abs(glm::determinant(glm::dmat3(adjustment.world_from_volume)));
+}
+
+AdjustmentAt adjustment_at(std::span<const ProbeAdjustment> adjustments,
+                           const glm::dvec3& position) {
+    using A = ProbeAdjustment;
+    AdjustmentAt at;
+    if (adjustments.empty()) return at;
+    const auto forbids =
+        smallest(adjustments, position, [](const A& a) { return a.forbids_probes.has_value(); });
+    if (forbids != nullptr) at.forbids_probes = *forbids->forbids_probes;
+    at.spacing = smallest(adjustments, position, [](const A& a) { return a.spacing.has_value(); });
+    const auto validity =
+        smallest(adjustments, position, [](const A& a) { return a.validity.has_value(); });
+    if (validity != nullptr) at.validity = validity->validity;
+    const auto intensity =
+        smallest(adjustments, position, [](const A& a) { return a.intensity.has_value(); });
+    if (intensity != nullptr) at.intensity = *intensity->intensity;
+    return at;
+}
+
+Status check(const ProbeAdjustment& adjustment) {
+    const std::string place = text("adjustment volume \"", adjustment.name, "\"");
+    if (auto status = check_transform(adjustment.world_from_volume); !status) {
+        return status.error().in(place);
+    }
+    if (auto status = check_settings(adjustment); !status) return status.error().in(place);
+    return Ok{};
+}
+
+}  // namespace tetralight

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/placement/probe_grid.h"
+#include "bench/grid_scenes.h"
+#include "probes/sh.h"
+
+namespace tetralight::bench {
+
+/// Path-traced light in a scene's largest free space: half of the positions 5 cm off surfaces, by
+/// their area, half anywhere; random, and unknown to the generator.
+struct LightReference {
+    std::vector<glm::vec3> positions;
+    std::vector<IrradianceSh> light;
+    /// Root mean square of its own noise over the mean irradiance.
+    double noise = 0.0;
+};
+
+[[nodiscard]] LightReference make_reference(const GridSubject& subject, size_t count,
+                                            uint32_t sample_count);
+
+/// Bakes the probes and compares what queries answer with the reference: root mean square over
+/// positions, 26 normals and channels, over the mean irradiance, the reference's noise taken out.
+[[nodiscard]] double light_error(const GridSubject& subject, const ProbeGrid& grid,
+                                 const LightReference& reference, uint32_t sample_count);
+
+/// A lattice of about so many probes.
+[[nodiscard]] ProbeGrid regular_grid(const GridSubject& subject, uint64_t probe_count);
+
+[[nodiscard]] ProbeGrid adaptive_grid(const GridSubject& subject, uint64_t probe_count);
+
+}  // namespace tetralight::bench
