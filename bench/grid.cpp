@@ -75,16 +75,19 @@ void inside() {
     const Box bounds{{-2.0, -0.4, -2.0}, {14.0, 7.0, 10.0}};
     const auto lattice = make_lattice(bounds, glm::dvec3(0.183), 10'000'000);
     require(bool(lattice), "lattice");
+    // What is nearer to a face than rounding is on it, neither in nor out.
+    constexpr double kRounding = 2e-6;
     const std::vector<glm::dvec3> candidates = lattice->positions();
     std::vector<uint8_t> is_left_inside(candidates.size()), is_lost(candidates.size()),
         is_free(candidates.size());
     parallel_for(candidates.size(), 0, [&](size_t i) {
-        is_free[i] = !house.is_inside(candidates[i]);
+        is_free[i] = !house.is_inside(candidates[i], -kRounding);
+        const bool is_deep = house.is_inside(candidates[i], kRounding);
         const Fate unmoved = place_probe(*traced, candidates[i], {}).fate;
         is_lost[i] = is_free[i] != 0 && !is_kept(unmoved);
         const PlacedProbe placed = place_probe(*traced, candidates[i], {0.02, 0.08});
-        is_left_inside[i] = (is_kept(unmoved) && is_free[i] == 0) ||
-                            (is_kept(placed.fate) && house.is_inside(placed.position));
+        is_left_inside[i] = (is_kept(unmoved) && is_deep) ||
+                            (is_kept(placed.fate) && house.is_inside(placed.position, kRounding));
     });
     const auto count = [](const std::vector<uint8_t>& flags) {
         return static_cast<double>(std::count(flags.begin(), flags.end(), 1));

@@ -164,10 +164,10 @@ GridSubject read_subject(const std::string& name, const std::string& path) {
 
 }  // namespace
 
-bool House::is_inside(const glm::dvec3& position) const {
+bool House::is_inside(const glm::dvec3& position, double depth) const {
     return std::ranges::any_of(solids, [&](const Box& box) {
-        return glm::all(glm::greaterThan(position, box.low)) &&
-               glm::all(glm::lessThan(position, box.high));
+        return glm::all(glm::greaterThan(position, box.low + depth)) &&
+               glm::all(glm::lessThan(position, box.high - depth));
     });
 }
 

@@ -19,7 +19,8 @@ struct House {
     /// All its solids: a position is inside geometry when one of them holds it.
     std::vector<Box> solids;
 
-    [[nodiscard]] bool is_inside(const glm::dvec3& position) const;
+    /// Faces are at floats: a position is inside when it is `depth` metres from them or more.
+    [[nodiscard]] bool is_inside(const glm::dvec3& position, double depth = 0.0) const;
 };
 
 [[nodiscard]] House make_house();

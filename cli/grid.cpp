@@ -6,6 +6,7 @@
 #include "bake/scene/probe_groups_json.h"
 #include "cli/common.h"
 #include "cli/grid_options.h"
+#include "cli/grid_preview.h"
 #include "cli/grid_progress.h"
 #include "cli/grid_report.h"
 #include "cli/paths.h"
@@ -24,12 +25,15 @@ Status write_groups(const std::string& path, std::span<const ProbeGroup> groups)
 struct Grid {
     SceneOptions scene_options;
     std::string output;
+    std::string preview;
     GridOptions options;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
         scene_options.add_to(command);
         add_output(command, output, ".json,.glb", "Probe-group file to write");
+        add_file_to_write(command, "--preview", preview, ".png",
+                          "Picture to write of the scene with the probes, lit by a quick bake");
         options.add_to(command);
         common.add_to(command);
         command.parse_complete_callback([this] { options.check_usage(); });
@@ -38,6 +42,10 @@ struct Grid {
     Status run() {
         const std::string& path = scene_options.path;
         if (auto status = check_output(output, {path, scene_options.sky}); !status) return status;
+        if (!preview.empty()) {
+            auto status = check_output(preview, {path, scene_options.sky, output});
+            if (!status) return status;
+        }
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
@@ -46,6 +54,10 @@ struct Grid {
         const auto grid = make_grid(*scene);
         if (!grid) return grid.error().in(path);
         if (auto status = write_groups(output, grid->groups); !status) return status;
+        if (!preview.empty()) {
+            auto status = write_preview(preview, *scene, *grid, common.thread_count);
+            if (!status) return status;
+        }
         common.warn(grid_warnings(*grid));
         common.report(output, grid_json(output, *grid), grid_text(output, *grid));
         if (!grid->adaptive || grid->adaptive->end != AdaptiveEnd::Interrupted) return Ok{};

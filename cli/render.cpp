@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "bake/image/write_image.h"
 #include "bake/scene/read_gltf.h"
-#include "bake/scene/scene_bounds.h"
 #include "base/text.h"
 #include "cli/choice.h"
 #include "cli/common.h"
@@ -16,16 +13,6 @@
 
 namespace tetralight::cli {
 namespace {
-
-/// A camera that sees all of a scene from the front, above and to the right.
-Camera overview(const Scene& scene) {
-    const Box bounds =
-        scene_bounds(scene, [](const MeshInstance&) { return true; }).value_or(Box{});
-    const double fov = glm::radians(45.0);
-    const double distance = 0.75 * std::max(glm::length(bounds.size()), 1e-3) / std::tan(fov / 2);
-    const glm::dvec3 direction = glm::normalize(glm::dvec3(0.5, 0.45, 1.0));
-    return look_at(bounds.center() + direction * distance, bounds.center(), fov);
-}
 
 struct Render {
     std::string scene_path;

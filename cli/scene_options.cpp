@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "bake/scene/probe_adjustments_json.h"
 #include "bake/scene/read_gltf.h"
 #include "cli/common.h"
 #include "cli/paths.h"
@@ -25,6 +26,10 @@ CLI::Validator direction_check() {
 
 void SceneOptions::add_to(CLI::App& command) {
     add_path(command, "SCENE", path, "glTF 2.0 scene (.glb or .gltf)")->required();
+    add_path(
+        command, "--adjustments", adjustments,
+        "Adjustment volumes beside the scene's own (.json): where probes are forbidden, denser, "
+        "valid, or scaled");
     sky.add_to(command, "the scene's own");
     auto* direction = add_vec3(command, "--sun-direction", sun_direction,
                                "Add a sun that shines in this direction");
@@ -52,11 +57,21 @@ void SceneOptions::add_to(CLI::App& command) {
 Result<Scene> SceneOptions::read() const {
     auto scene = read_gltf(path);
     if (!scene) return scene;
+    if (auto status = add_adjustments(*scene); !status) return status.error();
     if (auto status = sky.apply(path, scene->environment, scene->warnings); !status) {
         return status.error();
     }
     add_sun(*scene);
     return scene;
+}
+
+Status SceneOptions::add_adjustments(Scene& scene) const {
+    if (adjustments.empty()) return Ok{};
+    auto read = read_probe_adjustments(adjustments);
+    if (!read) return read.error();
+    auto& all = scene.probe_adjustments;
+    all.insert(all.end(), read->begin(), read->end());
+    return Ok{};
 }
 
 void SceneOptions::add_sun(Scene& scene) const {

@@ -14,6 +14,7 @@ namespace tetralight::cli {
 /// The scene to work on, and light that the command line adds to it.
 struct SceneOptions {
     std::string path;
+    std::string adjustments;
     SkyOptions sky;
     glm::dvec3 sun_direction{0.0};
     glm::dvec3 sun_irradiance{0.0};
@@ -23,10 +24,11 @@ struct SceneOptions {
     /// Declares SCENE and the light options.
     void add_to(CLI::App& command);
 
-    /// Reads the scene and adds the light.
+    /// Reads the scene and adds the light and the adjustment volumes.
     [[nodiscard]] Result<Scene> read() const;
 
   private:
+    [[nodiscard]] Status add_adjustments(Scene& scene) const;
     void add_sun(Scene& scene) const;
 };
 

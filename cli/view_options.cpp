@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/view_options.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "bake/scene/scene_bounds.h"
 #include "cli/common.h"
 
 namespace tetralight::cli {
@@ -37,6 +41,15 @@ void ViewOptions::add_to(CLI::App& command) {
 
 Camera ViewOptions::camera() const {
     return look_at(eye, target, glm::radians(fov_degrees));
+}
+
+Camera overview(const Scene& scene) {
+    const Box bounds =
+        scene_bounds(scene, [](const MeshInstance&) { return true; }).value_or(Box{});
+    const double fov = glm::radians(45.0);
+    const double distance = 0.75 * std::max(glm::length(bounds.size()), 1e-3) / std::tan(fov / 2);
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(0.5, 0.45, 1.0));
+    return look_at(bounds.center() + direction * distance, bounds.center(), fov);
 }
 
 }  // namespace tetralight::cli

@@ -25,4 +25,7 @@ struct ViewOptions {
     [[nodiscard]] Camera camera() const;
 };
 
+/// A camera that sees all of a scene from the front, above and to the right.
+[[nodiscard]] Camera overview(const Scene& scene);
+
 }  // namespace tetralight::cli

@@ -132,6 +132,7 @@ uint64_t bake_key(const Scene& scene, const PreparedBake& prepared) {
     hash.add(probe_file_bytes(prepared.volume.view()));
     hash.add(prepared.capture_positions);
     for (const bool is_invalid : prepared.is_invalid) hash.add(is_invalid);
+    hash.add(prepared.overrides);
     for (const bool dering : prepared.merged.group_dering) hash.add(dering);
     return hash.value();
 }

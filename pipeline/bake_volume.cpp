@@ -133,6 +133,7 @@ void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport&
     store_rest(volume);
     add_dark_warnings(prepared.merged, volume.irradiance, settings.bake.sample_count,
                       report.warnings);
+    override_probes(prepared.overrides, volume);
     if (volume.layers.empty()) {
         dering_probes(prepared.merged, settings.dering, volume.irradiance);
         make_compact_probes(volume);
@@ -178,6 +179,7 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     prepared.merged = std::move(probes->merged);
     prepared.capture_positions = std::move(probes->capture_positions);
     prepared.is_invalid = std::move(probes->is_invalid);
+    prepared.overrides = find_overrides(scene.probe_adjustments, prepared.merged.positions);
     report.prepare_seconds = watch.lap();
 
     prepared.volume = make_probe_volume(prepared.merged);

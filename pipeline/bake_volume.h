@@ -12,6 +12,7 @@
 #include "base/result.h"
 #include "pipeline/dering_probes.h"
 #include "pipeline/lighting_plan.h"
+#include "pipeline/override_probes.h"
 #include "pipeline/prepare_probes.h"
 #include "probes/build/merge.h"
 #include "probes/probe_group.h"
@@ -74,6 +75,8 @@ struct PreparedBake {
     std::vector<glm::dvec3> capture_positions;
     /// One a probe: it looks from inside geometry.
     std::vector<bool> is_invalid;
+    /// What the scene's adjustment volumes say, one a probe; empty: they say nothing.
+    std::vector<ProbeOverride> overrides;
     /// With the plan of `settings.bake` made for the scene.
     BakeVolumeSettings settings;
     /// Hash of all that the light depends on, and of the volume: what has another key is no part of

@@ -120,6 +120,21 @@ Status check_tallies(const PartFile& part) {
     return Ok{};
 }
 
+Status check_overrides(const PreparedBake& prepared) {
+    const auto& overrides = prepared.overrides;
+    if (!overrides.empty() && overrides.size() != prepared.volume.positions.size()) {
+        return Error{text("section \"overrides\": ", overrides.size(), " of ",
+                          prepared.volume.positions.size(), " probes")};
+    }
+    for (size_t i = 0; i < overrides.size(); ++i) {
+        const auto& [intensity, validity] = overrides[i];
+        const bool is_validity = validity == -1.0f || (validity >= 0.0f && validity <= 1.0f);
+        if (intensity >= 0.0f && std::isfinite(intensity) && is_validity) continue;
+        return Error{text("section \"overrides\": that of probe ", i, " is not in range")};
+    }
+    return Ok{};
+}
+
 Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
     const auto infos = read_section<PartInfo>(file, "part");
     if (infos.size() != 1 || !file.view().irradiance.empty()) {
@@ -154,6 +169,8 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
         return Error{text("section \"is_invalid\": ", part.prepared.is_invalid.size(),
                           " flags for ", part.prepared.volume.positions.size(), " probes")};
     }
+    part.prepared.overrides = read_section<ProbeOverride>(file, "overrides");
+    if (auto status = check_overrides(part.prepared); !status) return status.error();
     if (part.prepared.volume.exact_positions.size() != part.prepared.volume.positions.size()) {
         return Error{"section \"exact_positions\" is missing"};
     }
@@ -194,13 +211,17 @@ Status write_part(const std::string& path, const PreparedBake& prepared,
     };
     const std::vector<uint8_t> dering = bytes_of(prepared.merged.group_dering);
     const std::vector<uint8_t> invalid = bytes_of(prepared.is_invalid);
-    const ExtraSection sections[] = {
+    std::vector<ExtraSection> sections{
         {"part", std::as_bytes(std::span(&info, 1)), sizeof info},
         {"group_dering", std::as_bytes(std::span(dering)), 1},
         {"is_invalid", std::as_bytes(std::span(invalid)), 1},
         {"tallies", std::as_bytes(std::span(tallies)), sizeof(ProbeTally)},
         {"split_rows", std::as_bytes(std::span(split_rows)), sizeof(double)},
     };
+    if (!prepared.overrides.empty()) {
+        sections.push_back(
+            {"overrides", std::as_bytes(std::span(prepared.overrides)), sizeof(ProbeOverride)});
+    }
     return write_probe_file(path, prepared.volume.view(), sections);
 }
 

@@ -35,6 +35,8 @@ struct Survey {
     uint32_t thread_count = 0;
     std::vector<ProbeHealth> health{merged.positions.size()};
     std::vector<uint8_t> is_inside = std::vector<uint8_t>(merged.positions.size(), 0);
+    /// By a volume: no other place to look from helps.
+    std::vector<uint8_t> is_told_inside = std::vector<uint8_t>(merged.positions.size(), 0);
 
     void look() {
         parallel_for(health.size(), thread_count, [&](size_t i) {
@@ -44,12 +46,21 @@ struct Survey {
         });
     }
 
+    /// Takes what adjustment volumes say for what was seen.
+    void obey(const std::vector<ProbeAdjustment>& adjustments) {
+        for (size_t i = 0; i < is_inside.size() && !adjustments.empty(); ++i) {
+            const auto validity = adjustment_at(adjustments, merged.positions[i]).validity;
+            if (validity) is_inside[i] = *validity < settings.min_validity;
+            is_told_inside[i] = validity && is_inside[i] != 0;
+        }
+    }
+
     /// Moves the places to look from out of geometry; a probe that is alone in its group may look
     /// from anywhere within `lone_reach`.
     void move_out(double lone_reach) {
         std::vector<uint32_t> inside;
         for (uint32_t i = 0; i < is_inside.size(); ++i) {
-            if (is_inside[i] != 0) inside.push_back(i);
+            if (is_inside[i] != 0 && is_told_inside[i] == 0) inside.push_back(i);
         }
         const std::vector<double> spacing = group_spacing(merged, inside);
         parallel_for(inside.size(), thread_count, [&](size_t i) {
@@ -118,6 +129,7 @@ Result<PreparedProbes> prepare_probes(const Scene& scene, MergedProbes merged,
     if (!traced) return traced.error();
     Survey survey{*traced, merged, settings, thread_count};
     survey.look();
+    survey.obey(scene.probe_adjustments);
     if (settings.virtual_offset > 0.0) survey.move_out(scene_size(scene));
 
     PreparedProbes prepared;

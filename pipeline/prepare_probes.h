@@ -12,8 +12,8 @@
 
 // Before any light is baked: which probes lie in geometry, and what becomes of them.
 //
-//     merged → survey → in geometry? → find_capture_offset → out: baked there
-//                                                          → still in: InvalidProbes
+//     merged → survey, adjustment volumes → in geometry? → find_capture_offset → out: baked there
+//                                            → still in: InvalidProbes
 
 namespace tetralight {
 

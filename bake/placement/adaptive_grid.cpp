@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "bake/placement/light_pool.h"
@@ -49,6 +51,7 @@ class AdaptiveGrid {
         Status status = refine();
         if (status) status = remove_and_replace();
         if (!status && status.error().message != "cancelled") return status.error();
+        if (!best_ && is_time_over()) return Error{"out of time before there was a result"};
         if (!best_) return Error{"interrupted"};
         if (!status)
             report_.end = is_time_over() ? AdaptiveEnd::TimeOver : AdaptiveEnd::Interrupted;
@@ -167,8 +170,11 @@ class AdaptiveGrid {
     /// Puts probes where errors are largest; returns how many.
     size_t insert(size_t room) {
         const auto growth = static_cast<size_t>(kGrowth * static_cast<double>(set_.probes.size()));
-        RefineRule rule{input_.clearance, [this](uint32_t i) { return may_become_probe(i); },
-                        input_.may_stand, std::min(room, std::max<size_t>(growth, 16))};
+        const RefineRule rule{
+            input_.clearance,
+            [this](uint32_t sensor) { return has_clearance(pool_.position(sensor)); },
+            [this](const glm::dvec3& p) { return has_clearance(p) && input_.may_stand(p); },
+            std::min(room, std::max<size_t>(growth, 16))};
         std::vector<bool> is_member(pool_.size(), false);
         for (const uint32_t probe : set_.probes) is_member[probe] = true;
         const Refinement refinement =
@@ -189,8 +195,8 @@ class AdaptiveGrid {
     }
 
     /// Sensors that are nearer to a surface than the clearance are for looking only.
-    [[nodiscard]] bool may_become_probe(uint32_t sensor) const {
-        const glm::vec3 position = input_.traced.traced_from_world(pool_.position(sensor));
+    [[nodiscard]] bool has_clearance(const glm::dvec3& world_position) const {
+        const glm::vec3 position = input_.traced.traced_from_world(world_position);
         const auto nearest = input_.traced.nearest_surface(position);
         constexpr double kRounding = 0.99;
         return !nearest ||

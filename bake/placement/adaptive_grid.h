@@ -85,7 +85,7 @@ struct AdaptiveInput {
 /// it. Probes flagged `is_protected` (one a start) stay. Deterministic without a time budget.
 ///
 /// When it is interrupted or out of time, the result is that of the last round; the error
-/// "interrupted" says that there was none yet.
+/// "interrupted" (or "out of time ...") says that there was none yet.
 [[nodiscard]] Result<AdaptiveReport> refine_grid(const AdaptiveInput& input,
                                                  const AdaptiveSettings& settings,
                                                  std::vector<PlacedProbe>& probes,

@@ -19,6 +19,21 @@ float surface_distance(const TraceScene& traced, glm::vec3 position) {
     return nearest ? glm::distance(position, *nearest) : std::numeric_limits<float>::infinity();
 }
 
+/// Surfaces left from behind minus surfaces entered from the front, along a ray to the sky: how
+/// many closed solids the position lies in.
+int solids_around(const TraceScene& traced, glm::vec3 position, glm::vec3 direction) {
+    constexpr int kMostSurfaces = 256;
+    int count = 0;
+    for (int i = 0; i < kMostSurfaces; ++i) {
+        const auto side = traced.cast_side({position, direction});
+        if (!side) break;
+        count += side->is_from_behind ? 1 : -1;
+        const glm::vec3 hit = position + side->distance * direction;
+        position = traced.ray_origin(hit, direction);
+    }
+    return count;
+}
+
 /// The search for a better place for one candidate.
 class Push {
   public:
@@ -69,7 +84,7 @@ class Push {
     [[nodiscard]] bool is_fine(glm::vec3 from, glm::vec3 place) const {
         return glm::distance(place, start_) <= reach_ &&
                (place == from || sees(traced_, from, place)) &&
-               !look_around(traced_, place).is_inside(kMinValidity);
+               !lies_inside(traced_, place, look_around(traced_, place));
     }
 
     const TraceScene& traced_;
@@ -80,6 +95,19 @@ class Push {
 
 }  // namespace
 
+bool lies_inside(const TraceScene& traced, glm::vec3 position, const Surroundings& around) {
+    if (around.is_inside()) return true;
+    if (around.behind_share == 0.0f) return false;
+    constexpr size_t kEvery = 4;
+    int inside = 0, outside = 0;
+    for (size_t i = 0; i < survey_directions().size(); i += kEvery) {
+        const bool is_in = solids_around(traced, position, survey_directions()[i]) > 0;
+        ++(is_in ? inside : outside);
+    }
+    // Open surfaces miss sides in some directions, closed ones agree in all.
+    return inside > 3 * outside;
+}
+
 bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
     return !traced.is_blocked({from, to - from, 1.0f});
 }
@@ -88,7 +116,7 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                         const ClearanceRule& rule) {
     const glm::vec3 start = traced.traced_from_world(candidate);
     const Surroundings around = look_around(traced, start);
-    const bool is_inside = around.is_inside();
+    const bool is_inside = lies_inside(traced, start, around);
     PlacedProbe placed{candidate, Fate::Kept, around.surface_distance};
     if (!is_inside && around.surface_distance >= (1.0 - kSlack) * rule.clearance) return placed;
 

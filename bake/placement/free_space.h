@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "bake/survey.h"
 #include "bake/trace_scene.h"
 
 namespace tetralight {
@@ -49,6 +50,13 @@ struct PlacedProbe {
 /// along the way from the nearest surface, or else along one of the axes. Pure.
 [[nodiscard]] PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                                       const ClearanceRule& rule);
+
+/// Whether a position in traced space lies inside geometry: by the shares of back faces around it
+/// (`Surroundings::is_inside`), and where there are few of them by counting, in some directions,
+/// all surfaces out to the sky: among solids that cross each other the nearest surfaces may all be
+/// fronts of others.
+[[nodiscard]] bool lies_inside(const TraceScene& traced, glm::vec3 position,
+                               const Surroundings& around);
 
 /// Whether nothing stands between two positions in traced space.
 [[nodiscard]] bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to);

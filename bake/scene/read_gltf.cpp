@@ -10,6 +10,7 @@
 #include "bake/scene/detail/gltf_materials.h"
 #include "bake/scene/detail/gltf_meshes.h"
 #include "bake/scene/detail/gltf_nodes.h"
+#include "bake/scene/detail/gltf_probe_adjustments.h"
 #include "bake/scene/detail/gltf_probe_groups.h"
 #include "base/text.h"
 
@@ -54,11 +55,14 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     if (!lights) return lights.error();
     auto probe_groups = detail::read_gltf_probe_groups(document, *nodes);
     if (!probe_groups) return probe_groups.error();
+    auto adjustments = detail::read_gltf_probe_adjustments(document, *nodes);
+    if (!adjustments) return adjustments.error();
     auto instances = detail::read_instances(document, *nodes, probe_groups->is_probe, meshes);
     if (!instances) return instances.error();
     scene.lights = std::move(lights->lights);
     scene.light_names = std::move(lights->names);
     scene.probe_groups = std::move(probe_groups->groups);
+    scene.probe_adjustments = std::move(*adjustments);
     scene.instances = std::move(*instances);
     scene.cameras = detail::read_cameras(document, *nodes);
     append_warnings(scene, lights->warnings);

@@ -17,8 +17,9 @@ namespace tetralight {
 /// perspective cameras; `extras.sky.radiance` of the scene, three numbers;
 /// KHR_materials_unlit; extras of a light or of its node, and of materials (docs/scenes.md);
 /// `extras.light_probe_group: true` of a node, whose POINTS primitive, or else whose child nodes,
-/// are the probes, with `extras.dering`. Unknown light types and missing optional features become
-/// warnings; a required extension that is not listed here is an error.
+/// are the probes, with `extras.dering`; `extras.probe_adjustment` of a node. Unknown light types
+/// and missing optional features become warnings; a required extension that is not listed here is
+/// an error.
 ///
 /// Every error names the file, the element and the value.
 [[nodiscard]] Result<Scene> read_gltf(const std::string& path);

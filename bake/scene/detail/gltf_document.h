@@ -134,6 +134,17 @@ struct GltfCamera {
     std::optional<double> fov_y_radians;
 };
 
+/// `extras.probe_adjustment` of a node.
+struct GltfAdjustment {
+    std::string shape;
+    std::optional<glm::dvec3> size;
+    std::optional<double> radius;
+    std::optional<bool> forbid;
+    std::optional<double> spacing;
+    std::optional<double> validity;
+    std::optional<double> intensity;
+};
+
 struct GltfNode {
     std::string name;
     glm::dmat4 parent_from_node{1.0};
@@ -149,6 +160,7 @@ struct GltfNode {
     GltfLightExtras light_extras;
     bool is_probe_group = false;
     bool dering = false;
+    std::optional<GltfAdjustment> probe_adjustment;
 };
 
 struct GltfDocument {

@@ -76,6 +76,24 @@ std::optional<std::string> bake_emission_from(const tinygltf::Value& extras) {
     return extras.Get(kKey).Get<bool>() ? "baked" : "none";
 }
 
+std::optional<GltfAdjustment> adjustment_from(const tinygltf::Value& extras) {
+    if (!extras.Has("probe_adjustment")) return std::nullopt;
+    const tinygltf::Value& value = extras.Get("probe_adjustment");
+    GltfAdjustment result;
+    result.shape = string_extra(value, "shape").value_or("");
+    if (value.Has("size")) {
+        const tinygltf::Value& size = value.Get("size");
+        result.size = {size.Get(0).GetNumberAsDouble(), size.Get(1).GetNumberAsDouble(),
+                       size.Get(2).GetNumberAsDouble()};
+    }
+    result.radius = number_extra(value, "radius");
+    result.forbid = boolean_extra(value, "forbid");
+    result.spacing = number_extra(value, "spacing");
+    result.validity = number_extra(value, "validity");
+    result.intensity = number_extra(value, "intensity");
+    return result;
+}
+
 GltfLightExtras light_extras_from(const tinygltf::Value& extras) {
     GltfLightExtras result;
     result.mode = string_extra(extras, "mode");

@@ -29,6 +29,9 @@ namespace tetralight::detail {
 /// With KHR_texture_transform.
 [[nodiscard]] TextureUse texture_use_from(const tinygltf::TextureInfo& info);
 
+/// `extras.probe_adjustment`.
+[[nodiscard]] std::optional<GltfAdjustment> adjustment_from(const tinygltf::Value& extras);
+
 [[nodiscard]] GltfLightExtras light_extras_from(const tinygltf::Value& extras);
 
 }  // namespace tetralight::detail

@@ -27,6 +27,13 @@ constexpr GltfRule kNodes[] = {
     {"extras/contribute_gi", Boolean},
     {"extras/light_probe_group", Boolean},
     {"extras/dering", Boolean},
+    {"extras/probe_adjustment/shape", String, "", 0, kRequired},
+    {"extras/probe_adjustment/size", Numbers, "", 3},
+    {"extras/probe_adjustment/radius", Number},
+    {"extras/probe_adjustment/forbid", Boolean},
+    {"extras/probe_adjustment/spacing", Number},
+    {"extras/probe_adjustment/validity", Number},
+    {"extras/probe_adjustment/intensity", Number},
 };
 
 constexpr GltfRule kMeshes[] = {{"name", String}, {"primitives", PrimitiveList, "", 0, kRequired}};

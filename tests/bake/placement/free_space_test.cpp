@@ -87,6 +87,26 @@ TEST(FreeSpace, AnOpenPlaneHasTwoSidesOnlyWhenItsMaterialHas) {
     EXPECT_EQ(place(two_sided, {0, -1, 0}, {0.1, 0.4}).fate, Fate::Kept);
 }
 
+TEST(FreeSpace, AmongFrontsOfOtherSolidsItIsStillInside) {
+    // In a hollow of 20 cm between six boxes that are sunk into a large one: all fronts but for
+    // the cracks between them.
+    Scene scene;
+    add_box(scene, test::grey(), Facing::Outward, {-9, -9, -9}, {9, 9, 9});
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float side : {-1.0f, 1.0f}) {
+            glm::vec3 low(-0.095f), high(0.095f);
+            low[axis] = side > 0.0f ? 0.1f : -0.5f;
+            high[axis] = side > 0.0f ? 0.5f : -0.1f;
+            add_box(scene, test::grey(), Facing::Outward, low, high);
+        }
+    }
+    const auto traced = TraceScene::make_static(scene);
+    const Surroundings around = look_around(*traced, glm::vec3(0.0f));
+    EXPECT_FALSE(around.is_inside());
+    EXPECT_GT(around.behind_share, 0.0f);
+    EXPECT_EQ(place_probe(*traced, glm::dvec3(0.0), {}).fate, Fate::Inside);
+}
+
 TEST(FreeSpace, IntersectingTurnedSolidsAgainstAnExactTest) {
     // Two boxes that cross, one of them turned: inside is inside of either.
     Scene scene = solid(test::grey());

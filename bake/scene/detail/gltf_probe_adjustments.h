@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bake/scene/detail/gltf_document.h"
+#include "bake/scene/detail/gltf_nodes.h"
+#include "bake/scene/probe_adjustment.h"
+#include "base/result.h"
+
+namespace tetralight::detail {
+
+/// The adjustment volumes of all nodes that have `extras.probe_adjustment`: a box of its `size`, or
+/// a sphere of its `radius`, as the node places, turns and scales it.
+[[nodiscard]] Result<std::vector<ProbeAdjustment>> read_gltf_probe_adjustments(
+    const GltfDocument& document, std::span<const GltfWorldNode> nodes);
+
+}  // namespace tetralight::detail

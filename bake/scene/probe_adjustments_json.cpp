@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/scene/probe_adjustments_json.h"
+
+#include <algorithm>
+#include <exception>
+#include <glm/gtc/matrix_transform.hpp>
+#include <initializer_list>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+
+#include "base/file.h"
+#include "base/json_text.h"
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+using nlohmann::json;
+
+std::string shown(const json& value) {
+    constexpr size_t kLongest = 40;
+    const std::string dumped = value.dump();
+    return dumped.size() <= kLongest ? dumped : dumped.substr(0, kLongest) + "...";
+}
+
+Status check_keys(const json& object, std::initializer_list<std::string_view> known) {
+    for (const auto& [key, value] : object.items()) {
+        if (std::ranges::find(known, key) == known.end()) {
+            return Error{text("unknown key \"", key, "\"")};
+        }
+    }
+    return Ok{};
+}
+
+/// Sets what a key says; nothing when it is not there.
+template <class Number>
+Status read_number(const json& object, const char* key, std::optional<Number>& number) {
+    const auto value = object.find(key);
+    if (value == object.end()) return Ok{};
+    if (!value->is_number()) return Error{text(key, " is not a number (", shown(*value), ")")};
+    number = value->get<Number>();
+    return Ok{};
+}
+
+Status read_vec3(const json& object, const char* key, glm::dvec3& v) {
+    const auto value = object.find(key);
+    if (value == object.end()) return Ok{};
+    const bool is_vec3 = value->is_array() && value->size() == 3 &&
+                         std::ranges::all_of(*value, [](const json& n) { return n.is_number(); });
+    if (!is_vec3) return Error{text(key, " is not three numbers (", shown(*value), ")")};
+    for (int i = 0; i < 3; ++i) v[i] = (*value)[static_cast<size_t>(i)].get<double>();
+    return Ok{};
+}
+
+Status read_place(const json& object, ProbeAdjustment& adjustment) {
+    const auto shape = object.find("shape");
+    if (shape == object.end()) return Error{"shape is missing"};
+    const bool is_box = *shape == "box";
+    if (!is_box && *shape != "sphere") {
+        return Error{text("shape ", shown(*shape), " is not \"box\" or \"sphere\"")};
+    }
+    const char* other = is_box ? "radius" : "size";
+    if (object.contains(other)) return Error{text(other, " does not fit the shape")};
+    glm::dvec3 center(0.0), size(1.0);
+    std::optional<double> radius;
+    if (auto status = read_vec3(object, "center", center); !status) return status;
+    if (auto status = read_vec3(object, "size", size); !status) return status;
+    if (auto status = read_number(object, "radius", radius); !status) return status;
+    adjustment.shape = is_box ? AdjustmentShape::Box : AdjustmentShape::Sphere;
+    if (!is_box) size = glm::dvec3(radius.value_or(1.0));
+    adjustment.world_from_volume = glm::scale(glm::translate(glm::dmat4(1.0), center), size);
+    return Ok{};
+}
+
+Status read_settings(const json& object, ProbeAdjustment& adjustment) {
+    if (const auto forbid = object.find("forbid"); forbid != object.end()) {
+        if (!forbid->is_boolean()) {
+            return Error{text("forbid is not a boolean (", shown(*forbid), ")")};
+        }
+        adjustment.forbids_probes = forbid->get<bool>();
+    }
+    if (auto s = read_number(object, "spacing", adjustment.spacing); !s) return s;
+    if (auto s = read_number(object, "validity", adjustment.validity); !s) return s;
+    return read_number(object, "intensity", adjustment.intensity);
+}
+
+Result<ProbeAdjustment> read_adjustment(const json& object, size_t index) {
+    const std::string place = text("adjustment ", index);
+    if (!object.is_object()) return Error{text(place, ": is not an object")};
+    const auto name = object.find("name");
+    if (name == object.end() || !name->is_string() || name->get<std::string>().empty()) {
+        return Error{text(place, ": has no name")};
+    }
+    ProbeAdjustment adjustment;
+    adjustment.name = name->get<std::string>();
+    Status status = check_keys(object, {"name", "shape", "center", "size", "radius", "forbid",
+                                        "spacing", "validity", "intensity"});
+    if (status) status = read_place(object, adjustment);
+    if (status) status = read_settings(object, adjustment);
+    if (!status) return status.error().in(text("adjustment volume \"", adjustment.name, "\""));
+    if (status = check(adjustment); !status) return status.error();
+    return adjustment;
+}
+
+Result<std::vector<ProbeAdjustment>> read_document(const json& document) {
+    if (!document.is_object()) return Error{"is not a JSON object"};
+    if (auto status = check_keys(document, {"adjustments"}); !status) return status.error();
+    const auto values = document.find("adjustments");
+    if (values == document.end() || !values->is_array()) {
+        return Error{"adjustments is missing or not an array"};
+    }
+    std::vector<ProbeAdjustment> adjustments;
+    std::set<std::string> names;
+    for (const json& value : *values) {
+        auto adjustment = read_adjustment(value, adjustments.size());
+        if (!adjustment) return adjustment.error();
+        if (!names.insert(adjustment->name).second) {
+            return Error{text("two adjustment volumes are named \"", adjustment->name, "\"")};
+        }
+        adjustments.push_back(std::move(*adjustment));
+    }
+    return adjustments;
+}
+
+Result<std::vector<ProbeAdjustment>> parse(std::span<const std::byte> bytes) {
+    const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (auto status = check_json_depth(characters); !status) return status.error();
+    try {
+        return read_document(json::parse(characters));
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& exception) {
+        return Error{json_error_reason(exception)};
+    }
+}
+
+}  // namespace
+
+Result<std::vector<ProbeAdjustment>> read_probe_adjustments(const std::string& path) {
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    auto adjustments = parse(file->bytes());
+    if (!adjustments) return adjustments.error().in(path);
+    return adjustments;
+}
+
+}  // namespace tetralight

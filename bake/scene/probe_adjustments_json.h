@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bake/scene/probe_adjustment.h"
+#include "base/result.h"
+
+namespace tetralight {
+
+/// Reads a file of adjustment volumes:
+///
+///     { "adjustments": [
+///         { "name": "cellar", "shape": "box", "center": [0, -2, 0], "size": [8, 3, 8],
+///           "forbid": true },
+///         { "name": "stage", "shape": "sphere", "center": [0, 1, 4], "radius": 2,
+///           "spacing": 0.5, "validity": 1, "intensity": 0.8 } ] }
+///
+/// Names are unique; center is (0, 0, 0), size (1, 1, 1) and radius 1 when they are left out.
+/// Errors name the volume, the key and the value; unknown keys are errors.
+[[nodiscard]] Result<std::vector<ProbeAdjustment>> read_probe_adjustments(const std::string& path);
+
+}  // namespace tetralight

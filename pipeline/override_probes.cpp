@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/override_probes.h"
+
+#include <algorithm>
+
+namespace tetralight {
+
+std::vector<ProbeOverride> find_overrides(std::span<const ProbeAdjustment> adjustments,
+                                          std::span<const glm::dvec3> positions) {
+    std::vector<ProbeOverride> overrides;
+    if (adjustments.empty()) return overrides;
+    for (const glm::dvec3& position : positions) {
+        const AdjustmentAt at = adjustment_at(adjustments, position);
+        overrides.push_back({at.intensity, at.validity.value_or(-1.0f)});
+    }
+    const bool is_nothing =
+        std::ranges::all_of(overrides, [](const ProbeOverride& o) { return o == ProbeOverride{}; });
+    if (is_nothing) overrides.clear();
+    return overrides;
+}
+
+namespace {
+
+void scale(ProbeTransfer& transfer, float factor) {
+    for (auto& row : transfer.direct) {
+        for (float& entry : row) entry *= factor;
+    }
+    for (auto& row : transfer.bounced) {
+        for (glm::vec3& entry : row) entry *= factor;
+    }
+}
+
+/// The probe's light, and all that it can be made of later.
+void scale_light(size_t probe, float factor, ProbeVolume& volume) {
+    const size_t probe_count = volume.positions.size();
+    volume.irradiance[probe] *= factor;
+    for (size_t i = probe; i < volume.layer_irradiance.size(); i += probe_count) {
+        volume.layer_irradiance[i] *= factor;
+    }
+    if (!volume.transfer.empty()) scale(volume.transfer[probe], factor);
+}
+
+}  // namespace
+
+void override_probes(std::span<const ProbeOverride> overrides, ProbeVolume& volume) {
+    for (size_t i = 0; i < overrides.size(); ++i) {
+        if (overrides[i].intensity != 1.0f) scale_light(i, overrides[i].intensity, volume);
+        if (overrides[i].validity >= 0.0f) volume.validity[i] = overrides[i].validity;
+    }
+}
+
+}  // namespace tetralight

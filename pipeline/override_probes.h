@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "bake/scene/probe_adjustment.h"
+#include "probes/probe_volume.h"
+
+// What adjustment volumes change of baked probes.
+
+namespace tetralight {
+
+struct ProbeOverride {
+    /// Factor on the probe's light.
+    float intensity = 1.0f;
+    /// The probe's validity; negative: what it sees.
+    float validity = -1.0f;
+
+    bool operator==(const ProbeOverride&) const = default;
+};
+
+static_assert(sizeof(ProbeOverride) == 8 && std::is_trivially_copyable_v<ProbeOverride>);
+
+/// What volumes say about probes at some positions, one each; empty where they say nothing.
+[[nodiscard]] std::vector<ProbeOverride> find_overrides(
+    std::span<const ProbeAdjustment> adjustments, std::span<const glm::dvec3> positions);
+
+/// Changes light (layers and transfer too) and validity of a baked volume. Precondition: one override for each probe, or
+/// none.
+void override_probes(std::span<const ProbeOverride> overrides, ProbeVolume& volume);
+
+}  // namespace tetralight

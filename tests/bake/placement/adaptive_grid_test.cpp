@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/adaptive_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/bake/placement/grid_support.h"
+
+namespace tetralight {
+namespace {
+
+using test::add_box;
+using test::error_of;
+using test::Facing;
+using test::grid_of;
+using test::positions_of;
+
+/// A dark room beside one with a glowing ceiling, 8 × 3 × 4 m each, with a wall of 10 cm between
+/// them that has a door. Light changes in the door and under the lamp.
+Scene two_rooms() {
+    Scene scene;
+    add_box(scene, test::grey(), Facing::Inward, {-8, 0, -2}, {8, 3, 2});
+    add_box(scene, test::grey(), Facing::Outward, {-0.05f, -0.1f, -2.1f}, {0.05f, 3.1f, -0.5f});
+    add_box(scene, test::grey(), Facing::Outward, {-0.05f, -0.1f, 0.5f}, {0.05f, 3.1f, 2.1f});
+    add_box(scene, test::diffuse(glm::vec3(0.5f), glm::vec3(5.0f)), Facing::Outward, {-5, 2.8f, -1},
+            {-3, 2.9f, 1});
+    return scene;
+}
+
+ProbeGridSettings adaptive(uint64_t max_count, double target_error) {
+    ProbeGridSettings settings;
+    settings.mode = PlacementMode::Adaptive;
+    settings.max_probe_count = max_count;
+    settings.adaptive.target_error = target_error;
+    settings.adaptive.bake.bounces = 1;
+    return settings;
+}
+
+TEST(AdaptiveGrid, StaysBelowTheMostProbesAndGetsBetterWithMore) {
+    const ProbeGrid few = grid_of(two_rooms(), adaptive(60, 1e-4));
+    const ProbeGrid many = grid_of(two_rooms(), adaptive(240, 1e-4));
+    EXPECT_LE(few.probe_count(), 60u);
+    EXPECT_LE(many.probe_count(), 240u);
+    EXPECT_EQ(many.adaptive->end, AdaptiveEnd::MostProbes);
+    EXPECT_LT(many.adaptive->error, 0.8 * few.adaptive->error);
+    EXPECT_GT(many.adaptive->error, 0.0);
+}
+
+TEST(AdaptiveGrid, StopsAtTheTargetWithNoMoreProbesThanItTakes) {
+    // A box on the ground under a white sky: light is dimmer around it.
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, test::grey(), 4.0f);
+    add_box(scene, test::grey(), Facing::Outward, {-1, 0, -1}, {1, 2, 1});
+    const ProbeGrid grid = grid_of(scene, adaptive(2000, 0.3));
+    EXPECT_EQ(grid.adaptive->end, AdaptiveEnd::TargetReached);
+    EXPECT_LE(grid.adaptive->error, 0.3);
+    EXPECT_LT(grid.probe_count(), 500u);
+    EXPECT_EQ(grid.probe_count() + grid.count(Fate::Spared), grid.candidate_count);
+}
+
+TEST(AdaptiveGrid, PutsProbesWhereLightChanges) {
+    // Half of the volume holds the lamp, and with it most of the probes.
+    const ProbeGrid grid = grid_of(two_rooms(), adaptive(200, 1e-4));
+    const auto positions = positions_of(grid);
+    const auto lit = std::count_if(positions.begin(), positions.end(),
+                                   [](const glm::dvec3& p) { return p.x < 0.0; });
+    EXPECT_GT(static_cast<double>(lit), 0.7 * static_cast<double>(positions.size()));
+}
+
+TEST(AdaptiveGrid, StartsAtTheClearanceAndPutsNothingIntoWalls) {
+    ProbeGridSettings settings = adaptive(150, 1e-4);
+    settings.clearance = 0.1;
+    const ProbeGrid grid = grid_of(two_rooms(), settings);
+    for (const float distance : grid.surface_distances) EXPECT_GE(distance, 0.098f);
+}
+
+TEST(AdaptiveGrid, IsTheSameForAnyThreadsAndAnyOrder) {
+    Scene scene = two_rooms();
+    ProbeGridSettings settings = adaptive(80, 1e-4);
+    settings.thread_count = 1;
+    const ProbeGrid one = grid_of(scene, settings);
+    std::swap(scene.instances[0], scene.instances[3]);
+    settings.thread_count = 2;
+    EXPECT_EQ(grid_of(scene, settings).groups, one.groups);
+}
+
+TEST(AdaptiveGrid, InterruptedItHasTheResultOfTheLastRound) {
+    std::vector<AdaptiveProgress> seen;
+    const auto grid =
+        make_probe_grid(two_rooms(), adaptive(500, 1e-4), [&](const AdaptiveProgress& progress) {
+            seen.push_back(progress);
+            return progress.round < 3;
+        });
+    ASSERT_TRUE(grid) << grid.error().message;
+    EXPECT_EQ(grid->adaptive->end, AdaptiveEnd::Interrupted);
+    EXPECT_EQ(grid->adaptive->round_count, 3u);
+    EXPECT_EQ(grid->probe_count(), seen.back().probe_count);
+}
+
+TEST(AdaptiveGrid, InterruptedAtOnceItHasNone) {
+    const auto grid = make_probe_grid(two_rooms(), adaptive(500, 1e-4),
+                                      [](const AdaptiveProgress&) { return false; });
+    ASSERT_FALSE(grid);
+    EXPECT_EQ(grid.error().message, "interrupted");
+}
+
+TEST(AdaptiveGrid, OutOfTimeItKeepsWhatItHas) {
+    ProbeGridSettings settings = adaptive(100'000, 1e-4);
+    settings.adaptive.time_budget_seconds = 0.3;
+    const auto grid = make_probe_grid(two_rooms(), settings);
+    // On a slow machine there may be no round by then.
+    if (grid) {
+        EXPECT_EQ(grid->adaptive->end, AdaptiveEnd::TimeOver);
+    } else {
+        EXPECT_EQ(grid.error().message, "out of time before there was a result");
+    }
+}
+
+TEST(AdaptiveGrid, InTheDarkTheStartIsEnough) {
+    Scene scene;
+    add_box(scene, test::grey(), Facing::Inward, {0, 0, 0}, {4, 4, 4});
+    const ProbeGrid grid = grid_of(scene, adaptive(100, 0.05));
+    EXPECT_EQ(grid.adaptive->error, 0.0);
+    EXPECT_LE(grid.probe_count(), 64u);
+}
+
+TEST(AdaptiveGrid, RefusesASpacingThatIsNoLength) {
+    ProbeGridSettings settings = adaptive(100, 0.05);
+    settings.adaptive.start_spacing = glm::dvec3(0.0);
+    EXPECT_EQ(error_of(two_rooms(), settings), "spacing 0 along x is not a positive length");
+}
+
+}  // namespace
+}  // namespace tetralight

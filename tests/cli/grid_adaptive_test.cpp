@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// `grid --mode adaptive`, its pictures, and what adjustment volumes change.
+#include <csignal>
+#include <thread>
+
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+class GridAdaptive : public CommandFixture {
+  protected:
+    [[nodiscard]] size_t count_in(const std::string& file) const {
+        size_t count = 0;
+        const Json json = Json::parse(read(file));
+        for (const Json& group : json["groups"]) count += group["positions"].size();
+        return count;
+    }
+};
+
+TEST_F(GridAdaptive, ReportsTheErrorThatItReached) {
+    const Json json = run_json({"grid", kCourtyard, "-o", "g.json", "--mode", "adaptive",
+                                "--max-probes", "120", "--target-error", "1%"});
+    EXPECT_LE(json["probes"], 120);
+    EXPECT_EQ(json["adaptive"]["end"], "most probes");
+    EXPECT_GT(json["adaptive"]["error"], 0.01);
+    EXPECT_EQ(count_in("g.json"), json["probes"]);
+}
+
+TEST_F(GridAdaptive, GivesTheSameBytesForAnyNumberOfThreads) {
+    for (const char* threads : {"1", "2"}) {
+        succeed({"grid", kCourtyard, "-o", std::string(threads) + ".json", "--mode", "adaptive",
+                 "--max-probes", "60", "-j", threads});
+    }
+    EXPECT_TRUE(read("1.json") == read("2.json"));
+}
+
+TEST_F(GridAdaptive, CtrlCLeavesTheLastWholeResult) {
+    RunningCommand grid(folder(),
+                        {"grid", kCourtyard, "-o", "g.json", "--mode", "adaptive", "--target-error",
+                         "0.01%", "--max-probes", "50000"},
+                        "");
+    while (!grid.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    grid.send(SIGINT);
+    const CommandResult result = grid.wait();
+    EXPECT_EQ(result.exit_code, 130);
+    if (contains(result.err, "g.json holds the last whole result")) {
+        EXPECT_GT(count_in("g.json"), 4u);
+    } else {
+        EXPECT_TRUE(contains(result.err, "interrupted")) << result.err;  // a slow machine
+        EXPECT_TRUE(file_names().empty());
+    }
+}
+
+TEST_F(GridAdaptive, OptionsOfItsOwnAreForItAlone) {
+    for (const char* option : {"--target-error", "--time-budget", "--bounces", "--seed"}) {
+        EXPECT_TRUE(
+            contains(misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "2", option, "1"}),
+                     "is for --mode adaptive"))
+            << option;
+    }
+}
+
+TEST_F(GridAdaptive, PreviewIsAPicture) {
+    succeed({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "g.png"});
+    EXPECT_EQ(read("g.png").substr(1, 3), "PNG");
+    const std::string message =
+        fail({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "no/g.png"});
+    EXPECT_TRUE(contains(message, "no/g.png")) << message;
+}
+
+TEST_F(GridAdaptive, AdjustmentsReachTheGridAndTheBake) {
+    write("a.json", R"({"adjustments": [{"name": "all", "shape": "box", "size": [900, 900, 900],
+                                         "intensity": 0, "spacing": 5}]})");
+    const Json plain = run_json({"grid", kCourtyard, "-o", "plain.json", "--spacing", "4"});
+    const Json wide = run_json(
+        {"grid", kCourtyard, "-o", "wide.json", "--spacing", "4", "--adjustments", "a.json"});
+    EXPECT_LT(wide["candidates"], plain["candidates"]);
+    succeed({"bake", kCourtyard, "-g", "wide.json", "--only-given-groups", "-o", "v.probes", "-s",
+             "16", "--adjustments", "a.json"});
+    const std::string table = succeed({"query", "v.probes", "--to", "csv"}, "0 1.5 0\n").out;
+    size_t place = table.find('\n');
+    for (int comma = 0; comma < 4; ++comma) place = table.find(',', place + 1);  // x, y, z, cell
+    EXPECT_TRUE(table.substr(place).starts_with(",0,0,0,0,0,0,0,0,0,")) << table;
+}
+
+TEST_F(GridAdaptive, BadAdjustmentsAreRefusedAndTheOldFileStays) {
+    write("a.json", R"({"adjustments": [{"name": "x", "shape": "box", "spacing": -1}]})");
+    const std::string message = fail_and_keep(
+        "g.json",
+        {"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--adjustments", "a.json"});
+    EXPECT_TRUE(contains(message, "a.json: adjustment volume \"x\": spacing -1 is not a positive"))
+        << message;
+}
+
+}  // namespace
+}  // namespace tetralight::test

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// What adjustment volumes change of a bake.
+#include "pipeline/override_probes.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "pipeline/bake_volume.h"
+#include "pipeline/merge_parts.h"
+#include "tests/pipeline/part_fixture.h"
+#include "tests/support/probe_groups.h"
+#include "tests/support/scenes.h"
+
+namespace tetralight {
+namespace {
+
+using test::make_group;
+
+ProbeAdjustment around(const glm::dvec3& center) {
+    ProbeAdjustment adjustment;
+    adjustment.name = "here";
+    adjustment.world_from_volume = glm::translate(glm::dmat4(1.0), center);
+    return adjustment;
+}
+
+/// The solid box [-1, 1]³ under a white sky.
+Scene solid() {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_box(scene, test::diffuse(glm::vec3(0.5f)), test::Facing::Outward, {-1, -1, -1},
+                  {1, 1, 1});
+    return scene;
+}
+
+const glm::dvec3 kDeep(0, 0.1, 0), kRight(3, 0, 0), kLeft(-3, 0, 0);
+
+ProbeVolume bake(const Scene& scene) {
+    BakeVolumeSettings settings;
+    settings.bake.sample_count = 64;
+    const auto baked =
+        bake_volume(scene, std::vector{make_group("a", {kDeep, kRight, kLeft})}, settings);
+    EXPECT_TRUE(baked);
+    return baked->volume;
+}
+
+uint32_t find(const ProbeVolume& volume, const glm::dvec3& position) {
+    for (uint32_t i = 0; i < volume.exact_positions.size(); ++i) {
+        if (volume.exact_positions[i] == position) return i;
+    }
+    return kNoIndex;
+}
+
+TEST(OverrideProbes, IntensityScalesTheLightOfTheProbesInTheVolume) {
+    Scene scene = solid();
+    const ProbeVolume plain = bake(scene);
+    scene.probe_adjustments = {around(kRight)};
+    scene.probe_adjustments[0].intensity = 0.25f;
+    const ProbeVolume scaled = bake(scene);
+    EXPECT_EQ(scaled.irradiance[find(scaled, kRight)],
+              0.25f * plain.irradiance[find(plain, kRight)]);
+    EXPECT_EQ(scaled.irradiance[find(scaled, kLeft)], plain.irradiance[find(plain, kLeft)]);
+}
+
+TEST(OverrideProbes, AForcedlyValidProbeStaysInGeometry) {
+    Scene scene = solid();
+    EXPECT_EQ(find(bake(scene), kDeep), kNoIndex);
+    scene.probe_adjustments = {around(kDeep)};
+    scene.probe_adjustments[0].validity = 1.0f;
+    const ProbeVolume kept = bake(scene);
+    ASSERT_NE(find(kept, kDeep), kNoIndex);
+    EXPECT_EQ(kept.validity[find(kept, kDeep)], 1.0f);
+    EXPECT_EQ(kept.health[find(kept, kDeep)].capture_offset, glm::vec3(0.0f));
+}
+
+TEST(OverrideProbes, AForcedlyInvalidProbeIsLeftOutOfFreeSpace) {
+    Scene scene = solid();
+    scene.probe_adjustments = {around(kLeft)};
+    scene.probe_adjustments[0].validity = 0.0f;
+    const ProbeVolume volume = bake(scene);
+    EXPECT_EQ(find(volume, kLeft), kNoIndex);
+    EXPECT_NE(find(volume, kRight), kNoIndex);
+}
+
+TEST(OverrideProbes, VolumesWithoutProbesChangeNothing) {
+    Scene scene = solid();
+    const ProbeVolume plain = bake(scene);
+    scene.probe_adjustments = {around({50, 0, 0})};
+    scene.probe_adjustments[0].intensity = 0.0f;
+    EXPECT_TRUE(find_overrides(scene.probe_adjustments, plain.exact_positions).empty());
+    EXPECT_EQ(bake(scene), plain);
+}
+
+class OverriddenParts : public test::PartFixture {};
+
+TEST_F(OverriddenParts, JoinToTheBytesOfOneBake) {
+    ProbeAdjustment half = around({0, 0, 0});
+    half.world_from_volume = glm::scale(glm::dmat4(1.0), glm::dvec3(3.0, 100.0, 100.0));
+    half.intensity = 2.0f;
+    half.validity = 1.0f;
+    scene.probe_adjustments = {half};
+    const std::string a = bake_part("a", {0, 12}), b = bake_part("b", {12, kProbeCount});
+    const auto merged = merge_parts({a, b});
+    ASSERT_TRUE(merged) << merged.error().message;
+    EXPECT_EQ(probe_file_bytes(merged->volume.view()), whole());
+}
+
+}  // namespace
+}  // namespace tetralight
