@@ -30,9 +30,9 @@ TEST(Readme, ShowsTheExampleThatIsCompiled) {
 
 TEST(Readme, LinksAndPicturesExist) {
     const std::regex link("\\]\\(([^)#:]+)\\)");
-    for (const char* page :
-         {"README.md", "docs/architecture.md", "docs/bake.md", "docs/conventions.md",
-          "docs/file_format.md", "docs/performance.md", "docs/placement.md", "docs/query.md", "docs/scenes.md"}) {
+    for (const char* page : {"README.md", "docs/architecture.md", "docs/bake.md",
+                             "docs/conventions.md", "docs/file_format.md", "docs/performance.md",
+                             "docs/placement.md", "docs/query.md", "docs/scenes.md"}) {
         const std::string text = contents(page);
         for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
             EXPECT_TRUE(fs::exists((kRoot / page).parent_path() / (*it)[1].str()))
