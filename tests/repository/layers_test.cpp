@@ -25,14 +25,15 @@ const std::map<std::string, Folders> kMayInclude = [] {
         {"probes", {"base"}},
         {"probes/build/tetgen", {}},
         {"probes/build", {"base", "probes", "probes/build/tetgen"}},
-        {"runtime", {"base", "probes"}},
+        {"lppv", {"base", "probes"}},
+        {"runtime", {"base", "probes", "lppv"}},
         {"bake/image", {"base"}},
         {"bake/scene", {"base", "probes", "bake/image"}},
         {"bake", {"base", "probes", "bake/scene", "bake/image"}},
         {"bake/placement", {"base", "probes", "probes/build", "bake", "bake/scene", "bake/image"}},
-        {"examples", {"base", "probes", "runtime"}},
+        {"examples", {"base", "probes", "lppv", "runtime"}},
     };
-    Folders all{"base",       "probes",     "probes/build", "runtime",
+    Folders all{"base",       "probes",     "probes/build", "lppv",          "runtime",
                 "bake/image", "bake/scene", "bake",         "bake/placement"};
     table["pipeline"] = all;
     all.insert("pipeline");
@@ -95,8 +96,8 @@ TEST(Layers, TheTableHasNoCycle) {
 }
 
 TEST(Layers, EverySourceSaysItsLicenceFirst) {
-    for (const char* top :
-         {"base", "probes", "runtime", "bake", "pipeline", "cli", "bench", "examples", "tests"}) {
+    for (const char* top : {"base", "probes", "lppv", "runtime", "bake", "pipeline", "cli", "bench",
+                            "examples", "tests"}) {
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
             const fs::path extension = entry.path().extension();
             if (extension != ".h" && extension != ".cpp") continue;
