@@ -2,19 +2,17 @@
 #include "lppv/lppv.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "base/text.h"
 #include "lppv/detail/grid_positions.h"
+#include "lppv/detail/mean_band_2.h"
 #include "lppv/detail/nearest_valid.h"
 
 namespace tetralight {
 namespace {
 
-constexpr int kFirstOfBand2 = 4;
+using detail::kFirstOfBand2;
 
-/// A point that keeps its own light.
 void replace_invalid(const LppvFill& fill, Lppv& lppv) {
     const std::vector<uint32_t> nearest = detail::nearest_valid(
         lppv.grid.resolution, lppv.grid.spacing(), fill.validity, fill.min_validity);
@@ -27,15 +25,10 @@ void replace_invalid(const LppvFill& fill, Lppv& lppv) {
 }
 
 void make_band_2_constant(std::vector<IrradianceSh>& irradiance) {
-    std::array<glm::dvec3, kShCoefficientCount> sum{};
-    for (const IrradianceSh& sh : irradiance) {
-        for (int i = kFirstOfBand2; i < kShCoefficientCount; ++i) {
-            sum[i] += glm::dvec3(sh.coefficients[i]);
-        }
-    }
+    const IrradianceSh mean = detail::mean_band_2(irradiance);
     for (IrradianceSh& sh : irradiance) {
         for (int i = kFirstOfBand2; i < kShCoefficientCount; ++i) {
-            sh.coefficients[i] = glm::vec3(sum[i] / static_cast<double>(irradiance.size()));
+            sh.coefficients[i] = mean.coefficients[i];
         }
     }
 }

@@ -72,7 +72,7 @@ struct LppvBox {
 
 struct LppvSettings {
     LppvBounds bounds = LppvBounds::AutomaticLocal;
-    LppvBox custom_box;
+    LppvBox custom_box = {};
     LppvResolution resolution_mode = LppvResolution::Automatic;
     /// Grid points a metre: an axis has max(1, round(density · metres)) of them.
     double density = 1.0;

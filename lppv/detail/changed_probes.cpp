@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lppv/detail/changed_probes.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "base/assert.h"
+#include "probes/no_index.h"
+
+namespace tetralight::detail {
+
+void LitBy::assign(const ProbeVolumeView& probes, std::span<const CellLocation> locations) {
+    cells.clear();
+    bool is_first = true;
+    uint32_t last = kNoIndex;
+    for (const CellLocation& location : locations) {
+        // Neighbors in a row often share their cell.
+        if (location.cell == last || location.cell >= probes.cells.size()) continue;
+        last = location.cell;
+        cells.push_back(last);
+        for (const uint32_t probe : probes.cells[last].vertices) {
+            if (probe >= probes.positions.size()) continue;
+            const glm::vec3& position = probes.positions[probe];
+            low = is_first ? position : glm::min(low, position);
+            high = is_first ? position : glm::max(high, position);
+            is_first = false;
+        }
+    }
+}
+
+ChangedProbes::ChangedProbes(const ProbeVolumeView& probes, std::span<const uint32_t> changed,
+                             bool is_everything)
+    : probes_(probes), is_everything_(is_everything) {
+    if (is_everything_ || changed.empty()) return;
+    is_changed_.resize(probes.positions.size());
+    for (const uint32_t probe : changed) {
+        TETRALIGHT_ASSERT(probe < is_changed_.size(), "changed probes are of the volume");
+        is_changed_[probe] = true;
+        const glm::vec3& position = probes.positions[probe];
+        low_ = is_empty_ ? position : glm::min(low_, position);
+        high_ = is_empty_ ? position : glm::max(high_, position);
+        is_empty_ = false;
+    }
+}
+
+bool ChangedProbes::light(const LitBy& volume) const {
+    if (is_everything_) return true;
+    if (is_empty_) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (low_[axis] > volume.high[axis] || high_[axis] < volume.low[axis]) return false;
+    }
+    return std::ranges::any_of(volume.cells, [&](uint32_t cell) { return has_changed(cell); });
+}
+
+bool ChangedProbes::has_changed(uint32_t cell) const {
+    if (cell >= probes_.cells.size()) return false;
+    return std::ranges::any_of(probes_.cells[cell].vertices, [&](uint32_t probe) {
+        return probe < is_changed_.size() && is_changed_[probe];
+    });
+}
+
+}  // namespace tetralight::detail
