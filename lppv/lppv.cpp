@@ -63,6 +63,8 @@ size_t LppvFillTasks::count() const noexcept {
     return (rows + rows_per_task - 1) / rows_per_task;
 }
 
+/// One batch along the rows: a walk begins in the cell where that of the point before it ended, and
+/// at the start of a row, when that is far away, at a seed.
 void LppvFillTasks::run(size_t task) const {
     const size_t width = lppv.grid.resolution.x;
     const size_t begin = task * rows_per_task * width;

@@ -26,6 +26,7 @@ const std::map<std::string, Folders> kMayInclude = [] {
         {"probes/build/tetgen", {}},
         {"probes/build", {"base", "probes", "probes/build/tetgen"}},
         {"lppv", {"base", "probes"}},
+        {"lppv/vdb", {"base", "probes", "lppv"}},
         {"runtime", {"base", "probes", "lppv"}},
         {"bake/image", {"base"}},
         {"bake/scene", {"base", "probes", "bake/image"}},
@@ -33,8 +34,8 @@ const std::map<std::string, Folders> kMayInclude = [] {
         {"bake/placement", {"base", "probes", "probes/build", "bake", "bake/scene", "bake/image"}},
         {"examples", {"base", "probes", "lppv", "runtime"}},
     };
-    Folders all{"base",       "probes",     "probes/build", "lppv",          "runtime",
-                "bake/image", "bake/scene", "bake",         "bake/placement"};
+    Folders all{"base",    "probes",     "probes/build", "lppv", "lppv/vdb",
+                "runtime", "bake/image", "bake/scene",   "bake", "bake/placement"};
     table["pipeline"] = all;
     all.insert("pipeline");
     table["cli"] = all;

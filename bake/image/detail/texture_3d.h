@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "bake/image/texture_3d.h"
+
+namespace tetralight::detail {
+
+[[nodiscard]] constexpr uint32_t texel_bytes(TexelFormat format) noexcept {
+    return format == TexelFormat::Rgba16Float ? 8 : 16;
+}
+
+/// Asserts that the texels are as many as the sizes say; error: a side is 0.
+[[nodiscard]] Status check_texture(const std::string& path, const Texture3dView& texture);
+
+}  // namespace tetralight::detail

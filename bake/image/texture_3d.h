@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+
+namespace tetralight {
+
+enum class TexelFormat : uint8_t {
+    Rgba16Float,
+    Rgba32Float,
+};
+
+/// A 3D texture of one level. x grows first, then y, then z.
+struct Texture3dView {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint32_t depth = 0;
+    TexelFormat format = TexelFormat::Rgba16Float;
+    /// Precondition: width · height · depth texels, little-endian.
+    std::span<const std::byte> texels;
+};
+
+/// Writes a DDS file with a DX10 header; the old file stays whole on failure.
+[[nodiscard]] Status write_dds(const std::string& path, const Texture3dView& texture);
+
+/// Keys and their texts.
+using TextureMetadata = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes a KTX 2.0 file, not compressed, whose x, y and z point right, up and out; the old file
+/// stays whole on failure. Precondition: keys are UTF-8 without zeros and do not begin with "KTX"
+/// or "ktx".
+[[nodiscard]] Status write_ktx2(const std::string& path, const Texture3dView& texture,
+                                const TextureMetadata& metadata);
+
+}  // namespace tetralight

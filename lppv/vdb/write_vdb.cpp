@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one file that includes OpenVDB and NanoVDB.
+#include "lppv/vdb/write_vdb.h"
+
+#include <nanovdb/util/IO.h>
+#include <nanovdb/util/OpenToNanoVDB.h>
+#include <openvdb/io/Archive.h>
+#include <openvdb/openvdb.h>
+#include <tbb/parallel_for.h>
+
+#include <exception>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <new>
+#include <ostream>
+#include <span>
+
+#include "base/file.h"
+#include "base/text.h"
+#include "lppv/vdb/detail/memory_stream.h"
+#include "lppv/vdb/detail/vdb_uuid.h"
+
+namespace tetralight {
+namespace {
+
+constexpr int kSide = kSparseBlockSide;
+
+/// Where the values of one block are: voxel (x, y, z) is point first + x + y · row + z · plane.
+struct Block {
+    glm::ivec3 low{0};        ///< index of its first voxel
+    glm::ivec3 count{kSide};  ///< active voxels along each axis
+    size_t first = 0;
+    size_t row = 0;
+    size_t plane = 0;
+};
+
+/// The values of a proxy volume as blocks of voxels, whatever it is.
+struct VoxelBlocks {
+    glm::dmat4 world_from_index{1.0};
+    std::vector<Block> blocks;
+    std::span<const IrradianceSh> irradiance;
+    std::span<const float> validity;
+    std::span<const glm::vec4> occlusion;
+};
+
+/// Voxels need a size along every axis; where points have no spacing it is that of another axis, or
+/// a metre.
+glm::dmat4 world_from_index(const LppvGrid& grid) {
+    const glm::dvec3 spacing = grid.spacing();
+    const double largest = std::max({spacing.x, spacing.y, spacing.z});
+    glm::dmat4 transform(1.0);
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec4 axis = grid.world_from_local[i];
+        const double size = largest > 0.0 ? largest : 1.0;
+        transform[i] = grid.step[i] > 0.0 ? axis * grid.step[i] : axis * (size / glm::length(axis));
+    }
+    transform[3] = glm::dvec4(grid.world_position({0, 0, 0}), 1.0);
+    return transform;
+}
+
+VoxelBlocks voxel_blocks(const Lppv& lppv) {
+    const glm::ivec3 size(lppv.grid.resolution);
+    const size_t row = lppv.grid.resolution.x, plane = row * lppv.grid.resolution.y;
+    VoxelBlocks voxels{
+        world_from_index(lppv.grid), {}, lppv.irradiance, lppv.validity, lppv.occlusion};
+    for (glm::ivec3 low(0); low.z < size.z; low.z += kSide) {
+        for (low.y = 0; low.y < size.y; low.y += kSide) {
+            for (low.x = 0; low.x < size.x; low.x += kSide) {
+                voxels.blocks.push_back({low, glm::min(size - low, glm::ivec3(kSide)),
+                                         lppv.grid.point_index(glm::uvec3(low)), row, plane});
+            }
+        }
+    }
+    return voxels;
+}
+
+VoxelBlocks voxel_blocks(const SparseLppv& lppv) {
+    VoxelBlocks voxels{glm::scale(glm::dmat4(1.0), glm::dvec3(lppv.spacing)),
+                       {},
+                       lppv.irradiance,
+                       {},
+                       lppv.occlusion};
+    for (size_t i = 0; i < lppv.blocks.size(); ++i) {
+        voxels.blocks.push_back({lppv.blocks[i] * kSide, glm::ivec3(kSide), i * kSparseBlockPoints,
+                                 kSide, kSide * kSide});
+    }
+    return voxels;
+}
+
+/// OpenVDB multiplies row vectors: its rows are the columns here.
+openvdb::math::Transform::Ptr make_transform(const glm::dmat4& m) {
+    return openvdb::math::Transform::createLinearTransform(openvdb::Mat4d(&m[0][0]));
+}
+
+void add_metadata(openvdb::MetaMap& map) {
+    map.insertMeta("sh:basis", openvdb::StringMetadata(
+                                   "real orthonormal, all-positive polynomials, index l(l+1)+m: "
+                                   "1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2"));
+    map.insertMeta("sh:quantity",
+                   openvdb::StringMetadata("irradiance E(n) = sum E_i Y_i(n), not divided by pi; "
+                                           "linear Rec.709 RGB"));
+    map.insertMeta("sh:axes", openvdb::StringMetadata("right-handed, Y up, metres (glTF)"));
+}
+
+/// One block as a leaf of a tree.
+template <class Leaf, class Value>
+Leaf* make_leaf(const Block& block, Value value) {
+    auto* leaf = new Leaf(openvdb::Coord(block.low.x, block.low.y, block.low.z));
+    auto* voxels = leaf->buffer().data();
+    for (int x = 0; x < block.count.x; ++x) {
+        for (int y = 0; y < block.count.y; ++y) {
+            for (int z = 0; z < block.count.z; ++z) {
+                const auto offset = static_cast<openvdb::Index>((x * kSide + y) * kSide + z);
+                const auto i = static_cast<size_t>(x) + static_cast<size_t>(y) * block.row +
+                               static_cast<size_t>(z) * block.plane;
+                voxels[offset] = value(block.first + i);
+                leaf->setValueOn(offset);
+            }
+        }
+    }
+    return leaf;
+}
+
+/// One grid: `value(i)` is that of point i.
+template <class Grid, class Value>
+typename Grid::Ptr make_grid(const std::string& name, const VoxelBlocks& voxels, Value value) {
+    using Leaf = typename Grid::TreeType::LeafNodeType;
+    static_assert(Leaf::DIM == kSide);
+    std::vector<Leaf*> leaves(voxels.blocks.size());
+    tbb::parallel_for(size_t{0}, leaves.size(),
+                      [&](size_t i) { leaves[i] = make_leaf<Leaf>(voxels.blocks[i], value); });
+    auto grid = Grid::create();
+    for (Leaf* leaf : leaves) grid->tree().addLeaf(leaf);
+    grid->setName(name);
+    grid->setTransform(make_transform(voxels.world_from_index));
+    add_metadata(*grid);
+    return grid;
+}
+
+openvdb::GridPtrVec make_grids(const VoxelBlocks& voxels, VdbPrecision precision) {
+    openvdb::GridPtrVec grids;
+    for (int k = 0; k < kShCoefficientCount; ++k) {
+        grids.push_back(make_grid<openvdb::Vec3SGrid>(text("sh", k), voxels, [&](size_t i) {
+            const glm::vec3& c = voxels.irradiance[i].coefficients[static_cast<size_t>(k)];
+            return openvdb::Vec3s(c.x, c.y, c.z);
+        }));
+    }
+    grids.push_back(make_grid<openvdb::FloatGrid>("validity", voxels, [&](size_t i) {
+        return voxels.validity.empty() ? 1.0f : voxels.validity[i];
+    }));
+    for (int k = 0; k < 4 && !voxels.occlusion.empty(); ++k) {
+        grids.push_back(make_grid<openvdb::FloatGrid>(
+            text("occlusion", k), voxels, [&](size_t i) { return voxels.occlusion[i][k]; }));
+    }
+    for (const auto& grid : grids) grid->setSaveFloatAsHalf(precision == VdbPrecision::Half);
+    return grids;
+}
+
+/// Gives access to the writer behind openvdb::io::File, which insists on a path of its own.
+struct Archive : openvdb::io::Archive {
+    using openvdb::io::Archive::write;
+};
+
+void write_openvdb(std::ostream& stream, const VoxelBlocks& voxels, VdbPrecision precision) {
+    Archive archive;
+    openvdb::MetaMap metadata;
+    add_metadata(metadata);
+    archive.write(stream, make_grids(voxels, precision), /*seekable=*/true, metadata);
+}
+
+void write_nanovdb(std::ostream& stream, const VoxelBlocks& voxels) {
+    std::vector<nanovdb::GridHandle<>> handles;
+    for (const auto& grid : make_grids(voxels, VdbPrecision::Float)) {
+        handles.push_back(nanovdb::openToNanoVDB(grid));
+    }
+    nanovdb::io::writeGrids(stream, handles);
+}
+
+/// Encodes in memory, since both libraries seek in what they write, and writes the whole.
+template <class Encode>
+Status write_encoded(const std::string& path, Encode encode) {
+    try {
+        openvdb::initialize();
+        detail::MemoryStream buffer;
+        std::ostream stream(&buffer);
+        stream.exceptions(std::ios::badbit | std::ios::failbit);
+        encode(stream);
+        detail::set_vdb_uuid(buffer.bytes());
+        return write_file(path, std::as_bytes(buffer.bytes()));
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& exception) {
+        return Error{text(path, ": cannot encode the volume (", exception.what(), ")")};
+    }
+}
+
+}  // namespace
+
+Status write_vdb(const std::string& path, const Lppv& lppv, VdbPrecision precision) {
+    return write_encoded(
+        path, [&](std::ostream& stream) { write_openvdb(stream, voxel_blocks(lppv), precision); });
+}
+
+Status write_vdb(const std::string& path, const SparseLppv& lppv, VdbPrecision precision) {
+    return write_encoded(
+        path, [&](std::ostream& stream) { write_openvdb(stream, voxel_blocks(lppv), precision); });
+}
+
+Status write_nvdb(const std::string& path, const Lppv& lppv) {
+    return write_encoded(path,
+                         [&](std::ostream& stream) { write_nanovdb(stream, voxel_blocks(lppv)); });
+}
+
+Status write_nvdb(const std::string& path, const SparseLppv& lppv) {
+    return write_encoded(path,
+                         [&](std::ostream& stream) { write_nanovdb(stream, voxel_blocks(lppv)); });
+}
+
+}  // namespace tetralight
