@@ -16,6 +16,7 @@ using Run = std::function<Status()>;
 void add_bake(CLI::App& app, Run& run);
 void add_grid(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
+void add_lppv(CLI::App& app, Run& run);
 void add_merge(CLI::App& app, Run& run);
 void add_meshball(CLI::App& app, Run& run);
 void add_query(CLI::App& app, Run& run);

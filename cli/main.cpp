@@ -49,6 +49,7 @@ void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
     add_tetrahedralize(app, run);
     add_query(app, run);
     add_relight(app, run);
+    add_lppv(app, run);
     add_render(app, run);
     add_meshball(app, run);
     add_info(app, run);

@@ -46,6 +46,14 @@ struct Render {
             "What the balls show instead: validity = share of directions without back faces, "
             "error = relative standard error; teal is good, yellow fair, red bad")
             ->needs("--probe-radius");
+        command
+            .add_option("--lppv-radius", overlay.proxy_radius,
+                        "Show the points of the objects' proxy volumes as balls of this radius")
+            ->check(numbers_in(1e-6, 1e9));
+        add_choice(command, "--movers", overlay.movers,
+                   {{"scene", MoverLight::AsTheScene}, {"probe", MoverLight::OnePlace}},
+                   "Light of things that move: as the scene asks, with proxy volumes, or from one "
+                   "place for each");
         view.add_to(command);
         camera_option->excludes(view.eye_option);
         common.add_to(command);

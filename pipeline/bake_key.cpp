@@ -55,7 +55,7 @@ void add(ContentHash& hash, const Mesh& mesh) {
 }
 
 void add(ContentHash& hash, const MeshInstance& instance) {
-    const auto& [mesh, world_from_mesh, name, contributes_gi] = instance;
+    const auto& [mesh, world_from_mesh, name, contributes_gi, node] = instance;
     hash.add(mesh);
     hash.add(world_from_mesh);
     hash.add(contributes_gi);
@@ -77,8 +77,8 @@ void add_each(ContentHash& hash, const std::vector<T>& elements) {
 }
 
 void add(ContentHash& hash, const Scene& scene) {
-    const auto& [textures, materials, meshes, instances, lights, light_names, environment, cameras,
-                 probe_groups, probe_adjustments, warnings] = scene;
+    const auto& [textures, materials, meshes, instances, nodes, lights, light_names, environment,
+                 cameras, probe_groups, probe_adjustments, warnings] = scene;
     add_each(hash, textures);
     add_each(hash, materials);
     add_each(hash, meshes);

@@ -17,6 +17,24 @@ Result<ProbeBalls> ProbeBalls::make(const ProbeVolumeView& volume, float radius)
     return balls;
 }
 
+Result<ProbeBalls> ProbeBalls::make(std::span<const Lppv> volumes, float radius) {
+    ProbeBalls balls(ProbeVolumeView{});
+    std::vector<glm::vec4> spheres;
+    for (const Lppv& lppv : volumes) {
+        const glm::uvec3 size = lppv.grid.resolution;
+        for (uint32_t i = 0; i < lppv.irradiance.size(); ++i) {
+            const glm::uvec3 point(i % size.x, i / size.x % size.y, i / size.x / size.y);
+            spheres.emplace_back(glm::vec3(lppv.grid.world_position(point)), radius);
+        }
+        balls.own_light_.insert(balls.own_light_.end(), lppv.irradiance.begin(),
+                                lppv.irradiance.end());
+    }
+    balls.volume_.irradiance = balls.own_light_;
+    balls.caster_.add_spheres(spheres);
+    if (auto status = balls.caster_.commit(); !status) return status.error();
+    return balls;
+}
+
 std::optional<ProbeBalls::Ball> ProbeBalls::find(const glm::dvec3& origin,
                                                  glm::vec3 direction) const {
     const auto hit = caster_.cast({glm::vec3(origin - volume_.info.world_origin), direction});

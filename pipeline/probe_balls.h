@@ -3,9 +3,12 @@
 
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "bake/ray_caster.h"
 #include "base/result.h"
+#include "lppv/lppv.h"
 #include "pipeline/render_scene.h"
 #include "probes/probe_volume.h"
 
@@ -17,6 +20,9 @@ class ProbeBalls {
   public:
     /// Keeps references. Error: not enough memory.
     [[nodiscard]] static Result<ProbeBalls> make(const ProbeVolumeView& volume, float radius);
+
+    /// The points of proxy volumes in the same manner. Keeps nothing.
+    [[nodiscard]] static Result<ProbeBalls> make(std::span<const Lppv> volumes, float radius);
 
     struct Ball {
         uint32_t probe = 0;
@@ -37,7 +43,8 @@ class ProbeBalls {
     explicit ProbeBalls(const ProbeVolumeView& volume) : volume_(volume) {}
 
     ProbeVolumeView volume_;
-    RayCaster caster_;  // in local space
+    std::vector<IrradianceSh> own_light_;  // of proxy volumes, which volume_ then refers to
+    RayCaster caster_;                     // in local space
 };
 
 }  // namespace tetralight

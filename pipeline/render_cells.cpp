@@ -24,24 +24,31 @@ const LineStyle kHullStyle{{1.00f, 0.74f, 0.32f}, 0.70f, 0.06f, 1.1f};
 class Shader {
   public:
     [[nodiscard]] static Result<Shader> make(const Scene& scene, const ProbeVolumeView& volume,
-                                             float probe_radius) {
-        auto surfaces = SceneShader::make(scene, volume);
+                                             const CellOverlay& overlay) {
+        auto surfaces = SceneShader::make(scene, volume, overlay.movers);
         if (!surfaces) return surfaces.error();
-        std::optional<ProbeBalls> balls;
-        if (probe_radius > 0.0f) {
-            auto made = ProbeBalls::make(volume, probe_radius);
+        Shader shader(std::move(*surfaces));
+        if (overlay.probe_radius > 0.0f) {
+            auto made = ProbeBalls::make(volume, overlay.probe_radius);
             if (!made) return made.error();
-            balls = std::move(*made);
+            shader.balls_ = std::move(*made);
         }
-        return Shader(std::move(*surfaces), std::move(balls));
+        if (overlay.proxy_radius > 0.0f) {
+            auto made = ProbeBalls::make(shader.surfaces_.proxy_volumes(), overlay.proxy_radius);
+            if (!made) return made.error();
+            shader.proxy_balls_ = std::move(*made);
+        }
+        return shader;
     }
 
     [[nodiscard]] std::optional<SceneShader::Shaded> shade(const glm::dvec3& origin,
                                                            glm::vec3 direction) const {
-        const auto surface = surfaces_.shade(origin, direction);
-        const auto ball = balls_ ? balls_->shade(origin, direction) : std::nullopt;
-        if (!ball || (surface && surface->distance < ball->distance)) return surface;
-        return ball;
+        auto nearest = surfaces_.shade(origin, direction);
+        for (const auto* balls : {&balls_, &proxy_balls_}) {
+            const auto ball = *balls ? (*balls)->shade(origin, direction) : std::nullopt;
+            if (ball && (!nearest || ball->distance < nearest->distance)) nearest = ball;
+        }
+        return nearest;
     }
 
     /// Only the scene.
@@ -57,11 +64,11 @@ class Shader {
     }
 
   private:
-    Shader(SceneShader surfaces, std::optional<ProbeBalls> balls)
-        : surfaces_(std::move(surfaces)), balls_(std::move(balls)) {}
+    explicit Shader(SceneShader surfaces) : surfaces_(std::move(surfaces)) {}
 
     SceneShader surfaces_;
     std::optional<ProbeBalls> balls_;
+    std::optional<ProbeBalls> proxy_balls_;
 };
 
 std::vector<Line> lines(const Wireframe& wireframe, std::span<const ProbeEdge> edges) {
@@ -76,7 +83,7 @@ std::vector<Line> lines(const Wireframe& wireframe, std::span<const ProbeEdge> e
 
 Result<Image8> render_cells(const Scene& scene, const ProbeVolumeView& volume, const Camera& camera,
                             const RenderSettings& settings, const CellOverlay& overlay) {
-    const auto shader = Shader::make(scene, volume, overlay.probe_radius);
+    const auto shader = Shader::make(scene, volume, overlay);
     if (!shader) return shader.error();
     const bool shows_light = overlay.probe_color == ProbeColor::Light;
     const ImageF radiance =

@@ -15,6 +15,9 @@ struct CellOverlay {
     float probe_radius = 0.0f;
     /// What they show.
     ProbeColor probe_color = ProbeColor::Light;
+    /// Points of the proxy volumes of the scene's objects as balls of this radius; 0 = none.
+    float proxy_radius = 0.0f;
+    MoverLight movers = MoverLight::AsTheScene;
 };
 
 /// Renders and develops the scene as `render_scene` does, with probes among its surfaces and cell

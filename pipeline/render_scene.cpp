@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bake/scene/scene_bounds.h"
+#include "pipeline/lppv_object.h"
 #include "probes/interpolate.h"
 #include "probes/locate.h"
 #include "probes/recombine.h"
@@ -17,6 +18,9 @@ namespace {
 /// Probe light is looked up this far off a surface, so that a wall takes less of the light behind
 /// it.
 constexpr float kNormalBias = 0.4f;
+
+/// Grid points a metre of a proxy volume.
+constexpr double kProxyDensity = 3.0;
 
 /// A ray through more back faces than this is stuck.
 constexpr int kMaxCulledFaces = 64;
@@ -44,6 +48,7 @@ SceneShader::SceneShader(const Scene& scene, const ProbeVolumeView& volume, Trac
 void SceneShader::light_movers() {
     const size_t count = scene_->instances.size();
     light_of_mover_.resize(count);
+    proxy_of_mover_.assign(count, kNoIndex);
     for (DirectLight& direct : direct_lights_) direct.visibility_of_mover.assign(count, 1.0f);
     for (size_t i = 0; i < count; ++i) {
         const MeshInstance& instance = scene_->instances[i];
@@ -74,19 +79,42 @@ void SceneShader::find_emission_weights() {
     }
 }
 
-Result<SceneShader> SceneShader::make(const Scene& scene, const ProbeVolumeView& volume) {
+Result<SceneShader> SceneShader::make(const Scene& scene, const ProbeVolumeView& volume,
+                                      MoverLight movers) {
     auto traced = TraceScene::make(scene, [](const MeshInstance&) { return true; });
     if (!traced) return traced.error();
-    // Rays meet what moves in the same space as all the rest.
     auto moving = TraceScene::make(
         scene, [](const MeshInstance& instance) { return !instance.contributes_gi; });
     if (!moving) return moving.error();
-    return SceneShader(scene, volume, std::move(*traced), std::move(*moving));
+    SceneShader shader(scene, volume, std::move(*traced), std::move(*moving));
+    if (movers == MoverLight::AsTheScene) {
+        if (auto status = shader.add_proxy_volumes(); !status) return status.error();
+    }
+    return shader;
+}
+
+Status SceneShader::add_proxy_volumes() {
+    for (const SceneObject& object : find_proxy_objects(*scene_)) {
+        LppvSettings settings;
+        settings.density = kProxyDensity;
+        const auto grid = make_lppv_grid(object.view(), settings);
+        if (!grid) return grid.error();
+        auto lppv = make_lppv(volume_, *grid, {});
+        if (!lppv) return lppv.error();
+        for (const uint32_t instance : object.instances) {
+            proxy_of_mover_[instance] = static_cast<uint32_t>(proxy_volumes_.size());
+        }
+        proxy_volumes_.push_back(std::move(*lppv));
+    }
+    return Ok{};
 }
 
 PackedSh SceneShader::probe_light(const Surface& surface) const {
     if (!scene_->instances[surface.instance].contributes_gi) {
-        return light_of_mover_[surface.instance];
+        const uint32_t proxy = proxy_of_mover_[surface.instance];
+        if (proxy == kNoIndex) return light_of_mover_[surface.instance];
+        const glm::vec3 world(traced_.world_from_traced(surface.position));
+        return pack_sh(sample_lppv(proxy_volumes_[proxy], world).irradiance);
     }
     const glm::vec3 position = surface.position + kNormalBias * surface.geometric_normal;
     return light_at(volume_, traced_.world_from_traced(position));

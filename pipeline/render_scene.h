@@ -3,11 +3,13 @@
 
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bake/scene/scene.h"
 #include "bake/trace_scene.h"
 #include "base/result.h"
+#include "lppv/lppv.h"
 #include "pipeline/image_renderer.h"
 #include "probes/packed_sh.h"
 #include "probes/probe_volume.h"
@@ -15,17 +17,27 @@
 
 namespace tetralight {
 
+/// Where things that move take their probe light from.
+enum class MoverLight : uint8_t {
+    AsTheScene,  ///< as each asks: `SceneNode::light_probes`
+    OnePlace,    ///< all from the centre of their bounds
+};
+
 /// Shades a scene with a volume's light: what an engine would show with this runtime. Static
 /// surfaces take the probe light of each point, things that move (`contributes_gi` false) that of
-/// their bounds' centre; the volume's lights that are not `Baked` add their direct term with shadow
-/// rays. Where probes hold the occlusion of a light, it stands for the shadows of static things on
-/// moving ones, and only moving things are asked by rays. Lights, and emission that the bake saw,
-/// are dimmed as the volume's layers are.
+/// their bounds' centre, or of a proxy volume around them where they ask for one; the volume's
+/// lights that are not `Baked` add their direct term with shadow rays. Where probes hold the
+/// occlusion of a light, it stands for the shadows of static things on moving ones, and only moving
+/// things are asked by rays. Lights, and emission that the bake saw, are dimmed as the volume's
+/// layers are.
 class SceneShader {
   public:
-    /// Keeps references. Error: not enough memory.
-    [[nodiscard]] static Result<SceneShader> make(const Scene& scene,
-                                                  const ProbeVolumeView& volume);
+    /// Keeps references. Error: not enough memory, or a proxy volume that cannot be made.
+    [[nodiscard]] static Result<SceneShader> make(const Scene& scene, const ProbeVolumeView& volume,
+                                                  MoverLight movers = MoverLight::AsTheScene);
+
+    /// The proxy volumes of the scene's objects.
+    [[nodiscard]] std::span<const Lppv> proxy_volumes() const { return proxy_volumes_; }
 
     /// Radiance that leaves the first surface towards the ray's origin; none when nothing is hit.
     /// Also gives the distance.
@@ -69,12 +81,15 @@ class SceneShader {
                                                           glm::vec3 direction) const;
     [[nodiscard]] PackedSh probe_light(const Surface& surface) const;
     [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
+    [[nodiscard]] Status add_proxy_volumes();
 
     const Scene* scene_;
     ProbeVolumeView volume_;
     TraceScene traced_;
     TraceScene moving_;
     std::vector<PackedSh> light_of_mover_;  // by instance
+    std::vector<Lppv> proxy_volumes_;
+    std::vector<uint32_t> proxy_of_mover_;  // by instance; kNoIndex: none
     std::vector<DirectLight> direct_lights_;
     std::vector<float> emission_weights_;  // by material
 };

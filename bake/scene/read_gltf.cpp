@@ -64,6 +64,7 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     scene.probe_groups = std::move(probe_groups->groups);
     scene.probe_adjustments = std::move(*adjustments);
     scene.instances = std::move(*instances);
+    scene.nodes = detail::scene_nodes(document, *nodes);
     scene.cameras = detail::read_cameras(document, *nodes);
     append_warnings(scene, lights->warnings);
     warn_about_skins(document, *nodes, scene);

@@ -84,6 +84,23 @@ struct Mesh {
     bool operator==(const Mesh&) const = default;
 };
 
+/// Where a thing that moves takes its probe light from.
+enum class LightProbeUsage : uint8_t {
+    Blend,        ///< one place, the centre of its bounds
+    ProxyVolume,  ///< a grid around it (lppv/lppv.h)
+};
+
+/// A node of the glTF hierarchy, in the default scene.
+struct SceneNode {
+    std::string name;
+    uint32_t parent = kNoIndex;
+    glm::dmat4 world_from_node{1.0};
+    /// `extras.light_probes`, inherited.
+    LightProbeUsage light_probes = LightProbeUsage::Blend;
+
+    bool operator==(const SceneNode&) const = default;
+};
+
 /// A mesh placed in the world.
 struct MeshInstance {
     uint32_t mesh = 0;
@@ -92,6 +109,8 @@ struct MeshInstance {
     std::string name;
     /// False for things that move: the bake does not see them (`extras.contribute_gi: false`).
     bool contributes_gi = true;
+    /// The node that shows it, or kNoIndex.
+    uint32_t node = kNoIndex;
 
     bool operator==(const MeshInstance&) const = default;
 };
@@ -122,6 +141,8 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<MeshInstance> instances;
+    /// Parents before their children.
+    std::vector<SceneNode> nodes;
     std::vector<Light> lights;
     /// Names of `lights`, in the same order.
     std::vector<std::string> light_names;

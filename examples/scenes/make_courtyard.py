@@ -267,7 +267,8 @@ class Gltf:
             self.nodes[parent].setdefault("children", []).append(index)
         return index
 
-    def box(self, name, size, center, material, parent=None, turn=0, moves=False, paint=None):
+    def box(self, name, size, center, material, parent=None, turn=0, moves=False, paint=None,
+            light_probes=None):
         """A closed box. `paint` = (face, material) paints one face differently."""
         key = (tuple(size), material, paint)
         if key not in self.mesh_of:
@@ -277,9 +278,16 @@ class Gltf:
                 primitives.append(self.primitive(box_faces(size, [paint[0]]), paint[1]))
             self.mesh_of[key] = self.mesh(name, primitives)
         self.node(name, parent, center, rotation=yaw_rotation(turn) if turn else None, mesh=self.mesh_of[key],
-                  extras={"contribute_gi": False} if moves else None)
+                  extras=self.mover_extras(light_probes) if moves else None)
         if not moves:
             self.add_solid(name, size, center, turn)
+
+    @staticmethod
+    def mover_extras(light_probes):
+        extras = {"contribute_gi": False}
+        if light_probes:
+            extras["light_probes"] = light_probes
+        return extras
 
     def add_solid(self, name, size, center, turn=0):
         s, c = abs(math.sin(math.radians(turn))), abs(math.cos(math.radians(turn)))
@@ -403,8 +411,11 @@ def add_movers(gltf):
         gltf.node(f"sphere_{name}", movers, (x, rests_on + radius, z), scale=[2 * radius] * 3, mesh=ball,
                   extras={"contribute_gi": False})
     # The beam lies on two trestles, one inside and one in the sun; the post has its foot in shade, its top in the sun.
-    gltf.box("beam_long", (0.6, 0.6, 10), (-1.8, 1.1, 2.7), "mover_white", movers, moves=True)
-    gltf.box("post_tall", (0.6, 5, 0.6), (5.15, 2.5, -1.5), "mover_white", movers, moves=True)
+    # Both are longer than the space between probes, and ask for grids of light of their own.
+    gltf.box("beam_long", (0.6, 0.6, 10), (-1.8, 1.1, 2.7), "mover_white", movers, moves=True,
+             light_probes="proxy_volume")
+    gltf.box("post_tall", (0.6, 5, 0.6), (5.15, 2.5, -1.5), "mover_white", movers, moves=True,
+             light_probes="proxy_volume")
     supports = gltf.node("trestles")
     gltf.box("trestle_inside", (0.9, 0.8 - FLOOR_TOP, 0.15), (-1.8, (0.8 + FLOOR_TOP) / 2, -1.6), "wood_dark", supports)
     gltf.box("trestle_court", (0.9, 0.8, 0.15), (-1.8, 0.4, 7.0), "wood_dark", supports)

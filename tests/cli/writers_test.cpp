@@ -20,6 +20,7 @@ class EveryWriter : public CommandFixture, public testing::WithParamInterface<co
         const std::string command = GetParam();
         if (command == "bake") return {"bake", kCourtyard, "-o", output, "-s", "1"};
         if (command == "grid") return {"grid", kCourtyard, "-o", output, "--spacing", "9"};
+        if (command == "lppv") return {"lppv", "v.probes", "-o", output, "--resolution", "2,2,2"};
         if (command == "query") return {"query", "v.probes", "positions.jsonl", "-o", output};
         if (command == "tetrahedralize") return {"tetrahedralize", "five.json", "-o", output};
         Arguments picture{command};
@@ -33,7 +34,7 @@ class EveryWriter : public CommandFixture, public testing::WithParamInterface<co
 };
 
 INSTANTIATE_TEST_SUITE_P(Main, EveryWriter,
-                         testing::Values("bake", "grid", "meshball", "query", "render",
+                         testing::Values("bake", "grid", "lppv", "meshball", "query", "render",
                                          "tetrahedralize"),
                          [](const auto& instance) { return std::string(instance.param); });
 

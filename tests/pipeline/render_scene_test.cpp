@@ -159,5 +159,52 @@ TEST(SceneShader, TellsDistanceAndWhatIsBlocked) {
     EXPECT_FALSE(shader->is_blocked({0, 3, 0}, {0, -1, 0}, 2.9f));
 }
 
+/// A floor of 8 m that moves, under light that grows along x: 1 in the middle.
+Scene moving_floor(LightProbeUsage usage) {
+    Scene scene;
+    MeshInstance& floor = test::add_floor(scene, test::diffuse(kAlbedo), 4.0f);
+    floor.contributes_gi = false;
+    floor.node = 0;
+    scene.nodes.push_back({"floor", kNoIndex, glm::dmat4(1.0), usage});
+    return scene;
+}
+
+ProbeVolume growing_volume() {
+    std::vector<glm::dvec3> positions;
+    for (int i = 0; i < 8; ++i) {
+        positions.emplace_back((i & 1) != 0 ? 5 : -5, (i & 2) != 0 ? 5 : -5, (i & 4) != 0 ? 5 : -5);
+    }
+    ProbeVolume volume = test::make_lit_volume(std::move(positions));
+    for (size_t i = 0; i < volume.irradiance.size(); ++i) {
+        const auto x = static_cast<float>(volume.exact_positions[i].x);
+        volume.irradiance[i] = constant_light(glm::vec3(1.0f + 0.1f * x));
+    }
+    return volume;
+}
+
+TEST(RenderScene, MoversTakeTheLightOfTheirCentre) {
+    const Scene scene = moving_floor(LightProbeUsage::Blend);
+    for (const double x : {-3.0, 0.5, 3.0}) {
+        expect_near(seen(scene, growing_volume(), {x, 3, 0.1}, {x, 0, 0}), kAlbedo);
+    }
+}
+
+TEST(RenderScene, LargeMoversThatAskForItTakeTheLightOfEachPlace) {
+    const Scene scene = moving_floor(LightProbeUsage::ProxyVolume);
+    for (const double x : {-3.0, 0.5, 3.0}) {
+        expect_near(seen(scene, growing_volume(), {x, 3, 0.1}, {x, 0, 0}),
+                    kAlbedo * static_cast<float>(1.0 + 0.1 * x));
+    }
+}
+
+TEST(RenderScene, ProxyVolumesCanBeLeftOut) {
+    const Scene scene = moving_floor(LightProbeUsage::ProxyVolume);
+    const ProbeVolume volume = growing_volume();
+    EXPECT_EQ(SceneShader::make(scene, volume.view())->proxy_volumes().size(), 1u);
+    const auto plain = SceneShader::make(scene, volume.view(), MoverLight::OnePlace);
+    EXPECT_TRUE(plain->proxy_volumes().empty());
+    expect_near(plain->shade({3, 3, 0}, {0, -1, 0})->radiance, kAlbedo);
+}
+
 }  // namespace
 }  // namespace tetralight

@@ -157,6 +157,7 @@ struct GltfNode {
     std::optional<GltfAttributes> instancing;
     // Extras of Tetralight's own.
     std::optional<bool> contributes_gi;
+    std::optional<std::string> light_probes;
     GltfLightExtras light_extras;
     bool is_probe_group = false;
     bool dering = false;

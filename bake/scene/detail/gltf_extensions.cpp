@@ -7,12 +7,6 @@
 namespace tetralight::detail {
 namespace {
 
-std::optional<std::string> string_extra(const tinygltf::Value& extras, const char* key) {
-    if (!extras.Has(key)) return std::nullopt;
-    const tinygltf::Value& value = extras.Get(key);
-    return value.IsString() ? value.Get<std::string>() : std::string("(not a string)");
-}
-
 std::optional<double> number_extra(const tinygltf::Value& extras, const char* key) {
     if (!extras.Has(key)) return std::nullopt;
     const tinygltf::Value& value = extras.Get(key);
@@ -46,6 +40,12 @@ uint32_t index_from(int index) {
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
     const auto found = extensions.find(name);
     return found == extensions.end() ? nullptr : &found->second;
+}
+
+std::optional<std::string> string_extra(const tinygltf::Value& extras, const char* key) {
+    if (!extras.Has(key)) return std::nullopt;
+    const tinygltf::Value& value = extras.Get(key);
+    return value.IsString() ? value.Get<std::string>() : std::string("(not a string)");
 }
 
 std::optional<bool> boolean_extra(const tinygltf::Value& extras, const char* key) {

@@ -20,6 +20,10 @@ namespace tetralight::detail {
 /// Precondition: the value is a number where there is one.
 [[nodiscard]] double number_at(const tinygltf::Value& object, const char* key, double otherwise);
 
+/// What is no string reads "(not a string)".
+[[nodiscard]] std::optional<std::string> string_extra(const tinygltf::Value& extras,
+                                                      const char* key);
+
 /// Precondition: the value is a boolean where there is one.
 [[nodiscard]] std::optional<bool> boolean_extra(const tinygltf::Value& extras, const char* key);
 

@@ -95,7 +95,8 @@ Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
                                                  const std::vector<bool>& is_probe,
                                                  const GltfMeshes& meshes) {
     std::vector<MeshInstance> instances;
-    for (const GltfWorldNode& placed : nodes) {
+    for (uint32_t position = 0; position < nodes.size(); ++position) {
+        const GltfWorldNode& placed = nodes[position];
         const GltfNode& node = document.nodes[placed.node];
         if (node.mesh == kNoIndex || is_probe[placed.node]) continue;
         const auto transforms = read_transforms(document, placed);
@@ -104,7 +105,8 @@ Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
         }
         for (const glm::dmat4& world_from_mesh : *transforms) {
             for (const uint32_t mesh : meshes.meshes_of[node.mesh]) {
-                instances.push_back({mesh, world_from_mesh, node.name, placed.contributes_gi});
+                instances.push_back(
+                    {mesh, world_from_mesh, node.name, placed.contributes_gi, position});
             }
         }
     }

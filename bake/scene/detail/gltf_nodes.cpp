@@ -84,8 +84,19 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
         placed.parent = parent->node;
         placed.world_from_node = parent->world_from_node * source.parent_from_node;
         placed.contributes_gi = parent->contributes_gi;
+        placed.light_probes = parent->light_probes;
     }
     placed.contributes_gi = source.contributes_gi.value_or(placed.contributes_gi);
+    if (source.light_probes) {
+        if (*source.light_probes == "proxy_volume") {
+            placed.light_probes = LightProbeUsage::ProxyVolume;
+        } else if (*source.light_probes == "blend") {
+            placed.light_probes = LightProbeUsage::Blend;
+        } else {
+            return Error{text(node_place(document, node), ": extras.light_probes is \"",
+                              *source.light_probes, "\", not \"blend\" or \"proxy_volume\"")};
+        }
+    }
     if (is_finite_affine(source.parent_from_node) && is_finite_affine(placed.world_from_node)) {
         return placed;
     }
@@ -124,6 +135,19 @@ Result<std::vector<GltfWorldNode>> flatten_nodes(const GltfDocument& document) {
     const auto roots = find_roots(document, *parents);
     if (!roots) return roots.error();
     return flatten_from(document, *roots);
+}
+
+std::vector<SceneNode> scene_nodes(const GltfDocument& document,
+                                   std::span<const GltfWorldNode> nodes) {
+    std::vector<uint32_t> position_of(document.nodes.size(), kNoIndex);
+    std::vector<SceneNode> result;
+    for (const GltfWorldNode& placed : nodes) {
+        position_of[placed.node] = static_cast<uint32_t>(result.size());
+        const uint32_t parent = placed.parent == kNoIndex ? kNoIndex : position_of[placed.parent];
+        result.push_back({document.nodes[placed.node].name, parent, placed.world_from_node,
+                          placed.light_probes});
+    }
+    return result;
 }
 
 }  // namespace tetralight::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bake/scene/detail/gltf_document.h"
@@ -15,7 +16,12 @@ struct GltfWorldNode {
     uint32_t parent = kNoIndex;
     glm::dmat4 world_from_node{1.0};
     bool contributes_gi = true;
+    LightProbeUsage light_probes = LightProbeUsage::Blend;
 };
+
+/// The same for users of the scene, in the same order.
+[[nodiscard]] std::vector<SceneNode> scene_nodes(const GltfDocument& document,
+                                                 std::span<const GltfWorldNode> nodes);
 
 /// The default scene's nodes, parents before children and children in the file's order. A node with
 /// two parents, a cycle and a transform that is not finite are errors. Walks without recursion, so

@@ -183,5 +183,34 @@ TEST(GltfNodes, SkinsAreLeftOutWithAWarning) {
     EXPECT_NE(scene.warnings[0].find("node 0 \"person\": skin is left out"), std::string::npos);
 }
 
+TEST(GltfNodes, ProxyVolumesAreInheritedUntilAChildDeclines) {
+    GltfBuilder gltf;
+    const size_t own = gltf.add("nodes", {{"mesh", gltf.add_triangle()}, {"name", "own"}});
+    const size_t other = gltf.add("nodes", {{"mesh", gltf.add_triangle()},
+                                            {"name", "other"},
+                                            {"extras", {{"light_probes", "blend"}}}});
+    gltf.add_root({{"name", "top"},
+                   {"translation", {1, 2, 3}},
+                   {"children", {own, other}},
+                   {"extras", {{"light_probes", "proxy_volume"}}}});
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.nodes.size(), 3u);
+    EXPECT_EQ(scene.nodes[0].name, "top");
+    EXPECT_EQ(scene.nodes[0].parent, kNoIndex);
+    EXPECT_EQ(scene.nodes[0].world_from_node[3], glm::dvec4(1, 2, 3, 1));
+    EXPECT_EQ(scene.nodes[1].parent, 0u);
+    EXPECT_EQ(scene.nodes[1].light_probes, LightProbeUsage::ProxyVolume);
+    EXPECT_EQ(scene.nodes[2].light_probes, LightProbeUsage::Blend);
+    EXPECT_EQ(scene.nodes[scene.instances[1].node].name, "other");
+}
+
+TEST(GltfNodes, RefusesUnknownUsesOfProbes) {
+    GltfBuilder gltf;
+    gltf.add_root({{"name", "a"}, {"extras", {{"light_probes", "grid"}}}});
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 0 \"a\": extras.light_probes is \"grid\", not \"blend\" or "
+              "\"proxy_volume\"");
+}
+
 }  // namespace
 }  // namespace tetralight

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lppv/lppv.h"
+
+#include <chrono>
+#include <filesystem>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "bake/parallel.h"
+#include "bake/scene/read_gltf.h"
+#include "base/text.h"
+#include "cli/choice.h"
+#include "cli/common.h"
+#include "cli/lppv_grid_options.h"
+#include "cli/paths.h"
+#include "lppv/sparse_lppv.h"
+#include "pipeline/lppv_validity.h"
+#include "pipeline/sparse_blocks.h"
+#include "pipeline/write_lppv.h"
+#include "probes/probe_file.h"
+#ifdef TETRALIGHT_HAS_OPENVDB
+#include "lppv/vdb/write_vdb.h"
+#endif
+
+namespace tetralight::cli {
+namespace {
+
+enum class Layout : uint8_t { Automatic, Four, Seven };
+
+class Stopwatch {
+  public:
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Bytes of what was written; 0 for stdout and devices.
+uint64_t file_size(const std::string& path) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(path, error);
+    return error ? 0 : size;
+}
+
+Json to_json(const glm::uvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+struct LppvCommand {
+    std::string volume_path;
+    std::string scene_path;
+    std::string output;
+    LppvGridOptions grid;
+    LppvFill fill;
+    LppvFileSettings file;
+    Layout layout = Layout::Automatic;
+    bool is_sparse = false;
+    double reach = 0.0;
+    CLI::Option* precision_option = nullptr;
+    CommonOptions common;
+
+    void add_to(CLI::App& command) {
+        add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
+        add_output(command, output, ".vdb,.nvdb,.exr,.dds,.ktx2", "File to write; none = .vdb");
+        auto* scene_option = add_path(command, "--scene", scene_path,
+                                      "glTF 2.0 scene: has the object, and geometry whose inside "
+                                      "takes light from beside it");
+        grid.add_to(command);
+        grid.object_option->needs(scene_option);
+        add_choice(command, "--mode", fill.quality,
+                   {{"low", LppvQuality::Low},
+                    {"normal", LppvQuality::Normal},
+                    {"full", LppvQuality::Full}},
+                   "Bands that vary: L0 and L1 (low), with a constant L2 (normal), all (full)");
+        precision_option =
+            add_choice(command, "--precision", file.precision,
+                       {{"half", LppvTexelFormat::Half}, {"float", LppvTexelFormat::Float}},
+                       "Numbers of the file; .nvdb has floats");
+        add_choice(command, "--layout", layout,
+                   {{"auto", Layout::Automatic}, {"four", Layout::Four}, {"seven", Layout::Seven}},
+                   "Slabs of a texture: SHA and occlusion (four), or all bands (seven); auto = "
+                   "seven for --mode full");
+        auto* sparse_option =
+            command.add_flag("--sparse", is_sparse,
+                             "Only blocks of 8x8x8 points near probes and the scene's surfaces, at "
+                             "--density, anywhere; .vdb or .nvdb");
+        command
+            .add_option("--reach", reach,
+                        "With --sparse: how near, in metres (default: one spacing)")
+            ->check(numbers_in(0.0, 1e9).description(""))
+            ->needs(sparse_option);
+        for (const char* name : {"--object", "--bounds", "--resolution", "--mode", "--layout"}) {
+            sparse_option->excludes(command.get_option(name));
+        }
+        common.add_to(command);
+        command.parse_complete_callback([this] { check_file(); });
+    }
+
+    /// What does not go together, as wrong usage.
+    void check_file() {
+        file.kind = lppv_file_kind(output == "-" ? "" : output).value_or(LppvFileKind::OpenVdb);
+        const bool is_voxels =
+            file.kind == LppvFileKind::OpenVdb || file.kind == LppvFileKind::NanoVdb;
+        if (is_sparse && !is_voxels) {
+            throw CLI::ValidationError("--sparse", "only .vdb and .nvdb files can be sparse");
+        }
+        const bool is_half =
+            precision_option->count() > 0 && file.precision == LppvTexelFormat::Half;
+        if (file.kind == LppvFileKind::NanoVdb && is_half) {
+            throw CLI::ValidationError("--precision", ".nvdb files have floats");
+        }
+        const bool is_full = fill.quality == LppvQuality::Full;
+        const bool is_seven = layout == Layout::Seven || (layout == Layout::Automatic && is_full);
+        file.layout = is_seven ? LppvLayout::SevenSlabs : LppvLayout::FourSlabs;
+    }
+
+    [[nodiscard]] auto threads() const {
+        return
+            [this](size_t count, auto&& task) { parallel_for(count, common.thread_count, task); };
+    }
+
+    Status run() {
+        if (auto status = check_output(output, {volume_path, scene_path}); !status) return status;
+        const auto probes = open_probe_file(volume_path);
+        if (!probes) return probes.error();
+        common.warn_if_unlit(volume_path, probes->view());
+        Scene scene;
+        if (!scene_path.empty()) {
+            auto read = read_gltf(scene_path);
+            if (!read) return read.error();
+            common.warn(read->warnings);
+            scene = std::move(*read);
+        }
+        return is_sparse ? run_sparse(scene, probes->view()) : run_dense(scene, probes->view());
+    }
+
+    Status run_dense(const Scene& scene, const ProbeVolumeView& volume) {
+        const auto points = grid.make_grid(scene, volume);
+        if (!points) return points.error().in(grid.object.empty() ? volume_path : scene_path);
+        std::vector<float> validity;
+        if (!scene_path.empty()) {
+            auto surveyed = survey_grid(scene, *points, common.thread_count);
+            if (!surveyed) return surveyed.error().in(scene_path);
+            validity = std::move(*surveyed);
+            fill.validity = validity;
+        }
+        const Stopwatch filling;
+        const auto lppv = make_lppv(volume, *points, fill, threads());
+        if (!lppv) return lppv.error();
+        const double fill_seconds = filling.seconds();
+        const Stopwatch writing;
+        if (auto status = write_lppv(output, *lppv, file); !status) return status;
+        report(*lppv, fill_seconds, writing.seconds());
+        return Ok{};
+    }
+
+    void report(const Lppv& lppv, double fill_seconds, double write_seconds) const {
+        const LppvGrid& points = lppv.grid;
+        const double* matrix = glm::value_ptr(points.world_from_local);
+        Json json{{"output", output},
+                  {"bounds",
+                   {{"low", cli::to_json(points.low)},
+                    {"high", cli::to_json(points.high)},
+                    {"world_from_local", std::vector<double>(matrix, matrix + 16)}}},
+                  {"resolution", to_json(points.resolution)},
+                  {"spacing", cli::to_json(points.spacing())},
+                  {"points", points.point_count()},
+                  {"replaced", lppv.replaced_count},
+                  {"bytes", file_size(output)},
+                  {"fill_seconds", fill_seconds},
+                  {"write_seconds", write_seconds}};
+        if (file.kind == LppvFileKind::Dds || file.kind == LppvFileKind::Ktx2) {
+            json["constants"] = Json::parse(lppv_constants_json(lppv, file.layout));
+        }
+        const glm::uvec3& size = points.resolution;
+        common.report(
+            output, json,
+            text(output, ": ", size.x, " x ", size.y, " x ", size.z, " points, ",
+                 magnitude(static_cast<double>(file_size(output))), "B, filled in ",
+                 duration(fill_seconds), ", written in ", duration(write_seconds),
+                 lppv.replaced_count == 0 ? ""
+                                          : text("; ", counted(lppv.replaced_count, "point"),
+                                                 " in geometry took the light beside")));
+    }
+
+#ifdef TETRALIGHT_HAS_OPENVDB
+    Status run_sparse(const Scene& scene, const ProbeVolumeView& volume) {
+        SparseBlocks blocks(1.0 / grid.settings.density);
+        const double near = reach > 0.0 ? reach : blocks.spacing();
+        if (auto status = add_blocks_near_probes(volume, near, blocks); !status) {
+            return status.error().in(volume_path);
+        }
+        if (auto status = add_blocks_near_surfaces(scene, near, blocks); !status) {
+            return status.error().in(scene_path);
+        }
+        const Stopwatch filling;
+        const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads());
+        const double fill_seconds = filling.seconds();
+        const Stopwatch writing;
+        const bool is_half = file.precision == LppvTexelFormat::Half;
+        const auto status =
+            file.kind == LppvFileKind::NanoVdb
+                ? write_nvdb(output, lppv)
+                : write_vdb(output, lppv, is_half ? VdbPrecision::Half : VdbPrecision::Float);
+        if (!status) return status;
+        const size_t points = lppv.irradiance.size();
+        common.report(output,
+                      {{"output", output},
+                       {"spacing", lppv.spacing},
+                       {"blocks", lppv.blocks.size()},
+                       {"points", points},
+                       {"bytes", file_size(output)},
+                       {"fill_seconds", fill_seconds},
+                       {"write_seconds", writing.seconds()}},
+                      text(output, ": ", counted(lppv.blocks.size(), "block"), " of 512 points, ",
+                           magnitude(static_cast<double>(file_size(output))), "B, filled in ",
+                           duration(fill_seconds), ", written in ", duration(writing.seconds())));
+        return Ok{};
+    }
+#else
+    Status run_sparse(const Scene&, const ProbeVolumeView&) {
+        return Error{output + ": cannot write (this program was built without OpenVDB)"};
+    }
+#endif
+};
+
+}  // namespace
+
+void add_lppv(CLI::App& app, Run& run) {
+    add_command<LppvCommand>(app, run, "lppv", "Fill a grid around a large object with light",
+                             "tetralight lppv courtyard.probes --scene courtyard.glb "
+                             "--object beam_long --density 2 -o beam.vdb");
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/lppv_object.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+bool asks_for_volume(const Scene& scene, uint32_t node) {
+    return node != kNoIndex && scene.nodes[node].light_probes == LightProbeUsage::ProxyVolume;
+}
+
+void add_instance(const Scene& scene, uint32_t index, SceneObject& object) {
+    const MeshInstance& instance = scene.instances[index];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (mesh.positions.empty()) return;
+    LppvPart part{instance.world_from_mesh, glm::dvec3(mesh.positions[0]),
+                  glm::dvec3(mesh.positions[0])};
+    for (const glm::vec3& position : mesh.positions) {
+        part.low = glm::min(part.low, glm::dvec3(position));
+        part.high = glm::max(part.high, glm::dvec3(position));
+    }
+    object.parts.push_back(part);
+    object.instances.push_back(index);
+}
+
+/// Whether a node is `top`, or below it with nothing but nodes that ask for a volume between.
+bool shares_volume(const Scene& scene, uint32_t node, uint32_t top) {
+    while (node != top) {
+        if (!asks_for_volume(scene, node)) return false;
+        node = scene.nodes[node].parent;
+    }
+    return true;
+}
+
+SceneObject object_at(const Scene& scene, uint32_t top) {
+    SceneObject object;
+    object.world_from_object = scene.nodes[top].world_from_node;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        if (shares_volume(scene, scene.instances[i].node, top)) add_instance(scene, i, object);
+    }
+    return object;
+}
+
+}  // namespace
+
+Result<SceneObject> find_object(const Scene& scene, const std::string& name) {
+    uint32_t found = kNoIndex;
+    for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
+        if (scene.nodes[node].name != name) continue;
+        if (found != kNoIndex) return Error{"there are several nodes \"" + name + "\""};
+        found = node;
+    }
+    if (found == kNoIndex) return Error{"there is no node \"" + name + "\""};
+    return object_at(scene, found);
+}
+
+std::vector<SceneObject> find_proxy_objects(const Scene& scene) {
+    std::vector<SceneObject> objects;
+    for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
+        if (!asks_for_volume(scene, node)) continue;
+        if (asks_for_volume(scene, scene.nodes[node].parent)) continue;
+        SceneObject object = object_at(scene, node);
+        const auto moves = [&](uint32_t i) { return !scene.instances[i].contributes_gi; };
+        if (std::ranges::any_of(object.instances, moves)) objects.push_back(std::move(object));
+    }
+    return objects;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/lppv_validity.h"
+
+#include "bake/survey.h"
+
+namespace tetralight {
+
+Result<std::vector<float>> survey_grid(const Scene& scene, const LppvGrid& grid,
+                                       uint32_t thread_count) {
+    std::vector<glm::dvec3> positions;
+    positions.reserve(grid.point_count());
+    for (uint32_t z = 0; z < grid.resolution.z; ++z) {
+        for (uint32_t y = 0; y < grid.resolution.y; ++y) {
+            for (uint32_t x = 0; x < grid.resolution.x; ++x) {
+                positions.push_back(grid.world_position({x, y, z}));
+            }
+        }
+    }
+    const auto surveyed = survey(scene, positions, thread_count);
+    if (!surveyed) return surveyed.error();
+    std::vector<float> validity;
+    validity.reserve(surveyed->size());
+    for (const Surroundings& around : *surveyed) {
+        validity.push_back(around.is_inside() ? 0.0f : 1.0f - around.back_face_share);
+    }
+    return validity;
+}
+
+}  // namespace tetralight

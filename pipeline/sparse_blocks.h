@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bake/scene/scene.h"
+#include "base/result.h"
+#include "lppv/sparse_lppv.h"
+#include "probes/probe_volume.h"
+
+namespace tetralight {
+
+/// Adds the blocks that come within `reach` metres of a probe (along each axis). Errors as
+/// `SparseBlocks::add_box`.
+[[nodiscard]] Status add_blocks_near_probes(const ProbeVolumeView& volume, double reach,
+                                            SparseBlocks& blocks);
+
+/// The same for the scene's triangles, static ones and others.
+[[nodiscard]] Status add_blocks_near_surfaces(const Scene& scene, double reach,
+                                              SparseBlocks& blocks);
+
+}  // namespace tetralight

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "lppv/lppv_texture.h"
+
+namespace tetralight {
+
+/// Kinds of files that hold a proxy volume.
+enum class LppvFileKind : uint8_t {
+    OpenVdb,  ///< .vdb: nine grids of vectors, compressed
+    NanoVdb,  ///< .nvdb: the same for GPUs, floats
+    OpenExr,  ///< .exr: channels sh0.R .. sh8.B, z slices side by side, the lowest y on top
+    Dds,      ///< .dds: a 3D texture, `LppvTexture`
+    Ktx2,     ///< .ktx2: the same, with the shader's constants as JSON
+};
+
+/// By its extension; a path without one: OpenVdb. None: it has another.
+[[nodiscard]] std::optional<LppvFileKind> lppv_file_kind(const std::string& path);
+
+struct LppvFileSettings {
+    LppvFileKind kind = LppvFileKind::OpenVdb;
+    /// Not for NanoVdb, which has floats.
+    LppvTexelFormat precision = LppvTexelFormat::Half;
+    /// Of textures.
+    LppvLayout layout = LppvLayout::SevenSlabs;
+};
+
+/// Writes a proxy volume; the old file stays whole on failure. Error also: a kind that this program
+/// was built without.
+[[nodiscard]] Status write_lppv(const std::string& path, const Lppv& lppv,
+                                const LppvFileSettings& settings);
+
+/// The constants of a texture's shader as JSON, what `LppvConstants` has.
+[[nodiscard]] std::string lppv_constants_json(const Lppv& lppv, LppvLayout layout);
+
+}  // namespace tetralight
