@@ -69,6 +69,8 @@ void bench_direction_sets();
 /// Adding and removing a group, as shares of a full build.
 void bench_groups(const Options& options);
 void bench_grid(const Options& options);
+/// Proxy volumes: filling, refreshing, accuracy, files.
+void bench_lppv(const Options& options);
 void bench_query(const Options& options);
 void bench_relight(const Options& options);
 void bench_tetrahedralize(const Options& options);

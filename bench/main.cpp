@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
         {"query", bench_query},
         {"relight", bench_relight},
         {"grid", bench_grid},
+        {"lppv", bench_lppv},
         {"tetrahedralize", bench_tetrahedralize}};
 
     CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");

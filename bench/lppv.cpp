@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lppv/lppv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "bench/harness.h"
+#include "bench/query_subject.h"
+#include "lppv/lppv_atlas.h"
+#include "probes/build/make_probe_volume.h"
+#include "probes/compact_probes.h"
+#include "probes/morton_order.h"
+#ifdef TETRALIGHT_HAS_OPENVDB
+#include "bench/vdb_baseline.h"
+#include "lppv/vdb/write_vdb.h"
+#endif
+
+namespace tetralight::bench {
+namespace {
+
+LppvGrid make_grid(const glm::dmat4& world_from_object, const glm::dvec3& size,
+                   const LppvSettings& settings) {
+    const LppvPart box{world_from_object, -0.5 * size, 0.5 * size};
+    const auto grid = make_lppv_grid({world_from_object, std::span(&box, 1)}, settings);
+    require(bool(grid), "grid");
+    return *grid;
+}
+
+LppvSettings with_resolution(glm::uvec3 resolution) {
+    LppvSettings settings;
+    settings.resolution_mode = LppvResolution::Custom;
+    settings.resolution = resolution;
+    return settings;
+}
+
+/// A grid over all probes of a subject.
+LppvGrid grid_over(const Subject& subject, uint32_t side) {
+    const glm::dvec3 center(0.5f * (subject.low + subject.high));
+    return make_grid(glm::translate(glm::dmat4(1.0), center),
+                     glm::dvec3(subject.high - subject.low), with_resolution(glm::uvec3(side)));
+}
+
+/// Fresh positions in the box of the probes, in Morton order.
+std::vector<glm::vec3> sorted_positions(Subject& subject, size_t count) {
+    std::vector<glm::vec3> any;
+    for (const glm::dvec3& p : random_positions(count, ++subject.seed, 1.0)) {
+        any.push_back(subject.low + (subject.high - subject.low) * glm::vec3(p));
+    }
+    std::vector<uint64_t> memory(2 * count);
+    std::vector<glm::vec3> sorted;
+    for (const uint64_t key : morton_order(any, memory)) {
+        sorted.push_back(any[static_cast<uint32_t>(key)]);
+    }
+    return sorted;
+}
+
+/// Filling a grid, its memory and its positions included, against a sorted batch of as many
+/// queries in the same box into memory that is there.
+void fill(Subject& subject, uint32_t side, const Options& options) {
+    const LppvGrid grid = grid_over(subject, side);
+    const size_t count = grid.point_count();
+    const size_t times = std::max<size_t>(1, 200'000 / count);
+    const ProbeVolumeView view = subject.volume.view();
+    std::vector<IrradianceSh> answers(count);
+    Contest contest;
+    contest.figure = "lppv.fill." + std::to_string(side);
+    contest.unit = "Mpoints/s";
+    contest.baseline_is = "a sorted batch of as many queries in the same box";
+    contest.work = static_cast<double>(count * times) * 1e-6;
+    contest.ours = [&] {
+        return seconds([&] {
+            for (size_t i = 0; i < times; ++i) require(bool(make_lppv(view, grid, {})), "fill");
+        });
+    };
+    contest.baseline = [&] {
+        const std::vector<glm::vec3> positions = sorted_positions(subject, count);
+        const InterpolationBatch batch{positions, {}, answers, {}, {}, {}};
+        return seconds([&] {
+            for (size_t i = 0; i < times; ++i) require(bool(interpolate(view, batch)), "batch");
+        });
+    };
+    run(contest, options);
+}
+
+/// 20 000 probes in 20 groups side by side along x.
+ProbeVolume make_grouped_volume() {
+    std::vector<ProbeGroup> groups;
+    for (int g = 0; g < 20; ++g) {
+        auto positions = random_positions(1000, static_cast<uint64_t>(g) + 1, 100.0);
+        for (glm::dvec3& p : positions) p.x = 5.0 * g + 0.05 * p.x;
+        groups.push_back(make_group("group " + std::to_string(g), std::move(positions)));
+    }
+    ProbeVolume volume = make_probe_volume(*merge(groups));
+    for (const glm::vec3& p : volume.positions) {
+        volume.irradiance.push_back(irradiance_from_radiance(constant_radiance(p)));
+    }
+    make_compact_probes(volume);
+    return volume;
+}
+
+/// A beam somewhere among the probes, turned about y.
+LppvGrid beam_at(const glm::dvec3& position, double angle) {
+    const glm::dmat4 world_from_beam =
+        glm::rotate(glm::translate(glm::dmat4(1.0), position), angle, glm::dvec3(0, 1, 0));
+    return make_grid(world_from_beam, {1.0, 1.0, 8.0}, with_resolution({2, 2, 16}));
+}
+
+/// 1 000 volumes of which each tenth moves in every frame, while one group is lit anew.
+class Frames {
+  public:
+    Frames() : volume_(make_grouped_volume()), atlas_({.slab_size = {80, 80, 144}}) {
+        for (const glm::dvec3& p : random_positions(1000, 77, 100.0)) {
+            grids_.push_back(beam_at(p, p.y));
+            require(bool(atlas_.add(grids_.back(), LppvQuality::Normal, LppvRefresh::Automatic)),
+                    "room in the atlas");
+        }
+        atlas_.refresh(volume_.view(), {});
+        const std::vector<uint32_t> group{9};
+        changed_ = probes_of_groups(volume_.view(), group);
+    }
+
+    /// Moves a tenth and lights the group anew; seconds of the refresh.
+    double refresh() {
+        ++frame_;
+        const auto places = random_positions(100, 1000 + frame_, 100.0);
+        for (uint32_t i = 0; i < 100; ++i) {
+            const uint32_t id = 10 * i + static_cast<uint32_t>(frame_ % 10);
+            // As far as an object moves in a few frames.
+            const glm::dvec3 from(grids_[id].world_from_local[3]);
+            grids_[id] = beam_at(from + 0.01 * (places[i] - 50.0), places[i].x);
+            atlas_.move(id, grids_[id]);
+        }
+        for (const uint32_t probe : changed_) volume_.irradiance[probe] *= 1.01f;
+        make_compact_probes(volume_);
+        before_ = atlas_.texture();
+        return seconds([&] { report_ = atlas_.refresh(volume_.view(), {.probes = changed_}); });
+    }
+
+    double refresh_everything() {
+        return seconds([&] { atlas_.refresh(volume_.view(), {.is_everything = true}); });
+    }
+
+    /// Share of the volumes whose texels the last refresh changed.
+    [[nodiscard]] double changed_share() const {
+        size_t count = 0;
+        for (uint32_t id = 0; id < grids_.size(); ++id) {
+            const TexelBox box = atlas_.texels(id);
+            bool is_changed = false;
+            for (uint32_t i = 0; i < 64 && !is_changed; ++i) {
+                const glm::uvec3 texel = box.low + 1u + glm::uvec3(i % 2, i / 2 % 2, i / 4);
+                for (uint32_t slab = 0; slab < 4; ++slab) {
+                    const glm::uvec3 at = texel + glm::uvec3(80 * slab, 0, 0);
+                    is_changed |= fetch_texel(before_, at) != fetch_texel(atlas_.texture(), at);
+                }
+            }
+            count += is_changed;
+        }
+        return static_cast<double>(count) / static_cast<double>(grids_.size());
+    }
+
+    [[nodiscard]] double refilled_share() const {
+        return static_cast<double>(report_.refilled.size()) / static_cast<double>(grids_.size());
+    }
+
+    /// An atlas filled from nothing has the same bytes.
+    void compare() const {
+        LppvAtlas fresh({.slab_size = {80, 80, 144}});
+        for (const LppvGrid& grid : grids_) {
+            require(bool(fresh.add(grid, LppvQuality::Normal, LppvRefresh::Automatic)), "room");
+        }
+        fresh.refresh(volume_.view(), {});
+        require(fresh.texture() == atlas_.texture(), "a refresh gives the bytes of a full one");
+    }
+
+  private:
+    ProbeVolume volume_;
+    LppvAtlas atlas_;
+    std::vector<LppvGrid> grids_;
+    std::vector<uint32_t> changed_;
+    LppvTexture before_;
+    LppvAtlasReport report_;
+    uint64_t frame_ = 0;
+};
+
+void refresh(const Options& options) {
+    Frames frames;
+    std::vector<double> partial, full, share, refilled;
+    for (int i = 0; i < 3 * options.repetitions; ++i) {
+        partial.push_back(frames.refresh());
+        share.push_back(frames.changed_share());
+        refilled.push_back(frames.refilled_share());
+        frames.compare();
+        full.push_back(frames.refresh_everything());
+        frames.compare();
+    }
+    report("lppv.refresh.changed_share", median(share), "of the volumes");
+    report("lppv.refresh.refilled_share", median(refilled), "of the volumes");
+    report("lppv.refresh.full", median(full) * 1e3, "ms");
+    report("lppv.refresh", median(partial) / median(full) / median(share),
+           "cost / full refresh / share changed");
+}
+
+struct SurfacePoint {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f};
+};
+
+/// Points on the sides of a box, 0.1 m apart.
+std::vector<SurfacePoint> points_on_box(const glm::dmat4& world_from_box, const glm::dvec3& size) {
+    std::vector<SurfacePoint> points;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const auto rows = static_cast<int>(size[u] / 0.1),
+                   columns = static_cast<int>(size[v] / 0.1);
+        for (int i = 0; i < 2 * rows * columns; ++i) {
+            const double side = i % 2 == 0 ? 0.5 : -0.5;
+            glm::dvec3 local(0.0), normal(0.0);
+            local[axis] = side * size[axis];
+            local[u] = size[u] * ((i / 2 % rows + 0.5) / rows - 0.5);
+            local[v] = size[v] * ((i / 2 / rows + 0.5) / columns - 0.5);
+            normal[axis] = 2.0 * side;
+            points.push_back({glm::vec3(world_from_box * glm::dvec4(local, 1.0)),
+                              glm::vec3(world_from_box * glm::dvec4(normal, 0.0))});
+        }
+    }
+    return points;
+}
+
+/// Relative RMSE of irradiance on the surfaces of beams of 10 m, against the light that each point
+/// would look up itself.
+class Accuracy {
+  public:
+    explicit Accuracy(const Subject& subject) : subject_(subject) {}
+
+    /// Beams lie level, anywhere among the probes, turned anyhow.
+    void add_beams(size_t count) {
+        const auto places = random_positions(count, 5, 1.0);
+        for (size_t i = 0; i < count; ++i) {
+            const glm::dvec3 room = glm::dvec3(subject_.high - subject_.low) - kSize;
+            const glm::dvec3 center = 0.5 * glm::dvec3(subject_.low + subject_.high);
+            const bool fits_x = room.x >= 0.0;
+            glm::dmat4 world_from_beam =
+                glm::translate(glm::dmat4(1.0), center + glm::max(room, 0.0) * (places[i] - 0.5));
+            if (!fits_x) {
+                world_from_beam =
+                    glm::rotate(world_from_beam, std::numbers::pi / 2.0, glm::dvec3(0, 1, 0));
+            }
+            add_beam(world_from_beam);
+        }
+    }
+
+    void report_all() const {
+        report("lppv.accuracy.full", error(full_), "relative RMSE");
+        report("lppv.accuracy.normal", error(normal_), "relative RMSE");
+        report("lppv.accuracy.low", error(low_), "relative RMSE");
+        report("lppv.accuracy.single", error(single_), "relative RMSE");
+    }
+
+  private:
+    static constexpr glm::dvec3 kSize{10.0, 0.6, 0.6};
+
+    void add_beam(const glm::dmat4& world_from_beam) {
+        const ProbeVolumeView view = subject_.volume.view();
+        LppvSettings settings;
+        settings.density = 2.0;
+        const LppvGrid grid = make_grid(world_from_beam, kSize, settings);
+        const Lppv full = *make_lppv(view, grid, {});
+        const Lppv normal = *make_lppv(view, grid, {.quality = LppvQuality::Normal});
+        const Lppv low = *make_lppv(view, grid, {.quality = LppvQuality::Low});
+        const glm::vec3 center(world_from_beam[3]);
+        const IrradianceSh single = interpolate(view, locate(view, center)).irradiance;
+        for (const SurfacePoint& point : points_on_box(world_from_beam, kSize)) {
+            const IrradianceSh own = interpolate(view, locate(view, point.position)).irradiance;
+            const glm::vec3 expected = evaluate_irradiance(own, point.normal);
+            square_sum_ += glm::dot(glm::dvec3(expected), glm::dvec3(expected));
+            const auto add = [&](double& sum, const IrradianceSh& light) {
+                const glm::dvec3 difference(evaluate_irradiance(light, point.normal) - expected);
+                sum += glm::dot(difference, difference);
+            };
+            add(full_, sample_lppv(full, point.position).irradiance);
+            add(normal_, sample_lppv(normal, point.position).irradiance);
+            add(low_, sample_lppv(low, point.position).irradiance);
+            add(single_, single);
+        }
+    }
+
+    [[nodiscard]] double error(double sum) const { return std::sqrt(sum / square_sum_); }
+
+    const Subject& subject_;
+    double full_ = 0.0, normal_ = 0.0, low_ = 0.0, single_ = 0.0;
+    double square_sum_ = 0.0;
+};
+
+#ifdef TETRALIGHT_HAS_OPENVDB
+void write_vdb_file(const Subject& subject, const Options& options) {
+    const std::string folder = std::filesystem::temp_directory_path().string();
+    const std::string ours = folder + "/tetralight_bench.vdb";
+    const std::string theirs = folder + "/tetralight_bench_openvdb.vdb";
+    const Lppv lppv = *make_lppv(subject.volume.view(), grid_over(subject, 128), {});
+    Contest contest;
+    contest.figure = "lppv.write_vdb";
+    contest.unit = "Mpoints/s";
+    contest.baseline_is = "copyFromDense and openvdb::io::File, not synced";
+    contest.work = static_cast<double>(lppv.irradiance.size()) * 1e-6;
+    contest.ours = [&] {
+        return seconds([&] { require(bool(write_vdb(ours, lppv, VdbPrecision::Float)), "write"); });
+    };
+    contest.baseline = [&] { return seconds([&] { write_vdb_by_openvdb(theirs, lppv); }); };
+    run(contest, options);
+    report("lppv.write_vdb.bytes", static_cast<double>(std::filesystem::file_size(ours)), "B");
+    std::remove(ours.c_str());
+    std::remove(theirs.c_str());
+}
+#endif
+
+}  // namespace
+
+void bench_lppv(const Options& options) {
+    Subject subject = make_random_subject("20k", 20'000);
+    fill(subject, 32, options);
+    fill(subject, 128, options);
+    refresh(options);
+#ifdef TETRALIGHT_HAS_OPENVDB
+    write_vdb_file(subject, options);
+#endif
+    const Subject scene = make_scene_subject(options);
+    Accuracy accuracy(scene);
+    accuracy.add_beams(40);
+    accuracy.report_all();
+}
+
+}  // namespace tetralight::bench

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "lppv/lppv.h"
+
+namespace tetralight::bench {
+
+/// Writes the grids that `write_vdb` writes with OpenVDB's own tools: copyFromDense and io::File.
+void write_vdb_by_openvdb(const std::string& path, const Lppv& lppv);
+
+}  // namespace tetralight::bench
