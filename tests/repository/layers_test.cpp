@@ -28,6 +28,7 @@ const std::map<std::string, Folders> kMayInclude = [] {
         {"lppv", {"base", "probes"}},
         {"lppv/vdb", {"base", "probes", "lppv"}},
         {"runtime", {"base", "probes", "lppv"}},
+        {"runtime/gl", {"base", "probes", "lppv", "runtime"}},
         {"bake/image", {"base"}},
         {"bake/scene", {"base", "probes", "bake/image"}},
         {"bake", {"base", "probes", "bake/scene", "bake/image"}},

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/shader_library.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+bool is_part_of(std::string_view file, ShaderPart part) {
+    if (file == "begin.glsl" || file == "sh.glsl" || file == "end.glsl") return true;
+    return part == ShaderPart::Query && file.starts_with("query");
+}
+
+/// What a shader of a language begins with.
+std::string_view head_of(ShaderLanguage language) {
+    switch (language) {
+        case ShaderLanguage::Glsl450:
+            return "#version 450\n";
+        case ShaderLanguage::GlslEs300:
+            return "#version 300 es\n";
+        case ShaderLanguage::Hlsl:
+            return "#define TETRALIGHT_HLSL\n";
+    }
+    return {};
+}
+
+/// Lines of a file are numbered from this times the file's place in the shader, which is how places
+/// are told apart: some drivers take no note of the number of the file behind it. The last file,
+/// the shader's own text, may be longer.
+constexpr size_t kLineStep = 2000;
+
+void append(ShaderSource& source, ShaderLanguage language, const ShaderFile& file) {
+    if (language == ShaderLanguage::Hlsl) {
+        source.text += text("#line 1 \"", file.name, "\"\n");
+    } else {
+        const size_t place = source.files.size();
+        source.text += text("#line ", kLineStep * place + 1, " ", place, "\n");
+    }
+    source.text += file.text;
+    if (!file.text.ends_with('\n')) source.text += '\n';
+    source.files.emplace_back(file.name);
+}
+
+/// Takes a number off the front of `rest`.
+std::optional<size_t> take_number(std::string_view& rest) {
+    size_t number = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+    if (error != std::errc{}) return std::nullopt;
+    rest.remove_prefix(static_cast<size_t>(end - rest.data()));
+    return number;
+}
+
+/// One line of a log, with its file's name if it begins with a place.
+std::string name_line(const ShaderSource& source, std::string_view line) {
+    std::string_view rest = line;
+    for (const std::string_view kind : {"ERROR: ", "WARNING: "}) {
+        if (rest.starts_with(kind)) rest.remove_prefix(kind.size());
+    }
+    const std::string_view kind = line.substr(0, line.size() - rest.size());
+    if (!take_number(rest) || rest.empty() || source.files.empty()) return std::string(line);
+    const bool is_bracket = rest.front() == '(';
+    if (!is_bracket && rest.front() != ':') return std::string(line);
+    rest.remove_prefix(1);
+    const auto number = take_number(rest);
+    if (!number) return std::string(line);
+    if (is_bracket && rest.starts_with(')')) rest.remove_prefix(1);
+    const size_t file = std::min(*number / kLineStep, source.files.size() - 1);
+    return text(kind, source.files[file], ':', *number - kLineStep * file, rest);
+}
+
+}  // namespace
+
+ShaderSource compose_shader(ShaderLanguage language, std::initializer_list<ShaderPart> parts,
+                            const ShaderFile& own) {
+    ShaderSource source{std::string(head_of(language)), {}};
+    for (const ShaderFile& file : shader_files()) {
+        const bool is_used = std::any_of(parts.begin(), parts.end(), [&](ShaderPart part) {
+            return is_part_of(file.name, part);
+        });
+        if (is_used) append(source, language, file);
+    }
+    append(source, language, own);
+    return source;
+}
+
+std::string name_shader_lines(const ShaderSource& source, std::string_view log) {
+    std::string named;
+    while (!log.empty()) {
+        const size_t end = std::min(log.find('\n'), log.size());
+        named += name_line(source, log.substr(0, end));
+        log.remove_prefix(end);
+        if (log.empty()) break;
+        named += '\n';
+        log.remove_prefix(1);
+    }
+    return named;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <type_traits>
+#include <vector>
+
+#include "probes/packed_sh.h"
+#include "probes/probe_volume.h"
+
+// A probe volume as shaders read it: one uniform block and five arrays of 16-byte elements, ready
+// to upload. runtime/shaders/query_volume.glsl declares them: storage buffers (std430), structured
+// buffers, or textures of 2048 texels a row.
+//
+//     const ShaderVolume volume = make_shader_volume(file->view());
+//     upload(volume.facts); upload(volume.positions); ... // bindings as in query_volume.glsl
+//     const CellLocation location = locate(volume, position, kNoIndex);  // runtime/shader_query.h
+
+namespace tetralight {
+
+/// The uniform block `TetralightVolume` (std140; a constant buffer in HLSL).
+struct ShaderVolumeFacts {
+    glm::vec4 origin{0.0f};       ///< xyz: world position of the local origin; w: `extent`
+    glm::vec4 origin_rest{0.0f};  ///< xyz: what rounding the origin to floats left out
+    glm::vec4 axis{0.0f};         ///< xyz: `VolumeInfo::axis`
+    glm::vec4 seed_low{0.0f};     ///< xyz: lower corner of the seed grid, local
+    glm::vec4 seed_scale{0.0f};   ///< xyz: voxels of the seed grid a metre
+    glm::uvec4 seed_size{1};      ///< xyz: voxels along each axis
+    glm::uvec4 counts{0};         ///< probes, cells, inner cells, `Dimension`
+    PackedSh ambient{};
+
+    bool operator==(const ShaderVolumeFacts&) const = default;
+};
+
+static_assert(sizeof(ShaderVolumeFacts) == 224 && std::is_trivially_copyable_v<ShaderVolumeFacts>);
+static_assert(offsetof(ShaderVolumeFacts, origin_rest) == 16);
+static_assert(offsetof(ShaderVolumeFacts, axis) == 32);
+static_assert(offsetof(ShaderVolumeFacts, seed_low) == 48);
+static_assert(offsetof(ShaderVolumeFacts, seed_scale) == 64);
+static_assert(offsetof(ShaderVolumeFacts, seed_size) == 80);
+static_assert(offsetof(ShaderVolumeFacts, counts) == 96);
+static_assert(offsetof(ShaderVolumeFacts, ambient) == 112);
+
+/// One probe in `ShaderVolume::light`.
+struct PackedProbe {
+    PackedSh sh{};
+    /// Four channels, 1 = lit.
+    glm::vec4 occlusion{1.0f};
+
+    bool operator==(const PackedProbe&) const = default;
+};
+
+static_assert(sizeof(PackedProbe) == 128 && std::is_trivially_copyable_v<PackedProbe>);
+
+/// One cell in `ShaderVolume::cells`. Every index is one of the volume, or kNoIndex for neighbors
+/// that are not there: shaders test none of them.
+struct ShaderCell {
+    glm::uvec4 vertices{0};
+    glm::uvec4 neighbors{kNoIndex};
+
+    bool operator==(const ShaderCell&) const = default;
+};
+
+static_assert(sizeof(ShaderCell) == 32 && std::is_trivially_copyable_v<ShaderCell>);
+
+/// The uniform block and the arrays, in the order of their bindings. None is empty.
+struct ShaderVolume {
+    ShaderVolumeFacts facts;
+    std::vector<glm::vec4> positions;  ///< xyz local, one a probe
+    std::vector<PackedProbe> light;    ///< one a probe
+    std::vector<ShaderCell> cells;
+    std::vector<glm::vec4> hull_rays;  ///< xyz, three a hull cell
+    std::vector<glm::uvec4> seeds;     ///< four voxels each: a cell at the voxel's centre
+
+    bool operator==(const ShaderVolume&) const = default;
+};
+
+/// Texels of a row where the arrays are textures; the last row is filled up.
+inline constexpr size_t kShaderTextureWidth = 2048;
+
+/// Makes the arrays from a volume; its light is what queries read (`compact` where it is there).
+/// The volume may be an unverified file. Cost: as one query a probe.
+[[nodiscard]] ShaderVolume make_shader_volume(const ProbeVolumeView& volume);
+
+}  // namespace tetralight

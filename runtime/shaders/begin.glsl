@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The first file of the shader library: what its languages do not share. The other files follow in
+// any order that puts sh.glsl before query.glsl, and end.glsl comes last.
+//
+// GLSL 4.50 and GLSL ES 3.00 need no macro. HLSL: #define TETRALIGHT_HLSL before this file.
+// The library reads its volume from storage buffers, or with TETRALIGHT_TEXTURES from textures
+// (GLSL ES 3.00 does so by itself).
+#if defined(TETRALIGHT_CPP)
+#define TETRALIGHT_CONST static constexpr
+#elif defined(TETRALIGHT_HLSL)
+#define TETRALIGHT_CONST static const
+#define vec3 float3
+#define vec4 float4
+#define uvec4 uint4
+#define mix lerp
+#define inversesqrt rsqrt
+#else
+#define TETRALIGHT_CONST const
+#ifdef GL_ES
+precision highp float;
+precision highp int;
+#if __VERSION__ < 310 && !defined(TETRALIGHT_TEXTURES)
+#define TETRALIGHT_TEXTURES
+#endif
+#endif
+#endif

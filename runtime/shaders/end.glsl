@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last file of the shader library: takes back the words that begin.glsl lent to HLSL.
+#if defined(TETRALIGHT_HLSL)
+#undef vec3
+#undef vec4
+#undef uvec4
+#undef mix
+#undef inversesqrt
+#endif
+#undef TETRALIGHT_CONST

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// Locates a position among the probes and blends them, on the GPU: the walk and the cells of
+// probes/locate.h, in floats. Twin in C++: runtime/shader_query.h, which compiles this text.
+//
+//   CellLocation location = locate(world_position, hint);   // hint: the last cell, or any number
+//   PackedProbe probe = interpolate(location);
+//   color = albedo * max(sample_sh9(probe.sh, normal), 0.0);
+
+TETRALIGHT_CONST uint tetralight_no_cell = 4294967295u;
+// Cells that a walk tests at most.
+TETRALIGHT_CONST uint tetralight_walk_limit = 1024u;
+// Share of the products that make a volume up, below which floats see a sliver: it holds no
+// position, and those in it belong to the cells beside it.
+TETRALIGHT_CONST float tetralight_sliver = 5e-5f;
+TETRALIGHT_CONST float tetralight_sliver_scale = 1e-18f;
+TETRALIGHT_CONST float tetralight_least_sum = 1e-15f;
+// Two neighbors that send the walk to each other with shares below this are more than rounding.
+TETRALIGHT_CONST float tetralight_settled = -1e-4f;
+TETRALIGHT_CONST float tetralight_outside = -1e30f;
+
+// A position as a blend: the sum of weights[i] times probe i of the cell. They are >= 0 and sum to
+// 1. tetralight_no_cell: there are no probes, or the position is not finite; the light is ambient.
+struct CellLocation {
+    uint cell;
+    vec4 weights;
+};
+
+// What a volume answers for one position.
+struct PackedProbe {
+    PackedSh sh;
+    // Four channels, 1 = lit.
+    vec4 occlusion;
+};
+
+// The best of the cells that were considered: `measure` is its smallest weight as a share of all.
+struct TetralightCandidate {
+    CellLocation location;
+    float measure;
+};
+
+// Signed volumes, in the proportions of barycentric weights. Normals come from edges, so that signs
+// are right wherever the walk comes from.
+vec4 tetralight_tetrahedron_weights(uvec4 vertices, vec3 position) {
+    vec3 p0 = tetralight_probe_position(vertices.x);
+    vec3 p1 = tetralight_probe_position(vertices.y);
+    vec3 p2 = tetralight_probe_position(vertices.z);
+    vec3 p3 = tetralight_probe_position(vertices.w);
+    vec3 a = p1 - p0;
+    vec3 b = p2 - p0;
+    vec3 c = p3 - p0;
+    float unit = inversesqrt(max(max(dot(a, a), max(dot(b, b), dot(c, c))), 1e-36f));
+    a = a * unit;
+    b = b * unit;
+    c = c * unit;
+    vec3 r0 = (position - p0) * unit;
+    vec3 r1 = (position - p1) * unit;
+    vec3 bc = cross(b, c);
+    vec4 weights = vec4(-dot(r1, cross((p2 - p1) * unit, (p3 - p1) * unit)), dot(r0, bc),
+                        dot(r0, cross(c, a)), dot(r0, cross(a, b)));
+    vec3 products = abs(vec3(b.y * c.z, b.z * c.x, b.x * c.y)) +
+                    abs(vec3(b.z * c.y, b.x * c.z, b.y * c.x));
+    bool is_sliver = !(dot(a, bc) > tetralight_sliver * dot(abs(a), products));
+    return is_sliver ? weights * tetralight_sliver_scale : weights;
+}
+
+// Probes in a plane: areas seen along its normal.
+vec4 tetralight_triangle_weights(uvec4 vertices, vec3 position) {
+    vec3 axis = vec3(tetralight_volume.axis.x, tetralight_volume.axis.y, tetralight_volume.axis.z);
+    vec3 p0 = tetralight_probe_position(vertices.x);
+    vec3 p1 = tetralight_probe_position(vertices.y);
+    vec3 p2 = tetralight_probe_position(vertices.z);
+    vec3 r0 = position - p0;
+    vec3 r1 = position - p1;
+    vec3 r2 = position - p2;
+    float square = max(dot(r0, r0), max(dot(r1, r1), dot(r2, r2)));
+    float unit = inversesqrt(max(square, 1e-36f));
+    return vec4(dot(axis, cross((p2 - p1) * unit, r1 * unit)),
+                dot(axis, cross((p0 - p2) * unit, r2 * unit)),
+                dot(axis, cross((p1 - p0) * unit, r0 * unit)), 0.0f);
+}
+
+// Probes on a line.
+vec4 tetralight_segment_weights(uvec4 vertices, vec3 position) {
+    vec3 axis = vec3(tetralight_volume.axis.x, tetralight_volume.axis.y, tetralight_volume.axis.z);
+    vec3 r0 = position - tetralight_probe_position(vertices.x);
+    vec3 r1 = position - tetralight_probe_position(vertices.y);
+    float along0 = dot(r0, axis);
+    float along1 = dot(r1, axis);
+    float unit = 1.0f / max(max(abs(along0), abs(along1)), 1e-36f);
+    return vec4(-along1 * unit, along0 * unit, 0.0f, 0.0f);
+}
+
+// Not normalized; a negative one says that the position lies beyond the face opposite its corner.
+vec4 tetralight_cell_weights(uint cell, vec3 position) {
+    uvec4 vertices = tetralight_cell_vertices(cell);
+    uint dimension = tetralight_volume.counts.w;
+    if (cell < tetralight_volume.counts.z) {
+        if (dimension == 4u) return tetralight_tetrahedron_weights(vertices, position);
+        if (dimension == 3u) return tetralight_triangle_weights(vertices, position);
+        if (dimension == 2u) return tetralight_segment_weights(vertices, position);
+        return vec4(1.0f, 0.0f, 0.0f, 0.0f);
+    }
+    if (dimension == 4u) return tetralight_hull_triangle_weights(cell, vertices, position);
+    if (dimension == 3u) return tetralight_hull_edge_weights(cell, vertices, position);
+    return tetralight_hull_end_weights(cell, vertices, position);
+}
+
+// Smallest weight as a share of the sum: >= 0 inside the cell.
+float tetralight_inside_measure(vec4 weights) {
+    float sum = (weights.x + weights.z) + (weights.y + weights.w);
+    if (!(sum > tetralight_least_sum)) return tetralight_outside;
+    return min(min(weights.x, weights.y), min(weights.z, weights.w)) / sum;
+}
+
+// The neighbor across the face of the most negative weight.
+uint tetralight_next_cell(uint cell, vec4 weights) {
+    uvec4 neighbors = tetralight_cell_neighbors(cell);
+    uint next = neighbors.x;
+    float lowest = weights.x;
+    if (weights.y < lowest) {
+        lowest = weights.y;
+        next = neighbors.y;
+    }
+    if (weights.z < lowest) {
+        lowest = weights.z;
+        next = neighbors.z;
+    }
+    return weights.w < lowest ? neighbors.w : next;
+}
+
+TetralightCandidate tetralight_better(TetralightCandidate best, uint cell, vec4 weights) {
+    float measure = tetralight_inside_measure(weights);
+    if (measure > best.measure) {
+        best.measure = measure;
+        best.location.cell = cell;
+        best.location.weights = weights;
+    }
+    return best;
+}
+
+// The neighbors of a cell, and theirs: where a walk went round, or stopped between two cells.
+TetralightCandidate tetralight_search_near(TetralightCandidate best, uint cell, vec3 position) {
+    uvec4 around = tetralight_cell_neighbors(cell);
+    for (int i = 0; i < 4 && best.measure < 0.0f; ++i) {
+        uint first = around[i];
+        if (first >= tetralight_volume.counts.y) continue;
+        best = tetralight_better(best, first, tetralight_cell_weights(first, position));
+        uvec4 beyond = tetralight_cell_neighbors(first);
+        for (int j = 0; j < 4 && best.measure < 0.0f; ++j) {
+            uint second = beyond[j];
+            if (second >= tetralight_volume.counts.y || second == cell) continue;
+            best = tetralight_better(best, second, tetralight_cell_weights(second, position));
+        }
+    }
+    return best;
+}
+
+TetralightCandidate tetralight_walk(uint start, vec3 position) {
+    TetralightCandidate best;
+    best.location.cell = tetralight_no_cell;
+    best.location.weights = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    best.measure = 2.0f * tetralight_outside;
+    uint cell = start;
+    uint previous = tetralight_no_cell;
+    for (uint i = 0u; i < tetralight_walk_limit; ++i) {
+        vec4 weights = tetralight_cell_weights(cell, position);
+        best = tetralight_better(best, cell, weights);
+        if (best.measure >= 0.0f) return best;
+        uint next = tetralight_next_cell(cell, weights);
+        if (next >= tetralight_volume.counts.y) break;
+        if (next == previous) break;
+        previous = cell;
+        cell = next;
+    }
+    if (best.measure >= tetralight_settled) return best;
+    return tetralight_search_near(best, cell, position);
+}
+
+// Relative to the volume's origin, whose two parts keep what one float would lose. Far away only
+// the direction matters.
+vec3 tetralight_local_position(vec3 position) {
+    vec4 origin = tetralight_volume.origin;
+    vec4 rest = tetralight_volume.origin_rest;
+    vec3 local = (position - vec3(origin.x, origin.y, origin.z)) - vec3(rest.x, rest.y, rest.z);
+    float farthest = 65536.0f * origin.w;
+    float largest = max(abs(local.x), max(abs(local.y), abs(local.z)));
+    if (!(largest > 0.5f * farthest) || !(farthest > 0.0f)) return local;
+    vec3 direction = local / largest;
+    float size = sqrt(dot(direction, direction));
+    return size * largest > farthest ? direction * (farthest / size) : local;
+}
+
+bool tetralight_is_finite(vec3 v) {
+    return abs(v.x) <= 3e38f && abs(v.y) <= 3e38f && abs(v.z) <= 3e38f;
+}
+
+// Finds the cell that holds a world position, and the weights of its probes. `hint`: the cell of
+// the last query near by, or any number that is no cell's index.
+CellLocation locate(vec3 position, uint hint) {
+    CellLocation location;
+    location.cell = tetralight_no_cell;
+    location.weights = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    uint cell_count = tetralight_volume.counts.y;
+    if (cell_count == 0u || !tetralight_is_finite(position)) return location;
+    vec3 local = tetralight_local_position(position);
+    uint start = hint < cell_count ? hint : tetralight_seed_cell(local);
+    TetralightCandidate found = tetralight_walk(start, local);
+    if (!(found.measure > tetralight_outside)) return location;
+    vec4 clamped = max(found.location.weights, location.weights);
+    location.cell = found.location.cell;
+    location.weights = clamped / ((clamped.x + clamped.z) + (clamped.y + clamped.w));
+    return location;
+}
+
+PackedSh tetralight_add_probe(PackedSh sum, uint probe, float weight) {
+    sum.sha_r = sum.sha_r + tetralight_probe_light(probe, 0u) * weight;
+    sum.sha_g = sum.sha_g + tetralight_probe_light(probe, 1u) * weight;
+    sum.sha_b = sum.sha_b + tetralight_probe_light(probe, 2u) * weight;
+    sum.shb_r = sum.shb_r + tetralight_probe_light(probe, 3u) * weight;
+    sum.shb_g = sum.shb_g + tetralight_probe_light(probe, 4u) * weight;
+    sum.shb_b = sum.shb_b + tetralight_probe_light(probe, 5u) * weight;
+    sum.shc = sum.shc + tetralight_probe_light(probe, 6u) * weight;
+    return sum;
+}
+
+// Blends the probes of a located cell.
+PackedProbe interpolate(CellLocation location) {
+    PackedProbe blend;
+    blend.sh = tetralight_volume.ambient;
+    blend.occlusion = vec4(1.0f, 1.0f, 1.0f, 1.0f);
+    if (location.cell >= tetralight_volume.counts.y) return blend;
+    vec4 zero = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    blend.sh.sha_r = zero;
+    blend.sh.sha_g = zero;
+    blend.sh.sha_b = zero;
+    blend.sh.shb_r = zero;
+    blend.sh.shb_g = zero;
+    blend.sh.shb_b = zero;
+    blend.sh.shc = zero;
+    blend.occlusion = zero;
+    uvec4 vertices = tetralight_cell_vertices(location.cell);
+    for (int i = 0; i < 4; ++i) {
+        float weight = location.weights[i];
+        uint probe = vertices[i];
+        if (!(weight > 0.0f)) continue;
+        blend.sh = tetralight_add_probe(blend.sh, probe, weight);
+        blend.occlusion = blend.occlusion + tetralight_probe_light(probe, 7u) * weight;
+    }
+    return blend;
+}

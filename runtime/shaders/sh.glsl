@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of probes at a surface. Twins in C++: probes/packed_sh.h and runtime/probe_shading.h.
+
+// Irradiance / pi of one object or instance, as pack_sh and pack_instances write it:
+//   E(n)/pi = dot(sha, (n, 1)) + dot(shb, (xy, yz, zz, zx)) + shc (xx - yy)
+struct PackedSh {
+    vec4 sha_r;
+    vec4 sha_g;
+    vec4 sha_b;
+    vec4 shb_r;
+    vec4 shb_g;
+    vec4 shb_b;
+    vec4 shc;
+};
+
+// Its first two bands alone, red, green and blue: dot(sha, (n, 1)).
+struct PackedSh4 {
+    vec4 sha_r;
+    vec4 sha_g;
+    vec4 sha_b;
+};
+
+// Irradiance / pi at a unit normal: times albedo it is the diffuse exitant radiance. Negative where
+// the light rings: clamp the sum of all light at 0.
+vec3 sample_sh9(PackedSh sh, vec3 normal) {
+    vec4 linear_part = vec4(normal.x, normal.y, normal.z, 1.0f);
+    vec4 products = vec4(normal.x * normal.y, normal.y * normal.z, normal.z * normal.z,
+                         normal.z * normal.x);
+    float square = normal.x * normal.x - normal.y * normal.y;
+    return vec3(dot(sh.sha_r, linear_part) + dot(sh.shb_r, products) + sh.shc.x * square,
+                dot(sh.sha_g, linear_part) + dot(sh.shb_g, products) + sh.shc.y * square,
+                dot(sh.sha_b, linear_part) + dot(sh.shb_b, products) + sh.shc.z * square);
+}
+
+// The first two bands of packed light. Its sha.w holds s0 - s6, so that s6 = shb.z / 3 goes back.
+PackedSh4 first_bands(PackedSh sh) {
+    float third = 1.0f / 3.0f;
+    PackedSh4 bands;
+    bands.sha_r = sh.sha_r + vec4(0.0f, 0.0f, 0.0f, third * sh.shb_r.z);
+    bands.sha_g = sh.sha_g + vec4(0.0f, 0.0f, 0.0f, third * sh.shb_g.z);
+    bands.sha_b = sh.sha_b + vec4(0.0f, 0.0f, 0.0f, third * sh.shb_b.z);
+    return bands;
+}
+
+// Irradiance / pi of two bands: three dot products, for what is far away or small.
+vec3 sample_sh4(PackedSh4 sh, vec3 normal) {
+    vec4 linear_part = vec4(normal.x, normal.y, normal.z, 1.0f);
+    return vec3(dot(sh.sha_r, linear_part), dot(sh.sha_g, linear_part), dot(sh.sha_b, linear_part));
+}
+
+// Adds one layer of light (a lamp, a sky) times its weight for red, green and blue.
+PackedSh add_layer(PackedSh sum, PackedSh layer, vec3 weight) {
+    PackedSh added;
+    added.sha_r = sum.sha_r + layer.sha_r * weight.x;
+    added.sha_g = sum.sha_g + layer.sha_g * weight.y;
+    added.sha_b = sum.sha_b + layer.sha_b * weight.z;
+    added.shb_r = sum.shb_r + layer.shb_r * weight.x;
+    added.shb_g = sum.shb_g + layer.shb_g * weight.y;
+    added.shb_b = sum.shb_b + layer.shb_b * weight.z;
+    added.shc = vec4(sum.shc.x + layer.shc.x * weight.x, sum.shc.y + layer.shc.y * weight.y,
+                     sum.shc.z + layer.shc.z * weight.z, 1.0f);
+    return added;
+}
+
+// Share of a light that reaches an object, 1 = lit: the light's channel of the probes' occlusion. A
+// light without a channel (-1) is not occluded.
+float probe_occlusion(vec4 occlusion, int channel) {
+    if (channel == 0) return occlusion.x;
+    if (channel == 1) return occlusion.y;
+    if (channel == 2) return occlusion.z;
+    return channel == 3 ? occlusion.w : 1.0f;
+}
+
+// The shadow of a light whose shadow map ends: `shadow` (1 = lit) holds what casts into the map,
+// the probes' occlusion the static scene. `fade` 0 = within the map, 1 = beyond it.
+float mix_occlusion(float shadow, float occlusion, float fade) {
+    return mix(min(shadow, occlusion), occlusion, fade);
+}
+
+// World-space unit normal of an instance whose transform has these axes (the first three columns of
+// world_from_instance): right for any scale, mirrored ones too. An instance without a volume keeps
+// the normal as it is.
+vec3 instance_normal(vec3 x_axis, vec3 y_axis, vec3 z_axis, vec3 normal) {
+    vec3 turned = cross(y_axis, z_axis) * normal.x + cross(z_axis, x_axis) * normal.y +
+                  cross(x_axis, y_axis) * normal.z;
+    if (dot(x_axis, cross(y_axis, z_axis)) < 0.0f) turned = -turned;
+    float square = dot(turned, turned);
+    return square > 0.0f ? turned * inversesqrt(square) : normal;
+}

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/tetralight.h"
+
+#include <cmath>
+#include <cstring>
+#include <new>
+
+#include "probes/probe_file.h"
+#include "runtime/detail/c_arrays.h"
+#include "runtime/pack_instances.h"
+#include "runtime/shader_volume.h"
+
+struct tetralight_volume {
+    tetralight::ProbeFile file;
+};
+
+struct tetralight_shader_volume {
+    tetralight::ShaderVolume volume;
+};
+
+namespace {
+
+using namespace tetralight;
+using detail::CallError;
+using detail::check_array;
+using detail::finish;
+using detail::output_of;
+using detail::PositionBlocks;
+
+static_assert(TETRALIGHT_NO_CELL == kNoIndex);
+static_assert(sizeof(PackedSh) == sizeof(tetralight_light::packed));
+
+CallError null(const char* what) {
+    return {TETRALIGHT_BAD_POINTER, std::string(what) + " is NULL"};
+}
+
+/// The volume's view, or an error.
+CallError check_volume(const tetralight_volume* volume) {
+    return volume ? CallError{} : null("volume");
+}
+
+using OpenFile = Result<ProbeFile> (*)(const std::string& path);
+
+tetralight_status open_with(OpenFile open, const char* path, tetralight_volume** volume,
+                            tetralight_error* error) {
+    if (!path) return finish(null("path"), error);
+    if (!volume) return finish(null("volume"), error);
+    auto file = open(path);
+    if (!file) return finish({TETRALIGHT_BAD_FILE, file.error().message}, error);
+    *volume = new (std::nothrow) tetralight_volume{std::move(*file)};
+    return *volume ? TETRALIGHT_OK : finish({TETRALIGHT_BAD_FILE, "out of memory"}, error);
+}
+
+/// Of floats that are handed in one by one.
+CallError check_floats(const char* name, const float* floats, size_t count) {
+    return check_array(name, tetralight_const_array{floats, count * sizeof(float), 0}, 1,
+                       {count * sizeof(float), sizeof(float)});
+}
+
+CallError check_outside(const tetralight_batch& batch) {
+    if (batch.outside > TETRALIGHT_AMBIENT) {
+        return {TETRALIGHT_BAD_VALUE, text("outside is ", batch.outside)};
+    }
+    const bool fades = batch.outside == TETRALIGHT_AMBIENT;
+    if (fades && !(batch.fade_distance > 0.0f && std::isfinite(batch.fade_distance))) {
+        return {TETRALIGHT_BAD_VALUE,
+                text("fade_distance is ", batch.fade_distance, ", not a length")};
+    }
+    return {};
+}
+
+OutsideHull outside_of(const tetralight_batch& batch) {
+    OutsideHull outside;
+    outside.policy = static_cast<OutsidePolicy>(batch.outside);
+    if (outside.policy == OutsidePolicy::Ambient) outside.fade_distance = batch.fade_distance;
+    return outside;
+}
+
+constexpr detail::ElementLayout kPosition{12, 4};
+constexpr detail::ElementLayout kHint{4, 4};
+constexpr detail::ElementLayout kVector{16, 4};
+
+CallError check_hints(const tetralight_array& hints, size_t count) {
+    if (!hints.data) return {};
+    return check_array("hints", hints, count, kHint, detail::Gaps::Refused);
+}
+
+CallError check_batch(const tetralight_batch& batch) {
+    if (batch.sh_format > TETRALIGHT_SH_HALF) {
+        return {TETRALIGHT_BAD_VALUE, text("sh_format is ", batch.sh_format)};
+    }
+    if (auto wrong = check_outside(batch)) return wrong;
+    if (batch.count == 0) return {};
+    if (!batch.sh.data && !batch.occlusion.data) return null("both sh and occlusion");
+    if (auto wrong = check_array("positions", batch.positions, batch.count, kPosition)) {
+        return wrong;
+    }
+    if (auto wrong = check_hints(batch.hints, batch.count)) return wrong;
+    const auto format = static_cast<ShFormat>(batch.sh_format);
+    if (batch.sh.data) {
+        const size_t value = value_size(format);
+        if (auto wrong =
+                check_array("sh", batch.sh, batch.count, {value_count(format) * value, value})) {
+            return wrong;
+        }
+    }
+    if (!batch.occlusion.data) return {};
+    return check_array("occlusion", batch.occlusion, batch.count, kVector);
+}
+
+std::span<uint32_t> hints_of(const tetralight_array& hints, size_t begin, size_t count) {
+    if (!hints.data) return {};
+    return {static_cast<uint32_t*>(hints.data) + begin, count};
+}
+
+/// Positions [begin, begin + positions.size()) of a checked batch.
+InterpolationBatch part_of(const tetralight_batch& batch, size_t begin,
+                           std::span<const glm::vec3> positions) {
+    InterpolationBatch part;
+    part.positions = positions;
+    part.hints = hints_of(batch.hints, begin, positions.size());
+    part.outside = outside_of(batch);
+    const auto format = static_cast<ShFormat>(batch.sh_format);
+    if (batch.sh.data) {
+        const size_t size = value_count(format) * value_size(format);
+        const detail::ByteRows rows = output_of(batch.sh, size, begin);
+        part.irradiance = strided(rows.memory, format, rows.stride);
+    }
+    if (batch.occlusion.data) {
+        const detail::ByteRows rows = output_of(batch.occlusion, kVector.size, begin);
+        part.occlusion = strided_occlusion(rows.memory, rows.stride);
+    }
+    return part;
+}
+
+CallError check_instances(const tetralight_instances& instances) {
+    if (instances.count == 0) return {};
+    constexpr const char* kNames[] = {"sh[0]", "sh[1]", "sh[2]", "sh[3]",
+                                      "sh[4]", "sh[5]", "sh[6]"};
+    if (auto wrong = check_array("positions", instances.positions, instances.count, kPosition)) {
+        return wrong;
+    }
+    if (auto wrong = check_hints(instances.hints, instances.count)) return wrong;
+    for (size_t i = 0; i < std::size(kNames); ++i) {
+        if (auto wrong = check_array(kNames[i], instances.sh[i], instances.count, kVector,
+                                     detail::Gaps::Refused)) {
+            return wrong;
+        }
+    }
+    if (!instances.occlusion.data) return {};
+    return check_array("occlusion", instances.occlusion, instances.count, kVector);
+}
+
+InstanceBatch part_of(const tetralight_instances& instances, size_t begin,
+                      std::span<const glm::vec3> positions) {
+    const auto vectors = [&](size_t i) {
+        return std::span(static_cast<glm::vec4*>(instances.sh[i].data) + begin, positions.size());
+    };
+    InstanceBatch part;
+    part.positions = positions;
+    part.hints = hints_of(instances.hints, begin, positions.size());
+    part.arrays = {vectors(0), vectors(1), vectors(2), vectors(3),
+                   vectors(4), vectors(5), vectors(6)};
+    if (instances.occlusion.data) {
+        const detail::ByteRows rows = output_of(instances.occlusion, kVector.size, begin);
+        part.occlusion = strided_occlusion(rows.memory, rows.stride);
+    }
+    return part;
+}
+
+/// Answers blocks of positions with `answer(begin, positions)`, and adds up what they met.
+template <class Answer>
+tetralight_status answer_blocks(const tetralight_const_array& positions, size_t count,
+                                tetralight_report* report, tetralight_error* error, Answer answer) {
+    tetralight_report sum{0, 0};
+    PositionBlocks blocks(positions, count);
+    while (blocks.next()) {
+        const Result<BatchReport> met = answer(blocks.begin(), blocks.positions());
+        if (!met) return finish({TETRALIGHT_BAD_VALUE, met.error().message}, error);
+        sum.not_finite_count += met->not_finite_count;
+        sum.step_count += met->step_count;
+    }
+    if (report) *report = sum;
+    return TETRALIGHT_OK;
+}
+
+void write_light(const ProbeVolumeView& volume, const CellLocation& location,
+                 tetralight_light& light) {
+    const InterpolatedProbe probe = interpolate(volume, location);
+    const PackedSh packed = pack_sh(probe.irradiance);
+    std::memcpy(light.packed, &packed, sizeof light.packed);
+    std::memcpy(light.occlusion, &probe.occlusion, sizeof light.occlusion);
+    std::memcpy(light.weights, &location.weights, sizeof light.weights);
+    light.cell = location.cell;
+}
+
+template <class Element>
+tetralight_const_array bytes_of(const std::vector<Element>& elements) {
+    return {elements.data(), elements.size() * sizeof(Element), 0};
+}
+
+}  // namespace
+
+tetralight_status tetralight_open(const char* path, tetralight_volume** volume,
+                                  tetralight_error* error) noexcept {
+    return open_with(open_probe_file, path, volume, error);
+}
+
+tetralight_status tetralight_open_lazy(const char* path, tetralight_volume** volume,
+                                       tetralight_error* error) noexcept {
+    return open_with(open_probe_file_lazy, path, volume, error);
+}
+
+tetralight_status tetralight_verify(const tetralight_volume* volume,
+                                    tetralight_error* error) noexcept {
+    if (auto wrong = check_volume(volume)) return finish(wrong, error);
+    const auto status = verify(volume->file);
+    return status ? TETRALIGHT_OK : finish({TETRALIGHT_BAD_FILE, status.error().message}, error);
+}
+
+void tetralight_close(tetralight_volume* volume) noexcept {
+    delete volume;
+}
+
+tetralight_status tetralight_get_info(const tetralight_volume* volume, tetralight_info* info,
+                                      tetralight_error* error) noexcept {
+    if (auto wrong = check_volume(volume)) return finish(wrong, error);
+    if (!info) return finish(null("info"), error);
+    const ProbeVolumeView& view = volume->file.view();
+    const bool is_compact = !view.compact.empty();
+    *info = {view.probe_count(),
+             static_cast<uint32_t>(view.cells.size()),
+             view.info.inner_cell_count,
+             static_cast<uint32_t>(view.info.dimension),
+             is_compact || !view.irradiance.empty() ? 1u : 0u,
+             view.occlusion.empty() ? 0u : 1u};
+    return TETRALIGHT_OK;
+}
+
+tetralight_status tetralight_query(const tetralight_volume* volume, const float* position,
+                                   uint32_t* hint, tetralight_light* light,
+                                   tetralight_error* error) noexcept {
+    if (auto wrong = check_volume(volume)) return finish(wrong, error);
+    if (auto wrong = check_floats("position", position, 3)) return finish(wrong, error);
+    if (hint) {
+        const tetralight_const_array one{hint, sizeof *hint, 0};
+        if (auto wrong = check_array("hint", one, 1, kHint)) return finish(wrong, error);
+    }
+    if (!light) return finish(null("light"), error);
+    const glm::vec3 at(position[0], position[1], position[2]);
+    const ProbeVolumeView& view = volume->file.view();
+    const CellLocation location = locate(view, at, hint ? *hint : kNoIndex);
+    write_light(view, location, *light);
+    if (hint && location.cell != kNoIndex) *hint = location.cell;
+    return TETRALIGHT_OK;
+}
+
+tetralight_status tetralight_query_batch(const tetralight_volume* volume,
+                                         const tetralight_batch* batch, tetralight_report* report,
+                                         tetralight_error* error) noexcept {
+    if (auto wrong = check_volume(volume)) return finish(wrong, error);
+    if (!batch) return finish(null("batch"), error);
+    if (auto wrong = check_batch(*batch)) return finish(wrong, error);
+    return answer_blocks(batch->positions, batch->count, report, error,
+                         [&](size_t begin, std::span<const glm::vec3> positions) {
+                             return interpolate(volume->file.view(),
+                                                part_of(*batch, begin, positions));
+                         });
+}
+
+tetralight_status tetralight_pack_instances(const tetralight_volume* volume,
+                                            const tetralight_instances* instances,
+                                            tetralight_report* report,
+                                            tetralight_error* error) noexcept {
+    if (auto wrong = check_volume(volume)) return finish(wrong, error);
+    if (!instances) return finish(null("instances"), error);
+    if (auto wrong = check_instances(*instances)) return finish(wrong, error);
+    return answer_blocks(instances->positions, instances->count, report, error,
+                         [&](size_t begin, std::span<const glm::vec3> positions) {
+                             return pack_instances(volume->file.view(),
+                                                   part_of(*instances, begin, positions));
+                         });
+}
+
+tetralight_status tetralight_pack_sh(const float* coefficients, float* packed,
+                                     tetralight_error* error) noexcept {
+    if (auto wrong = check_floats("coefficients", coefficients, 27)) return finish(wrong, error);
+    if (auto wrong = check_floats("packed", packed, 28)) return finish(wrong, error);
+    IrradianceSh sh;
+    std::memcpy(static_cast<void*>(&sh), coefficients, sizeof sh);
+    const PackedSh made = pack_sh(sh);
+    std::memcpy(packed, &made, sizeof made);
+    return TETRALIGHT_OK;
+}
+
+tetralight_status tetralight_sample_sh9(const float* packed, const float* normal, float* rgb,
+                                        tetralight_error* error) noexcept {
+    if (auto wrong = check_floats("packed", packed, 28)) return finish(wrong, error);
+    if (auto wrong = check_floats("normal", normal, 3)) return finish(wrong, error);
+    if (auto wrong = check_floats("rgb", rgb, 3)) return finish(wrong, error);
+    PackedSh sh;
+    std::memcpy(static_cast<void*>(&sh), packed, sizeof sh);
+    const glm::vec3 light = sample_sh9(sh, {normal[0], normal[1], normal[2]});
+    std::memcpy(rgb, &light, sizeof light);
+    return TETRALIGHT_OK;
+}
+
+tetralight_status tetralight_make_shader_volume(const tetralight_volume* volume,
+                                                tetralight_shader_volume** made,
+                                                tetralight_error* error) noexcept {
+    if (auto wrong = check_volume(volume)) return finish(wrong, error);
+    if (!made) return finish(null("made"), error);
+    *made = new (std::nothrow) tetralight_shader_volume{make_shader_volume(volume->file.view())};
+    return *made ? TETRALIGHT_OK : finish({TETRALIGHT_NOT_THERE, "out of memory"}, error);
+}
+
+tetralight_status tetralight_get_shader_array(const tetralight_shader_volume* made, uint32_t index,
+                                              tetralight_const_array* array,
+                                              tetralight_error* error) noexcept {
+    if (!made) return finish(null("made"), error);
+    if (!array) return finish(null("array"), error);
+    const ShaderVolume& volume = made->volume;
+    switch (index) {
+        case 0:
+            *array = {&volume.facts, sizeof volume.facts, 0};
+            return TETRALIGHT_OK;
+        case 1:
+            *array = bytes_of(volume.positions);
+            return TETRALIGHT_OK;
+        case 2:
+            *array = bytes_of(volume.light);
+            return TETRALIGHT_OK;
+        case 3:
+            *array = bytes_of(volume.cells);
+            return TETRALIGHT_OK;
+        case 4:
+            *array = bytes_of(volume.hull_rays);
+            return TETRALIGHT_OK;
+        case 5:
+            *array = bytes_of(volume.seeds);
+            return TETRALIGHT_OK;
+        default:
+            break;
+    }
+    return finish(
+        {TETRALIGHT_BAD_VALUE, text("index is ", index, " of ", TETRALIGHT_SHADER_ARRAY_COUNT)},
+        error);
+}
+
+void tetralight_free_shader_volume(tetralight_shader_volume* made) noexcept {
+    delete made;
+}

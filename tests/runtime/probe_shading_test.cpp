@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "runtime/probe_shading.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+namespace tetralight {
+namespace {
+
+glm::vec3 random_normal(std::mt19937_64& engine) {
+    std::normal_distribution<float> normal;
+    return glm::normalize(glm::vec3(normal(engine), normal(engine), normal(engine)));
+}
+
+IrradianceSh random_irradiance(std::mt19937_64& engine) {
+    std::uniform_real_distribution<float> value(-1.0f, 2.0f);
+    IrradianceSh sh;
+    for (glm::vec3& c : sh.coefficients) c = {value(engine), value(engine), value(engine)};
+    return sh;
+}
+
+void expect_near(glm::vec3 a, glm::vec3 b, float tolerance) {
+    EXPECT_LE(glm::distance(a, b), tolerance)
+        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+TEST(ProbeShading, TwoBandsAreTheLightWithoutItsThird) {
+    std::mt19937_64 engine(1);
+    for (int i = 0; i < 1000; ++i) {
+        IrradianceSh sh = random_irradiance(engine);
+        const PackedSh4 bands = first_bands(pack_sh(sh));
+        for (int k = 4; k < kShCoefficientCount; ++k) sh.coefficients[k] = glm::vec3(0.0f);
+        const glm::vec3 normal = random_normal(engine);
+        expect_near(sample_sh4(bands, normal), sample_sh9(pack_sh(sh), normal), 1e-6f);
+    }
+}
+
+TEST(ProbeShading, LayersAddUpAsTheirLightDoes) {
+    std::mt19937_64 engine(2);
+    const IrradianceSh base = random_irradiance(engine), lamp = random_irradiance(engine);
+    const glm::vec3 weight(0.0f, 0.5f, 2.0f);
+    IrradianceSh sum = base;
+    for (int k = 0; k < kShCoefficientCount; ++k) {
+        sum.coefficients[k] += weight * lamp.coefficients[k];
+    }
+    const PackedSh added = add_layer(pack_sh(base), pack_sh(lamp), weight);
+    const glm::vec3 normal = random_normal(engine);
+    expect_near(sample_sh9(added, normal), sample_sh9(pack_sh(sum), normal), 1e-6f);
+    EXPECT_EQ(added.shc.w, 1.0f);
+}
+
+TEST(ProbeShading, ALightWithoutAChannelIsNotOccluded) {
+    const glm::vec4 occlusion(0.1f, 0.2f, 0.3f, 0.4f);
+    for (int channel = 0; channel < 4; ++channel) {
+        EXPECT_EQ(probe_occlusion(occlusion, channel), occlusion[channel]);
+    }
+    for (const int channel : {-1, -100, 4, 1000}) {
+        EXPECT_EQ(probe_occlusion(occlusion, channel), 1.0f);
+    }
+}
+
+TEST(ProbeShading, BeyondTheShadowMapProbesAloneSayWhatIsLit) {
+    EXPECT_EQ(mix_occlusion(0.0f, 0.75f, 1.0f), 0.75f);
+    EXPECT_EQ(mix_occlusion(0.25f, 0.75f, 0.0f), 0.25f);
+    EXPECT_EQ(mix_occlusion(1.0f, 0.75f, 0.0f), 0.75f);
+}
+
+TEST(ProbeShading, NormalsOfScaledAndMirroredInstancesStandOnTheirSurface) {
+    std::mt19937_64 engine(3);
+    std::uniform_real_distribution<float> size(0.2f, 5.0f), angle(0.0f, 6.0f);
+    for (int i = 0; i < 1000; ++i) {
+        glm::mat4 world = glm::rotate(glm::mat4(1.0f), angle(engine), random_normal(engine));
+        const glm::vec3 mirror(i & 1 ? -1 : 1, i & 2 ? -1 : 1, i & 4 ? -1 : 1);
+        world = glm::scale(world, mirror * glm::vec3(size(engine), size(engine), size(engine)));
+        const glm::vec3 normal = random_normal(engine);
+        const glm::vec3 turned = instance_normal(world[0], world[1], world[2], normal);
+        expect_near(turned, glm::normalize(glm::inverseTranspose(glm::mat3(world)) * normal),
+                    1e-5f);
+        // Outwards: a step along the normal stays a step away from the surface.
+        EXPECT_GT(glm::dot(turned, glm::mat3(world) * normal), 0.0f);
+    }
+}
+
+TEST(ProbeShading, AnInstanceWithoutAVolumeKeepsItsNormal) {
+    const glm::vec3 normal(0.0f, 0.6f, 0.8f), none(0.0f);
+    EXPECT_EQ(instance_normal(none, none, none, normal), normal);
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every variant of the shader library goes through glslang: GLSL 4.50, GLSL ES 3.00 and HLSL.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "runtime/shader_library.h"
+#include "tests/support/temp_folder.h"
+
+namespace tetralight {
+namespace {
+
+/// A way to use the library: what a shader's own text calls.
+struct Use {
+    std::string name;
+    ShaderPart part;
+    std::string glsl;  ///< the body of a function that gives a vec3
+    std::string hlsl;
+};
+
+const std::vector<Use>& uses() {
+    static const std::vector<Use> all{
+        {"sh", ShaderPart::Sh,
+         R"(PackedSh sh = PackedSh(v, v, v, v, v, v, v);
+            sh = add_layer(sh, sh, v.xyz);
+            vec3 normal = instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
+            float lit = mix_occlusion(v.x, probe_occlusion(v, 2), 0.5);
+            return lit * (sample_sh9(sh, normal) + sample_sh4(first_bands(sh), normal));)",
+         R"(PackedSh sh;
+            sh.sha_r = v; sh.sha_g = v; sh.sha_b = v;
+            sh.shb_r = v; sh.shb_g = v; sh.shb_b = v; sh.shc = v;
+            sh = add_layer(sh, sh, v.xyz);
+            float3 normal = instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
+            float lit = mix_occlusion(v.x, probe_occlusion(v, 2), 0.5);
+            return lit * (sample_sh9(sh, normal) + sample_sh4(first_bands(sh), normal));)"},
+        {"query", ShaderPart::Query,
+         R"(PackedProbe probe = interpolate(locate(v.xyz, uint(v.w)));
+            return sample_sh9(probe.sh, vec3(0.0, 1.0, 0.0)) * probe.occlusion.x;)",
+         R"(PackedProbe probe = interpolate(locate(v.xyz, uint(v.w)));
+            return sample_sh9(probe.sh, float3(0.0, 1.0, 0.0)) * probe.occlusion.x;)"},
+    };
+    return all;
+}
+
+struct Variant {
+    std::string name;
+    ShaderLanguage language;
+    std::string stage;
+    std::string options;
+    std::string wrap_begin, wrap_end;
+};
+
+const std::vector<Variant>& variants() {
+    static const std::vector<Variant> all{
+        {"GLSL 4.50 fragment", ShaderLanguage::Glsl450, "frag", "",
+         "layout(location = 0) in vec4 v_in;\nlayout(location = 0) out vec4 color;\n"
+         "vec3 shade(vec4 v) {\n",
+         "}\nvoid main() { color = vec4(shade(v_in), 1.0); }\n"},
+        {"GLSL 4.50 vertex", ShaderLanguage::Glsl450, "vert", "",
+         "layout(location = 0) in vec4 v_in;\nlayout(location = 0) out vec3 color;\n"
+         "vec3 shade(vec4 v) {\n",
+         "}\nvoid main() { color = shade(v_in); gl_Position = v_in; }\n"},
+        {"GLSL 4.50 compute", ShaderLanguage::Glsl450, "comp", "",
+         "layout(local_size_x = 64) in;\n"
+         "layout(std430, binding = 8) buffer Values { vec4 values[]; };\nvec3 shade(vec4 v) {\n",
+         "}\nvoid main() { uint i = gl_GlobalInvocationID.x;"
+         " values[i] = vec4(shade(values[i]), 1.0); }\n"},
+        {"GLSL ES 3.00 fragment", ShaderLanguage::GlslEs300, "frag", "",
+         "in vec4 v_in;\nout vec4 color;\nvec3 shade(vec4 v) {\n",
+         "}\nvoid main() { color = vec4(shade(v_in), 1.0); }\n"},
+        {"GLSL ES 3.00 vertex", ShaderLanguage::GlslEs300, "vert", "",
+         "in vec4 v_in;\nout vec3 color;\nvec3 shade(vec4 v) {\n",
+         "}\nvoid main() { color = shade(v_in); gl_Position = v_in; }\n"},
+        {"HLSL pixel", ShaderLanguage::Hlsl, "frag", "-D -V -e shade --auto-map-locations ", "",
+         ""},
+        {"HLSL vertex", ShaderLanguage::Hlsl, "vert", "-D -V -e shade --auto-map-locations ", "",
+         ""},
+    };
+    return all;
+}
+
+std::string own_text(const Variant& variant, const Use& use) {
+    if (variant.language != ShaderLanguage::Hlsl) {
+        return variant.wrap_begin + use.glsl + variant.wrap_end;
+    }
+    const bool is_vertex = variant.stage == "vert";
+    return "float3 light(float4 v) {\n" + use.hlsl + "\n}\nfloat4 shade(float4 v : TEXCOORD0) : " +
+           (is_vertex ? "SV_Position" : "SV_Target") + " { return float4(light(v), 1.0); }\n";
+}
+
+struct Compiled {
+    bool is_right = false;
+    std::string log;
+};
+
+/// Runs glslangValidator, the reference compiler, on a shader.
+Compiled compile(const Variant& variant, const ShaderSource& source) {
+    const TempFolder folder;
+    const std::string path = folder.path("shader." + variant.stage);
+    std::ofstream(path) << source.text;
+    const bool writes = !variant.options.empty();
+    const std::string command = std::string(TETRALIGHT_GLSLANG) + " " + variant.options + "-S " +
+                                variant.stage + (writes ? " -o " + folder.path("out.spv") : "") +
+                                " " + path + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    Compiled compiled;
+    std::array<char, 4096> part;
+    while (std::fgets(part.data(), part.size(), pipe)) compiled.log += part.data();
+    compiled.is_right = pclose(pipe) == 0;
+    return compiled;
+}
+
+class ShaderCompile : public testing::TestWithParam<Variant> {
+  protected:
+    void SetUp() override {
+        if (std::string_view(TETRALIGHT_GLSLANG).ends_with("NOTFOUND")) {
+            GTEST_SKIP() << "glslangValidator is not here: install glslang-tools to run this test";
+        }
+    }
+};
+
+TEST_P(ShaderCompile, TakesEveryPart) {
+    for (const Use& use : uses()) {
+        const auto source = compose_shader(GetParam().language, {use.part},
+                                           {"own.glsl", own_text(GetParam(), use)});
+        const Compiled compiled = compile(GetParam(), source);
+        EXPECT_TRUE(compiled.is_right) << use.name << "\n"
+                                       << name_shader_lines(source, compiled.log);
+    }
+}
+
+TEST_P(ShaderCompile, ErrorsShowFileAndLine) {
+    const auto source = compose_shader(GetParam().language, {ShaderPart::Query},
+                                       {"broken.glsl", "\n\nthis is no shader\n"});
+    const Compiled compiled = compile(GetParam(), source);
+    EXPECT_FALSE(compiled.is_right);
+    EXPECT_NE(name_shader_lines(source, compiled.log).find("broken.glsl:3"), std::string::npos)
+        << compiled.log;
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, ShaderCompile, testing::ValuesIn(variants()),
+                         [](const auto& variant) {
+                             std::string name = variant.param.name;
+                             std::erase_if(name, [](char c) { return !std::isalnum(c); });
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace tetralight
