@@ -73,6 +73,7 @@ void bench_grid(const Options& options);
 void bench_lppv(const Options& options);
 void bench_query(const Options& options);
 void bench_relight(const Options& options);
+void bench_runtime(const Options& options);
 void bench_tetrahedralize(const Options& options);
 
 }  // namespace tetralight::bench

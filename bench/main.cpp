@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
         {"relight", bench_relight},
         {"grid", bench_grid},
         {"lppv", bench_lppv},
+        {"runtime", bench_runtime},
         {"tetrahedralize", bench_tetrahedralize}};
 
     CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");

@@ -40,6 +40,7 @@ const std::map<std::string, Folders> kMayInclude = [] {
     table["pipeline"] = all;
     all.insert("pipeline");
     table["cli"] = all;
+    all.insert("runtime/gl");
     table["bench"] = all;
     return table;
 }();

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+# Installs the ship set: libraries, headers, the shader library, and what CMake and pkg-config need
+# to find them. CPack makes a Debian package of it (docs/embed.md).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(ship_modules base probes runtime)
+set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/tetralight)
+set(shader_folder ${CMAKE_INSTALL_DATADIR}/tetralight/shaders)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tetralight)
+
+foreach(module ${ship_modules})
+  install(TARGETS tetralight_${module} EXPORT tetralight
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module}/ DESTINATION ${header_folder}/${module}
+          COMPONENT dev FILES_MATCHING PATTERN "*.h"
+          PATTERN detail EXCLUDE PATTERN build EXCLUDE PATTERN gl EXCLUDE PATTERN vdb EXCLUDE
+          PATTERN shaders EXCLUDE)
+endforeach()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/shaders/ DESTINATION ${shader_folder}
+        COMPONENT dev FILES_MATCHING PATTERN "*.glsl")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE COMPONENT dev
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libtetralight-dev RENAME copyright)
+
+# find_package(tetralight COMPONENTS ...)
+find_package(hwy CONFIG QUIET)
+install(EXPORT tetralight NAMESPACE tetralight:: FILE tetralightTargets.cmake
+        DESTINATION ${package_folder} COMPONENT dev)
+configure_package_config_file(
+  ${PROJECT_SOURCE_DIR}/cmake/tetralightConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/tetralightConfig.cmake
+  INSTALL_DESTINATION ${package_folder} PATH_VARS shader_folder)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/tetralightConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/tetralightConfig.cmake
+              ${PROJECT_BINARY_DIR}/tetralightConfigVersion.cmake
+        DESTINATION ${package_folder} COMPONENT dev)
+
+# pkg-config tetralight
+set(ship_libraries ${ship_modules})
+list(REVERSE ship_libraries)
+list(TRANSFORM ship_libraries PREPEND "-ltetralight_")
+list(JOIN ship_libraries " " ship_libraries)
+set(package_requires "")
+if(hwy_FOUND)
+  set(package_requires libhwy)
+endif()
+configure_file(${PROJECT_SOURCE_DIR}/cmake/tetralight.pc.in ${PROJECT_BINARY_DIR}/tetralight.pc
+               @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/tetralight.pc
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+
+# cpack -G DEB
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME tetralight)
+set(CPACK_PACKAGE_CONTACT "Tetralight contributors <tetralight@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libtetralight-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_COMPONENT_DEV_DESCRIPTION "Baked light probes at run time
+ Libraries, headers and shaders that locate, interpolate and shade with the
+ light probes of .probes files, for C++20, C99, GLSL and HLSL.")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS libglm-dev)
+if(hwy_FOUND)
+  string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libhwy-dev")
+endif()
+include(CPack)

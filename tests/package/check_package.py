@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Uses the installed package as its users do, each time in an empty folder.
+
+check_package.py headers PREFIX
+check_package.py consumer PREFIX VOLUME SOURCES
+check_package.py guide PREFIX VOLUME GUIDE
+check_package.py components PREFIX
+check_package.py debian PREFIX SHIP_BUILD
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+
+def environment(prefix):
+    """Where a package of one's own prefix is found, and nothing of the build."""
+    found = dict(os.environ, CMAKE_PREFIX_PATH=prefix)
+    folders = [str(p) for p in Path(prefix).glob("**/pkgconfig")]
+    found["PKG_CONFIG_PATH"] = ":".join(folders)
+    return found
+
+
+def run(command, folder, prefix):
+    """Runs a command and gives what it printed; ends the check when it fails."""
+    done = subprocess.run(command, cwd=folder, env=environment(prefix), text=True,
+                          shell=isinstance(command, str), stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
+    if done.returncode != 0:
+        sys.exit(f"{command}\nfailed with {done.returncode}:\n{done.stdout}")
+    return done.stdout
+
+
+def check_headers(prefix):
+    include = Path(prefix) / "include/tetralight"
+    headers = sorted(str(p.relative_to(include)) for p in include.rglob("*.h"))
+    assert len(headers) > 20, headers
+    assert not [h for h in headers if "detail/" in h], headers
+    with tempfile.TemporaryDirectory() as folder:
+        for header in headers:
+            source = Path(folder) / "one.cpp"
+            source.write_text(f'#include "{header}"\n#include "{header}"\n')
+            run(["c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror",
+                 f"-I{include}", str(source)], folder, prefix)
+    print(f"{len(headers)} headers")
+
+
+def report_size(program, name):
+    subprocess.run(["strip", program], check=True)
+    print(f"{name}: {os.path.getsize(program)} bytes, stripped")
+
+
+def check_consumer(prefix, volume, sources):
+    tests = Path(sources) / "tests/runtime"
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("c_api_consumer.c", "c_api_consumer.h"):
+            target = Path(folder) / "tests/runtime" / name
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(tests / name, target)
+        (Path(folder) / "main.c").write_text(
+            '#include "tests/runtime/c_api_consumer.h"\n'
+            "int main(int count, char** arguments) {\n"
+            "    return count == 2 ? run_c_api_consumer(arguments[1]) : 99;\n}\n")
+        flags = run("pkg-config --cflags --libs tetralight", folder, prefix).split()
+        run(["cc", "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O2", "-I.", "main.c",
+             "tests/runtime/c_api_consumer.c", "-o", "consumer"] + flags + ["-Wl,--gc-sections"],
+            folder, prefix)
+        run(["./consumer", volume], folder, prefix)
+        report_size(str(Path(folder) / "consumer"), "C consumer of every query")
+
+
+def check_guide(prefix, volume, guide):
+    blocks = re.findall(r"^```(\w+) ?(\S*)\n(.*?)^```$", Path(guide).read_text(), re.S | re.M)
+    commands = [text for language, _, text in blocks if language == "sh"]
+    files = [(name, text) for language, name, text in blocks if language != "sh"]
+    assert len(commands) == 3 and len(files) == 7, [len(commands), len(files)]
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copy(volume, Path(folder) / "level.probes")
+        for name, text in files:
+            (Path(folder) / name).write_text(text)
+        printed = ""
+        for text in commands:
+            if "glslangValidator" in text and not shutil.which("glslangValidator"):
+                print("glslangValidator is not here: the shaders of the guide are not compiled")
+                continue
+            printed += run("set -e\n" + text, folder, prefix)
+        assert printed.count("1023 instances lit") == 2, printed
+        lights = re.findall(r"^-?[\d.e-]+ -?[\d.e-]+ -?[\d.e-]+$", printed, re.M)
+        assert len(lights) == 4 and len(set(lights)) == 1, printed
+        report_size(str(Path(folder) / "object"), "object.cpp of the guide")
+        print(printed)
+
+
+def check_components(prefix):
+    with tempfile.TemporaryDirectory() as folder:
+        project = ("cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES CXX)\n"
+                   "find_package(tetralight REQUIRED COMPONENTS runtime {})\n"
+                   "if(NOT EXISTS ${{tetralight_SHADER_DIR}}/sh.glsl)\n"
+                   "  message(FATAL_ERROR \"no shaders\")\nendif()\n")
+        lists = Path(folder) / "CMakeLists.txt"
+        lists.write_text(project.format("probes base shaders"))
+        run("cmake -S . -B build", folder, prefix)
+        lists.write_text(project.format("teapot"))
+        failed = subprocess.run("cmake -S . -B build", shell=True, cwd=folder, text=True,
+                                env=environment(prefix), stderr=subprocess.PIPE,
+                                stdout=subprocess.PIPE)
+        assert failed.returncode != 0 and "teapot" in failed.stderr, failed.stderr
+
+
+def listing(folder):
+    return sorted(str(p.relative_to(folder)) for p in Path(folder).rglob("*") if p.is_file())
+
+
+def check_debian(prefix, ship):
+    with tempfile.TemporaryDirectory() as folder:
+        run(["cpack", "-G", "DEB", "-B", folder, "--config", f"{ship}/CPackConfig.cmake"], ship,
+            prefix)
+        packages = list(Path(folder).glob("libtetralight-dev_*.deb"))
+        assert len(packages) == 1, listing(folder)
+        root = Path(folder) / "root"
+        run(["dpkg-deb", "-x", str(packages[0]), str(root)], folder, prefix)
+        assert listing(root / "usr") == listing(prefix), "other files than cmake --install"
+        fields = run(["dpkg-deb", "-f", str(packages[0])], folder, prefix)
+        assert "Package: libtetralight-dev" in fields and "libglm-dev" in fields, fields
+        # It works where it lies, too: nothing in it knows the prefix.
+        flags = run("pkg-config --cflags --libs tetralight", folder, str(root / "usr"))
+        assert str(root) in flags, flags
+        print(f"{packages[0].name}: {packages[0].stat().st_size} bytes")
+
+
+if __name__ == "__main__":
+    checks = {"headers": check_headers, "consumer": check_consumer, "guide": check_guide,
+              "components": check_components, "debian": check_debian}
+    checks[sys.argv[1]](*sys.argv[2:])

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes the volume that consumers of the package open: package_volume FILE
+#include <cstdio>
+
+#include "probes/probe_file.h"
+#include "tests/support/property_volume.h"
+
+int main(int argc, char** argv) {
+    using namespace tetralight;
+    if (argc != 2) return 2;
+    ProbeVolume volume = test::make_random_volume(test::random_positions(300, 1, 2.0), 2);
+    volume.occlusion.assign(volume.positions.size(), glm::vec4(0.5f, 1.0f, 0.0f, 1.0f));
+    const auto status = write_probe_file(argv[1], volume.view());
+    if (!status) std::fprintf(stderr, "%s\n", status.error().message.c_str());
+    return status ? 0 : 1;
+}
