@@ -109,7 +109,7 @@ TEST_P(PackInstances, FillsOnePackedShAnInstance) {
 }
 
 // Around the border of a block.
-INSTANTIATE_TEST_SUITE_P(Counts, PackInstances, testing::Values(1, 127, 128, 129, 1023));
+INSTANTIATE_TEST_SUITE_P(Counts, PackInstances, testing::Values(0, 1, 127, 128, 129, 1023));
 
 TEST(PackInstances, WritesIntoAnInstanceBufferAndNothingBeside) {
     struct Instance {

@@ -279,6 +279,35 @@ TEST_F(CApi, InstancesAreCheckedArrayByArray) {
     EXPECT_EQ(tetralight_pack_instances(volume, &instances, nullptr, &error), TETRALIGHT_BAD_VALUE);
 }
 
+TEST_F(CApi, VolumesOfEveryDimensionAndWithoutLightAnswer) {
+    std::vector<std::vector<glm::dvec3>> sets(5);
+    for (int i = 0; i < 6; ++i) {
+        const double t = i;
+        sets[1] = {{1, 2, 3}};
+        sets[2].emplace_back(t, 2 * t, 0);
+        sets[3].emplace_back(t, t * t, 1);
+        sets[4].emplace_back(t, t * t, t * t * t);
+    }
+    for (uint32_t dimension = 0; dimension < sets.size(); ++dimension) {
+        ProbeVolume flat = test::make_random_volume(sets[dimension], 1);
+        if (dimension % 2 == 1) flat.irradiance.clear();
+        const std::string flat_path = folder.write("flat.probes", probe_file_bytes(flat.view()));
+        tetralight_volume* opened = nullptr;
+        ASSERT_EQ(tetralight_open(flat_path.c_str(), &opened, &error), TETRALIGHT_OK)
+            << error.message;
+        tetralight_info info{};
+        ASSERT_EQ(tetralight_get_info(opened, &info, &error), TETRALIGHT_OK);
+        EXPECT_EQ(info.dimension, dimension);
+        EXPECT_EQ(info.has_occlusion, 0u);
+        const float position[] = {0.5f, 7.0f, -1.0f};
+        tetralight_light light{};
+        EXPECT_EQ(tetralight_query(opened, position, nullptr, &light, &error), TETRALIGHT_OK);
+        EXPECT_TRUE(std::isfinite(light.packed[3]));
+        EXPECT_EQ(light.occlusion[0], 1.0f);
+        tetralight_close(opened);
+    }
+}
+
 TEST_F(CApi, MessagesThatAreTooLongAreCutOff) {
     tetralight_volume* other = nullptr;
     const std::string long_path = "/no/" + std::string(3000, 'x');
