@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: Apache-2.0 */
+// SPDX-License-Identifier: Apache-2.0
 #ifndef TETRALIGHT_C_API_CONSUMER_H
 #define TETRALIGHT_C_API_CONSUMER_H
 
