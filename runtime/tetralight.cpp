@@ -31,7 +31,7 @@ static_assert(TETRALIGHT_NO_CELL == kNoIndex);
 static_assert(sizeof(PackedSh) == sizeof(tetralight_light::packed));
 
 CallError null(const char* what) {
-    return {TETRALIGHT_BAD_POINTER, std::string(what) + " is NULL"};
+    return {TETRALIGHT_BAD_POINTER, text(what, " is NULL")};
 }
 
 /// The volume's view, or an error.
@@ -342,9 +342,7 @@ tetralight_status tetralight_get_shader_array(const tetralight_shader_volume* ma
         default:
             break;
     }
-    return finish(
-        {TETRALIGHT_BAD_VALUE, text("index is ", index, " of ", TETRALIGHT_SHADER_ARRAY_COUNT)},
-        error);
+    return finish({TETRALIGHT_BAD_VALUE, text("there is no shader array ", index)}, error);
 }
 
 void tetralight_free_shader_volume(tetralight_shader_volume* made) noexcept {
