@@ -9,6 +9,8 @@ int main(int argc, char** argv) {
     using namespace tetralight;
     if (argc != 2) return 2;
     ProbeVolume volume = test::make_random_volume(test::random_positions(300, 1, 2.0), 2);
+    // Brighter than it varies, so that it is positive at every normal.
+    for (IrradianceSh& sh : volume.irradiance) sh.coefficients[0] += glm::vec3(20.0f);
     volume.occlusion.assign(volume.positions.size(), glm::vec4(0.5f, 1.0f, 0.0f, 1.0f));
     const auto status = write_probe_file(argv[1], volume.view());
     if (!status) std::fprintf(stderr, "%s\n", status.error().message.c_str());
