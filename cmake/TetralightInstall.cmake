@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(ship_modules base probes runtime)
+set(ship_modules base probes lppv runtime)
 set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/tetralight)
 set(shader_folder ${CMAKE_INSTALL_DATADIR}/tetralight/shaders)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tetralight)
@@ -14,7 +14,7 @@ foreach(module ${ship_modules})
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module}/ DESTINATION ${header_folder}/${module}
           COMPONENT dev FILES_MATCHING PATTERN "*.h"
-          PATTERN detail EXCLUDE PATTERN build EXCLUDE PATTERN gl EXCLUDE PATTERN vdb EXCLUDE
+          PATTERN build EXCLUDE PATTERN gl EXCLUDE PATTERN vdb EXCLUDE
           PATTERN shaders EXCLUDE)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/shaders/ DESTINATION ${shader_folder}

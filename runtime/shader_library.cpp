@@ -12,6 +12,7 @@ namespace {
 
 bool is_part_of(std::string_view file, ShaderPart part) {
     if (file == "begin.glsl" || file == "sh.glsl" || file == "end.glsl") return true;
+    if (part == ShaderPart::Lppv) return file == "lppv.glsl";
     return part == ShaderPart::Query && file.starts_with("query");
 }
 

@@ -34,6 +34,7 @@ enum class ShaderLanguage {
 /// What a shader uses of the library. Every part brings `Sh` along.
 enum class ShaderPart {
     Sh,     ///< sample_sh9, sample_sh4, probe_occlusion, add_layer, instance_normal
+    Lppv,   ///< sample_lppv_4, sample_lppv_7, their atlas forms and occlusion
     Query,  ///< locate, interpolate
 };
 

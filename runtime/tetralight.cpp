@@ -7,12 +7,9 @@
 
 #include "probes/probe_file.h"
 #include "runtime/detail/c_arrays.h"
+#include "runtime/detail/c_volume.h"
 #include "runtime/pack_instances.h"
 #include "runtime/shader_volume.h"
-
-struct tetralight_volume {
-    tetralight::ProbeFile file;
-};
 
 struct tetralight_shader_volume {
     tetralight::ShaderVolume volume;
@@ -26,6 +23,7 @@ using detail::check_array;
 using detail::finish;
 using detail::output_of;
 using detail::PositionBlocks;
+using detail::view_of;
 
 static_assert(TETRALIGHT_NO_CELL == kNoIndex);
 static_assert(sizeof(PackedSh) == sizeof(tetralight_light::packed));
@@ -226,7 +224,7 @@ tetralight_status tetralight_get_info(const tetralight_volume* volume, tetraligh
                                       tetralight_error* error) noexcept {
     if (auto wrong = check_volume(volume)) return finish(wrong, error);
     if (!info) return finish(null("info"), error);
-    const ProbeVolumeView& view = volume->file.view();
+    const ProbeVolumeView& view = view_of(*volume);
     const bool is_compact = !view.compact.empty();
     *info = {view.probe_count(),
              static_cast<uint32_t>(view.cells.size()),
@@ -248,7 +246,7 @@ tetralight_status tetralight_query(const tetralight_volume* volume, const float*
     }
     if (!light) return finish(null("light"), error);
     const glm::vec3 at(position[0], position[1], position[2]);
-    const ProbeVolumeView& view = volume->file.view();
+    const ProbeVolumeView& view = view_of(*volume);
     const CellLocation location = locate(view, at, hint ? *hint : kNoIndex);
     write_light(view, location, *light);
     if (hint && location.cell != kNoIndex) *hint = location.cell;
@@ -263,7 +261,7 @@ tetralight_status tetralight_query_batch(const tetralight_volume* volume,
     if (auto wrong = check_batch(*batch)) return finish(wrong, error);
     return answer_blocks(batch->positions, batch->count, report, error,
                          [&](size_t begin, std::span<const glm::vec3> positions) {
-                             return interpolate(volume->file.view(),
+                             return interpolate(view_of(*volume),
                                                 part_of(*batch, begin, positions));
                          });
 }
@@ -277,7 +275,7 @@ tetralight_status tetralight_pack_instances(const tetralight_volume* volume,
     if (auto wrong = check_instances(*instances)) return finish(wrong, error);
     return answer_blocks(instances->positions, instances->count, report, error,
                          [&](size_t begin, std::span<const glm::vec3> positions) {
-                             return pack_instances(volume->file.view(),
+                             return pack_instances(view_of(*volume),
                                                    part_of(*instances, begin, positions));
                          });
 }
@@ -310,7 +308,7 @@ tetralight_status tetralight_make_shader_volume(const tetralight_volume* volume,
                                                 tetralight_error* error) noexcept {
     if (auto wrong = check_volume(volume)) return finish(wrong, error);
     if (!made) return finish(null("made"), error);
-    *made = new (std::nothrow) tetralight_shader_volume{make_shader_volume(volume->file.view())};
+    *made = new (std::nothrow) tetralight_shader_volume{make_shader_volume(view_of(*volume))};
     return *made ? TETRALIGHT_OK : finish({TETRALIGHT_NOT_THERE, "out of memory"}, error);
 }
 

@@ -197,6 +197,70 @@ tetralight_status tetralight_pack_sh(const float* coefficients, float* packed,
 tetralight_status tetralight_sample_sh9(const float* packed, const float* normal, float* rgb,
                                         tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
+/** Which bands of the light vary within a proxy volume (lppv/lppv.h). */
+typedef enum tetralight_lppv_quality {
+    TETRALIGHT_LPPV_LOW = 0,
+    TETRALIGHT_LPPV_NORMAL = 1,
+    TETRALIGHT_LPPV_FULL = 2
+} tetralight_lppv_quality;
+
+/** Where in the box the grid points lie. */
+typedef enum tetralight_lppv_placement {
+    TETRALIGHT_LPPV_CELL_CORNERS = 0,
+    TETRALIGHT_LPPV_CELL_CENTERS = 1
+} tetralight_lppv_placement;
+
+/** Parts of the texture along X (lppv/lppv_texture.h). */
+typedef enum tetralight_lppv_layout {
+    /** SHAr | SHAg | SHAb | occlusion; band 2 is the same for the whole object. */
+    TETRALIGHT_LPPV_FOUR_SLABS = 0,
+    /** SHAr | SHAg | SHAb | SHBr | SHBg | SHBb | SHC */
+    TETRALIGHT_LPPV_SEVEN_SLABS = 1
+} tetralight_lppv_layout;
+
+/** RGBA texels of halves or floats. */
+typedef enum tetralight_lppv_format {
+    TETRALIGHT_LPPV_HALF = 0,
+    TETRALIGHT_LPPV_FLOAT = 1
+} tetralight_lppv_format;
+
+/** A grid of light around a large object: a proxy volume. */
+typedef struct tetralight_lppv_box {
+    /** The object's transform, column by column. */
+    float world_from_box[16];
+    /** The box in the object's space. */
+    float low[3], high[3];
+    /** Grid points along each axis, 1 to 256. */
+    uint32_t resolution[3];
+    /** A tetralight_lppv_placement, _quality, _layout and _format. */
+    uint32_t placement, quality, layout, format;
+} tetralight_lppv_box;
+
+/** The 3D texture of a proxy volume. */
+typedef struct tetralight_lppv_size {
+    uint32_t texels[3];
+    size_t bytes;
+} tetralight_lppv_size;
+
+/** What shaders need beside the texture: LppvConstants of runtime/shaders/lppv.glsl. */
+typedef struct tetralight_lppv_constants {
+    float local_from_world[16];
+    float params[4], low[4], size_inverse[4];
+    float shb_r[4], shb_g[4], shb_b[4], shc[4];
+} tetralight_lppv_constants;
+
+/** Thread-safe. */
+tetralight_status tetralight_get_lppv_size(const tetralight_lppv_box* box,
+                                           tetralight_lppv_size* size,
+                                           tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Fills a texture, x fastest, and its constants. Cost: one query a grid point; allocates. */
+tetralight_status tetralight_fill_lppv(const tetralight_volume* volume,
+                                       const tetralight_lppv_box* box,
+                                       const tetralight_array* texels,
+                                       tetralight_lppv_constants* constants,
+                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
 /** A volume as shaders query it (runtime/shader_volume.h): arrays that are ready to upload. */
 typedef struct tetralight_shader_volume tetralight_shader_volume;
 

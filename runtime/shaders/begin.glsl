@@ -12,13 +12,23 @@
 #define vec3 float3
 #define vec4 float4
 #define uvec4 uint4
+#define mat4 float4x4
 #define mix lerp
 #define inversesqrt rsqrt
+#define TETRALIGHT_MUL(matrix, vector) mul(matrix, vector)
+#define TETRALIGHT_TEXTURE_3D(name) Texture3D<float4> name, SamplerState name##_sampler
+#define TETRALIGHT_PASS_3D(name) name, name##_sampler
+#define TETRALIGHT_SAMPLE_3D(name, uvw) name.SampleLevel(name##_sampler, uvw, 0.0f)
 #else
 #define TETRALIGHT_CONST const
+#define TETRALIGHT_MUL(matrix, vector) ((matrix) * (vector))
+#define TETRALIGHT_TEXTURE_3D(name) sampler3D name
+#define TETRALIGHT_PASS_3D(name) name
+#define TETRALIGHT_SAMPLE_3D(name, uvw) textureLod(name, uvw, 0.0f)
 #ifdef GL_ES
 precision highp float;
 precision highp int;
+precision highp sampler3D;
 #if __VERSION__ < 310 && !defined(TETRALIGHT_TEXTURES)
 #define TETRALIGHT_TEXTURES
 #endif

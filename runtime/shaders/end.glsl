@@ -4,6 +4,7 @@
 #undef vec3
 #undef vec4
 #undef uvec4
+#undef mat4
 #undef mix
 #undef inversesqrt
 #endif

@@ -20,6 +20,9 @@ struct Use {
     ShaderPart part;
     std::string glsl;  ///< the body of a function that gives a vec3
     std::string hlsl;
+    /// What is declared before.
+    std::string glsl_globals = {};
+    std::string hlsl_globals = {};
 };
 
 const std::vector<Use>& uses() {
@@ -37,6 +40,26 @@ const std::vector<Use>& uses() {
             float3 normal = instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
             float lit = mix_occlusion(v.x, probe_occlusion(v, 2), 0.5);
             return lit * (sample_sh9(sh, normal) + sample_sh4(first_bands(sh), normal));)"},
+        {"lppv", ShaderPart::Lppv,
+         R"(vec4 occlusion = sample_lppv_occlusion(slabs, constants, v.xyz) *
+                sample_lppv_atlas_occlusion(slabs, atlas_constants, v.xyz);
+            return occlusion.x * (sample_sh9(sample_lppv_4(slabs, constants, v.xyz), v.xyz) +
+                sample_sh9(sample_lppv_7(slabs, constants, v.xyz), v.xyz) +
+                sample_sh9(sample_lppv_atlas_4(slabs, atlas_constants, v.xyz), v.xyz) +
+                sample_sh9(sample_lppv_atlas_7(slabs, atlas_constants, v.xyz), v.xyz));)",
+         R"(float4 occlusion = sample_lppv_occlusion(slabs, slabs_sampler, constants, v.xyz) *
+                sample_lppv_atlas_occlusion(slabs, slabs_sampler, atlas_constants, v.xyz);
+            PackedSh sh = sample_lppv_4(slabs, slabs_sampler, constants, v.xyz);
+            sh = add_layer(sh, sample_lppv_7(slabs, slabs_sampler, constants, v.xyz), v.xyz);
+            sh = add_layer(sh, sample_lppv_atlas_4(slabs, slabs_sampler, atlas_constants, v.xyz),
+                           v.xyz);
+            sh = add_layer(sh, sample_lppv_atlas_7(slabs, slabs_sampler, atlas_constants, v.xyz),
+                           v.xyz);
+            return occlusion.x * sample_sh9(sh, v.xyz);)",
+         "layout(std140) uniform Volumes { LppvConstants constants;"
+         " LppvAtlasConstants atlas_constants; };\nuniform sampler3D slabs;\n",
+         "cbuffer Volumes { LppvConstants constants; LppvAtlasConstants atlas_constants; };\n"
+         "Texture3D<float4> slabs;\nSamplerState slabs_sampler;\n"},
         {"query", ShaderPart::Query,
          R"(PackedProbe probe = interpolate(locate(v.xyz, uint(v.w)));
             return sample_sh9(probe.sh, vec3(0.0, 1.0, 0.0)) * probe.occlusion.x;)",
@@ -85,10 +108,11 @@ const std::vector<Variant>& variants() {
 
 std::string own_text(const Variant& variant, const Use& use) {
     if (variant.language != ShaderLanguage::Hlsl) {
-        return variant.wrap_begin + use.glsl + variant.wrap_end;
+        return use.glsl_globals + variant.wrap_begin + use.glsl + variant.wrap_end;
     }
     const bool is_vertex = variant.stage == "vert";
-    return "float3 light(float4 v) {\n" + use.hlsl + "\n}\nfloat4 shade(float4 v : TEXCOORD0) : " +
+    return use.hlsl_globals + "float3 light(float4 v) {\n" + use.hlsl +
+           "\n}\nfloat4 shade(float4 v : TEXCOORD0) : " +
            (is_vertex ? "SV_Position" : "SV_Target") + " { return float4(light(v), 1.0); }\n";
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,6 +27,8 @@ struct ShaderTask {
     std::span<const glm::vec4> inputs;
     uint32_t index_count = 0;
     uint32_t part_count = 1;
+    /// Binds what else the shader reads.
+    std::function<void(const ShaderProgram&)> bind = {};
 };
 
 /// A texture of `kShaderTextureWidth` texels a row that holds 16-byte elements.
@@ -158,6 +161,7 @@ void main() {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 8, buffers[0]);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 9, buffers[1]);
         glUseProgram(program.name());
+        if (task.bind) task.bind(program);
         glDispatchCompute(static_cast<GLuint>((thread_count + 63) / 64), 1, 1);
         glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
         glGetNamedBufferSubData(buffers[1], 0, size, results.data());
@@ -208,6 +212,7 @@ void main() {
         glBindFramebuffer(GL_FRAMEBUFFER, frame);
         glViewport(0, 0, width, height);
         glUseProgram(program.name());
+        if (task.bind) task.bind(program);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         std::vector<glm::vec4> results(kShaderTextureWidth * static_cast<size_t>(height));
         glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, results.data());

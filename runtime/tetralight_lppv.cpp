@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "lppv/lppv_texture.h"
+#include "runtime/detail/c_arrays.h"
+#include "runtime/detail/c_volume.h"
+#include "runtime/tetralight.h"
+
+namespace {
+
+using namespace tetralight;
+using detail::CallError;
+using detail::finish;
+
+static_assert(sizeof(LppvConstants) == sizeof(tetralight_lppv_constants));
+static_assert(offsetof(LppvConstants, params) == offsetof(tetralight_lppv_constants, params));
+static_assert(offsetof(LppvConstants, shc) == offsetof(tetralight_lppv_constants, shc));
+
+CallError check_enumerators(const tetralight_lppv_box& box) {
+    if (box.placement > TETRALIGHT_LPPV_CELL_CENTERS) {
+        return {TETRALIGHT_BAD_VALUE, text("placement is ", box.placement)};
+    }
+    if (box.quality > TETRALIGHT_LPPV_FULL) {
+        return {TETRALIGHT_BAD_VALUE, text("quality is ", box.quality)};
+    }
+    if (box.layout > TETRALIGHT_LPPV_SEVEN_SLABS) {
+        return {TETRALIGHT_BAD_VALUE, text("layout is ", box.layout)};
+    }
+    if (box.format > TETRALIGHT_LPPV_FLOAT) {
+        return {TETRALIGHT_BAD_VALUE, text("format is ", box.format)};
+    }
+    return {};
+}
+
+Result<LppvGrid> make_grid(const tetralight_lppv_box& box) {
+    const glm::dmat4 world_from_box(glm::make_mat4(box.world_from_box));
+    const LppvPart part{world_from_box, glm::dvec3(glm::make_vec3(box.low)),
+                        glm::dvec3(glm::make_vec3(box.high))};
+    LppvSettings settings;
+    settings.resolution_mode = LppvResolution::Custom;
+    settings.resolution = {box.resolution[0], box.resolution[1], box.resolution[2]};
+    settings.placement = static_cast<LppvPlacement>(box.placement);
+    return make_lppv_grid({world_from_box, std::span(&part, 1)}, settings);
+}
+
+LppvLayout layout_of(const tetralight_lppv_box& box) {
+    return static_cast<LppvLayout>(box.layout);
+}
+
+size_t texture_size(const tetralight_lppv_box& box, const LppvGrid& grid) {
+    return grid.point_count() * slab_count(layout_of(box)) *
+           texel_size(static_cast<LppvTexelFormat>(box.format));
+}
+
+}  // namespace
+
+tetralight_status tetralight_get_lppv_size(const tetralight_lppv_box* box,
+                                           tetralight_lppv_size* size,
+                                           tetralight_error* error) noexcept {
+    if (!box) return finish({TETRALIGHT_BAD_POINTER, "box is NULL"}, error);
+    if (!size) return finish({TETRALIGHT_BAD_POINTER, "size is NULL"}, error);
+    if (auto wrong = check_enumerators(*box)) return finish(wrong, error);
+    const auto grid = make_grid(*box);
+    if (!grid) return finish({TETRALIGHT_BAD_VALUE, grid.error().message}, error);
+    *size = {
+        {grid->resolution.x * slab_count(layout_of(*box)), grid->resolution.y, grid->resolution.z},
+        texture_size(*box, *grid)};
+    return TETRALIGHT_OK;
+}
+
+tetralight_status tetralight_fill_lppv(const tetralight_volume* volume,
+                                       const tetralight_lppv_box* box,
+                                       const tetralight_array* texels,
+                                       tetralight_lppv_constants* constants,
+                                       tetralight_error* error) noexcept {
+    if (!volume) return finish({TETRALIGHT_BAD_POINTER, "volume is NULL"}, error);
+    if (!box) return finish({TETRALIGHT_BAD_POINTER, "box is NULL"}, error);
+    if (!texels) return finish({TETRALIGHT_BAD_POINTER, "texels is NULL"}, error);
+    if (!constants) return finish({TETRALIGHT_BAD_POINTER, "constants is NULL"}, error);
+    if (auto wrong = check_enumerators(*box)) return finish(wrong, error);
+    const auto grid = make_grid(*box);
+    if (!grid) return finish({TETRALIGHT_BAD_VALUE, grid.error().message}, error);
+    const size_t bytes = texture_size(*box, *grid);
+    if (auto wrong = detail::check_array("texels", *texels, 1, {bytes, 1}, detail::Gaps::Refused)) {
+        return finish(wrong, error);
+    }
+    LppvFill fill;
+    fill.quality = static_cast<LppvQuality>(box->quality);
+    const auto lppv = make_lppv(detail::view_of(*volume), *grid, fill);
+    if (!lppv) return finish({TETRALIGHT_BAD_VALUE, lppv.error().message}, error);
+    const LppvTexture texture =
+        make_lppv_texture(*lppv, layout_of(*box), static_cast<LppvTexelFormat>(box->format));
+    const LppvConstants made = make_lppv_constants(*lppv, layout_of(*box));
+    std::memcpy(texels->data, texture.texels.data(), bytes);
+    std::memcpy(constants, &made, sizeof made);
+    return TETRALIGHT_OK;
+}
