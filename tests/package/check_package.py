@@ -75,7 +75,7 @@ def check_guide(prefix, volume, guide):
     blocks = re.findall(r"^```(\w+) ?(\S*)\n(.*?)^```$", Path(guide).read_text(), re.S | re.M)
     commands = [text for language, _, text in blocks if language == "sh"]
     files = [(name, text) for language, name, text in blocks if language != "sh"]
-    assert len(commands) == 3 and len(files) == 7, [len(commands), len(files)]
+    assert len(commands) == 3 and len(files) == 10, [len(commands), len(files)]
     with tempfile.TemporaryDirectory() as folder:
         shutil.copy(volume, Path(folder) / "level.probes")
         for name, text in files:
@@ -87,6 +87,7 @@ def check_guide(prefix, volume, guide):
                 continue
             printed += run("set -e\n" + text, folder, prefix)
         assert printed.count("1023 instances lit") == 2, printed
+        assert printed.count("bytes, 176 of constants") == 2, printed
         lights = re.findall(r"^-?[\d.e-]+ -?[\d.e-]+ -?[\d.e-]+$", printed, re.M)
         assert len(lights) == 4 and len(set(lights)) == 1, printed
         report_size(str(Path(folder) / "object"), "object.cpp of the guide")
@@ -100,7 +101,7 @@ def check_components(prefix):
                    "if(NOT EXISTS ${{tetralight_SHADER_DIR}}/sh.glsl)\n"
                    "  message(FATAL_ERROR \"no shaders\")\nendif()\n")
         lists = Path(folder) / "CMakeLists.txt"
-        lists.write_text(project.format("probes base shaders"))
+        lists.write_text(project.format("probes lppv base shaders"))
         run("cmake -S . -B build", folder, prefix)
         lists.write_text(project.format("teapot"))
         failed = subprocess.run("cmake -S . -B build", shell=True, cwd=folder, text=True,
