@@ -45,7 +45,7 @@ tetralight_status open_with(OpenFile open, const char* path, tetralight_volume**
     if (!volume) return finish(null("volume"), error);
     auto file = open(path);
     if (!file) return finish({TETRALIGHT_BAD_FILE, file.error().message}, error);
-    *volume = new (std::nothrow) tetralight_volume{std::move(*file)};
+    *volume = new (std::nothrow) tetralight_volume(std::move(*file));
     return *volume ? TETRALIGHT_OK : finish({TETRALIGHT_BAD_FILE, "out of memory"}, error);
 }
 
@@ -231,7 +231,8 @@ tetralight_status tetralight_get_info(const tetralight_volume* volume, tetraligh
              view.info.inner_cell_count,
              static_cast<uint32_t>(view.info.dimension),
              is_compact || !view.irradiance.empty() ? 1u : 0u,
-             view.occlusion.empty() ? 0u : 1u};
+             view.occlusion.empty() ? 0u : 1u,
+             static_cast<uint32_t>(view.layers.size())};
     return TETRALIGHT_OK;
 }
 

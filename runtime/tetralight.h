@@ -64,7 +64,17 @@ typedef struct tetralight_info {
     uint32_t dimension;
     /** Not zero: it has what its name says. */
     uint32_t has_light, has_occlusion;
+    /** Layers that `tetralight_recombine` can weigh. */
+    uint32_t layer_count;
 } tetralight_info;
+
+/** A layer of light: the sun, the sky, a lamp. */
+typedef struct tetralight_layer {
+    /** As "light:lamp", ends with '\0'; cut off if it is longer. */
+    char name[128];
+    /** What the volume's light has of it now; 1 = as it was baked. */
+    float weight;
+} tetralight_layer;
 
 /** What is answered outside the hull of the probes (probes/locate.h). */
 typedef enum tetralight_outside {
@@ -170,6 +180,17 @@ void tetralight_close(tetralight_volume* volume) TETRALIGHT_NOEXCEPT;
 
 tetralight_status tetralight_get_info(const tetralight_volume* volume, tetralight_info* info,
                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+tetralight_status tetralight_get_layer(const tetralight_volume* volume, uint32_t index,
+                                       tetralight_layer* layer,
+                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Makes the volume's light the sum of its layers times these weights, one a layer, >= 0. Not at
+ * the same time as any other call on this volume. Cost: as reading all layers once; memory: that of
+ * the probes' light. Shader volumes and proxy volumes that were made before keep their light. */
+tetralight_status tetralight_recombine(tetralight_volume* volume, const float* weights,
+                                       size_t weight_count,
+                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** The light at one position (three floats). `hint`: the cell where the walk starts, and the cell
  * found; may be NULL. A position that is not finite gets the ambient light. */

@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "probes/probe_file.h"
 #include "runtime/tetralight.h"
 
-/// What the C API's handle holds.
+/// What the C API's handle holds: a file, and the light that took the place of the file's.
 struct tetralight_volume {
+    explicit tetralight_volume(tetralight::ProbeFile from)
+        : file(std::move(from)), view(file.view()) {}
+
     tetralight::ProbeFile file;
+    /// What queries read.
+    tetralight::ProbeVolumeView view;
+    std::vector<tetralight::IrradianceSh> irradiance;
+    std::vector<tetralight::CompactProbe> compact;
+    std::vector<tetralight::Layer> layers;
 };
 
 namespace tetralight::detail {
 
 /// The volume that queries read.
 [[nodiscard]] inline const ProbeVolumeView& view_of(const tetralight_volume& volume) {
-    return volume.file.view();
+    return volume.view;
 }
 
 }  // namespace tetralight::detail

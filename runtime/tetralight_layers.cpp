@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstring>
+
+#include "probes/recombine.h"
+#include "runtime/detail/c_arrays.h"
+#include "runtime/detail/c_volume.h"
+#include "runtime/tetralight.h"
+
+namespace {
+
+using namespace tetralight;
+using detail::check_array;
+using detail::finish;
+using detail::view_of;
+
+/// The light of the file's layers with these weights, in place of what queries read.
+void store_light(tetralight_volume& volume, std::span<const float> weights,
+                 const RecombinedInfo& info) {
+    const ProbeVolumeView& from = volume.file.view();
+    const size_t count = from.positions.size();
+    if (from.irradiance.size() == count) volume.irradiance.resize(count);
+    if (from.compact.size() == count && volume.compact.empty()) {
+        volume.compact.assign(from.compact.begin(), from.compact.end());
+    }
+    recombine_probes(from, weights, 0, count, volume.irradiance, volume.compact,
+                     info.compact_scale);
+    volume.layers.assign(from.layers.begin(), from.layers.end());
+    for (size_t k = 0; k < weights.size(); ++k) volume.layers[k].weight = weights[k];
+    if (!volume.irradiance.empty()) volume.view.irradiance = volume.irradiance;
+    if (!volume.compact.empty()) {
+        volume.view.compact = volume.compact;
+        volume.view.info.compact_scale = info.compact_scale;
+    }
+    volume.view.layers = volume.layers;
+    volume.view.info.ambient = info.ambient;
+}
+
+}  // namespace
+
+tetralight_status tetralight_get_layer(const tetralight_volume* volume, uint32_t index,
+                                       tetralight_layer* layer, tetralight_error* error) noexcept {
+    if (!volume) return finish({TETRALIGHT_BAD_POINTER, "volume is NULL"}, error);
+    if (!layer) return finish({TETRALIGHT_BAD_POINTER, "layer is NULL"}, error);
+    const ProbeVolumeView& view = view_of(*volume);
+    const auto names = split_names(view.layer_names);
+    if (index >= view.layers.size() || index >= names.size()) {
+        return finish(
+            {TETRALIGHT_NOT_THERE, text("there is no layer ", index, " of ", view.layers.size())},
+            error);
+    }
+    const size_t length = std::min(names[index].size(), sizeof layer->name - 1);
+    std::memcpy(layer->name, names[index].data(), length);
+    layer->name[length] = '\0';
+    layer->weight = view.layers[index].weight;
+    return TETRALIGHT_OK;
+}
+
+tetralight_status tetralight_recombine(tetralight_volume* volume, const float* weights,
+                                       size_t weight_count, tetralight_error* error) noexcept {
+    if (!volume) return finish({TETRALIGHT_BAD_POINTER, "volume is NULL"}, error);
+    const ProbeVolumeView& from = volume->file.view();
+    if (from.layers.empty()) {
+        return finish({TETRALIGHT_NOT_THERE, "the volume holds no layers"}, error);
+    }
+    if (weight_count < from.layers.size()) {
+        return finish({TETRALIGHT_SHORT_BUFFER,
+                       text(weight_count, " weights for ", from.layers.size(), " layers")},
+                      error);
+    }
+    const tetralight_const_array array{weights, weight_count * sizeof(float), 0};
+    if (auto wrong = check_array("weights", array, weight_count, {4, 4})) {
+        return finish(wrong, error);
+    }
+    const std::span<const float> each(weights, weight_count);
+    const auto info = check_weights(from, each);
+    if (!info) return finish({TETRALIGHT_BAD_VALUE, info.error().message}, error);
+    store_light(*volume, each, *info);
+    return TETRALIGHT_OK;
+}
