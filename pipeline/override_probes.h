@@ -28,8 +28,8 @@ static_assert(sizeof(ProbeOverride) == 8 && std::is_trivially_copyable_v<ProbeOv
 [[nodiscard]] std::vector<ProbeOverride> find_overrides(
     std::span<const ProbeAdjustment> adjustments, std::span<const glm::dvec3> positions);
 
-/// Changes light (layers and transfer too) and validity of a baked volume. Precondition: one override for each probe, or
-/// none.
+/// Changes light (layers and transfer too) and validity of a baked volume. Precondition: one
+/// override for each probe, or none.
 void override_probes(std::span<const ProbeOverride> overrides, ProbeVolume& volume);
 
 }  // namespace tetralight

@@ -62,6 +62,29 @@ TEST(OverrideProbes, IntensityScalesTheLightOfTheProbesInTheVolume) {
     EXPECT_EQ(scaled.irradiance[find(scaled, kLeft)], plain.irradiance[find(plain, kLeft)]);
 }
 
+TEST(OverrideProbes, IntensityScalesLayersAndTransferToo) {
+    ProbeVolume volume;
+    volume.positions.resize(2);
+    volume.irradiance.resize(2);
+    volume.validity.resize(2, 1.0f);
+    volume.layer_irradiance.resize(4);  // two layers
+    volume.transfer.resize(2);
+    for (IrradianceSh& sh : volume.layer_irradiance) sh.coefficients.fill(glm::vec3(4.0f));
+    for (ProbeTransfer& transfer : volume.transfer) {
+        transfer.direct[0][0] = 8.0f;
+        transfer.bounced[1][2] = glm::vec3(2.0f);
+    }
+    const ProbeVolume plain = volume;
+    override_probes(std::vector<ProbeOverride>{{}, {0.25f, -1.0f}}, volume);
+    for (const size_t i : {0u, 2u}) {
+        EXPECT_EQ(volume.layer_irradiance[i], plain.layer_irradiance[i]);
+        EXPECT_EQ(volume.layer_irradiance[i + 1], 0.25f * plain.layer_irradiance[i + 1]);
+    }
+    EXPECT_EQ(volume.transfer[0], plain.transfer[0]);
+    EXPECT_EQ(volume.transfer[1].direct[0][0], 2.0f);
+    EXPECT_EQ(volume.transfer[1].bounced[1][2], glm::vec3(0.5f));
+}
+
 TEST(OverrideProbes, AForcedlyValidProbeStaysInGeometry) {
     Scene scene = solid();
     EXPECT_EQ(find(bake(scene), kDeep), kNoIndex);

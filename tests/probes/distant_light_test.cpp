@@ -51,7 +51,8 @@ TEST(DistantLight, RotationTurnsTheFunction) {
     for (int round = 0; round < 20; ++round) {
         const DistantLight sky = random_sky(engine);
         const glm::vec3 axis = test::random_direction(engine);
-        const glm::mat3 rotation(glm::rotate(glm::mat4(1.0f), 0.3f * static_cast<float>(round), axis));
+        const glm::mat3 rotation(
+            glm::rotate(glm::mat4(1.0f), 0.3f * static_cast<float>(round), axis));
         const DistantLight turned = rotate(sky, rotation);
         const glm::vec3 direction = test::random_direction(engine);
         const glm::vec3 expected = evaluate(sky, direction);
