@@ -218,11 +218,20 @@ std::optional<Surface> TraceScene::cast(const Ray& ray, Detail detail) const {
     return surface;
 }
 
+glm::vec3 TraceScene::ray_origin(const SurfaceSide& side, glm::vec3 hit,
+                                 glm::vec3 direction) const {
+    float extent = side.distance;
+    for (const glm::vec3& corner : triangle(side.geometry, side.primitive)) {
+        for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, std::abs(corner[axis]));
+    }
+    return hit + error_bound(extent) * direction;
+}
+
 std::optional<SurfaceSide> TraceScene::cast_side(const Ray& ray) const {
     const std::optional<RayHit> hit = caster_.cast(ray);
     if (!hit) return std::nullopt;
     const Placed& placed = state_->placed[hit->geometry];
-    SurfaceSide side{hit->distance, glm::normalize(hit->normal), placed.instance};
+    SurfaceSide side{hit->distance, glm::normalize(hit->normal), hit->geometry, hit->primitive};
     if (glm::dot(side.normal, ray.direction) > 0.0f) {
         side.normal = -side.normal;
         side.is_from_behind = true;

@@ -46,8 +46,9 @@ struct SurfaceSide {
     float distance = 0.0f;
     /// Unit normal of the triangle, on the side that the ray came from.
     glm::vec3 normal{0.0f};
-    uint32_t instance = 0;
     /// As in `Surface`.
+    uint32_t geometry = 0;
+    uint32_t primitive = 0;
     bool is_from_behind = false;
     bool is_back_face = false;
 };
@@ -112,6 +113,11 @@ class TraceScene {
     [[nodiscard]] static glm::vec3 ray_origin(const Surface& surface, glm::vec3 direction) {
         return surface.position + surface.error_bound * direction;
     }
+
+    /// The same for the side that a ray met at `hit` = origin + distance · direction, which its own
+    /// rounding moves too.
+    [[nodiscard]] glm::vec3 ray_origin(const SurfaceSide& side, glm::vec3 hit,
+                                       glm::vec3 direction) const;
 
     /// A point of a triangle that was drawn instead of met.
     struct EmitterPoint {

@@ -141,7 +141,8 @@ struct Bake {
 
     [[nodiscard]] std::vector<std::string> inputs() const {
         std::vector<std::string> paths = group_paths;
-        paths.insert(paths.end(), {scene_options.path, scene_options.sky.sky});
+        paths.insert(paths.end(),
+                     {scene_options.path, scene_options.adjustments, scene_options.sky.sky});
         return paths;
     }
 

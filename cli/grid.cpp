@@ -41,9 +41,11 @@ struct Grid {
 
     Status run() {
         const std::string& path = scene_options.path;
-        if (auto status = check_output(output, {path, scene_options.sky}); !status) return status;
+        std::vector<std::string> inputs{path, scene_options.adjustments, scene_options.sky.sky};
+        if (auto status = check_output(output, inputs); !status) return status;
         if (!preview.empty()) {
-            auto status = check_output(preview, {path, scene_options.sky, output});
+            inputs.push_back(output);
+            auto status = check_output(preview, inputs);
             if (!status) return status;
         }
         const auto scene = scene_options.read();

@@ -41,7 +41,7 @@ std::vector<LineHit> hits_along(const TraceScene& traced, const Box& bounds, glm
         if (!side) break;
         const glm::vec3 hit = from + side->distance * direction;
         hits.push_back({traced.world_from_traced(hit), *side});
-        from = traced.ray_origin(hit, direction);
+        from = traced.ray_origin(*side, hit, direction);
     }
     return hits;
 }
@@ -107,7 +107,7 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
         for (const LineHit& hit : hits_along(traced, rule.bounds, column, kUp)) {
             if (!is_floor(hit)) continue;
             const glm::vec3 foot =
-                traced.ray_origin(traced.traced_from_world(hit.position), {0, 1, 0});
+                traced.ray_origin(hit.side, traced.traced_from_world(hit.position), {0, 1, 0});
             for (const double height : rule.heights) {
                 const glm::vec3 top(0.0f, static_cast<float>(height), 0.0f);
                 if (!sees(traced, foot, foot + top)) continue;

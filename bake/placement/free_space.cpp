@@ -29,7 +29,7 @@ int solids_around(const TraceScene& traced, glm::vec3 position, glm::vec3 direct
         if (!side) break;
         count += side->is_from_behind ? 1 : -1;
         const glm::vec3 hit = position + side->distance * direction;
-        position = traced.ray_origin(hit, direction);
+        position = traced.ray_origin(*side, hit, direction);
     }
     return count;
 }

@@ -131,7 +131,7 @@ std::vector<glm::dvec3> pair_at_wall(const TraceScene& traced, const glm::dvec3&
     const glm::vec3 hit = start + front->distance * direction;
     const glm::vec3 inwards = -front->normal;
     std::vector<glm::dvec3> pair{traced.world_from_traced(hit - off * inwards)};
-    const glm::vec3 behind = traced.ray_origin(hit, inwards);
+    const glm::vec3 behind = traced.ray_origin(*front, hit, inwards);
     const auto back = traced.cast_side({behind, inwards});
     if (!back || (!back->is_from_behind && back->distance > 2.0f * off)) {
         pair.push_back(traced.world_from_traced(hit + off * inwards));  // a sheet

@@ -39,10 +39,9 @@ class Relight : public CommandFixture {
     /// Irradiance coefficients (red) at (1, 1, 1).
     [[nodiscard]] std::vector<double> light_of(const std::string& volume) const {
         const std::string out = succeed({"query", volume, "--json"}, "1 1 1").out;
+        const Json answer = Json::parse(out);
         std::vector<double> red;
-        for (const auto& coefficient : Json::parse(out)["irradiance_sh"]) {
-            red.push_back(coefficient[0]);
-        }
+        for (const Json& coefficient : answer["irradiance_sh"]) red.push_back(coefficient[0]);
         return red;
     }
 

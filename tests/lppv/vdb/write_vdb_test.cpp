@@ -100,7 +100,7 @@ TEST(WriteVdb, IsListedByVdbPrint) {
     const auto bytes = read_file(folder.path("list"));
     const std::string list(reinterpret_cast<const char*>(bytes->data()), bytes->size());
     for (const char* words : {"Name: sh0", "Name: sh8", "Name: validity", "Name: occlusion3",
-                              "vec3s", "sh:basis", "11x3x9"}) {
+                              "vec3s", "sh:basis", "11 x 3 x 9"}) {
         EXPECT_NE(list.find(words), std::string::npos) << words << " in\n" << list;
     }
 }
