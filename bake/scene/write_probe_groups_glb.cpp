@@ -78,8 +78,9 @@ class Document {
   private:
     static void append(std::vector<std::byte>& out, std::initializer_list<uint32_t> words) {
         for (const uint32_t word : words) {
-            const auto bytes = std::bit_cast<std::array<std::byte, 4>>(word);
-            out.insert(out.end(), bytes.begin(), bytes.end());
+            const size_t end = out.size();
+            out.resize(end + sizeof word);
+            std::memcpy(&out[end], &word, sizeof word);
         }
     }
 
