@@ -122,6 +122,8 @@ struct Error {
         }
     }
 
+    [[nodiscard]] bool is_lit() const { return light > 0.0; }
+
     [[nodiscard]] double relative() const { return std::sqrt(difference / light); }
 };
 
@@ -154,7 +156,8 @@ Environment smooth_sky() {
     });
 }
 
-/// Irradiance after relighting against a fresh bake, root mean square over probes and normals.
+/// Irradiance after relighting against a fresh bake, root mean square over probes and normals;
+/// nothing of closed rooms, which no sky reaches.
 void transfer(const BakeSubject& subject, bool is_quick) {
     Bakes bakes{subject};
     bakes.settings.bake.sample_count = is_quick ? 1024 : 8192;
@@ -174,6 +177,7 @@ void transfer(const BakeSubject& subject, bool is_quick) {
     for (size_t i = 0; i < expected.irradiance.size(); ++i) {
         smooth.add(relit.irradiance[i], expected.irradiance[i]);
     }
+    if (!smooth.is_lit()) return;
     report("relight.transfer.smooth." + subject.name, 100.0 * smooth.relative(), "%");
 
     // A baked sun: direct light and bounces through sixteen coefficients.
@@ -217,7 +221,11 @@ void layers_error(const BakeSubject& subject) {
             std::numbers::sqrt2 * static_cast<double>(fresh.health[i].standard_error);
         if (sigma > 0.0) sigmas.push_back(error.relative() / sigma);
     }
+    const auto within = std::ranges::count_if(sigmas, [](double sigma) { return sigma <= 2.0; });
     report("relight.layers_error." + subject.name, median(sigmas), "standard errors (median)");
+    report("relight.layers_within." + subject.name,
+           100.0 * static_cast<double>(within) / static_cast<double>(sigmas.size()),
+           "% of probes within two standard errors");
 }
 
 /// Time of a bake with more to find, over that of a plain one.
