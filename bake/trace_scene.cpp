@@ -108,11 +108,25 @@ float opacity(const Scene& scene, const MeshPoint& point) {
     return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
 }
 
-/// A number in [0, 1) that depends on the ray and the triangle only.
-float hash_of(const Ray& ray, const RayHit& hit) {
-    const uint64_t origin_key = probe_key(hit.geometry, glm::dvec3(ray.origin));
-    const uint64_t key = probe_key(origin_key, glm::dvec3(ray.direction));
-    return RandomStream(key, hit.primitive).next();
+/// What a hit is on: its triangle, or the edge or corner that it lies on, by position. A ray
+/// through an edge hits the triangles on both sides of it, and has to find one surface there.
+uint64_t key_of_place(const RayHit& hit, const MeshPoint& point,
+                      const std::vector<glm::vec3>& positions) {
+    constexpr float kOnEdge = 1e-5f;
+    uint64_t key = 0;
+    int corner_count = 0;
+    for (int i = 0; i < 3; ++i) {
+        if (!(point.weights[i] > kOnEdge)) continue;
+        key += probe_key(0, glm::dvec3(positions[point.corners[i]]));
+        ++corner_count;
+    }
+    return corner_count < 3 ? key : (uint64_t{hit.geometry} << 32 | hit.primitive);
+}
+
+/// A number in [0, 1) that depends on the ray and the place only.
+float hash_of(const Ray& ray, uint64_t place_key) {
+    const uint64_t origin_key = probe_key(place_key, glm::dvec3(ray.origin));
+    return RandomStream(probe_key(origin_key, glm::dvec3(ray.direction)), 0).next();
 }
 
 }  // namespace
@@ -186,7 +200,7 @@ bool TraceScene::stops_at(const void* context, const Ray& ray, const RayHit& hit
     const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, hit);
     const float share = opacity(*state.scene, point);
     if (share <= 0.0f || share >= 1.0f) return share > 0.0f;
-    return hash_of(ray, hit) < share;
+    return hash_of(ray, key_of_place(hit, point, placed.positions)) < share;
 }
 
 std::optional<Surface> TraceScene::cast(const Ray& ray, Detail detail) const {

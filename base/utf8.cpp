@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/utf8.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace tetralight {
@@ -39,6 +40,11 @@ bool is_utf8(std::string_view bytes) noexcept {
         bytes.remove_prefix(length);
     }
     return true;
+}
+
+bool has_control_character(std::string_view text) noexcept {
+    return std::ranges::any_of(text,
+                               [](char c) { return is_in(c, 0x00, 0x1f) || is_in(c, 0x7f, 0x7f); });
 }
 
 }  // namespace tetralight

@@ -8,4 +8,7 @@ namespace tetralight {
 /// Whether bytes are UTF-8 (RFC 3629): no overlong forms, no surrogates, nothing beyond U+10FFFF.
 [[nodiscard]] bool is_utf8(std::string_view bytes) noexcept;
 
+/// Whether there is a line break or another control character of ASCII, which no name may hold.
+[[nodiscard]] bool has_control_character(std::string_view text) noexcept;
+
 }  // namespace tetralight

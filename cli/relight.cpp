@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probes/relight.h"
 
+#include <algorithm>
 #include <charconv>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
+#include <string_view>
 
 #include "bake/project_environment.h"
 #include "base/text.h"
 #include "cli/common.h"
 #include "cli/paths.h"
 #include "cli/sky_options.h"
+#include "pipeline/partial_bake.h"
 #include "probes/blend_volumes.h"
 #include "probes/probe_file.h"
 #include "probes/recombine.h"
@@ -18,15 +22,18 @@
 namespace tetralight::cli {
 namespace {
 
-/// "lamp=0.5"; nothing: it is written otherwise.
-std::optional<LayerWeight> parse_weight(const std::string& text) {
+/// "lamp=0.5", blanks before it allowed; nothing: it is written otherwise. Weights that no float
+/// holds become infinity.
+std::optional<LayerWeight> parse_weight(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
     const size_t equals = text.rfind('=');
     if (equals == std::string::npos || equals == 0) return std::nullopt;
-    LayerWeight result{std::string_view(text).substr(0, equals)};
-    const char* end = text.data() + text.size();
-    const auto [next, error] = std::from_chars(text.data() + equals + 1, end, result.weight);
-    if (error != std::errc{} || next != end) return std::nullopt;
-    return result;
+    const std::string_view number = text.substr(equals + 1);
+    double weight = 0.0;
+    const auto [next, error] = std::from_chars(number.begin(), number.end(), weight);
+    if (error == std::errc::invalid_argument || next != number.end()) return std::nullopt;
+    if (error == std::errc::result_out_of_range) weight = std::numeric_limits<double>::infinity();
+    return LayerWeight{text.substr(0, equals), static_cast<float>(weight)};
 }
 
 CLI::Validator weight_check() {
@@ -93,14 +100,40 @@ struct Relight {
         }
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
+        if (is_part(*file)) {
+            return Error{"is a part of a bake; merge its parts first"}.in(volume_path);
+        }
         ProbeVolume volume = copy_volume(file->view());
         if (auto status = change(volume); !status) return status.error().in(volume_path);
         if (!blend_path.empty()) {
             if (auto status = blend_with(volume); !status) return status;
         }
+        volume.metadata = metadata(volume.metadata);
         if (auto status = write_probe_file(output, volume.view()); !status) return status;
         report(volume);
         return Ok{};
+    }
+
+    /// With what was changed, in words that repeat it; weights are recorded with their layers.
+    [[nodiscard]] std::string metadata(const std::string& before) const {
+        Json made_with = Json::parse(before, nullptr, false);
+        if (!made_with.is_object()) made_with = Json::object();
+        std::string relit = made_with.value("relit", "");
+        const auto add = [&](const char* option, const std::string& value) {
+            relit += text(relit.empty() ? "" : " ", option, " ", value);
+        };
+        const auto vector = [](const glm::dvec3& v) { return text(v.x, ",", v.y, ",", v.z); };
+        if (!sky.sky.empty()) add("--sky", sky.sky);
+        if (sky.intensity != 1.0) add("--sky-intensity", text(sky.intensity));
+        if (sky.rotation_degrees != 0.0) add("--sky-rotation", text(sky.rotation_degrees));
+        if (sun_direction != glm::dvec3(0.0)) add("--sun-direction", vector(sun_direction));
+        if (sun_irradiance.x >= 0.0) add("--sun-irradiance", vector(sun_irradiance));
+        if (!blend_path.empty()) {
+            add("--blend", blend_path);
+            add("--blend-share", text(blend_share));
+        }
+        if (!relit.empty()) made_with["relit"] = relit;
+        return dump(made_with);
     }
 
     [[nodiscard]] bool changes_sky() const {

@@ -11,7 +11,7 @@
 namespace tetralight::cli {
 
 /// Sums over directions and bounces stay far from the largest float, 3e38.
-inline constexpr double kMaxRadiance = 1e30;
+inline constexpr double kMaxRadiance = 1e30f;  // as floats hold it
 
 /// A sky that the command line gives.
 struct SkyOptions {

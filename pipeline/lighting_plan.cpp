@@ -8,6 +8,7 @@
 #include "bake/scene/surface_color.h"
 #include "base/assert.h"
 #include "base/text.h"
+#include "base/utf8.h"
 
 namespace tetralight {
 namespace {
@@ -103,6 +104,10 @@ class Planner {
     /// "light:NAME" and "material:NAME".
     Status add_named(const std::string& word, uint32_t layer) {
         if (word == "sun" || word == "sky" || word == "emission") return Ok{};
+        if (has_control_character(word)) {
+            return Error{text("layer \"", word,
+                              "\": the name holds a line break or another control character")};
+        }
         const size_t colon = word.find(':');
         const std::string kind = word.substr(0, colon);
         const std::string name = colon == std::string::npos ? "" : word.substr(colon + 1);

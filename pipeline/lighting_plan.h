@@ -36,8 +36,9 @@ struct LightingPlan {
     [[nodiscard]] bool has_rest() const { return layer_names.size() > bake.layer_count; }
 };
 
-/// Errors: a layer that is not one of the words, stands twice, names no light or material of the
-/// scene (the message lists what there is) or a light of which nothing is baked; more than 32.
+/// Errors: a layer that is not one of the words, holds a control character, stands twice, names no
+/// light or material of the scene (the message lists what there is) or a light of which nothing is
+/// baked; more than 32.
 [[nodiscard]] Result<LightingPlan> plan_lighting(const Scene& scene,
                                                  const LightingSettings& settings);
 

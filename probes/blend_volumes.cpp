@@ -75,8 +75,10 @@ Result<std::vector<uint32_t>> add_lights(const std::vector<Share>& of_b,
             lights[i].light.intensity += share.light.intensity;
             is_taken[i] = true;
         } else if (has_channel(share) && has_channels) {
-            return Error{text("light \"", share.name,
-                              "\" has occlusion, and the other volume has that of other lights")};
+            return Error{
+                text("light \"", share.name,
+                     "\" has occlusion, and the other volume has that of other lights, or in "
+                     "another mixed-lighting mode")};
         } else {
             lights.push_back(share);
         }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "base/text.h"
 #include "probes/compact_probes.h"
@@ -65,11 +66,17 @@ std::vector<float> layer_weights(const ProbeVolumeView& volume) {
 Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
                                          std::span<const LayerWeight> changes) {
     std::vector<float> weights = layer_weights(volume);
+    std::vector<bool> is_changed(weights.size(), false);
     for (const LayerWeight& change : changes) {
         const auto layer = find_named(volume, change.name);
         if (!layer) return layer.error();
         if (auto status = check_weight(change.name, change.weight); !status) return status.error();
-        if (*layer < weights.size()) weights[*layer] = change.weight;
+        if (*layer >= weights.size()) continue;
+        if (is_changed[*layer]) {
+            return Error{text("layer \"", change.name, "\" is given two weights")};
+        }
+        is_changed[*layer] = true;
+        weights[*layer] = change.weight;
     }
     return weights;
 }
@@ -103,13 +110,21 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
     const auto names = split_names(volume.layer_names);
     RecombinedInfo info;
     double bound = 0.0;
+    std::pair<double, size_t> brightest;
     for (size_t k = 0; k < layer_count; ++k) {
         const std::string_view name = k < names.size() ? names[k] : "";
         if (auto status = check_weight(name, weights[k]); !status) return status.error();
-        bound += static_cast<double>(weights[k]) * static_cast<double>(volume.layers[k].largest);
+        const double largest =
+            static_cast<double>(weights[k]) * static_cast<double>(volume.layers[k].largest);
+        brightest = std::max(brightest, {largest, k});
+        bound += largest;
         info.ambient += weights[k] * volume.layers[k].ambient;
     }
-    if (!(bound < 1e37)) return Error{"the weights make light too bright to be finite"};
+    if (!(bound < 1e37)) {
+        const size_t k = brightest.second;
+        return Error{text("layer \"", k < names.size() ? names[k] : "", "\": weight ", weights[k],
+                          " makes its light too bright to be finite")};
+    }
     info.compact_scale = compact_scale(static_cast<float>(bound));
     return info;
 }

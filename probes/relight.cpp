@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "base/text.h"
 #include "probes/dering.h"
@@ -33,7 +34,10 @@ Status fill_layer(ProbeVolume& volume, uint32_t layer, LightOf light_of) {
     for (size_t i = 0; i < count; ++i) {
         light[i] = light_of(volume.transfer[i]);
         const uint8_t window = i < volume.dering.size() ? volume.dering[i] : uint8_t{0};
-        if (window > 0) light[i] = dering(light[i], static_cast<DeringWindow>(window - 1));
+        if (window > 0) {
+            light[i] = dering(light[i], static_cast<DeringWindow>(window - 1));
+            light[i].coefficients[0] = glm::max(light[i].coefficients[0], glm::vec3(0.0f));
+        }
     }
     volume.layers[layer].largest = largest_coefficient(light);
     return recombine(volume, layer_weights(volume.view()));

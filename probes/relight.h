@@ -15,8 +15,10 @@ namespace tetralight {
 /// Takes another sky: layer "sky" becomes what the probes' transfer makes of it, and the light of
 /// the volume follows with the weights it has. A turned sky is `rotate(volume.sky[0], rotation)`.
 ///
-/// Probes whose ringing was removed stay free of it. Accurate as far as four bands hold the sky.
-/// Error: the volume holds no transfer, or no layer "sky".
+/// Probes whose ringing was removed stay free of it, and none of theirs is negative: what four
+/// bands make of a small bright light on the far side of a wall may be, even in the mean, and
+/// becomes 0. Accurate as far as four bands hold the sky. Error: the volume holds no transfer, or
+/// no layer "sky".
 [[nodiscard]] Status relight_sky(ProbeVolume& volume, const DistantLight& sky);
 
 /// Moves the sun: layer "sun" becomes what the transfer makes of a sun that shines in the unit

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "base/utf8.h"
 
 namespace tetralight {
 namespace {
@@ -28,9 +29,12 @@ Status check_light(const Light& light) {
 
 Status check_lights(const Scene& scene) {
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const auto status = check_light(scene.lights[i]);
-        if (status) continue;
         const std::string name = i < scene.light_names.size() ? scene.light_names[i] : "";
+        auto status = check_light(scene.lights[i]);
+        if (status && has_control_character(name)) {
+            status = Error{"the name holds a line break or another control character"};
+        }
+        if (status) continue;
         return status.error().in(text("light ", i, " \"", name, "\""));
     }
     return Ok{};

@@ -6,8 +6,9 @@
 
 namespace tetralight {
 
-/// What read_gltf() refuses in lights, for scenes made by hand: intensities, multipliers and ranges
-/// that are negative or not finite. Errors name the light and the value.
+/// What no bake can take: intensities, multipliers and ranges that are negative or not finite
+/// (which read_gltf() refuses as well), and names with control characters. Errors name the light
+/// and the value.
 [[nodiscard]] Status check_lights(const Scene& scene);
 
 }  // namespace tetralight

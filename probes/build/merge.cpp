@@ -22,14 +22,9 @@ Error position_error(const ProbeGroup& group, size_t index, const char* what, gl
                  p.y, ", ", p.z, ")")};
 }
 
-bool is_control(char c) {
-    constexpr char kDelete = 0x7f;
-    return (c >= 0 && c < ' ') || c == kDelete;
-}
-
 Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
     if (group.name.empty()) return Error{"a probe group has no name"};
-    if (std::ranges::any_of(group.name, is_control)) {
+    if (has_control_character(group.name)) {
         return Error{text("group \"", group.name,
                           "\": the name holds a line break or another control character")};
     }

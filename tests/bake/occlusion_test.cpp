@@ -117,6 +117,30 @@ TEST(Occlusion, HalfTransparentSurfacesLetTheirShareThrough) {
     EXPECT_EQ(Occlusion(scene).visibility(sun(0.0f), {0.3, 0, 0.1}), 1.0f);
 }
 
+TEST(Occlusion, EdgesOfTrianglesAreOneSurface) {
+    // Rays straight up through the diagonal of a quad, through corners and through the seam between
+    // two meshes.
+    Scene scene;
+    Material glass = test::diffuse(glm::vec3(0.5f));
+    glass.base_color.a = 0.5f;
+    glass.alpha_mode = AlphaMode::Blend;
+    for (const float x : {-4.0f, 0.0f}) {
+        test::add_quad(scene, glass, {x, 2, -2}, {0, 0, 4}, {4, 0, 0});
+    }
+    const Occlusion occlusion(scene);
+    double sum = 0.0;
+    int count = 0;
+    for (int i = -7; i < 8; ++i) {
+        const double z = 0.25 * i;
+        for (const double x : {z - 2.0, z + 2.0, -z - 2.0, -z + 2.0, 0.0}) {
+            const float visible = occlusion.visibility(sun(0.0f), {x, 0, z}, 7 + count++);
+            EXPECT_NEAR(visible, 0.5, 5 * 0.031) << x << ' ' << z;  // σ = √(0.25 / 256)
+            sum += static_cast<double>(visible);
+        }
+    }
+    EXPECT_NEAR(sum / count, 0.5, 4 * 0.031 / std::sqrt(count));
+}
+
 TEST(Occlusion, CutOutSurfacesBlockWhereTheyAre) {
     Scene scene;
     Texture holes;

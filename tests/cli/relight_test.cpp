@@ -14,13 +14,14 @@ class Relight : public CommandFixture {
     }
 
     /// Five probes under a grey sky and a baked sun from above, in layers.
-    void bake(const std::string& layers, const Arguments& more = {}) const {
+    void bake(const std::string& layers, const Arguments& more = {},
+              const std::string& output = "v.probes") const {
         Arguments arguments{"bake",
                             "empty.gltf",
                             "-g",
                             "five.json",
                             "-o",
-                            "v.probes",
+                            output,
                             "-s",
                             "1024",
                             "--sky",
@@ -134,11 +135,28 @@ TEST_F(Relight, RefusesWeightsThatAreNegativeOrNoNumbers) {
     EXPECT_EQ(error("sun=-1"), "tetralight: v.probes: layer \"sun\": weight -1 is negative\n");
     EXPECT_EQ(error("sun=nan"), "tetralight: v.probes: layer \"sun\": weight nan is no number\n");
     EXPECT_EQ(error("sun=inf"), "tetralight: v.probes: layer \"sun\": weight inf is not finite\n");
+    EXPECT_EQ(error("sun=1e39"), "tetralight: v.probes: layer \"sun\": weight inf is not finite\n");
+    EXPECT_EQ(error("sun=1, sun=2"), "tetralight: v.probes: layer \"sun\" is given two weights\n");
     for (const char* wrong : {"sun", "=1", "sun=", "sun=1x"}) {
         EXPECT_TRUE(contains(misuse({"relight", "v.probes", "--weights", wrong, "-o", "o.probes"}),
                              "is not of the form LAYER=WEIGHT"))
             << wrong;
     }
+}
+
+TEST_F(Relight, TheVolumeSaysWhatWasChanged) {
+    bake("sun,transfer");
+    succeed({"relight", "v.probes", "--sky", "2", "--sun-direction", "1,-1,0", "-o", "a.probes"});
+    succeed({"relight", "a.probes", "--sky-rotation", "90", "-o", "b.probes"});
+    EXPECT_EQ(run_json({"info", "b.probes"})["made_with"]["relit"],
+              "--sky 2 --sun-direction 1,-1,0 --sky-rotation 90");
+    EXPECT_FALSE(run_json({"info", "v.probes"})["made_with"].contains("relit"));
+}
+
+TEST_F(Relight, PartsOfABakeHaveToBeMergedFirst) {
+    bake("sun", {"--probes", "0..2"}, "v.part");
+    EXPECT_EQ(fail({"relight", "v.part", "--weights", "sun=0", "-o", "out.probes"}),
+              "tetralight: v.part: is a part of a bake; merge its parts first\n");
 }
 
 TEST_F(Relight, OldVolumesSayThatTheyHoldNoLayers) {

@@ -103,7 +103,8 @@ TEST(BlendVolumes, RefusesOcclusionOfDifferentLights) {
     give_occlusion(a, 1.0f);
     give_occlusion(b, 1.0f);
     EXPECT_EQ(error_of(a, b, 0.5f),
-              "light \"sun\" has occlusion, and the other volume has that of other lights");
+              "light \"sun\" has occlusion, and the other volume has that of other lights, or "
+              "in another mixed-lighting mode");
 }
 
 }  // namespace

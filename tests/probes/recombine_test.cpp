@@ -103,7 +103,8 @@ TEST(Recombine, RefusesBadWeights) {
     EXPECT_EQ(error({std::nanf(""), 1.0f}), "layer \"sun\": weight nan is no number");
     EXPECT_EQ(error({kInfinity, 1.0f}), "layer \"sun\": weight inf is not finite");
     EXPECT_EQ(error({1.0f}), "1 weights for 2 layers");
-    EXPECT_EQ(error({1e38f, 1.0f}), "the weights make light too bright to be finite");
+    EXPECT_EQ(error({1e38f, 1.0f}),
+              "layer \"sun\": weight 1e+38 makes its light too bright to be finite");
 }
 
 TEST(Recombine, OfAVolumeWithoutLayersIsAnErrorThatSaysSo) {
@@ -142,6 +143,14 @@ TEST(Recombine, RefusesNamesThatMeanTwoLayers) {
     const auto weights = layer_weights(volume.view(), std::span(&change, 1));
     ASSERT_FALSE(weights);
     EXPECT_EQ(weights.error().message.find("there are several layers \"neon\""), 0u);
+}
+
+TEST(Recombine, RefusesTwoWeightsOfOneLayer) {
+    const ProbeVolume volume = make_layered_volume(5, 2);
+    const std::vector<LayerWeight> changes{{"lamp", 0.0f}, {"light:lamp", 2.0f}};
+    const auto weights = layer_weights(volume.view(), changes);
+    ASSERT_FALSE(weights);
+    EXPECT_EQ(weights.error().message, "layer \"light:lamp\" is given two weights");
 }
 
 TEST(Recombine, LightsAreDimmedByTheirLayer) {

@@ -102,6 +102,23 @@ TEST(Relight, KeepsProbesFreeOfRingingThatWere) {
     EXPECT_GE(least(20 + 4), 0.0);
 }
 
+TEST(Relight, ProbesFreeOfRingingAreNeverNegative) {
+    // Probes that see the upper half of the sky, projected to four bands, and a sun far below the
+    // horizon, of which those make less than nothing.
+    ProbeVolume volume = make_volume();
+    ProbeTransfer half;
+    half.direct[0][0] = 1.0f;
+    half.direct[0][1] = 1.0f;  // towards +Y
+    volume.transfer.assign(20, half);
+    const DistantLight below = distant_sun({0, -1, 0}, {3.0f, 2.0f, 1.0f});
+    ASSERT_TRUE(relight_sky(volume, below));
+    const auto mean = [&] { return volume.layer_irradiance[20 + 4].coefficients[0]; };
+    ASSERT_LT(mean().x, 0.0f);
+    volume.dering.assign(20, 1 + static_cast<uint8_t>(DeringWindow::Mildest));
+    ASSERT_TRUE(relight_sky(volume, below));
+    EXPECT_EQ(volume.layer_irradiance[20 + 4], IrradianceSh{});
+}
+
 TEST(Relight, SaysWhatIsMissing) {
     ProbeVolume volume = make_volume();
     const auto sky_error = [&] { return relight_sky(volume, {}).error().message; };

@@ -25,6 +25,19 @@ TEST(CheckLights, NamesTheLightAndTheValue) {
     EXPECT_EQ(error_of(light), "light 1 \"lamp\": intensity nan is negative or not finite");
 }
 
+TEST(CheckLights, NamesAreOneLine) {
+    for (const char* name : {"a\nb", "\r", "bell\a", "\x7f"}) {
+        Scene scene;
+        scene.lights.resize(1);
+        scene.light_names = {name};
+        const Status status = check_lights(scene);
+        ASSERT_FALSE(status) << name;
+        EXPECT_EQ(status.error().message,
+                  "light 0 \"" + std::string(name) +
+                      "\": the name holds a line break or another control character");
+    }
+}
+
 TEST(CheckLights, LooksAtEveryNumberThatABakeMultipliesWith) {
     for (float Light::*number : {&Light::indirect_multiplier, &Light::radius, &Light::range}) {
         Light light;
