@@ -150,6 +150,7 @@ struct LppvCommand {
         if (!lppv) return lppv.error();
         const double fill_seconds = filling.seconds();
         const Stopwatch writing;
+        file.thread_count = common.thread_count;
         if (auto status = write_lppv(output, *lppv, file); !status) return status;
         report(*lppv, fill_seconds, writing.seconds());
         return Ok{};
@@ -198,11 +199,11 @@ struct LppvCommand {
         const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads());
         const double fill_seconds = filling.seconds();
         const Stopwatch writing;
-        const bool is_half = file.precision == LppvTexelFormat::Half;
-        const auto status =
-            file.kind == LppvFileKind::NanoVdb
-                ? write_nvdb(output, lppv)
-                : write_vdb(output, lppv, is_half ? VdbPrecision::Half : VdbPrecision::Float);
+        const auto precision = file.precision == LppvTexelFormat::Half ? VdbPrecision::Half
+                                                                       : VdbPrecision::Float;
+        const auto status = file.kind == LppvFileKind::NanoVdb
+                                ? write_nvdb(output, lppv, common.thread_count)
+                                : write_vdb(output, lppv, precision, common.thread_count);
         if (!status) return status;
         const size_t points = lppv.irradiance.size();
         common.report(output,

@@ -76,9 +76,12 @@ Status write_texture(const std::string& path, const Lppv& lppv, const LppvFileSe
 Status write_voxels(const std::string& path, [[maybe_unused]] const Lppv& lppv,
                     [[maybe_unused]] const LppvFileSettings& settings) {
 #ifdef TETRALIGHT_HAS_OPENVDB
-    if (settings.kind == LppvFileKind::NanoVdb) return write_nvdb(path, lppv);
+    if (settings.kind == LppvFileKind::NanoVdb) {
+        return write_nvdb(path, lppv, settings.thread_count);
+    }
     const bool is_half = settings.precision == LppvTexelFormat::Half;
-    return write_vdb(path, lppv, is_half ? VdbPrecision::Half : VdbPrecision::Float);
+    return write_vdb(path, lppv, is_half ? VdbPrecision::Half : VdbPrecision::Float,
+                     settings.thread_count);
 #else
     return Error{path + ": cannot write (this program was built without OpenVDB)"};
 #endif

@@ -27,6 +27,8 @@ struct LppvFileSettings {
     LppvTexelFormat precision = LppvTexelFormat::Half;
     /// Of textures.
     LppvLayout layout = LppvLayout::SevenSlabs;
+    /// 0 = all.
+    uint32_t thread_count = 0;
 };
 
 /// Writes a proxy volume; the old file stays whole on failure. Error also: a kind that this program

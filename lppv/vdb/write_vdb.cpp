@@ -6,7 +6,9 @@
 #include <nanovdb/util/OpenToNanoVDB.h>
 #include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Prune.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <exception>
 #include <glm/common.hpp>
@@ -132,6 +134,7 @@ typename Grid::Ptr make_grid(const std::string& name, const VoxelBlocks& voxels,
                       [&](size_t i) { leaves[i] = make_leaf<Leaf>(voxels.blocks[i], value); });
     auto grid = Grid::create();
     for (Leaf* leaf : leaves) grid->tree().addLeaf(leaf);
+    openvdb::tools::prune(grid->tree());
     grid->setName(name);
     grid->setTransform(make_transform(voxels.world_from_index));
     add_metadata(*grid);
@@ -179,13 +182,15 @@ void write_nanovdb(std::ostream& stream, const VoxelBlocks& voxels) {
 
 /// Encodes in memory, since both libraries seek in what they write, and writes the whole.
 template <class Encode>
-Status write_encoded(const std::string& path, Encode encode) {
+Status write_encoded(const std::string& path, uint32_t thread_count, Encode encode) {
     try {
         openvdb::initialize();
         detail::MemoryStream buffer;
         std::ostream stream(&buffer);
         stream.exceptions(std::ios::badbit | std::ios::failbit);
-        encode(stream);
+        const int threads =
+            thread_count == 0 ? tbb::task_arena::automatic : static_cast<int>(thread_count);
+        tbb::task_arena(threads).execute([&] { encode(stream); });
         detail::set_vdb_uuid(buffer.bytes());
         return write_file(path, std::as_bytes(buffer.bytes()));
     } catch (const std::bad_alloc&) {
@@ -195,26 +200,38 @@ Status write_encoded(const std::string& path, Encode encode) {
     }
 }
 
+template <class Volume>
+Status write_as_vdb(const std::string& path, const Volume& lppv, VdbPrecision precision,
+                    uint32_t thread_count) {
+    return write_encoded(path, thread_count, [&](std::ostream& stream) {
+        write_openvdb(stream, voxel_blocks(lppv), precision);
+    });
+}
+
+template <class Volume>
+Status write_as_nvdb(const std::string& path, const Volume& lppv, uint32_t thread_count) {
+    return write_encoded(path, thread_count,
+                         [&](std::ostream& stream) { write_nanovdb(stream, voxel_blocks(lppv)); });
+}
+
 }  // namespace
 
-Status write_vdb(const std::string& path, const Lppv& lppv, VdbPrecision precision) {
-    return write_encoded(
-        path, [&](std::ostream& stream) { write_openvdb(stream, voxel_blocks(lppv), precision); });
+Status write_vdb(const std::string& path, const Lppv& lppv, VdbPrecision precision,
+                 uint32_t thread_count) {
+    return write_as_vdb(path, lppv, precision, thread_count);
 }
 
-Status write_vdb(const std::string& path, const SparseLppv& lppv, VdbPrecision precision) {
-    return write_encoded(
-        path, [&](std::ostream& stream) { write_openvdb(stream, voxel_blocks(lppv), precision); });
+Status write_vdb(const std::string& path, const SparseLppv& lppv, VdbPrecision precision,
+                 uint32_t thread_count) {
+    return write_as_vdb(path, lppv, precision, thread_count);
 }
 
-Status write_nvdb(const std::string& path, const Lppv& lppv) {
-    return write_encoded(path,
-                         [&](std::ostream& stream) { write_nanovdb(stream, voxel_blocks(lppv)); });
+Status write_nvdb(const std::string& path, const Lppv& lppv, uint32_t thread_count) {
+    return write_as_nvdb(path, lppv, thread_count);
 }
 
-Status write_nvdb(const std::string& path, const SparseLppv& lppv) {
-    return write_encoded(path,
-                         [&](std::ostream& stream) { write_nanovdb(stream, voxel_blocks(lppv)); });
+Status write_nvdb(const std::string& path, const SparseLppv& lppv, uint32_t thread_count) {
+    return write_as_nvdb(path, lppv, thread_count);
 }
 
 }  // namespace tetralight

@@ -29,10 +29,11 @@ std::map<std::string, std::string> strings(const openvdb::MetaMap& map) {
 }
 
 template <class Grid>
-void read_voxels(const Grid& grid, ReadGrid& result) {
+void read_voxels(Grid& grid, ReadGrid& result) {
+    result.tile_count = grid.tree().activeTileCount();
+    grid.tree().voxelizeActiveTiles();
     for (auto it = grid.cbeginValueOn(); it; ++it) {
         const openvdb::Coord at = it.getCoord();
-        if (!it.isVoxelValue()) throw std::runtime_error("an active tile");
         result.active.push_back({{at.x(), at.y(), at.z()}, value_of(it.getValue())});
     }
 }

@@ -18,7 +18,9 @@ struct ReadVoxel {
 };
 
 struct ReadGrid {
+    /// Those of tiles too.
     std::vector<ReadVoxel> active;
+    uint64_t tile_count = 0;  ///< of .nvdb not counted
     bool is_vector = false;
     bool is_saved_as_half = false;
     std::map<std::string, std::string> metadata;

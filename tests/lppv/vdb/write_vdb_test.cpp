@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/text.h"
 #include "tests/lppv/lppv_fixture.h"
 #include "tests/lppv/vdb/read_vdb.h"
 #include "tests/support/temp_folder.h"
@@ -82,13 +83,35 @@ TEST(WriteVdb, HalvesAreSmallerAndNear) {
               0.7 * static_cast<double>(std::filesystem::file_size(folder.path("float.vdb"))));
 }
 
-TEST(WriteVdb, GivesTheSameBytesTwice) {
+TEST(WriteVdb, BlocksOfOneValueAreTiles) {
+    const TempFolder folder;
+    const ProbeVolume volume = test::make_random_volume(test::random_positions(200, 3), 4);
+    const LppvGrid grid = test::grid_in_box({17, 16, 9}, glm::dvec3(1.5), 30.0);
+    const Lppv lppv = *make_lppv(volume.view(), grid, {.quality = LppvQuality::Normal});
+    ASSERT_TRUE(write_vdb(folder.path("a.vdb"), lppv, VdbPrecision::Float));
+    std::map<std::string, std::string> meta;
+    const auto grids = test::read_vdb(folder.path("a.vdb"), meta);
+    // Whole blocks of 8 x 8 x 8 points.
+    for (const char* name : {"sh4", "sh8", "validity"}) {
+        EXPECT_EQ(grids.at(name).tile_count, 2u * 2u * 1u) << name;
+        EXPECT_EQ(grids.at(name).active.size(), grid.point_count()) << name;
+    }
+    EXPECT_EQ(grids.at("sh3").tile_count, 0u);
+    EXPECT_EQ(grids.at("sh4").active.back().value, lppv.irradiance[0].coefficients[4]);
+    ASSERT_TRUE(write_nvdb(folder.path("a.nvdb"), lppv));
+    EXPECT_EQ(test::read_nvdb(folder.path("a.nvdb")).at("sh4").active.size(), grid.point_count());
+}
+
+TEST(WriteVdb, GivesTheSameBytesOnAnyThreads) {
     const TempFolder folder;
     const Lppv lppv = make_test_lppv();
-    for (const char* name : {"a.vdb", "b.vdb"}) {
-        ASSERT_TRUE(write_vdb(folder.path(name), lppv, VdbPrecision::Half));
+    for (const uint32_t threads : {1u, 2u}) {
+        const std::string name = folder.path(text(threads));
+        ASSERT_TRUE(write_vdb(name + ".vdb", lppv, VdbPrecision::Half, threads));
+        ASSERT_TRUE(write_nvdb(name + ".nvdb", lppv, threads));
     }
-    EXPECT_EQ(*read_file(folder.path("a.vdb")), *read_file(folder.path("b.vdb")));
+    EXPECT_EQ(*read_file(folder.path("1.vdb")), *read_file(folder.path("2.vdb")));
+    EXPECT_EQ(*read_file(folder.path("1.nvdb")), *read_file(folder.path("2.nvdb")));
 }
 
 TEST(WriteVdb, IsListedByVdbPrint) {
