@@ -2,19 +2,16 @@
 #include "lppv/lppv.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "bench/harness.h"
+#include "bench/lppv_accuracy.h"
 #include "bench/query_subject.h"
 #include "lppv/lppv_atlas.h"
 #include "probes/build/make_probe_volume.h"
 #include "probes/compact_probes.h"
-#include "probes/morton_order.h"
 #ifdef TETRALIGHT_HAS_OPENVDB
 #include "bench/vdb_baseline.h"
 #include "lppv/vdb/write_vdb.h"
@@ -38,50 +35,45 @@ LppvSettings with_resolution(glm::uvec3 resolution) {
     return settings;
 }
 
-/// A grid over all probes of a subject.
+/// A grid over all probes of a subject and 10 % more, as its positions are.
 LppvGrid grid_over(const Subject& subject, uint32_t side) {
     const glm::dvec3 center(0.5f * (subject.low + subject.high));
     return make_grid(glm::translate(glm::dmat4(1.0), center),
-                     glm::dvec3(subject.high - subject.low), with_resolution(glm::uvec3(side)));
+                     glm::dvec3(1.1f * (subject.high - subject.low)),
+                     with_resolution(glm::uvec3(side)));
 }
 
-/// Fresh positions in the box of the probes, in Morton order.
-std::vector<glm::vec3> sorted_positions(Subject& subject, size_t count) {
-    std::vector<glm::vec3> any;
-    for (const glm::dvec3& p : random_positions(count, ++subject.seed, 1.0)) {
-        any.push_back(subject.low + (subject.high - subject.low) * glm::vec3(p));
-    }
-    std::vector<uint64_t> memory(2 * count);
-    std::vector<glm::vec3> sorted;
-    for (const uint64_t key : morton_order(any, memory)) {
-        sorted.push_back(any[static_cast<uint32_t>(key)]);
-    }
-    return sorted;
-}
-
-/// Filling a grid, its memory and its positions included, against a sorted batch of as many
-/// queries in the same box into memory that is there.
+/// Filling a grid that has its memory, and a new one, against a sorted batch of as many queries in
+/// the same box, as `query.sorted` asks them.
 void fill(Subject& subject, uint32_t side, const Options& options) {
     const LppvGrid grid = grid_over(subject, side);
     const size_t count = grid.point_count();
     const size_t times = std::max<size_t>(1, 200'000 / count);
     const ProbeVolumeView view = subject.volume.view();
+    Lppv lppv = *make_lppv(view, grid, {});
     std::vector<IrradianceSh> answers(count);
     Contest contest;
-    contest.figure = "lppv.fill." + std::to_string(side);
     contest.unit = "Mpoints/s";
     contest.baseline_is = "a sorted batch of as many queries in the same box";
     contest.work = static_cast<double>(count * times) * 1e-6;
-    contest.ours = [&] {
-        return seconds([&] {
-            for (size_t i = 0; i < times; ++i) require(bool(make_lppv(view, grid, {})), "fill");
-        });
-    };
     contest.baseline = [&] {
-        const std::vector<glm::vec3> positions = sorted_positions(subject, count);
-        const InterpolationBatch batch{positions, {}, answers, {}, {}, {}};
+        const std::vector<glm::vec3> positions = subject.sorted_positions(count);
+        const InterpolationBatch batch{positions, {}, answers};
         return seconds([&] {
             for (size_t i = 0; i < times; ++i) require(bool(interpolate(view, batch)), "batch");
+        });
+    };
+    contest.figure = "lppv.fill." + std::to_string(side);
+    contest.ours = [&] {
+        return seconds([&] {
+            for (size_t i = 0; i < times; ++i) require(bool(fill_lppv(view, {}, lppv)), "fill");
+        });
+    };
+    run(contest, options);
+    contest.figure = "lppv.make." + std::to_string(side);
+    contest.ours = [&] {
+        return seconds([&] {
+            for (size_t i = 0; i < times; ++i) require(bool(make_lppv(view, grid, {})), "make");
         });
     };
     run(contest, options);
@@ -205,97 +197,6 @@ void refresh(const Options& options) {
            "cost / full refresh / share changed");
 }
 
-struct SurfacePoint {
-    glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f};
-};
-
-/// Points on the sides of a box, 0.1 m apart.
-std::vector<SurfacePoint> points_on_box(const glm::dmat4& world_from_box, const glm::dvec3& size) {
-    std::vector<SurfacePoint> points;
-    for (int axis = 0; axis < 3; ++axis) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const auto rows = static_cast<int>(size[u] / 0.1),
-                   columns = static_cast<int>(size[v] / 0.1);
-        for (int i = 0; i < 2 * rows * columns; ++i) {
-            const double side = i % 2 == 0 ? 0.5 : -0.5;
-            glm::dvec3 local(0.0), normal(0.0);
-            local[axis] = side * size[axis];
-            local[u] = size[u] * ((i / 2 % rows + 0.5) / rows - 0.5);
-            local[v] = size[v] * ((i / 2 / rows + 0.5) / columns - 0.5);
-            normal[axis] = 2.0 * side;
-            points.push_back({glm::vec3(world_from_box * glm::dvec4(local, 1.0)),
-                              glm::vec3(world_from_box * glm::dvec4(normal, 0.0))});
-        }
-    }
-    return points;
-}
-
-/// Relative RMSE of irradiance on the surfaces of beams of 10 m, against the light that each point
-/// would look up itself.
-class Accuracy {
-  public:
-    explicit Accuracy(const Subject& subject) : subject_(subject) {}
-
-    /// Beams lie level, anywhere among the probes, turned anyhow.
-    void add_beams(size_t count) {
-        const auto places = random_positions(count, 5, 1.0);
-        for (size_t i = 0; i < count; ++i) {
-            const glm::dvec3 room = glm::dvec3(subject_.high - subject_.low) - kSize;
-            const glm::dvec3 center = 0.5 * glm::dvec3(subject_.low + subject_.high);
-            const bool fits_x = room.x >= 0.0;
-            glm::dmat4 world_from_beam =
-                glm::translate(glm::dmat4(1.0), center + glm::max(room, 0.0) * (places[i] - 0.5));
-            if (!fits_x) {
-                world_from_beam =
-                    glm::rotate(world_from_beam, std::numbers::pi / 2.0, glm::dvec3(0, 1, 0));
-            }
-            add_beam(world_from_beam);
-        }
-    }
-
-    void report_all() const {
-        report("lppv.accuracy.full", error(full_), "relative RMSE");
-        report("lppv.accuracy.normal", error(normal_), "relative RMSE");
-        report("lppv.accuracy.low", error(low_), "relative RMSE");
-        report("lppv.accuracy.single", error(single_), "relative RMSE");
-    }
-
-  private:
-    static constexpr glm::dvec3 kSize{10.0, 0.6, 0.6};
-
-    void add_beam(const glm::dmat4& world_from_beam) {
-        const ProbeVolumeView view = subject_.volume.view();
-        LppvSettings settings;
-        settings.density = 2.0;
-        const LppvGrid grid = make_grid(world_from_beam, kSize, settings);
-        const Lppv full = *make_lppv(view, grid, {});
-        const Lppv normal = *make_lppv(view, grid, {.quality = LppvQuality::Normal});
-        const Lppv low = *make_lppv(view, grid, {.quality = LppvQuality::Low});
-        const glm::vec3 center(world_from_beam[3]);
-        const IrradianceSh single = interpolate(view, locate(view, center)).irradiance;
-        for (const SurfacePoint& point : points_on_box(world_from_beam, kSize)) {
-            const IrradianceSh own = interpolate(view, locate(view, point.position)).irradiance;
-            const glm::vec3 expected = evaluate_irradiance(own, point.normal);
-            square_sum_ += glm::dot(glm::dvec3(expected), glm::dvec3(expected));
-            const auto add = [&](double& sum, const IrradianceSh& light) {
-                const glm::dvec3 difference(evaluate_irradiance(light, point.normal) - expected);
-                sum += glm::dot(difference, difference);
-            };
-            add(full_, sample_lppv(full, point.position).irradiance);
-            add(normal_, sample_lppv(normal, point.position).irradiance);
-            add(low_, sample_lppv(low, point.position).irradiance);
-            add(single_, single);
-        }
-    }
-
-    [[nodiscard]] double error(double sum) const { return std::sqrt(sum / square_sum_); }
-
-    const Subject& subject_;
-    double full_ = 0.0, normal_ = 0.0, low_ = 0.0, single_ = 0.0;
-    double square_sum_ = 0.0;
-};
-
 #ifdef TETRALIGHT_HAS_OPENVDB
 void write_vdb_file(const Subject& subject, const Options& options) {
     const std::string folder = std::filesystem::temp_directory_path().string();
@@ -328,10 +229,7 @@ void bench_lppv(const Options& options) {
 #ifdef TETRALIGHT_HAS_OPENVDB
     write_vdb_file(subject, options);
 #endif
-    const Subject scene = make_scene_subject(options);
-    Accuracy accuracy(scene);
-    accuracy.add_beams(40);
-    accuracy.report_all();
+    bench_lppv_accuracy(options);
 }
 
 }  // namespace tetralight::bench

@@ -2,16 +2,22 @@
 #include "lppv/lppv.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "base/text.h"
 #include "lppv/detail/grid_positions.h"
 #include "lppv/detail/mean_band_2.h"
 #include "lppv/detail/nearest_valid.h"
+#include "lppv/detail/serpentine.h"
 
 namespace tetralight {
 namespace {
 
 using detail::kFirstOfBand2;
+
+constexpr auto kThisThread = [](size_t count, auto&& task) {
+    for (size_t i = 0; i < count; ++i) task(i);
+};
 
 void replace_invalid(const LppvFill& fill, Lppv& lppv) {
     const std::vector<uint32_t> nearest = detail::nearest_valid(
@@ -33,6 +39,15 @@ void make_band_2_constant(std::vector<IrradianceSh>& irradiance) {
     }
 }
 
+/// Row after row of beams, back and forth, so that each beam is beside the one before it.
+detail::LppvBeam beam_of(const LppvGrid& grid, size_t index, size_t beams_y) {
+    const size_t z = index / beams_y;
+    const size_t y = z % 2 == 0 ? index % beams_y : beams_y - 1 - index % beams_y;
+    constexpr uint32_t kSide = detail::LppvFillTasks::kBeamSide;
+    const glm::uvec3 low(0, y * kSide, z * kSide);
+    return {low, glm::min(grid.resolution - low, glm::uvec3(grid.resolution.x, kSide, kSide))};
+}
+
 /// The two grid points beside a coordinate, and the share of the second.
 struct Pair {
     uint32_t low = 0;
@@ -51,40 +66,76 @@ namespace detail {
 
 LppvFillTasks::LppvFillTasks(const ProbeVolumeView& from, const LppvFill& how, Lppv& to)
     : volume(from), fill(how), lppv(to) {
-    const size_t points = lppv.grid.point_count();
-    lppv.irradiance.resize(points);
-    if (!volume.occlusion.empty()) lppv.occlusion.resize(points);
-    lppv.validity.assign(fill.validity.begin(), fill.validity.end());
-    rows_per_task = std::max<size_t>(1, kBatchTaskSize / lppv.grid.resolution.x);
+    const glm::uvec3& size = lppv.grid.resolution;
+    lppv.quality = fill.quality;
+    lppv.irradiance.resize(lppv.grid.point_count());
+    lppv.occlusion.resize(volume.occlusion.empty() ? 0 : lppv.grid.point_count());
+    if (fill.validity.data() != lppv.validity.data()) {
+        lppv.validity.assign(fill.validity.begin(), fill.validity.end());
+    }
+    lppv.replaced_count = 0;
+    const size_t beams_z = (size.z + kBeamSide - 1) / kBeamSide;
+    beams_y = (size.y + kBeamSide - 1) / kBeamSide;
+    beam_count = beams_y * beams_z;
+    // What a task writes to while it looks for cells stays in the processor's own cache.
+    constexpr size_t kTaskPoints = 8192;
+    const size_t points =
+        size_t{size.x} * std::min(size.y, kBeamSide) * std::min(size.z, kBeamSide);
+    beams_per_task = std::max<size_t>(1, kTaskPoints / points);
 }
 
 size_t LppvFillTasks::count() const noexcept {
-    const size_t rows = size_t{lppv.grid.resolution.y} * lppv.grid.resolution.z;
-    return (rows + rows_per_task - 1) / rows_per_task;
+    return (beam_count + beams_per_task - 1) / beams_per_task;
 }
 
-/// One batch along the rows: a walk begins in the cell where that of the point before it ended, and
-/// at the start of a row, when that is far away, at a seed.
+/// Cells are found in an order in which each point is beside the one before it, so that the walk
+/// from cell to cell is short; light is blended in the order of the grid, so that memory is written
+/// from front to back.
 void LppvFillTasks::run(size_t task) const {
-    const size_t width = lppv.grid.resolution.x;
-    const size_t begin = task * rows_per_task * width;
-    const size_t size = std::min(rows_per_task * width, lppv.irradiance.size() - begin);
-    std::vector<glm::vec3> positions(size);
-    grid_positions(lppv.grid, begin, positions);
-
-    InterpolationBatch batch;
-    batch.positions = positions;
-    const std::span answers = std::span(lppv.irradiance).subspan(begin, size);
-    batch.irradiance = answers;
-    if (!lppv.occlusion.empty()) {
-        batch.occlusion = std::span(lppv.occlusion).subspan(begin, size);
+    const GridPositions position_of(lppv.grid);
+    std::vector<glm::vec3> positions;
+    std::vector<uint32_t> places;
+    std::vector<LppvBeam> beams;
+    Serpentine serpentine;
+    const size_t last = std::min((task + 1) * beams_per_task, beam_count);
+    for (size_t i = task * beams_per_task; i < last; ++i) {
+        const LppvBeam beam = beam_of(lppv.grid, i, beams_y);
+        const auto first = static_cast<uint32_t>(positions.size());
+        serpentine.walk(beam.size, [&](const glm::uvec3& point) {
+            positions.push_back(position_of(beam.low + point));
+            places.push_back(first + (point.z * beam.size.y + point.y) * beam.size.x + point.x);
+        });
+        beams.push_back(beam);
     }
-    batch.outside = fill.outside;
-    const auto report = interpolate(volume, batch);
-    TETRALIGHT_ASSERT(report, "the spans of a task are as long as its positions");
-    if (fill.quality != LppvQuality::Low) return;
-    for (IrradianceSh& sh : answers) {
-        std::fill(sh.coefficients.begin() + kFirstOfBand2, sh.coefficients.end(), glm::vec3(0.0f));
+    std::vector<CellLocation> found(positions.size()), locations(positions.size());
+    locate(volume, positions, found, fill.outside);
+    for (size_t i = 0; i < found.size(); ++i) locations[places[i]] = found[i];
+    std::span<const CellLocation> rest = locations;
+    for (const LppvBeam& beam : beams) {
+        write_beam(beam, rest.first(beam.point_count()));
+        rest = rest.subspan(beam.point_count());
+    }
+}
+
+/// Rows that follow each other in memory are written together.
+void LppvFillTasks::write_beam(const LppvBeam& beam,
+                               std::span<const CellLocation> locations) const {
+    const bool is_in_one_piece = beams_y == 1;
+    const size_t count = is_in_one_piece ? locations.size() : beam.size.x;
+    for (size_t i = 0; i < locations.size(); i += count) {
+        const size_t row = i / beam.size.x;
+        const glm::uvec3 start = beam.low + glm::uvec3(0, row % beam.size.y, row / beam.size.y);
+        const size_t at = lppv.grid.point_index(start);
+        const std::span irradiance = std::span(lppv.irradiance).subspan(at, count);
+        OcclusionOutput occlusion;
+        if (!lppv.occlusion.empty()) occlusion = std::span(lppv.occlusion).subspan(at, count);
+        const auto status = blend(volume, locations.subspan(i, count), irradiance, occlusion);
+        TETRALIGHT_ASSERT(status, "there is room for the light of each location");
+        if (fill.quality != LppvQuality::Low) continue;
+        for (IrradianceSh& sh : irradiance) {
+            std::fill(sh.coefficients.begin() + kFirstOfBand2, sh.coefficients.end(),
+                      glm::vec3(0.0f));
+        }
     }
 }
 
@@ -101,10 +152,12 @@ void finish_lppv(const LppvFill& fill, Lppv& lppv) {
 
 }  // namespace detail
 
+Status fill_lppv(const ProbeVolumeView& volume, const LppvFill& fill, Lppv& lppv) {
+    return fill_lppv(volume, fill, lppv, kThisThread);
+}
+
 Result<Lppv> make_lppv(const ProbeVolumeView& volume, const LppvGrid& grid, const LppvFill& fill) {
-    return make_lppv(volume, grid, fill, [](size_t count, auto&& task) {
-        for (size_t i = 0; i < count; ++i) task(i);
-    });
+    return make_lppv(volume, grid, fill, kThisThread);
 }
 
 InterpolatedProbe sample_lppv(const Lppv& lppv, glm::vec3 position) noexcept {

@@ -49,17 +49,30 @@ struct LppvFill {
 
 namespace detail {
 
-/// The parallel part of `make_lppv`: task i fills some rows of the grid.
+/// Some rows of a grid, side by side.
+struct LppvBeam {
+    glm::uvec3 low{0};
+    glm::uvec3 size{0};
+
+    [[nodiscard]] size_t point_count() const noexcept { return size_t{size.x} * size.y * size.z; }
+};
+
+/// The parallel part of `fill_lppv`: task i fills some beams of kBeamSide² rows.
 struct LppvFillTasks {
+    static constexpr uint32_t kBeamSide = 8;
+
     const ProbeVolumeView& volume;
     const LppvFill& fill;
     Lppv& lppv;
-    size_t rows_per_task = 1;
+    size_t beams_y = 1;
+    size_t beam_count = 1;
+    size_t beams_per_task = 1;
 
     LppvFillTasks(const ProbeVolumeView& from, const LppvFill& how, Lppv& to);
 
     [[nodiscard]] size_t count() const noexcept;
     void run(size_t task) const;
+    void write_beam(const LppvBeam& beam, std::span<const CellLocation> locations) const;
 };
 
 [[nodiscard]] Status check_fill(const LppvGrid& grid, const LppvFill& fill);
@@ -68,21 +81,34 @@ void finish_lppv(const LppvFill& fill, Lppv& lppv);
 
 }  // namespace detail
 
-/// Fills a grid with a volume's light on the caller's threads (`interpolate` says what
-/// `parallel_for` is). The same bytes for any number of threads. Cost: one query a grid point.
-/// Error: `validity` is not as long as the grid has points.
+/// Fills `lppv.grid` with a volume's light on the caller's threads (`interpolate` says what
+/// `parallel_for` is), in the memory that `lppv` has where that is enough. The same bytes for any
+/// number of threads. Cost: one query a grid point. Error: `validity` is not as long as the grid
+/// has points; nothing is changed.
 template <class ParallelFor>
-[[nodiscard]] Result<Lppv> make_lppv(const ProbeVolumeView& volume, const LppvGrid& grid,
-                                     const LppvFill& fill, ParallelFor&& parallel_for) {
-    if (auto status = detail::check_fill(grid, fill); !status) return status.error();
-    Lppv lppv{grid, fill.quality, {}, {}, {}, 0};
+[[nodiscard]] Status fill_lppv(const ProbeVolumeView& volume, const LppvFill& fill, Lppv& lppv,
+                               ParallelFor&& parallel_for) {
+    if (auto status = detail::check_fill(lppv.grid, fill); !status) return status;
     const detail::LppvFillTasks tasks(volume, fill, lppv);
     parallel_for(tasks.count(), [&tasks](size_t task) { tasks.run(task); });
     detail::finish_lppv(fill, lppv);
-    return lppv;
+    return Ok{};
 }
 
 /// The same on this thread.
+[[nodiscard]] Status fill_lppv(const ProbeVolumeView& volume, const LppvFill& fill, Lppv& lppv);
+
+/// A new one, filled. Errors as `fill_lppv`.
+template <class ParallelFor>
+[[nodiscard]] Result<Lppv> make_lppv(const ProbeVolumeView& volume, const LppvGrid& grid,
+                                     const LppvFill& fill, ParallelFor&& parallel_for) {
+    Lppv lppv;
+    lppv.grid = grid;
+    auto status = fill_lppv(volume, fill, lppv, parallel_for);
+    if (!status) return status.error();
+    return lppv;
+}
+
 [[nodiscard]] Result<Lppv> make_lppv(const ProbeVolumeView& volume, const LppvGrid& grid,
                                      const LppvFill& fill);
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "base/text.h"
 #include "lppv/detail/grid_positions.h"
+#include "lppv/detail/nearest_valid.h"
 #include "lppv/detail/slab_texels.h"
 #include "lppv/detail/write_guarded.h"
 #include "probes/interpolate.h"
@@ -40,6 +42,12 @@ void apply(LppvQuality quality, const PackedSh& band_2, std::span<PackedSh> ligh
     }
 }
 
+std::vector<uint32_t> nearest_valid_points(const LppvGrid& grid, std::span<const float> validity) {
+    if (validity.empty()) return {};
+    return detail::nearest_valid(grid.resolution, grid.spacing(), validity,
+                                 LppvFill{}.min_validity);
+}
+
 LppvTexture make_texture(const LppvAtlasSettings& settings) {
     LppvTexture texture{settings.layout, settings.format, settings.slab_size, {}};
     texture.size.x *= slab_count(settings.layout);
@@ -66,7 +74,11 @@ std::vector<uint32_t> probes_of_groups(const ProbeVolumeView& volume,
 LppvAtlas::LppvAtlas(const LppvAtlasSettings& settings)
     : texture_(make_texture(settings)), packing_(settings.slab_size), task_starts_{0} {}
 
-Result<uint32_t> LppvAtlas::add(const LppvGrid& grid, LppvQuality quality, LppvRefresh refresh) {
+Result<uint32_t> LppvAtlas::add(const LppvGrid& grid, LppvQuality quality, LppvRefresh refresh,
+                                std::span<const float> validity) {
+    if (auto status = detail::check_fill(grid, {.validity = validity}); !status) {
+        return status.error();
+    }
     const glm::uvec3 size = grid.resolution + 2 * kGuard;
     const auto low = packing_.allocate(size);
     if (!low) {
@@ -87,6 +99,7 @@ Result<uint32_t> LppvAtlas::add(const LppvGrid& grid, LppvQuality quality, LppvR
     volume.quality = quality;
     volume.refresh = refresh;
     volume.is_there = volume.is_due = true;
+    volume.nearest_valid = nearest_valid_points(grid, validity);
     volume.texels = {*low, size};
     ++size_;
     return id;
@@ -100,12 +113,15 @@ void LppvAtlas::remove(uint32_t id) {
     --size_;
 }
 
-void LppvAtlas::move(uint32_t id, const LppvGrid& grid) {
+void LppvAtlas::move(uint32_t id, const LppvGrid& grid, std::span<const float> validity) {
     TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_there, "a volume of the atlas");
     Volume& volume = volumes_[id];
     TETRALIGHT_ASSERT(grid.resolution == volume.grid.resolution, "a volume keeps its resolution");
-    if (grid == volume.grid) return;
+    TETRALIGHT_ASSERT(detail::check_fill(grid, {.validity = validity}), "a validity of each point");
+    std::vector<uint32_t> nearest = nearest_valid_points(grid, validity);
+    if (grid == volume.grid && nearest == volume.nearest_valid) return;
     volume.grid = grid;
+    volume.nearest_valid = std::move(nearest);
     if (volume.refresh == LppvRefresh::Automatic) volume.is_due = true;
 }
 
@@ -156,6 +172,14 @@ struct LppvAtlas::Scratch {
         light.resize(count);
         occlusion.resize(count);
     }
+
+    void replace_invalid(std::span<const uint32_t> nearest_valid) {
+        for (size_t i = 0; i < nearest_valid.size(); ++i) {
+            if (nearest_valid[i] == kNoIndex) continue;
+            light[i] = light[nearest_valid[i]];
+            occlusion[i] = occlusion[nearest_valid[i]];
+        }
+    }
 };
 
 void LppvAtlas::run_task(const ProbeVolumeView& volume, std::span<const uint32_t> ids,
@@ -169,10 +193,14 @@ void LppvAtlas::run_task(const ProbeVolumeView& volume, std::span<const uint32_t
 /// Each volume is a batch of its own, so that its answers do not depend on what else is filled.
 void LppvAtlas::fill(const ProbeVolumeView& probes, Volume& volume, Scratch& scratch) {
     scratch.resize(volume.grid.point_count());
-    detail::grid_positions(volume.grid, 0, scratch.positions);
+    const detail::GridPositions position_of(volume.grid);
+    for (size_t i = 0; i < scratch.positions.size(); ++i) {
+        scratch.positions[i] = position_of(volume.grid.point(i));
+    }
     locate(probes, scratch.positions, scratch.locations);
     const auto status = blend(probes, scratch.locations, scratch.light, scratch.occlusion);
     TETRALIGHT_ASSERT(status, "there is room for the light of each location");
+    scratch.replace_invalid(volume.nearest_valid);
     volume.band_2 = {};
     if (volume.quality != LppvQuality::Low) volume.band_2 = mean_band_2(scratch.light);
     if (texture_.layout == LppvLayout::SevenSlabs) {

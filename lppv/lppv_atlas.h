@@ -84,22 +84,26 @@ static_assert(sizeof(LppvAtlasConstants) == 160 &&
               std::is_trivially_copyable_v<LppvAtlasConstants>);
 
 /// Proxy volumes packed into one texture. The bytes of a volume are a function of its grid, its
-/// quality and the probe volume alone: refilling a part and refilling everything give the same
-/// ones, on any number of threads. Outside the hull of the probes the light is extrapolated.
+/// quality, its validity and the probe volume alone: refilling a part and refilling everything give
+/// the same ones, on any number of threads. Outside the hull of the probes the light is
+/// extrapolated.
 class LppvAtlas {
   public:
     explicit LppvAtlas(const LppvAtlasSettings& settings);
 
     /// Finds room for a volume; the next refresh fills it. Ids of removed volumes are used again.
-    /// Error: there is no room (the message says for what).
+    /// Points whose `validity` is below that of `LppvFill` take the light of the nearest point
+    /// whose is not; empty: all are free. Errors: there is no room (the message says for what),
+    /// `validity` is not as long as the grid has points.
     [[nodiscard]] Result<uint32_t> add(const LppvGrid& grid, LppvQuality quality,
-                                       LppvRefresh refresh);
+                                       LppvRefresh refresh, std::span<const float> validity = {});
 
     // Precondition of what follows: `id` is that of a volume which was added and not removed.
 
     void remove(uint32_t id);
-    /// Precondition: the grid has the resolution that the volume was added with.
-    void move(uint32_t id, const LppvGrid& grid);
+    /// Preconditions: the grid has the resolution that the volume was added with, and as many
+    /// points as `validity` has values, if it has any.
+    void move(uint32_t id, const LppvGrid& grid, std::span<const float> validity = {});
     /// Has the next refresh fill the volume, whatever its mode.
     void mark(uint32_t id);
 
@@ -135,6 +139,7 @@ class LppvAtlas {
         LppvRefresh refresh = LppvRefresh::Automatic;
         bool is_there = false;
         bool is_due = false;
+        std::vector<uint32_t> nearest_valid;  ///< of each point; empty: itself
         TexelBox texels;
         detail::LitBy lit_by;
         PackedSh band_2{};

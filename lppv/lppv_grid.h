@@ -103,6 +103,12 @@ struct LppvGrid {
         return (size_t{point.z} * resolution.y + point.y) * resolution.x + point.x;
     }
 
+    /// The point of an index.
+    [[nodiscard]] glm::uvec3 point(size_t index) const noexcept {
+        const size_t row = index / resolution.x;
+        return {index % resolution.x, row % resolution.y, row / resolution.y};
+    }
+
     [[nodiscard]] glm::dvec3 world_position(glm::uvec3 point) const noexcept;
 
     /// Metres between points along each axis.

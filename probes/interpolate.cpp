@@ -62,9 +62,9 @@ Result<BatchReport> interpolate(const ProbeVolumeView& volume, const Interpolati
 }
 
 void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
-            std::span<CellLocation> locations) {
+            std::span<CellLocation> locations, const OutsideHull& outside) {
     TETRALIGHT_ASSERT(locations.size() >= positions.size(), "each position has a location");
-    detail::BatchQueries queries(volume, {positions, {}, {}, {}}, detail::query_kernels());
+    detail::BatchQueries queries(volume, {positions, {}, {}, outside}, detail::query_kernels());
     while (queries.locate_block()) {
         const detail::QueryBlock& block = queries.block();
         for (size_t query = 0; query < detail::QueryBlock::kSize; ++query) {

@@ -103,7 +103,7 @@ template <class ParallelFor>
 /// Locations of many positions, as `interpolate` finds them. Precondition: as many locations as
 /// positions.
 void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
-            std::span<CellLocation> locations);
+            std::span<CellLocation> locations, const OutsideHull& outside = {});
 
 /// Blends at known locations: `interpolate` without the walk. Errors as there.
 [[nodiscard]] Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locations,

@@ -2,14 +2,28 @@
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <span>
 
 #include "lppv/lppv_grid.h"
 
 namespace tetralight::detail {
 
-/// World positions of the grid points [begin, begin + positions.size()), as queries take them.
-/// Precondition: `begin` is the first point of a row, and the grid has that many points.
-void grid_positions(const LppvGrid& grid, size_t begin, std::span<glm::vec3> positions) noexcept;
+/// World positions of grid points, as queries take them: `LppvGrid::world_position` with a third of
+/// its arithmetic.
+class GridPositions {
+  public:
+    explicit GridPositions(const LppvGrid& grid)
+        : origin_(grid.world_position({0, 0, 0})),
+          x_(grid.world_from_local[0] * grid.step.x),
+          y_(grid.world_from_local[1] * grid.step.y),
+          z_(grid.world_from_local[2] * grid.step.z) {}
+
+    [[nodiscard]] glm::vec3 operator()(const glm::uvec3& point) const {
+        const glm::dvec3 p(point);
+        return glm::vec3(origin_ + p.x * x_ + p.y * y_ + p.z * z_);
+    }
+
+  private:
+    glm::dvec3 origin_, x_, y_, z_;
+};
 
 }  // namespace tetralight::detail

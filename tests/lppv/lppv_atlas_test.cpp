@@ -110,6 +110,29 @@ TEST(LppvAtlas, RefillsOnlyWhatMoved) {
     EXPECT_EQ(report.point_count, 2u * 30u);
 }
 
+TEST(LppvAtlas, InvalidPointsTakeTheLightOfTheNearestValidOne) {
+    const ProbeVolume volume = make_volume();
+    const LppvGrid grid = make_grids(1, 1)[0];
+    std::vector<float> validity(grid.point_count(), 1.0f);
+    LppvAtlas atlas({.slab_size = {8, 8, 8}});
+    const uint32_t id = *atlas.add(grid, LppvQuality::Full, LppvRefresh::Automatic, validity);
+    atlas.refresh(volume.view(), {});
+    const auto texel = [&](uint32_t z) {
+        return fetch_texel(atlas.texture(), atlas.texels(id).low + glm::uvec3(1, 1, 1 + z));
+    };
+    const glm::vec4 first = texel(0), second = texel(1);
+    EXPECT_NE(first, second);
+    validity[0] = 0.25f;
+    validity[2] = 0.0f;  // the next along y: now the nearest is the next along z
+    atlas.move(id, grid, validity);
+    EXPECT_EQ(atlas.refresh(volume.view(), {}).refilled, (Refilled{id}));
+    EXPECT_EQ(texel(0), second);
+    atlas.move(id, grid, validity);
+    EXPECT_TRUE(atlas.refresh(volume.view(), {}).refilled.empty());
+    validity.pop_back();
+    EXPECT_FALSE(atlas.add(grid, LppvQuality::Full, LppvRefresh::Automatic, validity));
+}
+
 /// Everything that a volume's group c lights differently afterwards.
 std::vector<uint32_t> relight_last_group(ProbeVolume& volume) {
     const std::vector<uint32_t> group{2};

@@ -63,15 +63,15 @@ TEST(Lppv, AnAxisOfOnePointIsConstant) {
 TEST(Lppv, EveryPointHoldsTheAnswerOfASingleQuery) {
     ProbeVolume volume = test::make_random_volume(test::random_positions(300, 3), 4);
     volume.occlusion.assign(volume.positions.size(), glm::vec4(0.25f, 0.5f, 0.75f, 1.0f));
-    const LppvGrid grid = grid_in_box({37, 19, 41}, glm::dvec3(1.7), 20.0);
-    const Lppv lppv = *make_lppv(volume.view(), grid, {});
-    ASSERT_EQ(lppv.occlusion.size(), grid.point_count());
-    for (uint32_t z = 0; z < 41; z += 3) {
-        for (uint32_t x = 0; x < 37; ++x) {
-            const glm::uvec3 point(x, (x + z) % 19, z);
-            const CellLocation at = locate(volume.view(), glm::vec3(grid.world_position(point)));
-            const InterpolatedProbe expected = interpolate(volume.view(), at);
-            const size_t i = grid.point_index(point);
+    // Beams of 8 x 8 rows: whole and cut ones, and one alone.
+    for (const glm::uvec3 resolution : {glm::uvec3(37, 19, 41), glm::uvec3(50, 7, 90)}) {
+        const LppvGrid grid = grid_in_box(resolution, glm::dvec3(1.7), 20.0);
+        const Lppv lppv = *make_lppv(volume.view(), grid, {});
+        ASSERT_EQ(lppv.occlusion.size(), grid.point_count());
+        for (size_t i = 0; i < grid.point_count(); i += 7) {
+            const glm::vec3 position(grid.world_position(grid.point(i)));
+            const InterpolatedProbe expected =
+                interpolate(volume.view(), locate(volume.view(), position));
             for (int k = 0; k < kShCoefficientCount; ++k) {
                 ASSERT_LE(glm::distance(lppv.irradiance[i].coefficients[k],
                                         expected.irradiance.coefficients[k]),
@@ -92,6 +92,23 @@ TEST(Lppv, GivesTheSameBytesOnAnyThreads) {
     };
     EXPECT_EQ(*make_lppv(volume.view(), grid, fill),
               *make_lppv(volume.view(), grid, fill, threads));
+}
+
+TEST(Lppv, FillsAGridAgainInTheMemoryThatItHas) {
+    const ProbeVolume volume = test::make_random_volume(test::random_positions(300, 3), 4);
+    Lppv lppv = *make_lppv(volume.view(), grid_in_box({9, 10, 11}, glm::dvec3(2.2), 20.0), {});
+    const IrradianceSh* memory = lppv.irradiance.data();
+    lppv.grid = grid_in_box({11, 9, 10}, glm::dvec3(1.5), 70.0);
+    const std::vector<float> validity(lppv.grid.point_count(), 0.75f);
+    const LppvFill fill{.quality = LppvQuality::Low, .validity = validity};
+    ASSERT_TRUE(fill_lppv(volume.view(), fill, lppv));
+    EXPECT_EQ(lppv, *make_lppv(volume.view(), lppv.grid, fill));
+    EXPECT_EQ(lppv.irradiance.data(), memory);
+    // The mask may be its own.
+    lppv.validity[0] = 0.0f;
+    ASSERT_TRUE(fill_lppv(volume.view(), {.validity = lppv.validity}, lppv));
+    EXPECT_EQ(lppv.replaced_count, 1u);
+    EXPECT_EQ(lppv.irradiance[0], lppv.irradiance[1]);
 }
 
 TEST(Lppv, QualitiesDifferInBand2Only) {

@@ -235,7 +235,10 @@ TEST_F(BatchTest, OutsidePolicyIsThatOfSingleQueries) {
         InterpolationBatch outside = batch();
         outside.outside = {policy, 0.5f};
         ASSERT_TRUE(interpolate(volume.view(), outside));
+        std::vector<CellLocation> locations(positions.size());
+        locate(volume.view(), positions, locations, outside.outside);
         for (size_t i = 0; i < positions.size(); ++i) {
+            ASSERT_EQ(interpolate(volume.view(), locations[i]).occlusion, answers.occlusion[i]);
             const auto location = locate(volume.view(), positions[i], kNoIndex, outside.outside);
             const auto light = interpolate(volume.view(), location);
             ASSERT_LE(glm::distance(answers.irradiance[i].coefficients[0],
