@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
+#include <glm/vector_relational.hpp>
 
 #include "bake/placement/probe_grid.h"
 #include "bake/survey.h"
@@ -133,22 +133,31 @@ class Accuracy {
     double square_sum_ = 0.0;
 };
 
-/// Beams lie level, anywhere among the probes, turned anyhow.
+/// Beams that lie level, turned anyhow, anywhere in the box of the probes.
 std::vector<glm::dmat4> random_beams(const ProbeVolumeView& volume) {
     glm::dvec3 low(volume.positions[0]), high = low;
     for (const glm::vec3& p : volume.positions) {
         low = glm::min(low, glm::dvec3(p));
         high = glm::max(high, glm::dvec3(p));
     }
-    const auto places = random_positions(kBeamCount, 5, 1.0);
-    const auto turns = random_positions(kBeamCount, 6, 2.0 * std::numbers::pi);
     std::vector<glm::dmat4> beams;
-    for (size_t i = 0; i < kBeamCount; ++i) {
-        const glm::dvec3 center = glm::mix(low, high, places[i]);
+    for (const glm::dvec3& p : random_positions(100 * kBeamCount, 5, 1.0)) {
+        const double angle = p.x * 1000.0;
+        const glm::dvec3 center = glm::mix(low, high, p);
+        const glm::dvec3 reach =
+            0.5 *
+            glm::dvec3(kBeam.x * std::abs(std::cos(angle)) + kBeam.z * std::abs(std::sin(angle)),
+                       kBeam.y,
+                       kBeam.x * std::abs(std::sin(angle)) + kBeam.z * std::abs(std::cos(angle)));
+        const bool is_inside = glm::all(glm::greaterThan(center - reach, low)) &&
+                               glm::all(glm::lessThan(center + reach, high));
+        if (!is_inside) continue;
         beams.push_back(
-            glm::rotate(glm::translate(glm::dmat4(1.0), center), turns[i].x, glm::dvec3(0, 1, 0)));
+            glm::rotate(glm::translate(glm::dmat4(1.0), center), angle, glm::dvec3(0, 1, 0)));
+        if (beams.size() == kBeamCount) return beams;
     }
-    return beams;
+    require(false, "the probes' box has room for a beam");
+    return {};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/placement/free_space.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
@@ -128,8 +129,14 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
         return placed;
     }
     placed.position = traced.world_from_traced(*place);
+    // A push along an axis leaves the others as they are. Probes that rounding moves out of the
+    // planes of their lattice make flat tetrahedra, across which light jumps.
+    for (int i = 0; i < 3; ++i) {
+        const double way = std::abs(placed.position[i] - candidate[i]);
+        if (way <= kSlack * rule.clearance) placed.position[i] = candidate[i];
+    }
     placed.fate = Fate::Pushed;
-    placed.surface_distance = surface_distance(traced, *place);
+    placed.surface_distance = surface_distance(traced, traced.traced_from_world(placed.position));
     return placed;
 }
 

@@ -37,8 +37,13 @@ TEST(FreeSpace, PushesWhatIsTooCloseToTheClearance) {
     const PlacedProbe probe = place(solid(test::grey()), {1.05, 0.2, 0}, {0.2, 0.4});
     EXPECT_EQ(probe.fate, Fate::Pushed);
     EXPECT_NEAR(probe.position.x, 1.2, 1e-3);
-    EXPECT_NEAR(probe.position.y, 0.2, 1e-6);
     EXPECT_NEAR(probe.surface_distance, 0.2, 1e-3);
+}
+
+TEST(FreeSpace, APushAlongAnAxisLeavesTheOthersToTheBit) {
+    const PlacedProbe probe = place(solid(test::grey()), {1.05, 0.2, 0.1}, {0.2, 0.4});
+    EXPECT_EQ(probe.position.y, 0.2);
+    EXPECT_EQ(probe.position.z, 0.1);
 }
 
 TEST(FreeSpace, PushesWhatIsInsideOutThroughTheNearestFace) {
