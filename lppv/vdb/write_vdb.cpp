@@ -14,6 +14,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <memory>
 #include <new>
 #include <ostream>
 #include <span>
@@ -105,10 +106,10 @@ void add_metadata(openvdb::MetaMap& map) {
     map.insertMeta("sh:axes", openvdb::StringMetadata("right-handed, Y up, metres (glTF)"));
 }
 
-/// One block as a leaf of a tree.
+/// One block as a leaf of a tree. None: a whole block of one value.
 template <class Leaf, class Value>
-Leaf* make_leaf(const Block& block, Value value) {
-    auto* leaf = new Leaf(openvdb::Coord(block.low.x, block.low.y, block.low.z));
+std::unique_ptr<Leaf> make_leaf(const Block& block, Value value) {
+    auto leaf = std::make_unique<Leaf>(openvdb::Coord(block.low.x, block.low.y, block.low.z));
     auto* voxels = leaf->buffer().data();
     for (int x = 0; x < block.count.x; ++x) {
         for (int y = 0; y < block.count.y; ++y) {
@@ -121,6 +122,9 @@ Leaf* make_leaf(const Block& block, Value value) {
             }
         }
     }
+    typename Leaf::ValueType first;
+    bool is_active = false;
+    if (leaf->isConstant(first, is_active)) leaf.reset();
     return leaf;
 }
 
@@ -129,12 +133,20 @@ template <class Grid, class Value>
 typename Grid::Ptr make_grid(const std::string& name, const VoxelBlocks& voxels, Value value) {
     using Leaf = typename Grid::TreeType::LeafNodeType;
     static_assert(Leaf::DIM == kSide);
-    std::vector<Leaf*> leaves(voxels.blocks.size());
+    std::vector<std::unique_ptr<Leaf>> leaves(voxels.blocks.size());
     tbb::parallel_for(size_t{0}, leaves.size(),
                       [&](size_t i) { leaves[i] = make_leaf<Leaf>(voxels.blocks[i], value); });
     auto grid = Grid::create();
-    for (Leaf* leaf : leaves) grid->tree().addLeaf(leaf);
-    openvdb::tools::prune(grid->tree());
+    for (size_t i = 0; i < leaves.size(); ++i) {
+        const Block& block = voxels.blocks[i];
+        if (leaves[i]) {
+            grid->tree().addLeaf(leaves[i].release());
+        } else {
+            const openvdb::Coord at(block.low.x, block.low.y, block.low.z);
+            grid->tree().addTile(/*level=*/1, at, value(block.first), /*active=*/true);
+        }
+    }
+    openvdb::tools::pruneTiles(grid->tree());
     grid->setName(name);
     grid->setTransform(make_transform(voxels.world_from_index));
     add_metadata(*grid);

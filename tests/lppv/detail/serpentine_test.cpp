@@ -30,7 +30,7 @@ TEST(Serpentine, VisitsEachPointOnceAndStepsToOneBesideIt) {
             for (size_t i = first + 1; i < path.size(); ++i) {
                 ASSERT_EQ(steps_between(path[i - 1], path[i]), 1);
             }
-            if (round == 1) EXPECT_EQ(path[first].x, path[first - 1].x);
+            EXPECT_EQ(path[first].x, path[first == 0 ? 0 : first - 1].x);
         }
     }
 }
