@@ -199,8 +199,8 @@ struct LppvCommand {
         const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads());
         const double fill_seconds = filling.seconds();
         const Stopwatch writing;
-        const auto precision = file.precision == LppvTexelFormat::Half ? VdbPrecision::Half
-                                                                       : VdbPrecision::Float;
+        const auto precision =
+            file.precision == LppvTexelFormat::Half ? VdbPrecision::Half : VdbPrecision::Float;
         const auto status = file.kind == LppvFileKind::NanoVdb
                                 ? write_nvdb(output, lppv, common.thread_count)
                                 : write_vdb(output, lppv, precision, common.thread_count);
