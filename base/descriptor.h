@@ -9,12 +9,13 @@
 #include <utility>
 
 #include "base/result.h"
+#include "base/shown_path.h"
 
 namespace tetralight {
 
 /// What the system says about a call on `path` that just failed.
 inline Error system_error(const std::string& path, const char* what) {
-    return {path + ": cannot " + what + " (" + std::strerror(errno) + ")"};
+    return {shown_path(path) + ": cannot " + what + " (" + std::strerror(errno) + ")"};
 }
 
 /// Owns a POSIX file descriptor.

@@ -11,6 +11,7 @@
 
 #include "base/descriptor.h"
 #include "base/file_writer.h"
+#include "base/shown_path.h"
 
 namespace tetralight {
 namespace {
@@ -20,7 +21,7 @@ Result<size_t> regular_file_size(const Descriptor& file, const std::string& path
     if (!file) return system_error(path, "open");
     struct stat status = {};
     if (::fstat(file.value(), &status) != 0) return system_error(path, "read");
-    if (!S_ISREG(status.st_mode)) return Error{path + ": is not a regular file"};
+    if (!S_ISREG(status.st_mode)) return Error{shown_path(path) + ": is not a regular file"};
     return static_cast<size_t>(status.st_size);
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/shown_path.h"
 #include "base/text.h"
 #include "probes/detail/probe_file_layout.h"
 
@@ -138,14 +139,14 @@ Result<ProbeFile> open_probe_file_lazy(const std::string& path) {
     auto mapping = MappedFile::open(path);
     if (!mapping) return mapping.error();
     auto file = ProbeFileReader::open(std::move(*mapping));
-    if (!file) return file.error().in(path);
+    if (!file) return file.error().in(shown_path(path));
     return file;
 }
 
 Result<ProbeFile> open_probe_file(const std::string& path) {
     auto file = open_probe_file_lazy(path);
     if (!file) return file;
-    if (auto status = verify(*file); !status) return status.error().in(path);
+    if (auto status = verify(*file); !status) return status.error().in(shown_path(path));
     return file;
 }
 
