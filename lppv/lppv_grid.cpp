@@ -41,7 +41,8 @@ Status check_transform(const glm::dmat4& m) {
         }
     }
     if (m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 1.0) return Ok{};
-    return Error{"transform of the object is not affine"};
+    return Error{text("transform of the object is not affine: its last row is (", m[0][3], ", ",
+                      m[1][3], ", ", m[2][3], ", ", m[3][3], "), not (0, 0, 0, 1)")};
 }
 
 Status check_bounds(const glm::dvec3& low, const glm::dvec3& high) {

@@ -23,7 +23,7 @@ struct DistantLight {
     std::array<glm::vec3, kDistantCoefficientCount> coefficients{};
 
     DistantLight& operator+=(const DistantLight& other) noexcept {
-        for (int i = 0; i < kDistantCoefficientCount; ++i) coefficients[i] += other.coefficients[i];
+        for (size_t i = 0; i < coefficients.size(); ++i) coefficients[i] += other.coefficients[i];
         return *this;
     }
 

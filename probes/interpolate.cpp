@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "base/assert.h"
@@ -22,9 +23,23 @@ Status check_outputs(const InterpolationBatch& batch, size_t count) {
     if (has_irradiance) {
         const auto status = check_length("irradiance", batch.irradiance.capacity(), count);
         if (!status) return status;
+        const ShFormat format = batch.irradiance.format;
+        const auto strides = check_strides("irradiance", batch.irradiance, value_count(format),
+                                           value_size(format), count);
+        if (!strides) return strides;
     }
-    return has_occlusion ? check_length("occlusion", batch.occlusion.capacity(), count)
-                         : Status(Ok{});
+    if (!has_occlusion) return Ok{};
+    const auto status = check_length("occlusion", batch.occlusion.capacity(), count);
+    return status ? check_strides("occlusion", batch.occlusion, 4, sizeof(float), count) : status;
+}
+
+Status check_outside(const OutsideHull& outside) {
+    if (outside.policy > OutsidePolicy::Ambient) {
+        return Error{text("outside has policy ", static_cast<uint32_t>(outside.policy))};
+    }
+    const bool is_length = std::isfinite(outside.fade_distance) && outside.fade_distance > 0.0f;
+    if (outside.policy != OutsidePolicy::Ambient || is_length) return Ok{};
+    return Error{text("fade_distance is ", outside.fade_distance, ", not a length")};
 }
 
 }  // namespace
@@ -44,6 +59,7 @@ Status check(const InterpolationBatch& batch) {
         const auto status = check_length("sort_memory", batch.sort_memory.size() / 2, count);
         if (!status) return status;
     }
+    if (auto status = check_outside(batch.outside); !status) return status;
     return check_outputs(batch, count);
 }
 

@@ -60,9 +60,10 @@ struct BatchReport {
     bool operator==(const BatchReport&) const = default;
 };
 
-/// Locates and blends every position of the batch. Errors: no output at all, and a span that is
-/// shorter than `positions` needs (the message says both lengths). Thread-safe on one volume;
-/// allocates nothing.
+/// Locates and blends every position of the batch. Errors: no output at all, a span that is shorter
+/// than `positions` needs (the message says both lengths), answers over each other or at odd
+/// addresses, a fade that is no length. Thread-safe on one volume; allocates nothing. `locate` says
+/// what may differ between calls.
 [[nodiscard]] Result<BatchReport> interpolate(const ProbeVolumeView& volume,
                                               const InterpolationBatch& batch);
 

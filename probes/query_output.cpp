@@ -48,6 +48,22 @@ ShOutput arrays(std::span<std::byte> memory, ShFormat format) noexcept {
     return output;
 }
 
+Status check_strides(const char* name, const StridedOutput& output, size_t count, size_t size,
+                     size_t answer_count) {
+    const auto address = reinterpret_cast<uintptr_t>(output.memory.data());
+    if ((address | output.answer_stride | output.value_stride) % size != 0) {
+        return Error{text(name, " does not lie at multiples of ", size, " bytes")};
+    }
+    if (answer_count <= 1) return Ok{};
+    const size_t answer = (count - 1) * output.value_stride + size;
+    const size_t array = (answer_count - 1) * output.answer_stride + size;
+    const bool is_apart = output.value_stride >= size && output.answer_stride >= size &&
+                          (output.answer_stride >= answer || output.value_stride >= array);
+    if (is_apart) return Ok{};
+    return Error{text(name, " has a stride of ", output.answer_stride, " bytes, and answers of ",
+                      count * size)};
+}
+
 Status check_length(const char* name, size_t length, size_t needed) {
     if (length >= needed) return Ok{};
     return Error{

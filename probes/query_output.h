@@ -81,6 +81,11 @@ struct OcclusionOutput : StridedOutput {
 /// array a value.
 [[nodiscard]] ShOutput arrays(std::span<std::byte> memory, ShFormat format) noexcept;
 
+/// Whether answers of `count` values of `size` bytes lie apart from each other, each value at a
+/// place for its type. Errors name the stride.
+[[nodiscard]] Status check_strides(const char* name, const StridedOutput& output, size_t count,
+                                   size_t size, size_t answer_count);
+
 /// Error that says both lengths: `name` has room for fewer answers than there are positions.
 [[nodiscard]] Status check_length(const char* name, size_t length, size_t needed);
 

@@ -49,9 +49,8 @@ struct InstanceBatch {
 };
 
 /// Locates every instance, blends its probes and writes irradiance / π as `pack_sh` does. Errors:
-/// `arrays` and `packed` both, no output at all, `packed` of another format, and a span that is
-/// shorter than `positions` needs (the message says both lengths). Thread-safe on one volume;
-/// allocates nothing.
+/// `arrays` and `packed` both, `packed` of another format, and those of `interpolate`. Thread-safe
+/// on one volume; allocates nothing.
 [[nodiscard]] Result<BatchReport> pack_instances(const ProbeVolumeView& volume,
                                                  const InstanceBatch& batch);
 

@@ -210,8 +210,9 @@ TEST(LppvGrid, RefusesTransformsThatHaveNoSpace) {
     EXPECT_FALSE(grid_of_cube(broken, {}));
     glm::dmat4 perspective(1.0);
     perspective[2].w = 1.0;
-    EXPECT_EQ(grid_of_cube(perspective, {}).error().message,
-              "transform of the object is not affine");
+    EXPECT_EQ(
+        grid_of_cube(perspective, {}).error().message,
+        "transform of the object is not affine: its last row is (0, 0, 1, 1), not (0, 0, 0, 1)");
     EXPECT_FALSE(make_lppv_grid({}, {}));  // no parts
 }
 

@@ -193,5 +193,43 @@ TEST(PackInstances, RefusesOutputsThatMakeNoSense) {
         volume.view(), {.positions = positions, .arrays = light.spans(), .packed = packed}));
 }
 
+TEST(PackInstances, RefusesAnswersOverEachOtherAndAtOddAddresses) {
+    const ProbeVolume volume = make_volume();
+    const auto positions = make_positions(3);
+    std::vector<PackedSh> light(4);
+    std::vector<glm::vec4> occlusion(4);
+    const auto bytes = std::as_writable_bytes(std::span(light));
+    const auto error_of = [&](const ShOutput& packed, const OcclusionOutput& lit) {
+        const auto report = pack_instances(
+            volume.view(), {.positions = positions, .packed = packed, .occlusion = lit});
+        return report ? std::string() : report.error().message;
+    };
+    EXPECT_EQ(error_of(strided(bytes, ShFormat::Packed, 112), occlusion), "");
+    EXPECT_EQ(error_of(strided(bytes, ShFormat::Packed, 108), occlusion),
+              "irradiance has a stride of 108 bytes, and answers of 112");
+    EXPECT_EQ(error_of(strided(bytes.subspan(1), ShFormat::Packed, 112), occlusion),
+              "irradiance does not lie at multiples of 4 bytes");
+    EXPECT_EQ(error_of(strided(bytes, ShFormat::Packed, 114), occlusion),
+              "irradiance does not lie at multiples of 4 bytes");
+    const auto floats = std::as_writable_bytes(std::span(occlusion));
+    EXPECT_EQ(error_of(light, strided_occlusion(floats, 8)),
+              "occlusion has a stride of 8 bytes, and answers of 16");
+}
+
+TEST(PackInstances, RefusesChoicesOutsideTheHullThatAreNone) {
+    const ProbeVolume volume = make_volume();
+    const auto positions = make_positions(3);
+    ShaderArrays light(3);
+    const auto error_of = [&](OutsideHull outside) {
+        return pack_instances(volume.view(),
+                              {.positions = positions, .arrays = light.spans(), .outside = outside})
+            .error()
+            .message;
+    };
+    EXPECT_EQ(error_of({static_cast<OutsidePolicy>(9), 1.0f}), "outside has policy 9");
+    EXPECT_EQ(error_of({OutsidePolicy::Ambient, -1.0f}), "fade_distance is -1, not a length");
+    EXPECT_EQ(light.arrays[0][0], glm::vec4(0.0f));
+}
+
 }  // namespace
 }  // namespace tetralight
