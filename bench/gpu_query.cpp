@@ -4,9 +4,12 @@
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
+#include <random>
 
 #include "bench/harness.h"
 #include "bench/query_subject.h"
@@ -20,19 +23,27 @@ namespace {
 
 constexpr size_t kCount = 1'000'000;
 
-/// Each answer: PackedSh, occlusion.
+/// What the GPU says for a position.
+struct Answer {
+    PackedProbe probe;
+    glm::vec4 weights;
+    glm::uvec4 cell;
+};
+
 constexpr const char* kShader = R"(
 layout(local_size_x = 64) in;
 layout(std430, binding = 8) readonly buffer Positions { vec4 positions[]; };
-layout(std430, binding = 9) writeonly buffer Answers { PackedProbe answers[]; };
+struct Answer { PackedProbe probe; vec4 weights; uvec4 cell; };
+layout(std430, binding = 9) writeonly buffer Answers { Answer answers[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i < uint(positions.length())) answers[i] = interpolate(locate(positions[i].xyz, 0xffffffffu));
+    if (i >= uint(positions.length())) return;
+    CellLocation location = locate(positions[i].xyz, 0xffffffffu);
+    answers[i] = Answer(interpolate(location), location.weights, uvec4(location.cell));
 }
 )";
 
-std::vector<PackedProbe> query_gpu(const ShaderVolume& volume,
-                                   const std::vector<glm::vec3>& positions) {
+std::vector<Answer> query_gpu(const ShaderVolume& volume, const std::vector<glm::vec3>& positions) {
     const auto source =
         compose_shader(ShaderLanguage::Glsl450, {ShaderPart::Query}, {"query.comp", kShader});
     const ShaderStage stage{GL_COMPUTE_SHADER, source};
@@ -40,11 +51,11 @@ std::vector<PackedProbe> query_gpu(const ShaderVolume& volume,
     require(bool(program), program ? "" : program.error().message);
     std::vector<glm::vec4> inputs;
     for (const glm::vec3& position : positions) inputs.emplace_back(position, 0.0f);
-    std::vector<PackedProbe> answers(positions.size());
+    std::vector<Answer> answers(positions.size());
     std::array<GLuint, 2> buffers{};
     glCreateBuffers(2, buffers.data());
     glNamedBufferStorage(buffers[0], static_cast<GLsizeiptr>(16 * inputs.size()), inputs.data(), 0);
-    const auto size = static_cast<GLsizeiptr>(sizeof(PackedProbe) * answers.size());
+    const auto size = static_cast<GLsizeiptr>(sizeof(Answer) * answers.size());
     glNamedBufferStorage(buffers[1], size, nullptr, 0);
     const VolumeBuffers uploaded(volume);
     uploaded.bind();
@@ -72,6 +83,71 @@ double difference(const PackedProbe& a, const PackedProbe& b) {
     return largest / size;
 }
 
+/// Whether a location is the position: its probes' positions, blended, are there.
+bool is_blend_at(const ProbeVolumeView& volume, const glm::vec3& position, uint32_t cell,
+                 const glm::vec4& weights) {
+    if (cell >= volume.cells.size()) return false;
+    glm::dvec3 blend = volume.info.world_origin;
+    for (int i = 0; i < 4; ++i) {
+        if (weights[i] == 0.0f) continue;
+        const uint32_t probe = volume.cells[cell].vertices[static_cast<size_t>(i)];
+        blend += static_cast<double>(weights[i]) * glm::dvec3(volume.positions[probe]);
+    }
+    const double rounding = 2e-6 * static_cast<double>(volume.info.extent);
+    return glm::distance(blend, glm::dvec3(position)) <= rounding;
+}
+
+/// What all positions of a volume met.
+struct Verdict {
+    size_t disagreement_count = 0;
+    /// Positions between cells where CPU and GPU chose another one, whose light is another.
+    size_t other_cell_count = 0;
+    double largest = 0.0;
+};
+
+Verdict compare(const ProbeVolumeView& view, const std::vector<glm::vec3>& positions) {
+    constexpr double kTolerance = 1e-3;
+    constexpr size_t kPart = 500'000;  // OpenGL promises 128 MiB a buffer
+    const ShaderVolume volume = make_shader_volume(view);
+    Verdict verdict;
+    for (size_t begin = 0; begin < positions.size(); begin += kPart) {
+        const size_t end = std::min(positions.size(), begin + kPart);
+        const auto at = [&](size_t i) {
+            return positions.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        const std::vector<glm::vec3> part(at(begin), at(end));
+        const std::vector<Answer> answers = query_gpu(volume, part);
+        for (size_t i = 0; i < part.size(); ++i) {
+            const CellLocation cpu = locate(view, part[i]);
+            const InterpolatedProbe probe = interpolate(view, cpu);
+            const double apart =
+                difference(answers[i].probe, {pack_sh(probe.irradiance), probe.occlusion});
+            if (apart <= kTolerance) {
+                verdict.largest = std::max(verdict.largest, apart);
+                continue;
+            }
+            const bool is_between =
+                is_blend_at(view, part[i], cpu.cell, cpu.weights) &&
+                is_blend_at(view, part[i], answers[i].cell.x, answers[i].weights);
+            ++(is_between ? verdict.other_cell_count : verdict.disagreement_count);
+        }
+    }
+    return verdict;
+}
+
+/// Middles of the edges of cells, where cells meet.
+std::vector<glm::vec3> edge_middles(const ProbeVolume& volume, size_t count) {
+    std::mt19937_64 engine(1);
+    std::vector<glm::vec3> positions;
+    for (size_t i = 0; i < count; ++i) {
+        const Cell& cell = volume.cells[engine() % volume.info.inner_cell_count];
+        const glm::dvec3 a = volume.exact_positions[cell.vertices[engine() % 4]];
+        const glm::dvec3 b = volume.exact_positions[cell.vertices[engine() % 4]];
+        positions.emplace_back(0.5 * (a + b));
+    }
+    return positions;
+}
+
 }  // namespace
 
 void bench_gpu_query() {
@@ -81,28 +157,19 @@ void bench_gpu_query() {
                      context.error().message.c_str());
         return;
     }
-    Subject subject = make_random_subject("20k", 20'000);
-    const ProbeVolumeView view = subject.volume.view();
-    const std::vector<glm::vec3> positions = subject.positions(kCount);
-    // Half a batch each: OpenGL promises 128 MiB a buffer.
-    const std::vector<glm::vec3> halves[] = {{positions.begin(), positions.begin() + kCount / 2},
-                                             {positions.begin() + kCount / 2, positions.end()}};
-    const ShaderVolume volume = make_shader_volume(view);
-    constexpr double kTolerance = 1e-3;
-    size_t disagreement_count = 0;
-    double largest = 0.0;
-    for (const std::vector<glm::vec3>& half : halves) {
-        const std::vector<PackedProbe> answers = query_gpu(volume, half);
-        for (size_t i = 0; i < half.size(); ++i) {
-            const InterpolatedProbe cpu = interpolate(view, locate(view, half[i]));
-            const double apart = difference(answers[i], {pack_sh(cpu.irradiance), cpu.occlusion});
-            largest = std::max(largest, apart);
-            disagreement_count += !(apart <= kTolerance);
-        }
-    }
-    report("runtime.gpu_query_disagreements", static_cast<double>(disagreement_count),
+    Subject random = make_random_subject("20k", 20'000);
+    const Verdict verdict = compare(random.volume.view(), random.positions(kCount));
+    report("runtime.gpu_query_disagreements", static_cast<double>(verdict.disagreement_count),
            "of 1000000 beyond 0.001 of the light");
-    report("runtime.gpu_query_difference", largest, "of the light, the largest");
+    report("runtime.gpu_query_difference", verdict.largest, "of the light, the largest");
+    report("runtime.gpu_query_disagreements.other_cell",
+           static_cast<double>(verdict.other_cell_count), "of 1000000 on faces");
+    const Subject lattice = make_lattice_subject("20k", 20'000);
+    const Verdict edges = compare(lattice.volume.view(), edge_middles(lattice.volume, kCount / 10));
+    report("runtime.gpu_query_disagreements.edges", static_cast<double>(edges.disagreement_count),
+           "of 100000 edge middles of a turned lattice");
+    report("runtime.gpu_query_disagreements.edges.other_cell",
+           static_cast<double>(edges.other_cell_count), "of 100000 on faces");
 }
 
 }  // namespace tetralight::bench

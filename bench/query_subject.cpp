@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
 #include <utility>
 
 #include "bake/placement/probe_grid.h"
@@ -48,14 +51,36 @@ std::vector<glm::vec3> Subject::sorted_positions(size_t count) {
     return sorted;
 }
 
-Subject make_random_subject(const std::string& name, size_t probe_count) {
-    const ProbeGroup group = make_group("bench", random_positions(probe_count, 1, 100.0));
+namespace {
+
+/// Probes whose radiance is a function of their position.
+Subject make_lit_subject(const std::string& name, std::vector<glm::dvec3> positions,
+                         glm::vec3 (*radiance)(const glm::vec3& position)) {
+    const ProbeGroup group = make_group("bench", std::move(positions));
     ProbeVolume volume = make_probe_volume(*merge(std::span(&group, 1)));
     for (const glm::vec3& p : volume.positions) {
-        volume.irradiance.push_back(irradiance_from_radiance(constant_radiance(p)));
+        volume.irradiance.push_back(irradiance_from_radiance(constant_radiance(radiance(p))));
     }
     make_compact_probes(volume);
     return make_subject(name, std::move(volume));
+}
+
+}  // namespace
+
+Subject make_random_subject(const std::string& name, size_t probe_count) {
+    return make_lit_subject(name, random_positions(probe_count, 1, 100.0),
+                            [](const glm::vec3& p) { return p; });
+}
+
+Subject make_lattice_subject(const std::string& name, size_t probe_count) {
+    const auto side = static_cast<size_t>(std::cbrt(static_cast<double>(probe_count)));
+    const glm::dmat3 turn(
+        glm::mat4_cast(glm::angleAxis(0.3, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)))));
+    std::vector<glm::dvec3> positions;
+    for (size_t i = 0; i < side * side * side; ++i) {
+        positions.push_back(turn * glm::dvec3(i % side, i / side % side, i / side / side));
+    }
+    return make_lit_subject(name, std::move(positions), [](const glm::vec3& p) { return p * p; });
 }
 
 Subject make_scene_subject(const Options& options) {

@@ -31,6 +31,10 @@ struct Subject {
 /// Uniform random probes in a box of 100 m.
 [[nodiscard]] Subject make_random_subject(const std::string& name, size_t probe_count);
 
+/// A lattice that is turned, whose neighbors lie in a plane but for rounding, under light that is
+/// not linear.
+[[nodiscard]] Subject make_lattice_subject(const std::string& name, size_t probe_count);
+
 /// A baked scene, "scene": that of the options with a lattice of some 20 000 probes, else the
 /// courtyard with its own.
 [[nodiscard]] Subject make_scene_subject(const Options& options);

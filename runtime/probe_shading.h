@@ -41,8 +41,8 @@ static_assert(sizeof(PackedSh4) == 48 && std::is_trivially_copyable_v<PackedSh4>
 [[nodiscard]] float mix_occlusion(float shadow, float occlusion, float fade) noexcept;
 
 /// World-space unit normal of an instance whose transform has these axes (the first three columns
-/// of world_from_instance), for any scale, mirrored ones too. An instance without a volume keeps
-/// the normal as it is.
+/// of world_from_instance), for any scale between 1e-9 and 1e9, mirrored ones too. An instance
+/// without a volume keeps the normal as it is.
 [[nodiscard]] glm::vec3 instance_normal(glm::vec3 x_axis, glm::vec3 y_axis, glm::vec3 z_axis,
                                         glm::vec3 normal) noexcept;
 

@@ -34,16 +34,14 @@ std::string_view head_of(ShaderLanguage language) {
 /// the shader's own text, may be longer.
 constexpr size_t kLineStep = 2000;
 
-void append(ShaderSource& source, ShaderLanguage language, const ShaderFile& file) {
-    if (language == ShaderLanguage::Hlsl) {
-        source.text += text("#line 1 \"", file.name, "\"\n");
-    } else {
-        const size_t place = source.files.size();
-        source.text += text("#line ", kLineStep * place + 1, " ", place, "\n");
+/// A name between quotes: compilers disagree on what a backslash does there.
+std::string quoted(std::string_view name) {
+    std::string quoted = "\"";
+    for (const char character : name) {
+        const bool is_control = static_cast<unsigned char>(character) < 0x20;
+        quoted += character == '"' ? '\'' : character == '\\' ? '/' : is_control ? '_' : character;
     }
-    source.text += file.text;
-    if (!file.text.ends_with('\n')) source.text += '\n';
-    source.files.emplace_back(file.name);
+    return quoted + '"';
 }
 
 /// Takes a number off the front of `rest`.
@@ -53,6 +51,40 @@ std::optional<size_t> take_number(std::string_view& rest) {
     if (error != std::errc{}) return std::nullopt;
     rest.remove_prefix(static_cast<size_t>(end - rest.data()));
     return number;
+}
+
+/// A `#line` of a shader's own, moved to where lines of its file are numbered.
+std::string moved_line(std::string_view line, size_t first) {
+    std::string_view rest = line;
+    for (const std::string_view word : {"#", "line"}) {
+        rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+        if (!rest.starts_with(word)) return std::string(line);
+        rest.remove_prefix(word.size());
+    }
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    const auto number = take_number(rest);
+    return number ? text("#line ", first + *number, rest) : std::string(line);
+}
+
+void append_glsl(std::string& to, std::string_view from, size_t first) {
+    while (!from.empty()) {
+        const size_t end = std::min(from.find('\n'), from.size());
+        to += moved_line(from.substr(0, end), first);
+        to += '\n';
+        from.remove_prefix(std::min(end + 1, from.size()));
+    }
+}
+
+void append(ShaderSource& source, ShaderLanguage language, const ShaderFile& file) {
+    if (language == ShaderLanguage::Hlsl) {
+        source.text += text("#line 1 ", quoted(file.name), "\n", file.text);
+        if (!file.text.ends_with('\n')) source.text += '\n';
+    } else {
+        const size_t place = source.files.size();
+        source.text += text("#line ", kLineStep * place + 1, " ", place, "\n");
+        append_glsl(source.text, file.text, kLineStep * place);
+    }
+    source.files.emplace_back(file.name);
 }
 
 /// One line of a log, with its file's name if it begins with a place.

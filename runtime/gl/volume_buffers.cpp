@@ -38,7 +38,7 @@ VolumeBuffers::~VolumeBuffers() {
 }
 
 void VolumeBuffers::bind() const {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, facts_);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 5, facts_);
     for (size_t i = 0; i < arrays_.size(); ++i) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(i), arrays_[i]);
     }

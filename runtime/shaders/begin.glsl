@@ -2,12 +2,15 @@
 // The first file of the shader library: what its languages do not share. The other files follow in
 // any order that puts sh.glsl before query.glsl, and end.glsl comes last.
 //
-// GLSL 4.50 and GLSL ES 3.00 need no macro. HLSL: #define TETRALIGHT_HLSL before this file.
-// The library reads its volume from storage buffers, or with TETRALIGHT_TEXTURES from textures
-// (GLSL ES 3.00 does so by itself).
+// GLSL 3.30 to 4.60 and GLSL ES 3.00 to 3.20 need no macro. HLSL: #define TETRALIGHT_HLSL before
+// this file. The library reads its volume from buffers, or with TETRALIGHT_TEXTURES from textures
+// (GLSL ES, whose stages may lack storage buffers, and GLSL before 4.30 do so by themselves).
 #if defined(TETRALIGHT_CPP)
 #define TETRALIGHT_CONST static constexpr
 #elif defined(TETRALIGHT_HLSL)
+#ifdef TETRALIGHT_TEXTURES
+#error "HLSL reads the volume from structured buffers: do not define TETRALIGHT_TEXTURES"
+#endif
 #define TETRALIGHT_CONST static const
 #define vec3 float3
 #define vec4 float4
@@ -15,6 +18,7 @@
 #define mat4 float4x4
 #define mix lerp
 #define inversesqrt rsqrt
+#define floatBitsToUint asuint
 #define TETRALIGHT_MUL(matrix, vector) mul(matrix, vector)
 #define TETRALIGHT_TEXTURE_3D(name) Texture3D<float4> name, SamplerState name##_sampler
 #define TETRALIGHT_PASS_3D(name) name, name##_sampler
@@ -29,8 +33,8 @@
 precision highp float;
 precision highp int;
 precision highp sampler3D;
-#if __VERSION__ < 310 && !defined(TETRALIGHT_TEXTURES)
-#define TETRALIGHT_TEXTURES
 #endif
+#if (defined(GL_ES) || __VERSION__ < 430) && !defined(TETRALIGHT_TEXTURES)
+#define TETRALIGHT_TEXTURES
 #endif
 #endif

@@ -7,5 +7,6 @@
 #undef mat4
 #undef mix
 #undef inversesqrt
+#undef floatBitsToUint
 #endif
 #undef TETRALIGHT_CONST

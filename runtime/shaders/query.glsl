@@ -190,8 +190,9 @@ vec3 tetralight_local_position(vec3 position) {
     return size * largest > farthest ? direction * (farthest / size) : local;
 }
 
-bool tetralight_is_finite(vec3 v) {
-    return abs(v.x) <= 3e38f && abs(v.y) <= 3e38f && abs(v.z) <= 3e38f;
+// Up to 3e38, from the bits: drivers may compare as if there were no NaN.
+bool tetralight_is_finite(float x) {
+    return (floatBitsToUint(x) & 0x7fffffffu) <= 0x7f61b1e6u;
 }
 
 // Finds the cell that holds a world position, and the weights of its probes. `hint`: the cell of
@@ -201,7 +202,10 @@ CellLocation locate(vec3 position, uint hint) {
     location.cell = tetralight_no_cell;
     location.weights = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     uint cell_count = tetralight_volume.counts.y;
-    if (cell_count == 0u || !tetralight_is_finite(position)) return location;
+    if (cell_count == 0u || !tetralight_is_finite(position.x) ||
+        !tetralight_is_finite(position.y) || !tetralight_is_finite(position.z)) {
+        return location;
+    }
     vec3 local = tetralight_local_position(position);
     uint start = hint < cell_count ? hint : tetralight_seed_cell(local);
     TetralightCandidate found = tetralight_walk(start, local);

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a query on the GPU reads: the arrays of ShaderVolume (runtime/shader_volume.h), which has
-// the layout. GLSL 4.50: storage buffers at TETRALIGHT_FIRST_BUFFER ..+4 and the uniform block at
-// TETRALIGHT_VOLUME_BINDING. Textures: 2048 texels wide, RGBA32F and RGBA32UI.
+// the layout. Buffers: at the bindings below, which differ from each other, so that Vulkan takes
+// them, too; in HLSL they are registers t0 to t4 and b5. For others define all six before. Textures:
+// 2048 texels wide, RGBA32F and RGBA32UI, bound by name.
+#ifndef TETRALIGHT_VOLUME_BINDING
+#define TETRALIGHT_POSITIONS_BINDING 0
+#define TETRALIGHT_LIGHT_BINDING 1
+#define TETRALIGHT_CELLS_BINDING 2
+#define TETRALIGHT_HULL_RAYS_BINDING 3
+#define TETRALIGHT_SEEDS_BINDING 4
+#define TETRALIGHT_VOLUME_BINDING 5
+#endif
 
 struct TetralightVolumeFacts {
     vec4 origin;
@@ -17,14 +26,16 @@ struct TetralightVolumeFacts {
 #if defined(TETRALIGHT_CPP)
 // The twin has these as members (runtime/shader_query.cpp).
 #elif defined(TETRALIGHT_HLSL)
-cbuffer TetralightVolume {
+#define TETRALIGHT_JOIN(kind, number) kind##number
+#define TETRALIGHT_REGISTER(kind, number) register(TETRALIGHT_JOIN(kind, number))
+cbuffer TetralightVolume : TETRALIGHT_REGISTER(b, TETRALIGHT_VOLUME_BINDING) {
     TetralightVolumeFacts tetralight_volume;
 };
-StructuredBuffer<vec4> tetralight_positions;
-StructuredBuffer<vec4> tetralight_light;
-StructuredBuffer<uvec4> tetralight_cells;
-StructuredBuffer<vec4> tetralight_hull_rays;
-StructuredBuffer<uvec4> tetralight_seeds;
+StructuredBuffer<vec4> tetralight_positions : TETRALIGHT_REGISTER(t, TETRALIGHT_POSITIONS_BINDING);
+StructuredBuffer<vec4> tetralight_light : TETRALIGHT_REGISTER(t, TETRALIGHT_LIGHT_BINDING);
+StructuredBuffer<uvec4> tetralight_cells : TETRALIGHT_REGISTER(t, TETRALIGHT_CELLS_BINDING);
+StructuredBuffer<vec4> tetralight_hull_rays : TETRALIGHT_REGISTER(t, TETRALIGHT_HULL_RAYS_BINDING);
+StructuredBuffer<uvec4> tetralight_seeds : TETRALIGHT_REGISTER(t, TETRALIGHT_SEEDS_BINDING);
 #elif defined(TETRALIGHT_TEXTURES)
 layout(std140) uniform TetralightVolume {
     TetralightVolumeFacts tetralight_volume;
@@ -35,37 +46,30 @@ uniform highp usampler2D tetralight_cells;
 uniform highp sampler2D tetralight_hull_rays;
 uniform highp usampler2D tetralight_seeds;
 #else
-#ifndef TETRALIGHT_VOLUME_BINDING
-#define TETRALIGHT_VOLUME_BINDING 0
-#endif
-#ifndef TETRALIGHT_FIRST_BUFFER
-#define TETRALIGHT_FIRST_BUFFER 0
-#endif
 layout(std140, binding = TETRALIGHT_VOLUME_BINDING) uniform TetralightVolume {
     TetralightVolumeFacts tetralight_volume;
 };
-layout(std430, binding = TETRALIGHT_FIRST_BUFFER) readonly buffer TetralightPositions {
+layout(std430, binding = TETRALIGHT_POSITIONS_BINDING) readonly buffer TetralightPositions {
     vec4 tetralight_positions[];
 };
-layout(std430, binding = TETRALIGHT_FIRST_BUFFER + 1) readonly buffer TetralightLight {
+layout(std430, binding = TETRALIGHT_LIGHT_BINDING) readonly buffer TetralightLight {
     vec4 tetralight_light[];
 };
-layout(std430, binding = TETRALIGHT_FIRST_BUFFER + 2) readonly buffer TetralightCells {
+layout(std430, binding = TETRALIGHT_CELLS_BINDING) readonly buffer TetralightCells {
     uvec4 tetralight_cells[];
 };
-layout(std430, binding = TETRALIGHT_FIRST_BUFFER + 3) readonly buffer TetralightHullRays {
+layout(std430, binding = TETRALIGHT_HULL_RAYS_BINDING) readonly buffer TetralightHullRays {
     vec4 tetralight_hull_rays[];
 };
-layout(std430, binding = TETRALIGHT_FIRST_BUFFER + 4) readonly buffer TetralightSeeds {
+layout(std430, binding = TETRALIGHT_SEEDS_BINDING) readonly buffer TetralightSeeds {
     uvec4 tetralight_seeds[];
 };
 #endif
 
 #if defined(TETRALIGHT_TEXTURES)
-#define TETRALIGHT_AT(array, index) \
-    texelFetch(array, ivec2(int((index) & 2047u), int((index) >> 11u)), 0)
+#define TETRALIGHT_AT(a, i) texelFetch(a, ivec2(int((i) & 2047u), int((i) >> 11u)), 0)
 #else
-#define TETRALIGHT_AT(array, index) array[index]
+#define TETRALIGHT_AT(a, i) a[i]
 #endif
 
 vec3 tetralight_probe_position(uint probe) {

@@ -78,8 +78,8 @@ float mix_occlusion(float shadow, float occlusion, float fade) {
 }
 
 // World-space unit normal of an instance whose transform has these axes (the first three columns of
-// world_from_instance): right for any scale, mirrored ones too. An instance without a volume keeps
-// the normal as it is.
+// world_from_instance): right for any scale between 1e-9 and 1e9, mirrored ones too. An instance
+// without a volume keeps the normal as it is.
 vec3 instance_normal(vec3 x_axis, vec3 y_axis, vec3 z_axis, vec3 normal) {
     vec3 turned = cross(y_axis, z_axis) * normal.x + cross(z_axis, x_axis) * normal.y +
                   cross(x_axis, y_axis) * normal.z;

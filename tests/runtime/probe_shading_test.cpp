@@ -84,6 +84,14 @@ TEST(ProbeShading, NormalsOfScaledAndMirroredInstancesStandOnTheirSurface) {
     }
 }
 
+TEST(ProbeShading, NormalsOfInstancesHoldForEveryScaleThatIsPromised) {
+    const glm::vec3 normal = glm::normalize(glm::vec3(1, 2, 3));
+    for (const float scale : {1e-9f, 1e-4f, 1e9f}) {
+        const glm::vec3 x(-scale, 0, 0), y(0, scale, 0), z(0, 0, scale);
+        expect_near(instance_normal(x, y, z, normal), normal * glm::vec3(-1, 1, 1), 1e-6f);
+    }
+}
+
 TEST(ProbeShading, AnInstanceWithoutAVolumeKeepsItsNormal) {
     const glm::vec3 normal(0.0f, 0.6f, 0.8f), none(0.0f);
     EXPECT_EQ(instance_normal(none, none, none, normal), normal);

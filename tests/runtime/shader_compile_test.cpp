@@ -56,10 +56,13 @@ const std::vector<Use>& uses() {
             sh = add_layer(sh, sample_lppv_atlas_7(slabs, slabs_sampler, atlas_constants, v.xyz),
                            v.xyz);
             return occlusion.x * sample_sh9(sh, v.xyz);)",
-         "layout(std140) uniform Volumes { LppvConstants constants;"
-         " LppvAtlasConstants atlas_constants; };\nuniform sampler3D slabs;\n",
-         "cbuffer Volumes { LppvConstants constants; LppvAtlasConstants atlas_constants; };\n"
-         "Texture3D<float4> slabs;\nSamplerState slabs_sampler;\n"},
+         "#ifdef VULKAN\n#define AT(number) binding = number,\n#else\n#define AT(number)\n#endif\n"
+         "layout(AT(6) std140) uniform Volumes { LppvConstants constants;"
+         " LppvAtlasConstants atlas_constants; };\n"
+         "#ifdef VULKAN\nlayout(binding = 7)\n#endif\nuniform sampler3D slabs;\n",
+         "cbuffer Volumes : register(b6) {\n"
+         "LppvConstants constants; LppvAtlasConstants atlas_constants; };\n"
+         "Texture3D<float4> slabs : register(t7);\nSamplerState slabs_sampler : register(s8);\n"},
         {"query", ShaderPart::Query,
          R"(PackedProbe probe = interpolate(locate(v.xyz, uint(v.w)));
             return sample_sh9(probe.sh, vec3(0.0, 1.0, 0.0)) * probe.occlusion.x;)",
@@ -75,6 +78,8 @@ struct Variant {
     std::string stage;
     std::string options;
     std::string wrap_begin, wrap_end;
+    /// What takes the place of the language's own `#version`.
+    std::string version = {};
 };
 
 const std::vector<Variant>& variants() {
@@ -98,6 +103,22 @@ const std::vector<Variant>& variants() {
         {"GLSL ES 3.00 vertex", ShaderLanguage::GlslEs300, "vert", "",
          "in vec4 v_in;\nout vec3 color;\nvec3 shade(vec4 v) {\n",
          "}\nvoid main() { color = shade(v_in); gl_Position = v_in; }\n"},
+        {"GLSL 3.30 fragment", ShaderLanguage::Glsl450, "frag", "",
+         "in vec4 v_in;\nout vec4 color;\nvec3 shade(vec4 v) {\n",
+         "}\nvoid main() { color = vec4(shade(v_in), 1.0); }\n", "#version 330\n"},
+        {"GLSL ES 3.10 compute", ShaderLanguage::GlslEs300, "comp", "",
+         "layout(local_size_x = 64) in;\n"
+         "layout(std430, binding = 3) buffer Values { vec4 values[]; };\nvec3 shade(vec4 v) {\n",
+         "}\nvoid main() { uint i = gl_GlobalInvocationID.x;"
+         " values[i] = vec4(shade(values[i]), 1.0); }\n",
+         "#version 310 es\n"},
+        {"GLSL ES 3.20 fragment", ShaderLanguage::GlslEs300, "frag", "",
+         "in vec4 v_in;\nout vec4 color;\nvec3 shade(vec4 v) {\n",
+         "}\nvoid main() { color = vec4(shade(v_in), 1.0); }\n", "#version 320 es\n"},
+        {"GLSL for Vulkan", ShaderLanguage::Glsl450, "frag", "-V ",
+         "layout(location = 0) in vec4 v_in;\nlayout(location = 0) out vec4 color;\n"
+         "vec3 shade(vec4 v) {\n",
+         "}\nvoid main() { color = vec4(shade(v_in), 1.0); }\n"},
         {"HLSL pixel", ShaderLanguage::Hlsl, "frag", "-D -V -e shade --auto-map-locations ", "",
          ""},
         {"HLSL vertex", ShaderLanguage::Hlsl, "vert", "-D -V -e shade --auto-map-locations ", "",
@@ -121,11 +142,16 @@ struct Compiled {
     std::string log;
 };
 
+std::string with_version(const Variant& variant, const std::string& text) {
+    if (variant.version.empty()) return text;
+    return variant.version + text.substr(text.find('\n') + 1);
+}
+
 /// Runs glslangValidator, the reference compiler, on a shader.
 Compiled compile(const Variant& variant, const ShaderSource& source) {
     const TempFolder folder;
     const std::string path = folder.path("shader." + variant.stage);
-    std::ofstream(path) << source.text;
+    std::ofstream(path) << with_version(variant, source.text);
     const bool writes = !variant.options.empty();
     const std::string command = std::string(TETRALIGHT_GLSLANG) + " " + variant.options + "-S " +
                                 variant.stage + (writes ? " -o " + folder.path("out.spv") : "") +
@@ -163,6 +189,72 @@ TEST_P(ShaderCompile, ErrorsShowFileAndLine) {
     const Compiled compiled = compile(GetParam(), source);
     EXPECT_FALSE(compiled.is_right);
     EXPECT_NE(name_shader_lines(source, compiled.log).find("broken.glsl:3"), std::string::npos)
+        << compiled.log;
+}
+
+/// Where a compiler's reflection (-q) says that a block or a buffer is bound; -1: nowhere.
+int binding_of(const std::string& log, const std::string& name) {
+    const size_t line = log.find("\n" + name + ": ");
+    if (line == std::string::npos) return -1;
+    const size_t at = log.find("binding ", line);
+    return at == std::string::npos ? -1 : std::atoi(&log[at + 8]);
+}
+
+class ShaderBindings : public ShaderCompile {};
+
+TEST_P(ShaderBindings, DifferFromEachOther) {
+    const Use& query = uses()[2];
+    const auto source = compose_shader(GetParam().language, {query.part},
+                                       {"own.glsl", own_text(GetParam(), query)});
+    const Compiled compiled = compile(GetParam(), source);
+    ASSERT_TRUE(compiled.is_right) << compiled.log;
+    const bool is_hlsl = GetParam().language == ShaderLanguage::Hlsl;
+    const std::vector<std::string> names =
+        is_hlsl ? std::vector<std::string>{"tetralight_positions", "tetralight_light",
+                                           "tetralight_cells",     "tetralight_hull_rays",
+                                           "tetralight_seeds",     "TetralightVolume"}
+                : std::vector<std::string>{"TetralightPositions", "TetralightLight",
+                                           "TetralightCells",     "TetralightHullRays",
+                                           "TetralightSeeds",     "TetralightVolume"};
+    for (size_t i = 0; i < names.size(); ++i) {
+        EXPECT_EQ(binding_of(compiled.log, names[i]), static_cast<int>(i)) << compiled.log;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Languages, ShaderBindings,
+                         testing::Values(Variant{"GLSL", ShaderLanguage::Glsl450, "frag", "-V -q ",
+                                                 "layout(location = 0) in vec4 v_in;\n"
+                                                 "layout(location = 0) out vec4 color;\n"
+                                                 "vec3 shade(vec4 v) {\n",
+                                                 "}\nvoid main() {"
+                                                 " color = vec4(shade(v_in), 1.0); }\n"},
+                                         Variant{"HLSL", ShaderLanguage::Hlsl, "frag",
+                                                 "-D -V -q -e shade --auto-map-locations ", "",
+                                                 ""}),
+                         [](const auto& variant) { return variant.param.name; });
+
+TEST_F(ShaderBindings, AreThoseThatTheShaderChooses) {
+    const Use& query = uses()[2];
+    const Variant hlsl{
+        "", ShaderLanguage::Hlsl, "frag", "-D -V -q -e shade --auto-map-locations ", "", ""};
+    auto source = compose_shader(hlsl.language, {query.part}, {"own.glsl", own_text(hlsl, query)});
+    source.text =
+        "#define TETRALIGHT_POSITIONS_BINDING 20\n#define TETRALIGHT_LIGHT_BINDING 21\n"
+        "#define TETRALIGHT_CELLS_BINDING 22\n#define TETRALIGHT_HULL_RAYS_BINDING 23\n"
+        "#define TETRALIGHT_SEEDS_BINDING 24\n#define TETRALIGHT_VOLUME_BINDING 9\n" +
+        source.text;
+    const Compiled compiled = compile(hlsl, source);
+    EXPECT_EQ(binding_of(compiled.log, "tetralight_seeds"), 24) << compiled.log;
+    EXPECT_EQ(binding_of(compiled.log, "TetralightVolume"), 9) << compiled.log;
+}
+
+TEST_F(ShaderBindings, HlslHasNoTextures) {
+    const Use& query = uses()[2];
+    const Variant hlsl{"", ShaderLanguage::Hlsl, "frag", "-D -V -e shade ", "", ""};
+    auto source = compose_shader(hlsl.language, {query.part}, {"own.glsl", own_text(hlsl, query)});
+    source.text = "#define TETRALIGHT_TEXTURES\n" + source.text;
+    const Compiled compiled = compile(hlsl, source);
+    EXPECT_NE(compiled.log.find("do not define TETRALIGHT_TEXTURES"), std::string::npos)
         << compiled.log;
 }
 

@@ -45,6 +45,22 @@ TEST(ShaderLibrary, HlslHasFilesByName) {
     EXPECT_EQ(source.text, "#define TETRALIGHT_HLSL\n#line 1 \"lit.frag\"\nvoid main() {}\n");
 }
 
+TEST(ShaderLibrary, QuotesNamesForHlsl) {
+    const auto source =
+        compose_shader(ShaderLanguage::Hlsl, {}, {"own \"q\"\\a\nb.hlsl", "void f() {}\n"});
+    EXPECT_TRUE(source.text.ends_with("#line 1 \"own 'q'/a_b.hlsl\"\nvoid f() {}\n"));
+}
+
+TEST(ShaderLibrary, LineDirectivesOfTheOwnTextCountInItsFile) {
+    const auto source = compose_shader(
+        ShaderLanguage::Glsl450, {ShaderPart::Sh},
+        {"lit.frag", "#line 100\nbroken\n # line 7 2\n#linear\n// #line 5\n#line x\n"});
+    EXPECT_TRUE(
+        source.text.ends_with("#line 6100\nbroken\n#line 6007 2\n#linear\n// #line 5\n#line x\n"));
+    EXPECT_EQ(name_shader_lines(source, "ERROR: 0:6100: 'broken'"),
+              "ERROR: lit.frag:100: 'broken'");
+}
+
 TEST(ShaderLibrary, NamesTheLinesOfEveryKindOfLog) {
     const auto source = compose_shader(ShaderLanguage::Glsl450, {ShaderPart::Sh}, kOwn);
     const char* log =

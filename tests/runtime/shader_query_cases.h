@@ -67,6 +67,20 @@ struct ShaderQueryVolume {
         }
         return positions;
     }
+
+    /// Where cells meet: middles between two probes of the volume's cells.
+    [[nodiscard]] std::vector<glm::vec3> make_edge_middles(size_t count) const {
+        std::mt19937_64 engine(4);
+        const auto probe_count = static_cast<size_t>(volume.info.dimension);
+        std::vector<glm::vec3> positions;
+        for (size_t i = 0; i < count; ++i) {
+            const Cell& cell = volume.cells[engine() % volume.info.inner_cell_count];
+            const uint32_t a = cell.vertices[engine() % probe_count];
+            const uint32_t b = cell.vertices[engine() % probe_count];
+            positions.emplace_back(0.5 * (volume.exact_positions[a] + volume.exact_positions[b]));
+        }
+        return positions;
+    }
 };
 
 /// What a shader may differ by: floats, of light around 1.
@@ -88,6 +102,33 @@ inline float difference_from_cpu(const ProbeVolumeView& volume, const glm::vec3&
                                  const PackedProbe& probe) {
     const InterpolatedProbe cpu = interpolate(volume, locate(volume, position));
     return difference(probe, {pack_sh(cpu.irradiance), cpu.occlusion});
+}
+
+/// Whether a location is the position: its probes' positions, blended, are there. Holds within the
+/// hull, for any of the cells that meet at a position.
+inline bool is_blend_at(const ProbeVolumeView& volume, const glm::vec3& position,
+                        const CellLocation& location) {
+    if (location.cell >= volume.cells.size()) return false;
+    glm::dvec3 blend = volume.info.world_origin;
+    for (int i = 0; i < 4; ++i) {
+        const uint32_t probe = volume.cells[location.cell].vertices[static_cast<size_t>(i)];
+        if (location.weights[i] == 0.0f) continue;
+        blend += static_cast<double>(location.weights[i]) * glm::dvec3(volume.positions[probe]);
+    }
+    const double rounding =
+        1e-6 * static_cast<double>(volume.info.extent) + 2e-7 * glm::length(glm::dvec3(position));
+    return glm::distance(blend, glm::dvec3(position)) <= rounding;
+}
+
+/// The same light as the CPU; where cells meet, that of either: cells that are thinner than
+/// rounding have another light on each side.
+inline void expect_answer_of_a_cell(const ProbeVolumeView& volume, const glm::vec3& position,
+                                    const CellLocation& location, const PackedProbe& probe) {
+    if (difference_from_cpu(volume, position, probe) <= kShaderTolerance) return;
+    EXPECT_TRUE(is_blend_at(volume, position, location) &&
+                is_blend_at(volume, position, locate(volume, position)))
+        << "at " << position.x << ", " << position.y << ", " << position.z << " in cell "
+        << location.cell;
 }
 
 inline void expect_cpu_answer(const ProbeVolumeView& volume, const glm::vec3& position,

@@ -36,6 +36,17 @@ TEST_P(ShaderQuery, AnswersTheSameFromEveryHint) {
     }
 }
 
+TEST_P(ShaderQuery, AnswersAsSomeCellWhereCellsMeet) {
+    const test::ShaderQueryVolume subject(GetParam());
+    const ShaderVolume shader = make_shader_volume(subject.volume.view());
+    for (const glm::vec3& position : subject.make_edge_middles(5000)) {
+        const CellLocation location = locate(shader, position);
+        test::expect_answer_of_a_cell(subject.volume.view(), position, location,
+                                      interpolate(shader, location));
+        if (HasFailure()) return;
+    }
+}
+
 TEST_P(ShaderQuery, WeightsArePositiveAndSumToOne) {
     const test::ShaderQueryVolume subject(GetParam());
     const ShaderVolume shader = make_shader_volume(subject.volume.view());

@@ -10,14 +10,15 @@
 namespace tetralight {
 namespace {
 
-constexpr uint32_t kParts = 9;
+constexpr uint32_t kParts = 10;
 
-/// Part 0..7: the probe; 8: the cell, as what tells the twins apart.
+/// Part 0..7: the probe; 8: the cell, as what tells the twins apart; 9: its weights.
 constexpr const char* kShader = R"(
 vec4 result(uint index, uint part) {
     vec4 at = input_at(index);
     CellLocation location = locate(at.xyz, uint(at.w));
     if (part == 8u) return vec4(float(location.cell & 0xffffffu), 0.0, 0.0, 0.0);
+    if (part == 9u) return location.weights;
     PackedProbe probe = interpolate(location);
     if (part == 0u) return probe.sh.sha_r;
     if (part == 1u) return probe.sh.sha_g;
@@ -85,6 +86,33 @@ TEST_P(QueryTwinsOnVolumes, AgreeInGlslEs300) {
     expect_twin(volume, inputs, run_fragment(task, ShaderPart::Query, &volume));
 }
 
+class QueryTwinsOnFaces : public QueryTwins,
+                          public testing::WithParamInterface<test::ShaderQueryCase> {};
+
+TEST_P(QueryTwinsOnFaces, AnswerAsSomeCell) {
+    const test::ShaderQueryVolume subject(GetParam());
+    const ShaderVolume volume = make_shader_volume(subject.volume.view());
+    std::vector<glm::vec4> inputs;
+    for (const glm::vec3& position : subject.make_edge_middles(2000)) {
+        inputs.emplace_back(position, 16'000'000.0f);  // no cell's index
+    }
+    const test::ShaderTask task{kShader, inputs, static_cast<uint32_t>(inputs.size()), kParts};
+    const auto results = run_compute(task, ShaderPart::Query, &volume);
+    ASSERT_EQ(results.size(), kParts * inputs.size());
+    for (size_t i = 0; i < inputs.size() && !HasFailure(); ++i) {
+        const auto cell = static_cast<uint32_t>(results[kParts * i + 8].x);
+        const CellLocation location{cell, 0.0f, results[kParts * i + 9]};
+        test::expect_answer_of_a_cell(subject.volume.view(), glm::vec3(inputs[i]), location,
+                                      probe_at(results, i));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Volumes, QueryTwinsOnFaces,
+                         testing::Values(test::ShaderQueryCase{"lattice", 1728},
+                                         test::ShaderQueryCase{"turned_lattice", 1728},
+                                         test::ShaderQueryCase{"plane", 500}),
+                         [](const auto& param) { return param.param.family; });
+
 INSTANTIATE_TEST_SUITE_P(Volumes, QueryTwinsOnVolumes,
                          testing::ValuesIn(test::shader_query_cases()),
                          [](const auto& param) { return param.param.family; });
@@ -131,6 +159,39 @@ TEST_F(QueryTwins, NoProbesAndPositionsThatAreNotFiniteGetTheAmbientLight) {
         EXPECT_EQ(probe_at(some, i).sh == volume.facts.ambient, i > 0);
     }
 }
+
+class QueryTwinsOfEveryDimension : public QueryTwins,
+                                   public testing::WithParamInterface<test::ShaderQueryCase> {};
+
+TEST_P(QueryTwinsOfEveryDimension, PositionsThatAreNotFiniteGetTheAmbientLight) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    const test::ShaderQueryVolume subject(GetParam());
+    const ShaderVolume volume = make_shader_volume(subject.volume.view());
+    std::vector<glm::vec4> inputs;
+    for (const float wrong : {kNan, -kNan, INFINITY, -INFINITY}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            inputs.emplace_back(0.1f, 0.2f, 0.3f, 0.0f);
+            inputs.back()[axis] = wrong;
+        }
+    }
+    const auto count = static_cast<uint32_t>(inputs.size());
+    const test::ShaderTask task{kShader, inputs, count, kParts};
+    for (const auto& results : {run_compute(task, ShaderPart::Query, &volume),
+                                run_fragment(task, ShaderPart::Query, &volume)}) {
+        ASSERT_EQ(results.size(), kParts * inputs.size());
+        for (size_t i = 0; i < inputs.size(); ++i) {
+            EXPECT_EQ(probe_at(results, i), (PackedProbe{volume.facts.ambient, glm::vec4(1.0f)}))
+                << "position " << i;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, QueryTwinsOfEveryDimension,
+                         testing::Values(test::ShaderQueryCase{"few", 1},
+                                         test::ShaderQueryCase{"line", 20},
+                                         test::ShaderQueryCase{"plane", 50},
+                                         test::ShaderQueryCase{"random", 50}),
+                         [](const auto& param) { return param.param.family; });
 
 /// The offset that the driver gives a member of a block.
 GLint offset_of(const ShaderProgram& program, GLenum interface, const char* name) {
