@@ -79,6 +79,15 @@ void add_seeds(const ProbeVolumeView& volume, ShaderVolume& shader) {
     shader.facts.seed_size = glm::uvec4(grid.size, 0);
 }
 
+bool has_cells(const ProbeVolumeView& volume) {
+    return !volume.positions.empty() && !volume.cells.empty() &&
+           volume.info.dimension <= Dimension::Space;
+}
+
+size_t inner_cell_count(const ProbeVolumeView& volume) {
+    return std::min<size_t>(volume.info.inner_cell_count, volume.cells.size());
+}
+
 ShaderCell make_cell(const ProbeVolumeView& volume, const Cell& cell) {
     ShaderCell made;
     for (int i = 0; i < 4; ++i) {
@@ -94,6 +103,7 @@ ShaderCell make_cell(const ProbeVolumeView& volume, const Cell& cell) {
 }
 
 void add_cells(const ProbeVolumeView& volume, ShaderVolume& shader) {
+    shader.cells.reserve(volume.cells.size());
     for (const Cell& cell : volume.cells) shader.cells.push_back(make_cell(volume, cell));
     const size_t hull_count = volume.cells.size() - shader.facts.counts.z;
     shader.hull_rays.assign(std::max<size_t>(1, 3 * hull_count), glm::vec4(0.0f));
@@ -109,6 +119,8 @@ void add_probes(const ProbeVolumeView& volume, ShaderVolume& shader) {
     const bool is_compact = volume.compact.size() == count;
     const bool has_light = volume.irradiance.size() == count;
     const bool has_occlusion = volume.occlusion.size() == count;
+    shader.positions.reserve(count);
+    shader.light.reserve(count);
     for (size_t i = 0; i < count; ++i) {
         shader.positions.emplace_back(volume.positions[i], 0.0f);
         PackedProbe probe{shader.facts.ambient, glm::vec4(1.0f)};
@@ -125,6 +137,16 @@ void add_probes(const ProbeVolumeView& volume, ShaderVolume& shader) {
 
 }  // namespace
 
+size_t shader_volume_memory(const ProbeVolumeView& volume) {
+    if (!has_cells(volume)) return sizeof(ShaderVolume) + 256;
+    const size_t probes = volume.positions.size(), cells = volume.cells.size();
+    const size_t seeds = make_seed_grid(volume.positions).count();
+    return sizeof(ShaderVolume) + probes * (sizeof(glm::vec4) + sizeof(PackedProbe)) +
+           cells * sizeof(ShaderCell) +
+           (3 * (cells - inner_cell_count(volume)) + 1) * sizeof(glm::vec4) +
+           (seeds + 3) * sizeof(uint32_t) + seeds * (sizeof(glm::vec3) + sizeof(CellLocation));
+}
+
 ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
     ShaderVolume shader;
     const glm::dvec3& origin = volume.info.world_origin;
@@ -133,9 +155,7 @@ ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
     shader.facts.origin_rest = {x.rest, y.rest, z.rest, 0.0f};
     shader.facts.axis = glm::vec4(glm::vec3(volume.info.axis), 0.0f);
     shader.facts.ambient = pack_sh(volume.info.ambient);
-    const bool has_cells = !volume.positions.empty() && !volume.cells.empty() &&
-                           volume.info.dimension <= Dimension::Space;
-    if (!has_cells) {
+    if (!has_cells(volume)) {
         shader.positions.resize(1);
         shader.light.resize(1, PackedProbe{shader.facts.ambient, glm::vec4(1.0f)});
         shader.cells.resize(1);
@@ -145,7 +165,7 @@ ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
     }
     const auto cell_count = static_cast<uint32_t>(volume.cells.size());
     shader.facts.counts = {volume.probe_count(), cell_count,
-                           std::min(volume.info.inner_cell_count, cell_count),
+                           static_cast<uint32_t>(inner_cell_count(volume)),
                            static_cast<uint32_t>(volume.info.dimension)};
     add_probes(volume, shader);
     add_cells(volume, shader);

@@ -85,4 +85,7 @@ inline constexpr size_t kShaderTextureWidth = 2048;
 /// The volume may be an unverified file. Cost: as one query a probe.
 [[nodiscard]] ShaderVolume make_shader_volume(const ProbeVolumeView& volume);
 
+/// Bytes that it allocates, what it hands out and what it needs meanwhile.
+[[nodiscard]] size_t shader_volume_memory(const ProbeVolumeView& volume);
+
 }  // namespace tetralight

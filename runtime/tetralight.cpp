@@ -19,40 +19,33 @@ namespace {
 
 using namespace tetralight;
 using detail::CallError;
+using detail::check_aligned;
 using detail::check_array;
+using detail::check_floats;
+using detail::check_memory;
+using detail::check_pointer;
 using detail::finish;
 using detail::output_of;
 using detail::PositionBlocks;
+using detail::succeed;
 using detail::view_of;
 
 static_assert(TETRALIGHT_NO_CELL == kNoIndex);
 static_assert(sizeof(PackedSh) == sizeof(tetralight_light::packed));
 
-CallError null(const char* what) {
-    return {TETRALIGHT_BAD_POINTER, text(what, " is NULL")};
-}
-
-/// The volume's view, or an error.
-CallError check_volume(const tetralight_volume* volume) {
-    return volume ? CallError{} : null("volume");
-}
-
 using OpenFile = Result<ProbeFile> (*)(const std::string& path);
 
 tetralight_status open_with(OpenFile open, const char* path, tetralight_volume** volume,
                             tetralight_error* error) {
-    if (!path) return finish(null("path"), error);
-    if (!volume) return finish(null("volume"), error);
+    CallError wrong = check_pointer("path", path);
+    if (!wrong) wrong = check_pointer("volume", volume);
+    if (wrong) return finish(wrong, error);
     auto file = open(path);
     if (!file) return finish({TETRALIGHT_BAD_FILE, file.error().message}, error);
-    *volume = new (std::nothrow) tetralight_volume(std::move(*file));
-    return *volume ? TETRALIGHT_OK : finish({TETRALIGHT_BAD_FILE, "out of memory"}, error);
-}
-
-/// Of floats that are handed in one by one.
-CallError check_floats(const char* name, const float* floats, size_t count) {
-    return check_array(name, tetralight_const_array{floats, count * sizeof(float), 0}, 1,
-                       {count * sizeof(float), sizeof(float)});
+    auto* opened = new (std::nothrow) tetralight_volume(std::move(*file));
+    if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for a volume"}, error);
+    *volume = opened;
+    return succeed(error);
 }
 
 CallError check_outside(const tetralight_batch& batch) {
@@ -78,6 +71,10 @@ constexpr detail::ElementLayout kPosition{12, 4};
 constexpr detail::ElementLayout kHint{4, 4};
 constexpr detail::ElementLayout kVector{16, 4};
 
+CallError check_report(const tetralight_report* report) {
+    return check_aligned("report", report, alignof(tetralight_report));
+}
+
 CallError check_hints(const tetralight_array& hints, size_t count) {
     if (!hints.data) return {};
     return check_array("hints", hints, count, kHint, detail::Gaps::Refused);
@@ -89,7 +86,9 @@ CallError check_batch(const tetralight_batch& batch) {
     }
     if (auto wrong = check_outside(batch)) return wrong;
     if (batch.count == 0) return {};
-    if (!batch.sh.data && !batch.occlusion.data) return null("both sh and occlusion");
+    if (!batch.sh.data && !batch.occlusion.data) {
+        return {TETRALIGHT_BAD_POINTER, "sh and occlusion are both NULL"};
+    }
     if (auto wrong = check_array("positions", batch.positions, batch.count, kPosition)) {
         return wrong;
     }
@@ -179,7 +178,7 @@ tetralight_status answer_blocks(const tetralight_const_array& positions, size_t 
         sum.step_count += met->step_count;
     }
     if (report) *report = sum;
-    return TETRALIGHT_OK;
+    return succeed(error);
 }
 
 void write_light(const ProbeVolumeView& volume, const CellLocation& location,
@@ -211,9 +210,10 @@ tetralight_status tetralight_open_lazy(const char* path, tetralight_volume** vol
 
 tetralight_status tetralight_verify(const tetralight_volume* volume,
                                     tetralight_error* error) noexcept {
-    if (auto wrong = check_volume(volume)) return finish(wrong, error);
+    if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
     const auto status = verify(volume->file);
-    return status ? TETRALIGHT_OK : finish({TETRALIGHT_BAD_FILE, status.error().message}, error);
+    if (!status) return finish({TETRALIGHT_BAD_FILE, status.error().message}, error);
+    return succeed(error);
 }
 
 void tetralight_close(tetralight_volume* volume) noexcept {
@@ -222,8 +222,8 @@ void tetralight_close(tetralight_volume* volume) noexcept {
 
 tetralight_status tetralight_get_info(const tetralight_volume* volume, tetralight_info* info,
                                       tetralight_error* error) noexcept {
-    if (auto wrong = check_volume(volume)) return finish(wrong, error);
-    if (!info) return finish(null("info"), error);
+    if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
+    if (auto wrong = check_pointer("info", info)) return finish(wrong, error);
     const ProbeVolumeView& view = view_of(*volume);
     const bool is_compact = !view.compact.empty();
     *info = {view.probe_count(),
@@ -233,32 +233,30 @@ tetralight_status tetralight_get_info(const tetralight_volume* volume, tetraligh
              is_compact || !view.irradiance.empty() ? 1u : 0u,
              view.occlusion.empty() ? 0u : 1u,
              static_cast<uint32_t>(view.layers.size())};
-    return TETRALIGHT_OK;
+    return succeed(error);
 }
 
 tetralight_status tetralight_query(const tetralight_volume* volume, const float* position,
                                    uint32_t* hint, tetralight_light* light,
                                    tetralight_error* error) noexcept {
-    if (auto wrong = check_volume(volume)) return finish(wrong, error);
-    if (auto wrong = check_floats("position", position, 3)) return finish(wrong, error);
-    if (hint) {
-        const tetralight_const_array one{hint, sizeof *hint, 0};
-        if (auto wrong = check_array("hint", one, 1, kHint)) return finish(wrong, error);
-    }
-    if (!light) return finish(null("light"), error);
+    if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
+    if (auto wrong = check_pointer("position", position)) return finish(wrong, error);
+    if (auto wrong = check_aligned("hint", hint, alignof(uint32_t))) return finish(wrong, error);
+    if (auto wrong = check_pointer("light", light)) return finish(wrong, error);
     const glm::vec3 at(position[0], position[1], position[2]);
     const ProbeVolumeView& view = view_of(*volume);
     const CellLocation location = locate(view, at, hint ? *hint : kNoIndex);
     write_light(view, location, *light);
-    if (hint && location.cell != kNoIndex) *hint = location.cell;
-    return TETRALIGHT_OK;
+    if (hint) *hint = location.cell;
+    return succeed(error);
 }
 
 tetralight_status tetralight_query_batch(const tetralight_volume* volume,
                                          const tetralight_batch* batch, tetralight_report* report,
                                          tetralight_error* error) noexcept {
-    if (auto wrong = check_volume(volume)) return finish(wrong, error);
-    if (!batch) return finish(null("batch"), error);
+    if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
+    if (auto wrong = check_pointer("batch", batch)) return finish(wrong, error);
+    if (auto wrong = check_report(report)) return finish(wrong, error);
     if (auto wrong = check_batch(*batch)) return finish(wrong, error);
     return answer_blocks(batch->positions, batch->count, report, error,
                          [&](size_t begin, std::span<const glm::vec3> positions) {
@@ -271,8 +269,9 @@ tetralight_status tetralight_pack_instances(const tetralight_volume* volume,
                                             const tetralight_instances* instances,
                                             tetralight_report* report,
                                             tetralight_error* error) noexcept {
-    if (auto wrong = check_volume(volume)) return finish(wrong, error);
-    if (!instances) return finish(null("instances"), error);
+    if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
+    if (auto wrong = check_pointer("instances", instances)) return finish(wrong, error);
+    if (auto wrong = check_report(report)) return finish(wrong, error);
     if (auto wrong = check_instances(*instances)) return finish(wrong, error);
     return answer_blocks(instances->positions, instances->count, report, error,
                          [&](size_t begin, std::span<const glm::vec3> positions) {
@@ -284,60 +283,64 @@ tetralight_status tetralight_pack_instances(const tetralight_volume* volume,
 tetralight_status tetralight_pack_sh(const float* coefficients, float* packed,
                                      tetralight_error* error) noexcept {
     if (auto wrong = check_floats("coefficients", coefficients, 27)) return finish(wrong, error);
-    if (auto wrong = check_floats("packed", packed, 28)) return finish(wrong, error);
+    if (auto wrong = check_pointer("packed", packed)) return finish(wrong, error);
     IrradianceSh sh;
     std::memcpy(static_cast<void*>(&sh), coefficients, sizeof sh);
     const PackedSh made = pack_sh(sh);
     std::memcpy(packed, &made, sizeof made);
-    return TETRALIGHT_OK;
+    return succeed(error);
 }
 
 tetralight_status tetralight_sample_sh9(const float* packed, const float* normal, float* rgb,
                                         tetralight_error* error) noexcept {
     if (auto wrong = check_floats("packed", packed, 28)) return finish(wrong, error);
     if (auto wrong = check_floats("normal", normal, 3)) return finish(wrong, error);
-    if (auto wrong = check_floats("rgb", rgb, 3)) return finish(wrong, error);
+    if (auto wrong = check_pointer("rgb", rgb)) return finish(wrong, error);
     PackedSh sh;
     std::memcpy(static_cast<void*>(&sh), packed, sizeof sh);
     const glm::vec3 light = sample_sh9(sh, {normal[0], normal[1], normal[2]});
     std::memcpy(rgb, &light, sizeof light);
-    return TETRALIGHT_OK;
+    return succeed(error);
 }
 
 tetralight_status tetralight_make_shader_volume(const tetralight_volume* volume,
                                                 tetralight_shader_volume** made,
                                                 tetralight_error* error) noexcept {
-    if (auto wrong = check_volume(volume)) return finish(wrong, error);
-    if (!made) return finish(null("made"), error);
-    *made = new (std::nothrow) tetralight_shader_volume{make_shader_volume(view_of(*volume))};
-    return *made ? TETRALIGHT_OK : finish({TETRALIGHT_NOT_THERE, "out of memory"}, error);
+    if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
+    if (auto wrong = check_pointer("made", made)) return finish(wrong, error);
+    const ProbeVolumeView& view = view_of(*volume);
+    if (auto wrong = check_memory("a shader volume", shader_volume_memory(view))) {
+        return finish(wrong, error);
+    }
+    *made = new tetralight_shader_volume{make_shader_volume(view)};
+    return succeed(error);
 }
 
 tetralight_status tetralight_get_shader_array(const tetralight_shader_volume* made, uint32_t index,
                                               tetralight_const_array* array,
                                               tetralight_error* error) noexcept {
-    if (!made) return finish(null("made"), error);
-    if (!array) return finish(null("array"), error);
+    if (auto wrong = check_pointer("made", made)) return finish(wrong, error);
+    if (auto wrong = check_pointer("array", array)) return finish(wrong, error);
     const ShaderVolume& volume = made->volume;
     switch (index) {
         case 0:
             *array = {&volume.facts, sizeof volume.facts, 0};
-            return TETRALIGHT_OK;
+            return succeed(error);
         case 1:
             *array = bytes_of(volume.positions);
-            return TETRALIGHT_OK;
+            return succeed(error);
         case 2:
             *array = bytes_of(volume.light);
-            return TETRALIGHT_OK;
+            return succeed(error);
         case 3:
             *array = bytes_of(volume.cells);
-            return TETRALIGHT_OK;
+            return succeed(error);
         case 4:
             *array = bytes_of(volume.hull_rays);
-            return TETRALIGHT_OK;
+            return succeed(error);
         case 5:
             *array = bytes_of(volume.seeds);
-            return TETRALIGHT_OK;
+            return succeed(error);
         default:
             break;
     }

@@ -16,9 +16,17 @@
  *     tetralight_query(volume, position, NULL, &light, &error);
  *     tetralight_close(volume);
  *
- * Every call gives TETRALIGHT_OK or a code, and then a message in `error`, which may be NULL. A
- * call that fails writes nothing else; what it was to write keeps its value. Null pointers, wrong
- * strides and short buffers are codes, never crashes. No exception leaves a call.
+ * Every call gives TETRALIGHT_OK or a code, and a message in `error`, which may be NULL; it is
+ * empty with TETRALIGHT_OK. A call that fails writes nothing else; what it was to write keeps its
+ * value. NULL and pointers at odd addresses, wrong strides and short buffers are codes, never
+ * crashes; that a pointer leads to memory that is there is the caller's promise. No exception
+ * leaves a call.
+ *
+ * Memory: queries and packing allocate none. The calls that need much (recombine, fill_lppv,
+ * make_shader_volume) ask for all of it first, and give TETRALIGHT_OUT_OF_MEMORY where the system
+ * refuses. That does not hold for messages and the like (below 64 KiB a call), nor where a system
+ * promises more memory than it has, nor where other threads take it meanwhile: then the program
+ * ends.
  *
  * Threads: calls on different volumes are independent. Calls that take a `const` volume may run on
  * one volume at the same time. The others (recombine, close) need it for themselves.
@@ -34,7 +42,7 @@ extern "C" {
 
 typedef enum tetralight_status {
     TETRALIGHT_OK = 0,
-    /** A pointer that is needed is NULL, or not aligned to its floats. */
+    /** A pointer that is needed is NULL, or one is not aligned to its type. */
     TETRALIGHT_BAD_POINTER = 1,
     /** A stride or an enumerator that makes no sense, or a number that is not finite. */
     TETRALIGHT_BAD_VALUE = 2,
@@ -43,7 +51,9 @@ typedef enum tetralight_status {
     /** The file cannot be opened or is no whole probe file. */
     TETRALIGHT_BAD_FILE = 4,
     /** The volume has not what is asked for. */
-    TETRALIGHT_NOT_THERE = 5
+    TETRALIGHT_NOT_THERE = 5,
+    /** The system has not as many bytes as the message says. */
+    TETRALIGHT_OUT_OF_MEMORY = 6
 } tetralight_status;
 
 /** One line that says what was wrong and where; ends with '\0', cut off if it is longer. */
@@ -193,7 +203,7 @@ tetralight_status tetralight_recombine(tetralight_volume* volume, const float* w
                                        tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** The light at one position (three floats). `hint`: the cell where the walk starts, and the cell
- * found; may be NULL. A position that is not finite gets the ambient light. */
+ * found; may be NULL. A position that is not finite gets the ambient light and no cell. */
 tetralight_status tetralight_query(const tetralight_volume* volume, const float* position,
                                    uint32_t* hint, tetralight_light* light,
                                    tetralight_error* error) TETRALIGHT_NOEXCEPT;
@@ -209,12 +219,14 @@ tetralight_status tetralight_pack_instances(const tetralight_volume* volume,
                                             tetralight_report* report,
                                             tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** 27 coefficients of irradiance as the 28 floats of TETRALIGHT_SH_PACKED. Thread-safe. */
+/** 27 coefficients of irradiance, all finite, as the 28 floats of TETRALIGHT_SH_PACKED.
+ * Thread-safe.
+ */
 tetralight_status tetralight_pack_sh(const float* coefficients, float* packed,
                                      tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** Irradiance / pi, three floats, of 28 packed floats at a unit normal: times albedo it is the
- * diffuse exitant radiance. Thread-safe. */
+/** Irradiance / pi, three floats, of 28 packed floats at a unit normal, all finite: times albedo it
+ * is the diffuse exitant radiance. Thread-safe. */
 tetralight_status tetralight_sample_sh9(const float* packed, const float* normal, float* rgb,
                                         tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
@@ -245,7 +257,7 @@ typedef enum tetralight_lppv_format {
     TETRALIGHT_LPPV_FLOAT = 1
 } tetralight_lppv_format;
 
-/** A grid of light around a large object: a proxy volume. */
+/** A grid of light around a large object: a proxy volume. Its constants are to be finite floats. */
 typedef struct tetralight_lppv_box {
     /** The object's transform, column by column. */
     float world_from_box[16];

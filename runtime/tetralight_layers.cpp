@@ -11,8 +11,20 @@ namespace {
 
 using namespace tetralight;
 using detail::check_array;
+using detail::check_memory;
+using detail::check_pointer;
 using detail::finish;
+using detail::succeed;
 using detail::view_of;
+
+/// Bytes that `store_light` allocates.
+size_t memory_of_light(const tetralight_volume& volume) {
+    const ProbeVolumeView& from = volume.file.view();
+    size_t bytes = sizeof(Layer) * from.layers.size();
+    if (volume.irradiance.empty()) bytes += from.irradiance.size_bytes();
+    if (volume.compact.empty()) bytes += from.compact.size_bytes();
+    return bytes;
+}
 
 /// The light of the file's layers with these weights, in place of what queries read.
 void store_light(tetralight_volume& volume, std::span<const float> weights,
@@ -40,8 +52,8 @@ void store_light(tetralight_volume& volume, std::span<const float> weights,
 
 tetralight_status tetralight_get_layer(const tetralight_volume* volume, uint32_t index,
                                        tetralight_layer* layer, tetralight_error* error) noexcept {
-    if (!volume) return finish({TETRALIGHT_BAD_POINTER, "volume is NULL"}, error);
-    if (!layer) return finish({TETRALIGHT_BAD_POINTER, "layer is NULL"}, error);
+    if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
+    if (auto wrong = check_pointer("layer", layer)) return finish(wrong, error);
     const ProbeVolumeView& view = view_of(*volume);
     const auto names = split_names(view.layer_names);
     if (index >= view.layers.size() || index >= names.size()) {
@@ -53,12 +65,12 @@ tetralight_status tetralight_get_layer(const tetralight_volume* volume, uint32_t
     std::memcpy(layer->name, names[index].data(), length);
     layer->name[length] = '\0';
     layer->weight = view.layers[index].weight;
-    return TETRALIGHT_OK;
+    return succeed(error);
 }
 
 tetralight_status tetralight_recombine(tetralight_volume* volume, const float* weights,
                                        size_t weight_count, tetralight_error* error) noexcept {
-    if (!volume) return finish({TETRALIGHT_BAD_POINTER, "volume is NULL"}, error);
+    if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
     const ProbeVolumeView& from = volume->file.view();
     if (from.layers.empty()) {
         return finish({TETRALIGHT_NOT_THERE, "the volume holds no layers"}, error);
@@ -75,6 +87,9 @@ tetralight_status tetralight_recombine(tetralight_volume* volume, const float* w
     const std::span<const float> each(weights, weight_count);
     const auto info = check_weights(from, each);
     if (!info) return finish({TETRALIGHT_BAD_VALUE, info.error().message}, error);
+    if (auto wrong = check_memory("the light of the layers", memory_of_light(*volume))) {
+        return finish(wrong, error);
+    }
     store_light(*volume, each, *info);
-    return TETRALIGHT_OK;
+    return succeed(error);
 }

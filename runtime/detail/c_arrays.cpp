@@ -2,8 +2,10 @@
 #include "runtime/detail/c_arrays.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <new>
 
 namespace tetralight::detail {
 
@@ -16,14 +18,42 @@ tetralight_status finish(const CallError& wrong, tetralight_error* error) {
     return wrong.status;
 }
 
+CallError check_aligned(const char* name, const void* pointer, size_t alignment) {
+    if (reinterpret_cast<uintptr_t>(pointer) % alignment == 0) return {};
+    return {TETRALIGHT_BAD_POINTER, text(name, " is not aligned to ", alignment, " bytes")};
+}
+
+CallError check_place(const char* name, const void* pointer, size_t alignment) {
+    if (!pointer) return {TETRALIGHT_BAD_POINTER, text(name, " is NULL")};
+    return check_aligned(name, pointer, alignment);
+}
+
+CallError check_memory(const char* what, size_t bytes) {
+    // `volatile`: compilers may leave out memory that is not used.
+    void* volatile memory = ::operator new(bytes, std::nothrow);
+    if (!memory)
+        return {TETRALIGHT_OUT_OF_MEMORY, text("no memory for ", what, ": ", bytes, " bytes")};
+    ::operator delete(memory);
+    return {};
+}
+
+CallError check_floats(const char* name, const float* floats, size_t count) {
+    if (auto wrong = check_pointer(name, floats)) return wrong;
+    return check_finite(name, {floats, count});
+}
+
+CallError check_finite(const char* name, std::span<const float> floats) {
+    for (size_t i = 0; i < floats.size(); ++i) {
+        if (std::isfinite(floats[i])) continue;
+        return {TETRALIGHT_BAD_VALUE, text(name, '[', i, "] is not finite: ", floats[i])};
+    }
+    return {};
+}
+
 CallError check_array(const char* name, const tetralight_const_array& array, size_t count,
                       ElementLayout element, Gaps gaps) {
     if (count == 0) return {};
-    if (!array.data) return {TETRALIGHT_BAD_POINTER, text(name, " is NULL")};
-    if (reinterpret_cast<uintptr_t>(array.data) % element.alignment != 0) {
-        return {TETRALIGHT_BAD_POINTER,
-                text(name, " is not aligned to ", element.alignment, " bytes")};
-    }
+    if (auto wrong = check_place(name, array.data, element.alignment)) return wrong;
     const size_t stride = array.stride == 0 ? element.size : array.stride;
     const bool is_gap = stride != element.size;
     if (stride < element.size || stride % element.alignment != 0 ||

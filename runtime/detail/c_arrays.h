@@ -22,8 +22,29 @@ struct CallError {
     explicit operator bool() const { return status != TETRALIGHT_OK; }
 };
 
-/// Hands an error to the caller.
+/// Hands an error, or an empty message, to the caller.
 tetralight_status finish(const CallError& wrong, tetralight_error* error);
+
+/// What every call that succeeds ends with.
+inline tetralight_status succeed(tetralight_error* error) {
+    return finish({}, error);
+}
+
+[[nodiscard]] CallError check_aligned(const char* name, const void* pointer, size_t alignment);
+[[nodiscard]] CallError check_place(const char* name, const void* pointer, size_t alignment);
+
+/// Whether a pointer that is needed leads to a place for its type.
+template <class Type>
+[[nodiscard]] CallError check_pointer(const char* name, const Type* pointer) {
+    return check_place(name, pointer, alignof(Type));
+}
+
+/// Whether the system has this much memory to give; `what` is for.
+[[nodiscard]] CallError check_memory(const char* what, size_t bytes);
+
+/// Floats that are handed in one by one: there, and all finite.
+[[nodiscard]] CallError check_floats(const char* name, const float* floats, size_t count);
+[[nodiscard]] CallError check_finite(const char* name, std::span<const float> floats);
 
 /// One element of an array: its bytes, and those of one of its numbers.
 struct ElementLayout {

@@ -128,6 +128,13 @@ TEST_F(CApiLppv, BoxesAndBuffersThatMakeNoSenseAreErrors) {
     expect_bad();
     box.world_from_box[12] = INFINITY;
     expect_bad();
+    box.low[0] = -3e38f;
+    box.high[0] = 3e38f;
+    expect_bad();
+    box.low[0] = 0.0f;
+    box.high[0] = 1e-40f;
+    expect_bad();
+    EXPECT_NE(std::string(error.message).find("too thin for shaders"), std::string::npos);
     EXPECT_EQ(texels[0], -7.0f);
 }
 
