@@ -43,6 +43,10 @@ struct OutsideHull {
 /// volume's nearest seed. Ends always: after a bounded number of steps the
 /// cells around, and at last all cells, are searched. Cost: the number of cells between the hint
 /// and the position. Thread-safe.
+///
+/// The light of an answer is a function of its position up to rounding. Where cells meet, the hint
+/// and the kind of call (one, batch, GPU) choose which of them answers, with the same light; but
+/// nearly coplanar probes make cells thinner than rounding, across which the light changes.
 [[nodiscard]] CellLocation locate(const ProbeVolumeView& volume, glm::vec3 position,
                                   uint32_t hint = kNoIndex,
                                   const OutsideHull& outside = {}) noexcept;

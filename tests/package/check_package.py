@@ -42,7 +42,8 @@ def check_headers(prefix):
         for header in headers:
             source = Path(folder) / "one.cpp"
             source.write_text(f'#include "{header}"\n#include "{header}"\n')
-            run(["c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror",
+            run(["c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wconversion",
+                 "-Wsign-conversion", "-Werror",
                  f"-I{include}", str(source)], folder, prefix)
     print(f"{len(headers)} headers")
 
@@ -75,7 +76,7 @@ def check_guide(prefix, volume, guide):
     blocks = re.findall(r"^```(\w+) ?(\S*)\n(.*?)^```$", Path(guide).read_text(), re.S | re.M)
     commands = [text for language, _, text in blocks if language == "sh"]
     files = [(name, text) for language, name, text in blocks if language != "sh"]
-    assert len(commands) == 3 and len(files) == 10, [len(commands), len(files)]
+    assert len(commands) == 3 and len(files) == 15, [len(commands), len(files)]
     with tempfile.TemporaryDirectory() as folder:
         shutil.copy(volume, Path(folder) / "level.probes")
         for name, text in files:
@@ -88,9 +89,14 @@ def check_guide(prefix, volume, guide):
             printed += run("set -e\n" + text, folder, prefix)
         assert printed.count("1023 instances lit") == 2, printed
         assert printed.count("bytes, 176 of constants") == 2, printed
+        assert printed.count("64 x 2 x 2 texels, 2048 bytes\n") == 2, printed
         lights = re.findall(r"^-?[\d.e-]+ -?[\d.e-]+ -?[\d.e-]+$", printed, re.M)
         assert len(lights) == 4 and len(set(lights)) == 1, printed
-        report_size(str(Path(folder) / "object"), "object.cpp of the guide")
+        flags = run("pkg-config --cflags --libs tetralight", folder, prefix)
+        run(f"c++ -std=c++20 object.cpp -Wl,--whole-archive {flags} -Wl,--no-whole-archive -o all",
+            folder, prefix)
+        for name in ("object", "instances", "large", "object_c", "scene_c", "all"):
+            report_size(str(Path(folder) / name), f"{name} of the guide")
         print(printed)
 
 
