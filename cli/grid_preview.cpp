@@ -7,7 +7,7 @@
 #include "bake/scene/scene_bounds.h"
 #include "cli/view_options.h"
 #include "pipeline/bake_volume.h"
-#include "pipeline/render_cells.h"
+#include "pipeline/render_gizmos.h"
 
 namespace tetralight::cli {
 namespace {
@@ -36,8 +36,14 @@ Status write_preview(const std::string& path, const Scene& scene, const ProbeGri
     const Camera camera = scene.cameras.empty() ? overview(scene) : scene.cameras.front();
     RenderSettings render;
     render.thread_count = thread_count;
-    const CellOverlay overlay{false, ball_radius(scene), ProbeColor::Light};
-    const auto image = render_cells(scene, baked->volume.view(), camera, render, overlay);
+    const ProbeVolumeView volume = baked->volume.view();
+    const auto shader = SceneShader::make(scene, volume);
+    if (!shader) return shader.error();
+    GizmoSettings show;
+    show.has_probes = true;
+    show.ball_radius = ball_radius(scene);
+    const auto image = render_gizmos(ray_traced_pictures(*shader, volume), volume, camera, render,
+                                     make_gizmos(volume, {}, show));
     if (!image) return image.error();
     return write_png(path, *image);
 }

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <utility>
 
 #include "bake/image/write_image.h"
 #include "bake/scene/read_gltf.h"
 #include "base/text.h"
 #include "cli/choice.h"
 #include "cli/common.h"
+#include "cli/gizmo_options.h"
 #include "cli/paths.h"
+#include "cli/renderer_options.h"
 #include "cli/view_options.h"
-#include "pipeline/render_cells.h"
+#include "pipeline/render_gizmos.h"
 #include "probes/probe_file.h"
+#ifdef TETRALIGHT_HAS_GL
+#include "runtime/gl/gl_pictures.h"
+#endif
 
 namespace tetralight::cli {
 namespace {
@@ -19,7 +25,9 @@ struct Render {
     std::string volume_path;
     std::string output;
     std::string camera_name;
-    CellOverlay overlay;
+    GizmoOptions gizmos;
+    ProbeLight probes = ProbeLight::AsTheScene;
+    RendererKind renderer = RendererKind::Cpu;
     ViewOptions view;
     CommonOptions common;
 
@@ -32,28 +40,15 @@ struct Render {
             command.add_option("--camera", camera_name,
                                "Camera of the scene by name; without it and --eye the scene's "
                                "first, else an overview");
-        command.add_flag("--wireframe", overlay.has_edges,
-                         "Draw the edges of the cells over the scene; those of the hull in orange");
-        command
-            .add_option("--probe-radius", overlay.probe_radius,
-                        "Show the probes as white balls of this radius, lit by what they hold")
-            ->check(numbers_in(1e-6, 1e9));
-        add_choice(
-            command, "--probe-color", overlay.probe_color,
-            {{"light", ProbeColor::Light},
-             {"validity", ProbeColor::Validity},
-             {"error", ProbeColor::Error}},
-            "What the balls show instead: validity = share of directions without back faces, "
-            "error = relative standard error; teal is good, yellow fair, red bad")
-            ->needs("--probe-radius");
-        command
-            .add_option("--lppv-radius", overlay.proxy_radius,
-                        "Show the points of the objects' proxy volumes as balls of this radius")
-            ->check(numbers_in(1e-6, 1e9));
-        add_choice(command, "--movers", overlay.movers,
-                   {{"scene", MoverLight::AsTheScene}, {"probe", MoverLight::OnePlace}},
-                   "Light of things that move: as the scene asks, with proxy volumes, or from one "
-                   "place for each");
+        gizmos.add_to(command);
+        add_renderer(command, renderer);
+        add_choice(command, "--probes", probes,
+                   {{"scene", ProbeLight::AsTheScene},
+                    {"one", ProbeLight::OnePlace},
+                    {"still", ProbeLight::StillOnly},
+                    {"none", ProbeLight::Nothing}},
+                   "Who takes light from the probes: all, as the scene asks; all, and things that "
+                   "move from one place each; what stands still alone; nothing");
         view.add_to(command);
         camera_option->excludes(view.eye_option);
         common.add_to(command);
@@ -72,6 +67,30 @@ struct Render {
                      "\"; there is:" + (names.empty() ? " none" : names)};
     }
 
+    /// By OpenGL where it was asked for and is there, else by rays.
+    [[nodiscard]] Result<Image8> draw(const Scene& scene, const ProbeVolumeView& volume,
+                                      const Camera& camera) const {
+        auto light = make_scene_light(scene, volume, probes);
+        if (!light) return light.error();
+        const Gizmos shown = make_gizmos(volume, light->proxy_volumes, gizmos.settings);
+        const auto render = [&](const PictureSource& source) {
+            return render_gizmos(source, volume, camera, view.settings, shown,
+                                 gizmos.settings.probe_color);
+        };
+        if (renderer == RendererKind::Gl) {
+#ifdef TETRALIGHT_HAS_GL
+            auto pictures = GlPictures::make(scene, volume, *light);
+            if (pictures) return render(pictures->source());
+            common.warn({pictures.error().message + "; rendering on the CPU"});
+#else
+            common.warn({"this build has no OpenGL; rendering on the CPU"});
+#endif
+        }
+        const auto shader = SceneShader::make(scene, volume, std::move(*light));
+        if (!shader) return shader.error();
+        return render(ray_traced_pictures(*shader, volume));
+    }
+
     Status run() {
         if (auto status = check_output(output, {scene_path, volume_path}); !status) return status;
         const auto scene = read_gltf(scene_path);
@@ -85,7 +104,7 @@ struct Render {
 
         view.settings.thread_count = common.thread_count;
         const auto start = std::chrono::steady_clock::now();
-        const auto image = render_cells(*scene, file->view(), *chosen, view.settings, overlay);
+        const auto image = draw(*scene, file->view(), *chosen);
         if (!image) return image.error();
         auto status = write_png(output, *image);
         if (!status) return status;

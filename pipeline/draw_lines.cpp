@@ -28,7 +28,7 @@ struct PictureLine {
 };
 
 /// Cuts off what lies behind the eye.
-std::optional<PictureLine> project(const Projection& projection, const Line& line) {
+std::optional<PictureLine> project(const Projection& projection, const LineSegment& line) {
     glm::dvec3 a = projection.view_from_world(line[0]);
     glm::dvec3 b = projection.view_from_world(line[1]);
     if (a.z > b.z) std::swap(a, b);  // a is the farther one
@@ -135,12 +135,12 @@ DepthImage render_depth(const Camera& camera, const RenderSettings& settings,
 }
 
 void draw_lines(Image8& image, const DepthImage& depth, const Camera& camera,
-                std::span<const Line> lines, const LineStyle& style) {
+                std::span<const LineSegment> lines, const LineStyle& style) {
     TETRALIGHT_ASSERT(image.width == depth.width && image.height == depth.height,
                       "picture and depth of one size");
     const Projection projection(camera, image.width, image.height);
     Pen pen(image, depth, style);
-    for (const Line& line : lines) {
+    for (const LineSegment& line : lines) {
         const auto projected = project(projection, line);
         if (projected) pen.draw(*projected);
     }

@@ -29,7 +29,7 @@ using TraceDistance = std::function<float(const glm::dvec3& origin, glm::vec3 di
                                       const TraceDistance& trace);
 
 /// Two ends, world space.
-using Line = std::array<glm::dvec3, 2>;
+using LineSegment = std::array<glm::dvec3, 2>;
 
 struct LineStyle {
     /// sRGB-encoded, 0 to 1.
@@ -43,6 +43,6 @@ struct LineStyle {
 
 /// Draws antialiased lines over a picture of the depth image's size that the camera took.
 void draw_lines(Image8& image, const DepthImage& depth, const Camera& camera,
-                std::span<const Line> lines, const LineStyle& style);
+                std::span<const LineSegment> lines, const LineStyle& style);
 
 }  // namespace tetralight

@@ -47,13 +47,13 @@ glm::vec3 health_color(const ProbeVolumeView& volume, uint32_t probe, ProbeColor
 }
 
 void draw_health_balls(Image8& image, const Camera& camera, const RenderSettings& settings,
-                       const HidingDistance& surfaces, const ProbeBalls& balls,
-                       ProbeColor quantity) {
+                       const HidingDistance& surfaces, const LightBalls& balls,
+                       const ProbeVolumeView& volume, ProbeColor quantity) {
     // Probes that are less than fair stand in walls mostly: they show through.
-    const auto opacity = [&](const ProbeBalls::Ball& ball, const glm::dvec3& origin,
+    const auto opacity = [&](const LightBalls::Hit& ball, const glm::dvec3& origin,
                              glm::vec3 direction) {
         if (ball.distance < surfaces(origin, direction)) return 1.0f;
-        return grade(balls.volume(), ball.probe, quantity).value_or(1.0f) < 0.5f ? 0.5f : 0.0f;
+        return grade(volume, ball.ball, quantity).value_or(1.0f) < 0.5f ? 0.5f : 0.0f;
     };
     const ImageF coverage =
         render_view(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
@@ -66,7 +66,7 @@ void draw_health_balls(Image8& image, const Camera& camera, const RenderSettings
             if (!ball) return glm::vec3(0.0f);
             // Darker towards the rim, so that balls look round.
             const float facing = std::max(0.0f, -glm::dot(ball->normal, direction));
-            return health_color(balls.volume(), ball->probe, quantity) *
+            return health_color(volume, ball->ball, quantity) *
                    ((0.6f + 0.4f * facing) * opacity(*ball, origin, direction));
         });
     for (size_t i = 0; i < image.pixels.size(); ++i) {

@@ -7,7 +7,7 @@
 
 #include "bake/image/image.h"
 #include "pipeline/image_renderer.h"
-#include "pipeline/probe_balls.h"
+#include "pipeline/light_balls.h"
 #include "probes/probe_volume.h"
 
 namespace tetralight {
@@ -27,10 +27,11 @@ enum class ProbeColor : uint8_t {
 /// infinite: there is none.
 using HidingDistance = std::function<float(const glm::dvec3& origin, glm::vec3 direction)>;
 
-/// Draws balls over a developed picture that the camera took, so that their colours mean the same
-/// in every exposure. Those of less than fair health show faintly through what hides them.
+/// Draws balls, one a probe of the volume, over a developed picture that the camera took, so that
+/// their colours mean the same in every exposure. Those of less than fair health show faintly
+/// through what hides them.
 void draw_health_balls(Image8& image, const Camera& camera, const RenderSettings& settings,
-                       const HidingDistance& surfaces, const ProbeBalls& balls,
-                       ProbeColor quantity);
+                       const HidingDistance& surfaces, const LightBalls& balls,
+                       const ProbeVolumeView& volume, ProbeColor quantity);
 
 }  // namespace tetralight

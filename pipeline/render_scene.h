@@ -4,24 +4,16 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "bake/scene/scene.h"
 #include "bake/trace_scene.h"
 #include "base/result.h"
-#include "lppv/lppv.h"
 #include "pipeline/image_renderer.h"
+#include "pipeline/scene_light.h"
 #include "probes/packed_sh.h"
 #include "probes/probe_volume.h"
-#include "runtime/runtime_lights.h"
 
 namespace tetralight {
-
-/// Where things that move take their probe light from.
-enum class MoverLight : uint8_t {
-    AsTheScene,  ///< as each asks: `SceneNode::light_probes`
-    OnePlace,    ///< all from the centre of their bounds
-};
 
 /// Shades a scene with a volume's light: what an engine would show with this runtime. Static
 /// surfaces take the probe light of each point, things that move (`contributes_gi` false) that of
@@ -34,10 +26,13 @@ class SceneShader {
   public:
     /// Keeps references. Error: not enough memory, or a proxy volume that cannot be made.
     [[nodiscard]] static Result<SceneShader> make(const Scene& scene, const ProbeVolumeView& volume,
-                                                  MoverLight movers = MoverLight::AsTheScene);
+                                                  ProbeLight probes = ProbeLight::AsTheScene);
 
-    /// The proxy volumes of the scene's objects.
-    [[nodiscard]] std::span<const Lppv> proxy_volumes() const { return proxy_volumes_; }
+    /// The same with light that is there. Error: not enough memory.
+    [[nodiscard]] static Result<SceneShader> make(const Scene& scene, const ProbeVolumeView& volume,
+                                                  SceneLight light);
+
+    [[nodiscard]] std::span<const Lppv> proxy_volumes() const { return light_.proxy_volumes; }
 
     /// Radiance that leaves the first surface towards the ray's origin; none when nothing is hit.
     /// Also gives the distance.
@@ -60,17 +55,8 @@ class SceneShader {
                                   Casters casters = Casters::All) const;
 
   private:
-    SceneShader(const Scene& scene, const ProbeVolumeView& volume, TraceScene traced,
-                TraceScene moving);
-
-    /// A light in traced space, and what each instance that moves sees of it.
-    struct DirectLight {
-        RuntimeLight light;
-        std::vector<float> visibility_of_mover;
-    };
-
-    void light_movers();
-    void find_emission_weights();
+    SceneShader(const Scene& scene, const ProbeVolumeView& volume, SceneLight light,
+                TraceScene traced, TraceScene moving);
 
     [[nodiscard]] const TraceScene& casters(Casters casters) const {
         return casters == Casters::All ? traced_ : moving_;
@@ -81,17 +67,12 @@ class SceneShader {
                                                           glm::vec3 direction) const;
     [[nodiscard]] PackedSh probe_light(const Surface& surface) const;
     [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
-    [[nodiscard]] Status add_proxy_volumes();
 
     const Scene* scene_;
     ProbeVolumeView volume_;
+    SceneLight light_;  // its lights in traced space
     TraceScene traced_;
     TraceScene moving_;
-    std::vector<PackedSh> light_of_mover_;  // by instance
-    std::vector<Lppv> proxy_volumes_;
-    std::vector<uint32_t> proxy_of_mover_;  // by instance; kNoIndex: none
-    std::vector<DirectLight> direct_lights_;
-    std::vector<float> emission_weights_;  // by material
 };
 
 /// Light of the sky in a direction, as the volume's ambient probe knows it.

@@ -111,9 +111,9 @@ TEST_F(ProbeHealth, TheTableOfAVolumeWithoutLightSaysNothingOfHealth) {
 TEST_F(ProbeHealth, PicturesShowItInColors) {
     bake_courtyard("v.probes");
     const auto picture = [&](const Arguments& more) {
-        Arguments arguments{"render", kCourtyard,       "v.probes", "-o",
-                            "p.png",  "--width",        "64",       "--height",
-                            "36",     "--probe-radius", "0.5"};
+        Arguments arguments{"render", kCourtyard, "v.probes", "-o",     "p.png",  "--width",
+                            "64",     "--height", "36",       "--show", "probes", "--ball-radius",
+                            "0.5"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         succeed(arguments);
         return read("p.png");
@@ -124,7 +124,7 @@ TEST_F(ProbeHealth, PicturesShowItInColors) {
     EXPECT_TRUE(validity != picture({"--probe-color", "error"}));
     EXPECT_TRUE(contains(
         misuse({"render", kCourtyard, "v.probes", "-o", "p.png", "--probe-color", "validity"}),
-        "--probe-radius"));
+        "--show"));
 }
 
 }  // namespace

@@ -63,11 +63,12 @@ TEST_F(Render, RefusesTwoCameras) {
 
 TEST_F(Render, DrawsTheCellsWhenAsked) {
     const std::string plain = picture({});
-    const std::string edges = picture({"--wireframe", "-j", "1"});
-    const std::string probes = picture({"--probe-radius", "0.5"});
+    const std::string edges = picture({"--show", "cells", "-j", "1"});
+    const std::string probes = picture({"--show", "probes", "--ball-radius", "0.5"});
     EXPECT_TRUE(edges != plain && probes != plain && edges != probes);
-    EXPECT_TRUE(edges == picture({"--wireframe", "-j", "2"}));
-    EXPECT_TRUE(contains(misuse(arguments({"--probe-radius", "0"})), "--probe-radius"));
+    EXPECT_TRUE(edges == picture({"--show", "cells", "-j", "2"}));
+    EXPECT_TRUE(
+        contains(misuse(arguments({"--show", "probes", "--ball-radius", "0"})), "--ball-radius"));
 }
 
 TEST_F(Render, WarnsOfAVolumeWithoutLight) {

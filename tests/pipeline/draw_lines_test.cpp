@@ -18,7 +18,7 @@ const Camera kCamera = look_at({0, 0, 20}, {0, 0, 0}, 2.0 * std::atan(0.5));
 const LineStyle kStyle{glm::vec3(1.0f), 1.0f, 0.2f, 1.0f};
 
 /// A black picture with white lines in front of, or behind, what has this depth.
-Image8 drawn(const std::vector<Line>& lines, float depth = kFar) {
+Image8 drawn(const std::vector<LineSegment>& lines, float depth = kFar) {
     Image8 image{kSize, kSize, {}};
     image.pixels.assign(size_t{kSize} * kSize, {0, 0, 0, 255});
     DepthImage depths{kSize, kSize, {}};
@@ -71,7 +71,7 @@ TEST(DrawLines, HasTheSameBreadthInEveryDirection) {
 }
 
 TEST(DrawLines, IsFaintBehindASurface) {
-    const std::vector<Line> line{{glm::dvec3(-8, 0.5, 0), glm::dvec3(8, 0.5, 0)}};
+    const std::vector<LineSegment> line{{glm::dvec3(-8, 0.5, 0), glm::dvec3(8, 0.5, 0)}};
     EXPECT_NEAR(coverage(drawn(line, 19.0f), 10, 9), 0.2, 0.01);
     EXPECT_NEAR(coverage(drawn(line, 21.0f), 10, 9), 1.0, 0.01);
     EXPECT_NEAR(coverage(drawn(line, 20.0f), 10, 9), 1.0, 0.01);  // in the surface

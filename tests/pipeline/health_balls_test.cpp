@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "pipeline/render_cells.h"
+#include "pipeline/render_gizmos.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
 
@@ -23,6 +23,22 @@ ProbeVolume one_probe(float validity, float error) {
 
 glm::vec3 color(const ProbeVolume& volume, ProbeColor quantity) {
     return health_color(volume.view(), 0, quantity);
+}
+
+/// A picture whose probes show their validity.
+Image8 drawn(const Scene& scene, const ProbeVolume& volume, const Camera& camera,
+             const RenderSettings& settings) {
+    GizmoSettings show;
+    show.has_probes = true;
+    show.ball_radius = 0.5f;
+    show.probe_color = ProbeColor::Validity;
+    const auto shader = SceneShader::make(scene, volume.view());
+    EXPECT_TRUE(shader);
+    const auto image =
+        render_gizmos(ray_traced_pictures(*shader, volume.view()), volume.view(), camera, settings,
+                      make_gizmos(volume.view(), {}, show), show.probe_color);
+    EXPECT_TRUE(image);
+    return *image;
 }
 
 bool is_reddish(glm::vec3 c) {
@@ -60,15 +76,12 @@ TEST(HealthBalls, ShowThroughWallsWhereTheyAreBad) {
     Scene scene;
     test::add_quad(scene, test::diffuse(glm::vec3(0.0f)), {-9, -9, 1}, {18, 0, 0}, {0, 18, 0});
     const Camera camera = look_at({0, 0, 4}, {0, 0, 0}, 0.6);
-    CellOverlay overlay;
-    overlay.probe_radius = 0.5f;
-    overlay.probe_color = ProbeColor::Validity;
     RenderSettings settings;
     settings.width = settings.height = 9;
     settings.exposure = 1.0f;
     const auto middle = [&](float validity) {
         const ProbeVolume volume = one_probe(validity, 0.0f);
-        return (*render_cells(scene, volume.view(), camera, settings, overlay)).pixels[40];
+        return drawn(scene, volume, camera, settings).pixels[40];
     };
     EXPECT_EQ(middle(1.0f)[2], 0);  // behind a black wall
     EXPECT_NEAR(middle(0.0f)[0], 0.5 * 255 * 0.85, 4);
@@ -77,16 +90,11 @@ TEST(HealthBalls, ShowThroughWallsWhereTheyAreBad) {
 TEST(HealthBalls, KeepTheirColorsInEveryExposure) {
     const ProbeVolume volume = one_probe(0.0f, 0.0f);
     const Camera camera = look_at({0, 0, 4}, {0, 0, 0}, 0.6);
-    CellOverlay overlay;
-    overlay.probe_radius = 0.5f;
-    overlay.probe_color = ProbeColor::Validity;
     for (const float exposure : {0.01f, 100.0f}) {
         RenderSettings settings;
         settings.width = settings.height = 9;
         settings.exposure = exposure;
-        const auto image = render_cells(Scene{}, volume.view(), camera, settings, overlay);
-        ASSERT_TRUE(image);
-        const auto middle = image->pixels[40];
+        const auto middle = drawn(Scene{}, volume, camera, settings).pixels[40];
         EXPECT_NEAR(middle[0], 255 * 0.85, 4);  // seen straight on
         EXPECT_NEAR(middle[1], 255 * 0.13, 4);
     }

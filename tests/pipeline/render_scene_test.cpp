@@ -201,7 +201,7 @@ TEST(RenderScene, ProxyVolumesCanBeLeftOut) {
     const Scene scene = moving_floor(LightProbeUsage::ProxyVolume);
     const ProbeVolume volume = growing_volume();
     EXPECT_EQ(SceneShader::make(scene, volume.view())->proxy_volumes().size(), 1u);
-    const auto plain = SceneShader::make(scene, volume.view(), MoverLight::OnePlace);
+    const auto plain = SceneShader::make(scene, volume.view(), ProbeLight::OnePlace);
     EXPECT_TRUE(plain->proxy_volumes().empty());
     expect_near(plain->shade({3, 3, 0}, {0, -1, 0})->radiance, kAlbedo);
 }

@@ -28,7 +28,6 @@ const std::map<std::string, Folders> kMayInclude = [] {
         {"lppv", {"base", "probes"}},
         {"lppv/vdb", {"base", "probes", "lppv"}},
         {"runtime", {"base", "probes", "lppv"}},
-        {"runtime/gl", {"base", "probes", "lppv", "runtime"}},
         {"bake/image", {"base"}},
         {"bake/scene", {"base", "probes", "bake/image"}},
         {"bake", {"base", "probes", "bake/scene", "bake/image"}},
@@ -39,8 +38,9 @@ const std::map<std::string, Folders> kMayInclude = [] {
                 "runtime", "bake/image", "bake/scene",   "bake", "bake/placement"};
     table["pipeline"] = all;
     all.insert("pipeline");
-    table["cli"] = all;
+    table["runtime/gl"] = all;
     all.insert("runtime/gl");
+    table["cli"] = all;
     table["bench"] = all;
     return table;
 }();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/render_cells.h"
+#include "pipeline/render_gizmos.h"
 
 #include <gtest/gtest.h>
 
@@ -29,13 +29,17 @@ ProbeVolume five_probes() {
         {{-8, -8, 0}, {8, -8, 0}, {0, 8, 0}, {0.25, 0.25, 9}, {0.1, -2, 2}});
 }
 
-Image8 render(const Scene& scene, const ProbeVolume& volume, const CellOverlay& overlay) {
-    const auto image = render_cells(scene, volume.view(), kCamera, small_settings(), overlay);
+Image8 render(const Scene& scene, const ProbeVolume& volume, const GizmoSettings& show) {
+    const auto shader = SceneShader::make(scene, volume.view());
+    EXPECT_TRUE(shader);
+    const auto image =
+        render_gizmos(ray_traced_pictures(*shader, volume.view()), volume.view(), kCamera,
+                      small_settings(), make_gizmos(volume.view(), {}, show));
     EXPECT_TRUE(image);
     return image ? *image : Image8{};
 }
 
-TEST(RenderCells, IsThePlainPictureWithoutOverlay) {
+TEST(RenderGizmos, IsThePlainPictureWithoutOverlay) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 5.0f, -3.0f);
     const ProbeVolume volume = five_probes();
@@ -44,10 +48,10 @@ TEST(RenderCells, IsThePlainPictureWithoutOverlay) {
     EXPECT_EQ(render(scene, volume, {}), develop(*plain, 1.0f));
 }
 
-TEST(RenderCells, DrawsTheHullInAWarmerColorThanWhatIsWithin) {
+TEST(RenderGizmos, DrawsTheHullInAWarmerColorThanWhatIsWithin) {
     ProbeVolume volume = five_probes();
     volume.irradiance.assign(5, {});  // black
-    const Image8 image = render({}, volume, {true, 0.0f});
+    const Image8 image = render({}, volume, {.has_cells = true});
     uint64_t warm = 0, cool = 0;
     for (const auto& pixel : image.pixels) {
         warm += pixel[0] > pixel[2];
@@ -58,18 +62,20 @@ TEST(RenderCells, DrawsTheHullInAWarmerColorThanWhatIsWithin) {
     EXPECT_GT(cool, 5u);
 }
 
-TEST(RenderCells, ShowsProbesAmongTheSurfaces) {
+TEST(RenderGizmos, ShowsProbesAmongTheSurfaces) {
     ProbeVolume volume = five_probes();
     volume.irradiance.assign(5, irradiance_from_radiance(constant_radiance({1, 0, 0})));
     const auto is_red = [](const std::array<uint8_t, 4>& pixel) {
         return pixel[0] > pixel[1] + 50;
     };
-    const Image8 open = render({}, volume, {false, 1.0f});
+    const Image8 open = render({}, volume, {.has_probes = true, .ball_radius = 1.0f});
     EXPECT_GT(std::ranges::count_if(open.pixels, is_red), 5);
     Scene wall;
     test::add_quad(wall, test::diffuse(glm::vec3(0.0f), glm::vec3(0.5f)), {-15, -15, 12},
                    {30, 0, 0}, {0, 30, 0});
-    EXPECT_EQ(std::ranges::count_if(render(wall, volume, {false, 1.0f}).pixels, is_red), 0);
+    EXPECT_EQ(std::ranges::count_if(
+                  render(wall, volume, {.has_probes = true, .ball_radius = 1.0f}).pixels, is_red),
+              0);
 }
 
 }  // namespace

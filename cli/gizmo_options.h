@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "pipeline/gizmos.h"
+
+namespace tetralight::cli {
+
+/// What a picture shows of a volume: `--show`, `--ball-radius`, `--probe-color`.
+struct GizmoOptions {
+    GizmoSettings settings;
+
+    void add_to(CLI::App& command);
+};
+
+}  // namespace tetralight::cli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/renderer_options.h"
+
+#include "cli/choice.h"
+
+namespace tetralight::cli {
+
+void add_renderer(CLI::App& command, RendererKind& renderer) {
+    add_choice(command, "--renderer", renderer,
+               {{"cpu", RendererKind::Cpu}, {"gl", RendererKind::Gl}},
+               "cpu = by rays, the same bytes everywhere; gl = by OpenGL 4.5, faster; without "
+               "OpenGL it warns and takes cpu");
+}
+
+}  // namespace tetralight::cli

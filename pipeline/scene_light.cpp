@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/scene_light.h"
+
+#include <utility>
+
+#include "bake/scene/scene_bounds.h"
+#include "pipeline/lppv_object.h"
+#include "probes/interpolate.h"
+#include "probes/locate.h"
+#include "probes/recombine.h"
+
+namespace tetralight {
+namespace {
+
+/// Grid points a metre of a proxy volume.
+constexpr double kProxyDensity = 3.0;
+
+InstanceLight light_mover(const glm::dvec3& anchor, const ProbeVolumeView& volume,
+                          const std::vector<RuntimeLight>& lights) {
+    const CellLocation location = locate(volume, glm::vec3(anchor));
+    InstanceLight result{
+        ProbeUse::Given, pack_sh(interpolate(volume, location).irradiance), kNoIndex, {}};
+    for (const RuntimeLight& light : lights) {
+        result.visibility.push_back(interpolate_visibility(volume, location, light));
+    }
+    return result;
+}
+
+/// What the bake did not see shines as it does.
+std::vector<float> find_emission_weights(const Scene& scene, const ProbeVolumeView& volume) {
+    std::vector<float> weights(scene.materials.size(), 1.0f);
+    if (volume.layers.empty()) return weights;
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        if (!material.bakes_emission) continue;
+        uint32_t layer = find_layer(volume, "material:" + material.name);
+        if (layer == kNoIndex) layer = find_layer(volume, "emission");
+        if (layer == kNoIndex) layer = find_layer(volume, "rest");
+        if (layer < volume.layers.size()) weights[i] = volume.layers[layer].weight;
+    }
+    return weights;
+}
+
+Status add_proxy_volumes(const Scene& scene, const ProbeVolumeView& volume, SceneLight& light) {
+    for (const SceneObject& object : find_proxy_objects(scene)) {
+        LppvSettings settings;
+        settings.density = kProxyDensity;
+        const auto grid = make_lppv_grid(object.view(), settings);
+        if (!grid) return grid.error();
+        auto lppv = make_lppv(volume, *grid, {});
+        if (!lppv) return lppv.error();
+        for (const uint32_t index : object.instances) {
+            if (scene.instances[index].contributes_gi) continue;
+            light.instances[index].use = ProbeUse::ProxyVolume;
+            light.instances[index].proxy_volume = static_cast<uint32_t>(light.proxy_volumes.size());
+        }
+        light.proxy_volumes.push_back(std::move(*lppv));
+    }
+    return Ok{};
+}
+
+}  // namespace
+
+Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& volume,
+                                    ProbeLight probes) {
+    SceneLight light;
+    light.lights = runtime_lights(volume);
+    light.emission_weights = find_emission_weights(scene, volume);
+    const bool has_movers = probes == ProbeLight::AsTheScene || probes == ProbeLight::OnePlace;
+    for (const MeshInstance& instance : scene.instances) {
+        InstanceLight& lit = light.instances.emplace_back();
+        const auto bounds = instance_bounds(scene, instance);
+        if (!instance.contributes_gi && bounds) {
+            lit = light_mover(bounds->center(), volume, light.lights);
+            if (!has_movers) lit.use = ProbeUse::Off;
+        }
+        if (probes == ProbeLight::Nothing) lit.use = ProbeUse::Off;
+        lit.visibility.resize(light.lights.size(), 1.0f);
+    }
+    if (probes == ProbeLight::AsTheScene) {
+        if (auto status = add_proxy_volumes(scene, volume, light); !status) return status.error();
+    }
+    return light;
+}
+
+}  // namespace tetralight
