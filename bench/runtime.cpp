@@ -14,6 +14,7 @@
 #include "runtime/pack_instances.h"
 #include "runtime/sample_normals.h"
 #ifdef TETRALIGHT_HAS_GL
+#include "bench/gl_renderer.h"
 #include "bench/gpu_query.h"
 #endif
 
@@ -182,6 +183,7 @@ void bench_runtime(const Options& options) {
     bench_mesh_ball(options);
 #ifdef TETRALIGHT_HAS_GL
     bench_gpu_query();
+    bench_gl_renderer(options);
 #endif
 }
 

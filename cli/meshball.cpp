@@ -1,91 +1,84 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <chrono>
-#include <glm/geometric.hpp>
+#include <cstdio>
+#include <functional>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include "bake/image/write_image.h"
 #include "bake/scene/read_gltf.h"
 #include "base/text.h"
+#include "cli/ball_options.h"
 #include "cli/common.h"
 #include "cli/paths.h"
+#include "cli/renderer_options.h"
 #include "cli/view_options.h"
-#include "pipeline/ball_view.h"
 #include "pipeline/mesh_ball.h"
 #include "probes/probe_file.h"
+#ifdef TETRALIGHT_HAS_GL
+#include "cli/ball_window.h"
+#include "runtime/gl/gl_mesh_ball.h"
+#include "runtime/gl/offscreen_context.h"
+#endif
 
 namespace tetralight::cli {
 namespace {
 
+/// "ball.png", 7 → "ball_0007.png"
+std::string frame_path(const std::string& path, uint32_t frame) {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%04u", frame);
+    const size_t point = path.rfind('.');
+    return path.substr(0, point) + number + path.substr(point);
+}
+
 struct MeshBall {
+    /// Draws the ball, turned by some angle.
+    using Draw = std::function<Result<MeshBallPicture>(double angle)>;
+
     std::string volume_path;
     std::string scene_path;
     std::string output;
-    MeshBallSettings settings;
-    CLI::Option* center_option = nullptr;
-    CLI::Option* radius_option = nullptr;
+    uint32_t frame_count = 1;
+    CLI::Option* frames_option = nullptr;
+    bool has_window = false;
+    BallOptions ball;
+    RendererKind renderer = RendererKind::Cpu;
     ViewOptions view;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
         add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
-        add_output(command, output, ".png", "Picture to write");
+        auto* output_option = add_output(command, output, ".png", "Picture to write");
         add_path(command, "--scene", scene_path, "glTF 2.0 scene to show around the ball");
-        command.add_option("--count", settings.instance_count, "Spheres in the ball")
-            ->check(CLI::Range(0u, 10'000'000u))
-            ->capture_default_str();
-        center_option = add_vec3(
-            command, "--center", settings.center,
-            "Centre of the ball (default: of the probes, or a probe near it where the scene "
-            "leaves room)");
-        radius_option = command.add_option("--radius", settings.radius,
-                                           "Radius of the ball (default: from the probes)");
-        radius_option->check(numbers_in(1e-6, 1e9));
-        add_seed(command, settings.seed, "Seed of places and colours");
+        frames_option = command.add_option(
+            "--frames", frame_count,
+            "Pictures in which the ball turns once: NAME_0000.png and so on; of --window: frames "
+            "until it closes by itself");
+        frames_option->check(CLI::Range(1u, 10'000u))->capture_default_str();
+        command
+            .add_flag_callback(
+                "--window",
+                [this, output_option] {
+                    has_window = true;
+                    output_option->required(false);
+                },
+                "Show it in a window (OpenGL): drag to turn, wheel to zoom; P probes, L proxy "
+                "volume, O off, S specular, space to stop")
+            ->excludes(output_option)
+            ->trigger_on_parse();
+        ball.add_to(command);
+        add_renderer(command, renderer);
         view.add_to(command);
         common.add_to(command);
     }
 
-    /// Where the ball may stand: in the middle of the probes, or at one of those that are nearest
-    /// to it, because probes stand where there is room.
-    [[nodiscard]] std::vector<glm::dvec3> centers(const ProbeVolumeView& volume,
-                                                  const ProbeBounds& bounds) const {
-        constexpr size_t kMostProbes = 64;
-        if (center_option->count() > 0 || volume.positions.empty()) return {settings.center};
-        std::vector<glm::vec3> nearest(kMostProbes);
-        const auto distance = [&](glm::vec3 p) { return glm::distance(p, bounds.center()); };
-        nearest.erase(
-            std::ranges::partial_sort_copy(volume.positions, nearest, {}, distance, distance).out,
-            nearest.end());
-        std::vector<glm::dvec3> centers{volume.info.world_origin + glm::dvec3(bounds.center())};
-        for (const glm::vec3& p : nearest) {
-            centers.push_back(volume.info.world_origin + glm::dvec3(p));
-        }
-        return centers;
-    }
-
-    /// From the probes' bounds, and smaller ones for where there is little room.
-    [[nodiscard]] std::vector<double> radii(const ProbeVolumeView& volume,
-                                            const ProbeBounds& bounds) const {
-        if (radius_option->count() > 0 || volume.positions.empty()) return {settings.radius};
-        const glm::dvec3 size(bounds.high - bounds.low);
-        const double largest = 0.45 * std::max(std::min({size.x, size.y, size.z}), 1e-3);
-        return {largest, 0.5 * largest, 0.25 * largest};
-    }
-
-    /// The ball fills the middle of the probes unless the user placed it, and the camera sees it
-    /// unless the user placed that.
-    [[nodiscard]] Camera place(const ProbeVolumeView& volume, const SceneShader* scene) {
-        const ProbeBounds bounds = probe_bounds(volume);
-        const BallView found = find_ball_view(view.has_camera ? nullptr : scene,
-                                              centers(volume, bounds), radii(volume, bounds));
-        settings.center = found.center;
-        settings.radius = found.radius;
-        return view.has_camera ? view.camera() : found.camera;
-    }
-
     Status run() {
-        if (auto status = check_output(output, {volume_path, scene_path}); !status) return status;
+        if (!has_window) {
+            auto status = check_output(output, {volume_path, scene_path});
+            if (!status) return status;
+        }
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         common.warn_if_unlit(volume_path, file->view());
@@ -100,35 +93,104 @@ struct MeshBall {
             if (!made) return made.error();
             shader.emplace(std::move(*made));
         }
-        return render(file->view(), shader ? &*shader : nullptr);
+        return render(file->view(), scene, shader ? &*shader : nullptr);
     }
 
-    Status render(const ProbeVolumeView& volume, const SceneShader* scene) {
-        const Camera camera = place(volume, scene);
+    Status render(const ProbeVolumeView& volume, const Scene& scene, const SceneShader* shader) {
+        const Camera camera = ball.place(volume, shader, view);
         view.settings.thread_count = common.thread_count;
+        if (has_window) return show(volume, scene, camera);
+        if (renderer == RendererKind::Gl) {
+#ifdef TETRALIGHT_HAS_GL
+            auto context = OffscreenContext::create();
+            if (context) return render_gl(volume, scene, camera);
+            common.warn({context.error().message + "; rendering on the CPU"});
+#else
+            common.warn({"this build has no OpenGL; rendering on the CPU"});
+#endif
+        }
+        return render_cpu(volume, shader, camera);
+    }
+
+    Status show(const ProbeVolumeView& volume, const Scene& scene, const Camera& camera) const {
+#ifdef TETRALIGHT_HAS_GL
+        const auto shown = show_ball(ball, scene, volume, camera, view.settings,
+                                     frames_option->count() > 0 ? frame_count : 0);
+        if (!shown) return shown.error();
+        common.print({{"frames", shown->frame_count}, {"seconds", shown->seconds}},
+                     text(counted(shown->frame_count, "frame"), " in ", duration(shown->seconds)));
+        return Ok{};
+#else
+        static_cast<void>(volume), static_cast<void>(scene), static_cast<void>(camera);
+        return Error{"this build has no OpenGL, and so no window"};
+#endif
+    }
+
+    Status render_cpu(const ProbeVolumeView& volume, const SceneShader* shader,
+                      const Camera& camera) {
+        const auto proxy = make_ball_proxy(ball.settings, volume);
+        if (!proxy) return proxy.error();
+        const BallLighting lighting{ball.light, ball.specular, &*proxy};
+        const std::vector<BallInstance> still = make_mesh_ball(ball.settings);
+        return write_frames(camera, [&](double angle) {
+            const BallTurn turn(ball.settings.center, angle);
+            std::vector<BallInstance> turned = still;
+            for (BallInstance& instance : turned) instance.center = turn(instance.center);
+            return render_mesh_ball(turned, lighting, shader, volume, camera, view.settings);
+        });
+    }
+
+#ifdef TETRALIGHT_HAS_GL
+    Status render_gl(const ProbeVolumeView& volume, const Scene& scene, const Camera& camera) {
+        auto light = make_scene_light(scene, volume, ProbeLight::AsTheScene);
+        if (!light) return light.error();
+        auto spheres = GlMeshBall::make(ball.settings, scene, std::move(*light), volume, 4096);
+        if (!spheres) return spheres.error();
+        return write_frames(camera, [&](double angle) -> Result<MeshBallPicture> {
+            if (auto status = spheres->set_frame(angle, ball.light, ball.specular); !status) {
+                return status.error();
+            }
+            const Crowd crowd = spheres->crowd();
+            auto image = spheres->renderer().render(camera, view.settings, std::span(&crowd, 1));
+            if (!image) return image.error();
+            return MeshBallPicture{std::move(*image), spheres->query_seconds()};
+        });
+    }
+#endif
+
+    Status write_frames(const Camera& camera, const Draw& draw) {
         const auto start = std::chrono::steady_clock::now();
-        const auto instances = make_mesh_ball(settings);
-        const auto picture = render_mesh_ball(instances, scene, volume, camera, view.settings);
-        if (!picture) return picture.error();
-        auto status = write_png(output, develop(picture->image, view.settings.exposure));
-        if (!status) return status;
+        double query_seconds = 0.0;
+        for (uint32_t frame = 0; frame < frame_count; ++frame) {
+            const auto picture = draw(2.0 * std::numbers::pi * frame / frame_count);
+            if (!picture) return picture.error();
+            query_seconds = picture->query_seconds;
+            const std::string path = frame_count == 1 ? output : frame_path(output, frame);
+            auto status = write_png(path, develop(picture->image, view.settings.exposure));
+            if (!status) return status;
+        }
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        report(*picture, camera, elapsed.count());
+        report(query_seconds, camera, elapsed.count());
         return Ok{};
     }
 
-    void report(const MeshBallPicture& picture, const Camera& camera, double seconds) const {
+    void report(double query_seconds, const Camera& camera, double seconds) const {
+        const std::string lit = ball.light == BallLight::Probes
+                                    ? " lit by one batch query in " + duration(query_seconds)
+                                : ball.light == BallLight::ProxyVolume
+                                    ? std::string(" lit by a proxy volume")
+                                    : std::string(" without probe light");
         common.report(output,
                       {{"output", output},
-                       {"instances", settings.instance_count},
-                       {"center", to_json(settings.center)},
-                       {"radius", settings.radius},
+                       {"frames", frame_count},
+                       {"instances", ball.settings.instance_count},
+                       {"center", to_json(ball.settings.center)},
+                       {"radius", ball.settings.radius},
                        {"eye", to_json(glm::dvec3(camera.world_from_camera[3]))},
-                       {"query_seconds", picture.query_seconds},
+                       {"query_seconds", query_seconds},
                        {"seconds", seconds}},
-                      text(output, ": ", counted(settings.instance_count, "instance"),
-                           " lit by one batch query in ", duration(picture.query_seconds),
-                           ", picture in ", duration(seconds)));
+                      text(output, ": ", counted(ball.settings.instance_count, "instance"), lit,
+                           ", ", counted(frame_count, "picture"), " in ", duration(seconds)));
     }
 };
 

@@ -13,22 +13,6 @@ namespace {
 
 constexpr float kMiddleGrey = 0.18f;
 
-/// The exposure that brings the log-average luminance to middle grey (Reinhard et al. 2002, eq. 1).
-float automatic_exposure(const ImageF& radiance) {
-    const glm::dvec3 luminance_weights(0.2126, 0.7152, 0.0722);
-    double sum = 0.0;
-    size_t count = 0;
-    for (const glm::vec3& pixel : radiance.pixels) {
-        const double luminance = glm::dot(glm::dvec3(pixel), luminance_weights);
-        if (!(luminance > 0.0)) continue;
-        sum += std::log(luminance);
-        ++count;
-    }
-    return count == 0
-               ? 1.0f
-               : kMiddleGrey / static_cast<float>(std::exp(sum / static_cast<double>(count)));
-}
-
 class View {
   public:
     View(const Camera& camera, const RenderSettings& settings, const TraceView& trace)
@@ -112,6 +96,22 @@ ImageF render_view(const Camera& camera, const RenderSettings& settings, const T
         }
     });
     return image;
+}
+
+float automatic_exposure(const ImageF& radiance) {
+    // Reinhard et al. 2002, eq. 1.
+    const glm::dvec3 luminance_weights(0.2126, 0.7152, 0.0722);
+    double sum = 0.0;
+    size_t count = 0;
+    for (const glm::vec3& pixel : radiance.pixels) {
+        const double luminance = glm::dot(glm::dvec3(pixel), luminance_weights);
+        if (!(luminance > 0.0)) continue;
+        sum += std::log(luminance);
+        ++count;
+    }
+    return count == 0
+               ? 1.0f
+               : kMiddleGrey / static_cast<float>(std::exp(sum / static_cast<double>(count)));
 }
 
 Image8 develop(const ImageF& radiance, float exposure) {

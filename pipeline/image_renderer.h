@@ -58,6 +58,9 @@ using TraceView = std::function<glm::vec3(const glm::dvec3& origin, glm::vec3 di
 [[nodiscard]] ImageF render_view(const Camera& camera, const RenderSettings& settings,
                                  const TraceView& trace);
 
+/// The exposure that brings the log-average luminance to middle grey, 0.18.
+[[nodiscard]] float automatic_exposure(const ImageF& radiance);
+
 /// Exposes, tone-maps (Khronos PBR Neutral) and encodes as sRGB.
 [[nodiscard]] Image8 develop(const ImageF& radiance, float exposure);
 

@@ -3,14 +3,17 @@
 
 #include <chrono>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
 
 #include "bake/ray_caster.h"
 #include "bake/sampling.h"
+#include "bake/scene/surface_color.h"
 #include "probes/packed_sh.h"
 #include "runtime/pack_instances.h"
+#include "runtime/probe_shading.h"
 #include "runtime/runtime_lights.h"
 #include "runtime/shade.h"
 
@@ -35,9 +38,9 @@ glm::vec3 color_from_hue(float hue, float saturation) {
 /// The spheres with their light, ready for rays. Space: relative to the first sphere.
 class LitBall {
   public:
-    LitBall(std::span<const BallInstance> instances, const SceneShader* scene,
-            const ProbeVolumeView& volume)
-        : instances_(instances), scene_(scene) {
+    LitBall(std::span<const BallInstance> instances, const BallLighting& lighting,
+            const SceneShader* scene, const ProbeVolumeView& volume)
+        : instances_(instances), lighting_(lighting), scene_(scene) {
         if (!instances.empty()) origin_ = instances[0].center;
         for (const RuntimeLight& light : runtime_lights(volume)) {
             if (light.lights_moving) direct_lights_.push_back(light);
@@ -59,8 +62,9 @@ class LitBall {
         for (const BallInstance& instance : instances_) {
             positions.emplace_back(instance.center);
         }
-        light_.resize(positions.size());
-        occlusion_.resize(positions.size());
+        light_.assign(positions.size(), PackedSh{});
+        occlusion_.assign(positions.size(), glm::vec4(1.0f));
+        if (lighting_.light != BallLight::Probes) return Ok{};
         const auto start = std::chrono::steady_clock::now();
         const auto report = pack_instances(
             volume, {.positions = positions, .packed = light_, .occlusion = occlusion_});
@@ -76,11 +80,9 @@ class LitBall {
         if (!hit) return std::nullopt;
         const BallInstance& instance = instances_[hit->primitive];
         const glm::vec3 normal = glm::normalize(hit->normal);
-        const glm::dvec3 surface =
-            instance.center + glm::dvec3(normal) * (instance.radius * (1.0 + 1e-4));
-        const glm::vec3 radiance = shade_diffuse(instance.albedo, light_[hit->primitive], normal,
-                                                 direct_term(surface, normal, hit->primitive));
-        return SceneShader::Shaded{radiance, hit->distance};
+        const Point point{instance.center + glm::dvec3(normal) * (instance.radius * (1.0 + 1e-4)),
+                          normal, -direction};
+        return SceneShader::Shaded{radiance(point, hit->primitive), hit->distance};
     }
 
     [[nodiscard]] bool is_blocked(const glm::dvec3& origin, glm::vec3 direction,
@@ -89,28 +91,64 @@ class LitBall {
     }
 
   private:
-    /// Shadows of the scene come from the probes where they hold those of a light, else from rays;
-    /// those of spheres and of what moves in the scene from rays.
-    [[nodiscard]] glm::vec3 direct_term(const glm::dvec3& position, glm::vec3 normal,
-                                        uint32_t sphere) const {
-        glm::vec3 sum(0.0f);
+    struct Point {
+        glm::dvec3 position{0.0};
+        glm::vec3 normal{0.0f};
+        glm::vec3 to_eye{0.0f};
+    };
+
+    [[nodiscard]] glm::vec3 radiance(const Point& point, uint32_t sphere) const {
+        const BallInstance& instance = instances_[sphere];
+        const float roughness = 1.0f - instance.smoothness;
+        const glm::vec3 f0 = glm::mix(glm::vec3(0.04f), instance.color, instance.metallic);
+        const glm::vec3 albedo = diffuse_reflectivity(instance.color, instance.metallic, roughness);
+        PackedSh light = light_[sphere];
+        glm::vec4 occlusion = occlusion_[sphere];
+        if (lighting_.light == BallLight::ProxyVolume) {
+            const InterpolatedProbe sampled =
+                sample_lppv(*lighting_.proxy, glm::vec3(point.position));
+            light = pack_sh(sampled.irradiance);
+            occlusion = sampled.occlusion;
+        }
+        const auto mirrored = [&](glm::vec3 to_light, glm::vec3 irradiance) {
+            if (lighting_.specular == Specular::Off) return glm::vec3(0.0f);
+            return irradiance *
+                   specular_reflection(point.normal, to_light, point.to_eye, f0, roughness);
+        };
+        const glm::vec3 dominant = dominant_direction(light);
+        glm::vec3 sum = shade_diffuse(albedo, light, point.normal, glm::vec3(0.0f)) +
+                        mirrored(dominant, dominant_irradiance(light, dominant));
         for (const RuntimeLight& runtime : direct_lights_) {
-            const glm::vec3 direct = direct_light(runtime.light, glm::vec3(position), normal) *
-                                     runtime.visibility(occlusion_[sphere]);
-            if (direct == glm::vec3(0.0f)) continue;
-            const Illumination arriving = illuminate(runtime.light, glm::vec3(position));
-            const auto casters = runtime.channel == kNoIndex ? SceneShader::Casters::All
-                                                             : SceneShader::Casters::Moving;
-            const bool is_shadowed =
-                is_blocked(position, arriving.to_light, arriving.distance) ||
-                (scene_ != nullptr &&
-                 scene_->is_blocked(position, arriving.to_light, arriving.distance, casters));
-            if (!is_shadowed) sum += direct;
+            const float share = visibility(runtime, occlusion, point);
+            if (share == 0.0f) continue;
+            const Illumination arriving = illuminate(runtime.light, glm::vec3(point.position));
+            sum += share *
+                   (albedo * direct_light(runtime.light, glm::vec3(point.position), point.normal) +
+                    mirrored(arriving.to_light, arriving.irradiance));
         }
         return sum;
     }
 
+    /// Shadows of the scene come from the probes where they hold those of a light, else from rays;
+    /// those of spheres and of what moves in the scene from rays.
+    [[nodiscard]] float visibility(const RuntimeLight& runtime, const glm::vec4& occlusion,
+                                   const Point& point) const {
+        const float share = runtime.visibility(occlusion);
+        const Illumination arriving = illuminate(runtime.light, glm::vec3(point.position));
+        const bool is_lit = glm::dot(point.normal, arriving.to_light) > 0.0f &&
+                            arriving.irradiance != glm::vec3(0.0f);
+        if (share == 0.0f || !is_lit) return 0.0f;
+        const auto casters =
+            runtime.channel == kNoIndex ? SceneShader::Casters::All : SceneShader::Casters::Moving;
+        const bool is_shadowed =
+            is_blocked(point.position, arriving.to_light, arriving.distance) ||
+            (scene_ != nullptr &&
+             scene_->is_blocked(point.position, arriving.to_light, arriving.distance, casters));
+        return is_shadowed ? 0.0f : share;
+    }
+
     std::span<const BallInstance> instances_;
+    BallLighting lighting_;
     const SceneShader* scene_;
     glm::dvec3 origin_{0.0};
     std::vector<RuntimeLight> direct_lights_;
@@ -132,17 +170,37 @@ std::vector<BallInstance> make_mesh_ball(const MeshBallSettings& settings) {
         const glm::dvec3 direction(ring * std::cos(angle), height, ring * std::sin(angle));
         const double size = settings.instance_size * (0.5 + random.next());
         const float hue = random.next();
-        instances.push_back({settings.center + distance * direction, settings.radius * size,
-                             color_from_hue(hue, 0.1f + 0.4f * random.next())});
+        const glm::vec3 color = color_from_hue(hue, 0.1f + 0.4f * random.next());
+        const float metallic = random.next() < 0.25f ? 1.0f : 0.0f;
+        instances.push_back({settings.center + distance * direction, settings.radius * size, color,
+                             metallic, 0.05f + 0.75f * random.next()});
     }
     return instances;
 }
 
+BallTurn::BallTurn(const glm::dvec3& center, double angle_radians)
+    : center_(center), cosine_(std::cos(angle_radians)), sine_(std::sin(angle_radians)) {}
+
+Result<Lppv> make_ball_proxy(const MeshBallSettings& settings, const ProbeVolumeView& volume) {
+    constexpr uint32_t kPoints = 17;
+    // Spheres reach beyond the ball that their centres fill.
+    const double reach = settings.radius * (1.0 + 1.5 * settings.instance_size);
+    LppvSettings grid_settings;
+    grid_settings.bounds = LppvBounds::Custom;
+    grid_settings.custom_box = {settings.center, glm::dvec3(2.0 * reach)};
+    grid_settings.resolution_mode = LppvResolution::Custom;
+    grid_settings.resolution = glm::uvec3(kPoints);
+    const auto grid = make_lppv_grid({}, grid_settings);
+    if (!grid) return grid.error();
+    return make_lppv(volume, *grid, {});
+}
+
 Result<MeshBallPicture> render_mesh_ball(std::span<const BallInstance> instances,
-                                         const SceneShader* scene, const ProbeVolumeView& volume,
-                                         const Camera& camera, const RenderSettings& settings) {
+                                         const BallLighting& lighting, const SceneShader* scene,
+                                         const ProbeVolumeView& volume, const Camera& camera,
+                                         const RenderSettings& settings) {
     MeshBallPicture picture;
-    LitBall ball(instances, scene, volume);
+    LitBall ball(instances, lighting, scene, volume);
     if (auto status = ball.build(); !status) return status.error();
     if (auto status = ball.fetch_light(volume, picture); !status) return status.error();
 

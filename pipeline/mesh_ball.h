@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "lppv/lppv.h"
 #include "pipeline/image_renderer.h"
 #include "pipeline/render_scene.h"
 #include "probes/probe_volume.h"
@@ -27,13 +28,54 @@ struct MeshBallSettings {
 struct BallInstance {
     glm::dvec3 center{0.0};
     double radius = 0.0;
-    glm::vec3 albedo{0.0f};
+    glm::vec3 color{0.0f};
+    float metallic = 0.0f;
+    float smoothness = 1.0f;  ///< 1 − glTF's roughness
 
     bool operator==(const BallInstance&) const = default;
 };
 
-/// Spheres with random places, sizes and colours in a ball; the same for the same settings.
+/// Spheres with random places, sizes, colours and gloss in a ball, a quarter of them metal; the
+/// same for the same settings.
 [[nodiscard]] std::vector<BallInstance> make_mesh_ball(const MeshBallSettings& settings);
+
+/// A turn about the vertical axis through a place.
+class BallTurn {
+  public:
+    BallTurn(const glm::dvec3& center, double angle_radians);
+
+    [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& position) const {
+        const glm::dvec3 p = position - center_;
+        return center_ + glm::dvec3(cosine_ * p.x + sine_ * p.z, p.y, cosine_ * p.z - sine_ * p.x);
+    }
+
+  private:
+    glm::dvec3 center_;
+    double cosine_;
+    double sine_;
+};
+
+/// Where the spheres take their probe light from.
+enum class BallLight : uint8_t {
+    Probes,       ///< one batch query for all, each from its centre
+    ProxyVolume,  ///< a grid around the ball, at each point of each sphere
+    Off,          ///< nowhere
+};
+
+/// A grid of light around the ball. Error: its grid's, for a ball without size.
+[[nodiscard]] Result<Lppv> make_ball_proxy(const MeshBallSettings& settings,
+                                           const ProbeVolumeView& volume);
+
+enum class Specular : bool { Off, On };
+
+/// What lights the spheres.
+struct BallLighting {
+    BallLight light = BallLight::Probes;
+    /// Whether they mirror the lights, and of the probes' light its dominant direction.
+    Specular specular = Specular::Off;
+    /// With `ProxyVolume`.
+    const Lppv* proxy = nullptr;
+};
 
 struct MeshBallPicture {
     ImageF image;
@@ -41,14 +83,13 @@ struct MeshBallPicture {
     double query_seconds = 0.0;
 };
 
-/// Lights all instances by one batch query and renders them, each with its own probe light, plus
-/// the direct term of the volume's lights that are not `Baked`, with shadow rays among the spheres
-/// and into the scene; where probes hold the occlusion of a light, that of each instance stands for
-/// the shadow of the static scene. `scene` may be null: then the ball hangs in the sky.
-[[nodiscard]] Result<MeshBallPicture> render_mesh_ball(std::span<const BallInstance> instances,
-                                                       const SceneShader* scene,
-                                                       const ProbeVolumeView& volume,
-                                                       const Camera& camera,
-                                                       const RenderSettings& settings);
+/// Lights all instances by one batch query, or by a grid around them, and renders them: diffuse and
+/// mirrored probe light, plus the direct term of the volume's lights that are not `Baked`, with
+/// shadow rays among the spheres and into the scene; where probes hold the occlusion of a light,
+/// that of each instance stands for the shadow of the static scene. `scene` may be null: then the
+/// ball hangs in the sky.
+[[nodiscard]] Result<MeshBallPicture> render_mesh_ball(
+    std::span<const BallInstance> instances, const BallLighting& lighting, const SceneShader* scene,
+    const ProbeVolumeView& volume, const Camera& camera, const RenderSettings& settings);
 
 }  // namespace tetralight

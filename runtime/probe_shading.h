@@ -46,4 +46,17 @@ static_assert(sizeof(PackedSh4) == 48 && std::is_trivially_copyable_v<PackedSh4>
 [[nodiscard]] glm::vec3 instance_normal(glm::vec3 x_axis, glm::vec3 y_axis, glm::vec3 z_axis,
                                         glm::vec3 normal) noexcept;
 
+/// Towards where most light comes from: the direction of the second band.
+[[nodiscard]] glm::vec3 dominant_direction(const PackedSh& sh) noexcept;
+
+/// Irradiance, on a surface that faces it, of the directional light there that has this second
+/// band: what stands in for the light that a glossy surface mirrors.
+[[nodiscard]] glm::vec3 dominant_irradiance(const PackedSh& sh, glm::vec3 direction) noexcept;
+
+/// Radiance that a glossy surface mirrors of a light, for each unit of its irradiance on a surface
+/// that faces it: GGX (Walter et al. 2007) with Smith's masking (Heitz 2014) and Schlick's Fresnel
+/// term, glTF's roughness, all directions of length 1.
+[[nodiscard]] glm::vec3 specular_reflection(glm::vec3 normal, glm::vec3 to_light, glm::vec3 to_eye,
+                                            glm::vec3 f0, float roughness) noexcept;
+
 }  // namespace tetralight

@@ -26,7 +26,7 @@ Result<GlPictures> GlPictures::make(const Scene& scene, const ProbeVolumeView& v
                                     const SceneLight& light) {
     auto context = OffscreenContext::create();
     if (!context) return context.error();
-    auto renderer = Renderer::make(scene, volume, light);
+    auto renderer = Renderer::make(scene, volume, light, {.shadow_map_size = 4096});
     if (!renderer) return renderer.error();
     return GlPictures(std::move(*context), std::move(*renderer));
 }

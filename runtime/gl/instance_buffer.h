@@ -28,8 +28,8 @@ struct GlInstance {
     glm::vec4 rows[3]{};
     /// Times the material's base colour and alpha.
     glm::vec4 color{1.0f};
-    /// x: times the material's metallic; y: times its roughness.
-    glm::vec4 factors{1.0f};
+    /// x: times the material's metallic; y: times its roughness; z: 1 = it mirrors lights.
+    glm::vec4 factors{1.0f, 1.0f, 0.0f, 0.0f};
     ProbeUse use = ProbeUse::Off;
     DirectUse direct = DirectUse::Still;
     /// Index of its material among the renderer's.

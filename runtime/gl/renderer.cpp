@@ -19,8 +19,6 @@
 namespace tetralight {
 namespace {
 
-constexpr uint32_t kShadowMapSize = 4096;
-
 /// The uniform block `Frame` (std140).
 struct Frame {
     glm::vec4 eye, right, up, ahead;
@@ -130,13 +128,13 @@ Result<Renderer> Renderer::make(const Scene& scene, const ProbeVolumeView& volum
     DebugMessages messages;
     auto shaders = make_renderer_shaders();
     if (!shaders) return shaders.error();
-    Renderer renderer(scene, volume, light, crowd_bounds, std::move(*shaders), std::move(messages));
+    Renderer renderer(scene, volume, light, settings, std::move(*shaders), std::move(messages));
     if (auto status = renderer.messages_.check(); !status) return status.error();
     return renderer;
 }
 
 Renderer::Renderer(const Scene& scene, const ProbeVolumeView& volume, const SceneLight& light,
-                   std::span<const glm::dvec4> crowd_bounds, RendererShaders shaders,
+                   const RendererSettings& settings, RendererShaders shaders,
                    DebugMessages messages)
     : messages_(std::move(messages)),
       shaders_(std::move(shaders)),
@@ -147,10 +145,10 @@ Renderer::Renderer(const Scene& scene, const ProbeVolumeView& volume, const Scen
       volume_(moved(make_shader_volume(volume), volume, origin_)),
       meshes_(scene, light.emission_weights),
       instances_(scene.instances.size()),
-      shadows_(moved(light.lights, origin_), caster_bounds(scene, crowd_bounds, origin_),
-               kShadowMapSize),
+      shadows_(moved(light.lights, origin_), caster_bounds(scene, settings.crowd_bounds, origin_),
+               settings.shadow_map_size),
       frame_(make_gl_buffer()) {
-    near_ = 1e-5f * caster_bounds(scene, crowd_bounds, origin_).w;
+    near_ = 1e-5f * caster_bounds(scene, settings.crowd_bounds, origin_).w;
     for (const Lppv& lppv : light.proxy_volumes) proxies_.emplace_back(lppv, origin_);
     add_instances(scene, light);
     glNamedBufferStorage(frame_.name(), sizeof(Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);

@@ -44,13 +44,19 @@ struct Crowd {
     CastsShadows casts_shadows = CastsShadows::Yes;
 };
 
+struct RendererSettings {
+    /// Texels of a shadow map along each side.
+    uint32_t shadow_map_size = 2048;
+    /// Spheres (middle and radius, world space) around all places that crowds reach, for shadows.
+    std::span<const glm::dvec4> crowd_bounds = {};
+};
+
 class Renderer {
   public:
-    /// `volume` and `scene` are copied to OpenGL. `largest`: a sphere (middle, radius, world space)
-    /// around what crowds reach to, for shadows. Errors: the driver's.
+    /// `volume` and `scene` are copied to OpenGL. Errors: the driver's.
     [[nodiscard]] static Result<Renderer> make(const Scene& scene, const ProbeVolumeView& volume,
                                                const SceneLight& light,
-                                               std::span<const glm::dvec4> crowd_bounds = {});
+                                               const RendererSettings& settings = {});
 
     /// Radiance as `render_view` gives it. `samples_per_axis` 1 is one sample a pixel; else four
     /// and more.
@@ -89,8 +95,7 @@ class Renderer {
     enum class Pass : uint8_t { Depth, MaskedDepth, Lit, Blended };
 
     Renderer(const Scene& scene, const ProbeVolumeView& volume, const SceneLight& light,
-             std::span<const glm::dvec4> crowd_bounds, RendererShaders shaders,
-             DebugMessages messages);
+             const RendererSettings& settings, RendererShaders shaders, DebugMessages messages);
 
     void add_instances(const Scene& scene, const SceneLight& light);
     void draw_shadows(std::span<const Crowd> crowds);

@@ -219,7 +219,25 @@ float shadow(Lamp lamp, int first_layer, vec3 place, vec3 flat_normal, vec3 to_l
     return sum / 9.0;
 }
 
-vec3 direct_light(vec3 unit_normal, vec3 flat_normal, vec4 occlusion) {
+// What lights do at a point.
+struct Point {
+    vec3 normal;
+    vec3 flat_normal;
+    vec3 to_eye;
+    vec3 albedo;
+    vec3 f0;
+    float roughness;
+    bool mirrors;
+};
+
+vec3 reflected(Point point, vec3 to_light, vec3 irradiance) {
+    vec3 diffuse = point.albedo * (max(dot(point.normal, to_light), 0.0) / kPi);
+    if (!point.mirrors) return irradiance * diffuse;
+    return irradiance * (diffuse + specular_reflection(point.normal, to_light, point.to_eye,
+                                                       point.f0, point.roughness));
+}
+
+vec3 direct_light(Point point, vec4 occlusion) {
     vec3 sum = vec3(0.0);
     if (instances[instance].direct == 2u) return sum;
     bool moves = instances[instance].direct == 1u;
@@ -227,31 +245,32 @@ vec3 direct_light(vec3 unit_normal, vec3 flat_normal, vec4 occlusion) {
         Lamp lamp = lamps[i];
         if (moves && lamp.lights_moving.x == 0) continue;
         Arriving arriving = illuminate(lamp, position);
-        float cosine = dot(unit_normal, arriving.to_light);
-        if (!(cosine > 0.0) || !(dot(flat_normal, arriving.to_light) > 0.0)) continue;
+        if (!(dot(point.normal, arriving.to_light) > 0.0)) continue;
+        if (!(dot(point.flat_normal, arriving.to_light) > 0.0)) continue;
         bool has_static_shadow = moves && lamp.shadow.w >= 0;
         float visible = has_static_shadow ? probe_occlusion(occlusion, lamp.shadow.w) : 1.0;
         visible *= shadow(lamp, has_static_shadow ? lamp.shadow.y : lamp.shadow.x, position,
-                          flat_normal, arriving.to_light);
-        sum += arriving.irradiance * (cosine / kPi * visible);
+                          point.flat_normal, arriving.to_light);
+        sum += reflected(point, arriving.to_light, arriving.irradiance) * visible;
     }
     return sum;
 }
 
-vec3 probe_light(vec3 unit_normal, vec3 flat_normal, out vec4 occlusion) {
+PackedSh no_light() {
+    vec4 zero = vec4(0.0);
+    return PackedSh(zero, zero, zero, zero, zero, zero, zero);
+}
+
+PackedSh probe_light(vec3 flat_normal, out vec4 occlusion) {
     occlusion = instances[instance].occlusion;
     uint use = instances[instance].use;
-    vec3 light = vec3(0.0);
-    if (use == 1u) {
-        light = sample_sh9(instances[instance].light, unit_normal);
-    } else if (use == 2u) {
-        light = sample_sh9(sample_lppv_7(proxy_light, proxy, position), unit_normal);
+    if (use == 1u) return instances[instance].light;
+    if (use == 2u) {
         occlusion *= textureLod(proxy_occlusion, tetralight_lppv_coordinates(proxy, position), 0.0);
-    } else if (use == 3u) {
-        CellLocation location = locate(position + numbers.x * flat_normal, 0xffffffffu);
-        light = sample_sh9(interpolate(location).sh, unit_normal);
+        return sample_lppv_7(proxy_light, proxy, position);
     }
-    return max(light, vec3(0.0));
+    if (use == 3u) return interpolate(locate(position + numbers.x * flat_normal, 0xffffffffu)).sh;
+    return no_light();
 }
 
 void main() {
@@ -279,12 +298,23 @@ void main() {
                            ? normalize(gl_FrontFacing ? normal : -normal) : flat_normal;
     if (instances[instance].is_round == 1u || any(isnan(flat_normal))) flat_normal = unit_normal;
     // The diffuse share of glTF's model: bake/scene/surface_color.h.
-    vec3 specular = mix(vec3(0.04), base.rgb, factors.x);
-    vec3 albedo = base.rgb * ((1.0 - factors.x) * 0.96) + specular * (0.5 * factors.y);
+    Point point;
+    point.normal = unit_normal;
+    point.flat_normal = flat_normal;
+    point.to_eye = normalize(eye.xyz - position);
+    point.f0 = mix(vec3(0.04), base.rgb, factors.x);
+    point.roughness = factors.y;
+    point.albedo = base.rgb * ((1.0 - factors.x) * 0.96) + point.f0 * (0.5 * factors.y);
+    point.mirrors = instances[instance].factors.z > 0.0;
     vec4 occlusion;
-    vec3 probes = probe_light(unit_normal, flat_normal, occlusion);
-    vec3 direct = direct_light(unit_normal, flat_normal, occlusion);
-    radiance.rgb = emission + albedo * (probes + direct);
+    PackedSh light = probe_light(flat_normal, occlusion);
+    vec3 probes = point.albedo * max(sample_sh9(light, unit_normal), vec3(0.0));
+    if (point.mirrors) {
+        vec3 dominant = dominant_direction(light);
+        probes += dominant_irradiance(light, dominant) *
+                  specular_reflection(unit_normal, dominant, point.to_eye, point.f0, factors.y);
+    }
+    radiance.rgb = emission + probes + direct_light(point, occlusion);
 }
 )";
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
-#include <string_view>
 
 #include "runtime/gl/sphere_mesh.h"
 
@@ -30,15 +29,6 @@ GLint gl_wrap(TextureWrap wrap) {
     return GL_CLAMP_TO_EDGE;
 }
 
-bool has_extension(std::string_view name) {
-    GLint count = 0;
-    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
-    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
-        if (name == reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, i))) return true;
-    }
-    return false;
-}
-
 GlTexture make_texture(const Texture& texture, GLenum format) {
     const auto width = static_cast<GLsizei>(texture.image.width);
     const auto height = static_cast<GLsizei>(texture.image.height);
@@ -54,10 +44,6 @@ GlTexture make_texture(const Texture& texture, GLenum format) {
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(name, GL_TEXTURE_WRAP_S, gl_wrap(texture.wrap_u));
     glTextureParameteri(name, GL_TEXTURE_WRAP_T, gl_wrap(texture.wrap_v));
-    constexpr GLenum kMaxAnisotropy = 0x84FE;  // core in OpenGL 4.6
-    if (has_extension("GL_EXT_texture_filter_anisotropic")) {
-        glTextureParameterf(name, kMaxAnisotropy, 8.0f);
-    }
     return GlTexture(name);
 }
 

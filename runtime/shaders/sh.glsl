@@ -87,3 +87,41 @@ vec3 instance_normal(vec3 x_axis, vec3 y_axis, vec3 z_axis, vec3 normal) {
     float square = dot(turned, turned);
     return square > 0.0f ? turned * inversesqrt(square) : normal;
 }
+
+// Towards where most light comes from: the direction of the second band.
+vec3 dominant_direction(PackedSh sh) {
+    vec4 sum = sh.sha_r * 0.2126f + sh.sha_g * 0.7152f + sh.sha_b * 0.0722f;
+    vec3 direction = vec3(sum.x, sum.y, sum.z);
+    float square = dot(direction, direction);
+    return square > 0.0f ? direction * inversesqrt(square) : vec3(0.0f, 1.0f, 0.0f);
+}
+
+// Irradiance, on a surface that faces it, of the directional light there that has this second band.
+vec3 dominant_irradiance(PackedSh sh, vec3 direction) {
+    vec4 along = vec4(direction.x, direction.y, direction.z, 0.0f);
+    vec3 share = vec3(dot(sh.sha_r, along), dot(sh.sha_g, along), dot(sh.sha_b, along));
+    return max(share, vec3(0.0f, 0.0f, 0.0f)) * 6.2831853f;
+}
+
+// Radiance that a glossy surface mirrors of a light, for each unit of its irradiance on a surface
+// that faces it: GGX with glTF's roughness, all directions of length 1.
+vec3 specular_reflection(vec3 normal, vec3 to_light, vec3 to_eye, vec3 f0, float roughness) {
+    vec3 between = to_light + to_eye;
+    float square = dot(between, between);
+    float light_cosine = dot(normal, to_light);
+    if (!(light_cosine > 0.0f) || !(square > 0.0f)) return vec3(0.0f, 0.0f, 0.0f);
+    vec3 halfway = between * inversesqrt(square);
+    float eye_cosine = max(dot(normal, to_eye), 0.0001f);
+    float half_cosine = dot(normal, halfway);
+    float a = max(roughness * roughness, 0.002f);
+    float a2 = a * a;
+    float spread = half_cosine * half_cosine * (a2 - 1.0f) + 1.0f;
+    float facets = a2 / (3.1415927f * spread * spread);
+    float masking = light_cosine * sqrt(eye_cosine * eye_cosine * (1.0f - a2) + a2) +
+                    eye_cosine * sqrt(light_cosine * light_cosine * (1.0f - a2) + a2);
+    float grazing = 1.0f - max(dot(to_eye, halfway), 0.0f);
+    float grazing_2 = grazing * grazing;
+    float fresnel = grazing_2 * grazing_2 * grazing;
+    vec3 mirrored = f0 + (vec3(1.0f, 1.0f, 1.0f) - f0) * fresnel;
+    return mirrored * (facets * 0.5f / masking * light_cosine);
+}

@@ -31,8 +31,8 @@ glm::vec3 seen_from_above(const std::vector<BallInstance>& instances, const Scen
     const Camera camera = look_at({0, height, 0}, {0, 0, 0}, 0.01);
     std::optional<SceneShader> shader;
     if (scene != nullptr) shader.emplace(*SceneShader::make(*scene, volume.view()));
-    const auto picture =
-        render_mesh_ball(instances, shader ? &*shader : nullptr, volume.view(), camera, settings);
+    const auto picture = render_mesh_ball(instances, {}, shader ? &*shader : nullptr, volume.view(),
+                                          camera, settings);
     EXPECT_TRUE(picture) << picture.error().message;
     return picture ? picture->image.pixels[0] : glm::vec3(-1.0f);
 }
@@ -41,7 +41,12 @@ void expect_near(glm::vec3 actual, glm::vec3 expected) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-4f);
 }
 
-const std::vector<BallInstance> kOneSphere = {{{0, 0, 0}, 2.0, kAlbedo}};
+/// A sphere that reflects `kAlbedo` diffusely, and mirrors what comes from one side alone.
+BallInstance sphere(const glm::dvec3& center, double radius) {
+    return {center, radius, kAlbedo / 0.96f, 0.0f, 1.0f};
+}
+
+const std::vector<BallInstance> kOneSphere = {sphere({0, 0, 0}, 2.0)};
 
 TEST(MakeMeshBall, SameSettingsGiveTheSameInstances) {
     MeshBallSettings settings;
@@ -69,8 +74,8 @@ TEST(MakeMeshBall, InstancesStandInTheBallWithTheSizesThatWereAskedFor) {
         EXPECT_GE(instance.radius, 0.5 * 0.06 * settings.radius);
         EXPECT_LE(instance.radius, 1.5 * 0.06 * settings.radius);
         for (int i = 0; i < 3; ++i) {
-            EXPECT_GE(instance.albedo[i], 0.0f);
-            EXPECT_LE(instance.albedo[i], 1.0f);
+            EXPECT_GE(instance.color[i], 0.0f);
+            EXPECT_LE(instance.color[i], 1.0f);
         }
     }
 }
@@ -99,8 +104,7 @@ TEST(RenderMeshBall, EachSphereHasTheLightOfItsOwnPlace) {
         volume.irradiance[i] = irradiance_from_radiance(constant_radiance(glm::vec3(10.0f + x)));
     }
     // The eye looks at the middle of a sphere whose centre is at x = 1.
-    const std::vector<BallInstance> instances = {{{-6, 0, 0}, 1.0, kAlbedo},
-                                                 {{1, 0, 0}, 2.0, kAlbedo}};
+    const std::vector<BallInstance> instances = {sphere({-6, 0, 0}, 1.0), sphere({1, 0, 0}, 2.0)};
     expect_near(seen_from_above(instances, nullptr, volume), 11.0f * kAlbedo);
 }
 
@@ -120,7 +124,7 @@ TEST(RenderMeshBall, SpheresShadowEachOther) {
     test::add_sun(lights, LightMode::Mixed, glm::vec3(9.0f));
     volume.lights = lights.lights;
     auto instances = kOneSphere;
-    instances.push_back({{0, 20, 0}, 1.0, kAlbedo});  // above the eye
+    instances.push_back(sphere({0, 20, 0}, 1.0));  // above the eye
     expect_near(seen_from_above(instances, nullptr, volume), kAlbedo);
 }
 

@@ -112,12 +112,12 @@ TEST(MixedShading, LayersDimLightsAndEmission) {
 
 /// What an eye straight above sees of a sphere at the origin under a static roof.
 glm::vec3 sphere_seen(const ProbeVolume& volume, const Scene& scene) {
-    const std::vector<BallInstance> instances{{{0, 0, 0}, 0.5, kAlbedo}};
+    const std::vector<BallInstance> instances{{{0, 0, 0}, 0.5, kAlbedo / 0.96f, 0.0f, 1.0f}};
     const auto shader = SceneShader::make(scene, volume.view());
     EXPECT_TRUE(shader);
     RenderSettings settings;
     settings.width = settings.height = settings.samples_per_axis = 1;
-    const auto picture = render_mesh_ball(instances, &*shader, volume.view(),
+    const auto picture = render_mesh_ball(instances, {}, &*shader, volume.view(),
                                           look_at({0, 3, 0}, {0, 0, 0}, 0.01), settings);
     EXPECT_TRUE(picture);
     return picture->image.pixels[0];

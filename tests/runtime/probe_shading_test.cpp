@@ -97,5 +97,52 @@ TEST(ProbeShading, AnInstanceWithoutAVolumeKeepsItsNormal) {
     EXPECT_EQ(instance_normal(none, none, none, normal), normal);
 }
 
+TEST(ProbeShading, TheDominantLightOfOneSunIsThatSun) {
+    // A delta of irradiance E in direction d: L_1m = E Y_1m(d).
+    const glm::vec3 to_sun = glm::normalize(glm::vec3(1, 2, -0.5)), irradiance(3, 2, 1);
+    RadianceSh sun;
+    const auto basis = sh_basis(to_sun);
+    for (int i = 0; i < kShCoefficientCount; ++i) sun.coefficients[i] = irradiance * basis[i];
+    const PackedSh sh = pack_sh(irradiance_from_radiance(sun));
+    expect_near(dominant_direction(sh), to_sun, 1e-5f);
+    expect_near(dominant_irradiance(sh, to_sun), irradiance, 1e-4f);
+    expect_near(dominant_irradiance(sh, -to_sun), glm::vec3(0.0f), 1e-6f);
+}
+
+TEST(ProbeShading, EvenLightHasSomeDirectionAndNoDominantIrradiance) {
+    const PackedSh sh = pack_sh(irradiance_from_radiance(constant_radiance(glm::vec3(1.0f))));
+    EXPECT_NEAR(glm::length(dominant_direction(sh)), 1.0f, 1e-6f);
+    expect_near(dominant_irradiance(sh, dominant_direction(sh)), glm::vec3(0.0f), 1e-6f);
+}
+
+TEST(ProbeShading, SpecularReflectionMirrorsNoMoreThanArrives) {
+    // Its mean over the directions of light is the share that is mirrored: below 1, and near to it
+    // for a smooth white metal, whose facets hide little.
+    std::mt19937_64 engine(1);
+    const glm::vec3 normal(0, 0, 1), to_eye = glm::normalize(glm::vec3(0.5f, 0, 1));
+    for (const float roughness : {0.3f, 0.6f, 1.0f}) {
+        constexpr int kCount = 400'000;
+        double sum = 0.0;
+        for (int i = 0; i < kCount; ++i) {
+            glm::vec3 to_light = random_normal(engine);
+            to_light.z = std::abs(to_light.z);
+            sum += static_cast<double>(
+                specular_reflection(normal, to_light, to_eye, glm::vec3(1.0f), roughness).x);
+        }
+        const double share = sum / kCount * 2.0 * 3.14159265;
+        EXPECT_LT(share, 1.02) << roughness;
+        EXPECT_GT(share, roughness < 0.5f ? 0.95 : 0.4) << roughness;
+    }
+}
+
+TEST(ProbeShading, SpecularReflectionIsReciprocalButForTheCosine) {
+    const glm::vec3 normal(0, 0, 1), a = glm::normalize(glm::vec3(0.5f, 0.2f, 1)),
+                                     b = glm::normalize(glm::vec3(-0.9f, 0.1f, 0.4f));
+    const glm::vec3 f0(0.04f);
+    expect_near(specular_reflection(normal, a, b, f0, 0.5f) / a.z,
+                specular_reflection(normal, b, a, f0, 0.5f) / b.z, 1e-5f);
+    expect_near(specular_reflection(normal, -a, b, f0, 0.5f), glm::vec3(0.0f), 0.0f);
+}
+
 }  // namespace
 }  // namespace tetralight

@@ -76,7 +76,7 @@ class GlRenderer : public testing::Test {
     static ImageF draw(const Scene& scene, const ProbeVolume& volume, const Camera& camera,
                        const RenderSettings& settings = small_settings()) {
         const auto light = make_scene_light(scene, volume.view(), ProbeLight::AsTheScene);
-        auto renderer = Renderer::make(scene, volume.view(), *light);
+        auto renderer = Renderer::make(scene, volume.view(), *light, {.shadow_map_size = 1024});
         if (!renderer) {
             ADD_FAILURE() << renderer.error().message;
             return {};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kCount = 100'000;
 constexpr size_t kInputsEach = 17;
-constexpr uint32_t kParts = 5;
+constexpr uint32_t kParts = 8;
 
 /// One set of arguments as the shader gets it: 17 float4.
 struct Arguments {
@@ -69,6 +69,12 @@ vec4 result(uint index, uint part) {
     if (part == 1u) return vec4(sample_sh9(sh, normal), 0.0);
     if (part == 2u) return vec4(sample_sh4(first_bands(sh), normal), 0.0);
     if (part == 3u) return vec4(sample_sh9(add_layer(sh, layer, x.xyz), normal), 0.0);
+    vec3 dominant = dominant_direction(sh);
+    if (part == 5u) return vec4(dominant, 0.0);
+    if (part == 6u) return vec4(dominant_irradiance(sh, dominant), 0.0);
+    if (part == 7u) {
+        return vec4(specular_reflection(normal, dominant, normalize(y.xyz), x.www, 0.1 + 0.9 * y.w), 0.0);
+    }
     float occlusion = probe_occlusion(sh.sha_r, int(z.w));
     return vec4(occlusion, mix_occlusion(x.w, occlusion, y.w), 0.0, 0.0);
 }
@@ -77,10 +83,17 @@ vec4 result(uint index, uint part) {
 std::array<glm::vec4, kParts> twin(const Arguments& a) {
     const glm::vec3 normal = instance_normal(a.x_axis, a.y_axis, a.z_axis, glm::vec3(a.layer.shc));
     const float occlusion = probe_occlusion(a.sh.sha_r, static_cast<int>(a.z_axis.w));
-    return {glm::vec4(normal, 0.0f), glm::vec4(sample_sh9(a.sh, normal), 0.0f),
+    const glm::vec3 dominant = dominant_direction(a.sh);
+    return {glm::vec4(normal, 0.0f),
+            glm::vec4(sample_sh9(a.sh, normal), 0.0f),
             glm::vec4(sample_sh4(first_bands(a.sh), normal), 0.0f),
             glm::vec4(sample_sh9(add_layer(a.sh, a.layer, glm::vec3(a.x_axis)), normal), 0.0f),
-            glm::vec4(occlusion, mix_occlusion(a.x_axis.w, occlusion, a.y_axis.w), 0.0f, 0.0f)};
+            glm::vec4(occlusion, mix_occlusion(a.x_axis.w, occlusion, a.y_axis.w), 0.0f, 0.0f),
+            glm::vec4(dominant, 0.0f),
+            glm::vec4(dominant_irradiance(a.sh, dominant), 0.0f),
+            glm::vec4(specular_reflection(normal, dominant, glm::normalize(glm::vec3(a.y_axis)),
+                                          glm::vec3(a.x_axis.w), 0.1f + 0.9f * a.y_axis.w),
+                      0.0f)};
 }
 
 /// A normal is as sure as its instance's volume is not flat.
@@ -107,7 +120,8 @@ class ShadingTwins : public test::ShaderRunner {
             ++tested;
             const auto expected = twin(arguments[i]);
             for (size_t part = 0; part < kParts; ++part) {
-                EXPECT_LE(glm::distance(results[kParts * i + part], expected[part]), 1e-4f)
+                EXPECT_LE(glm::distance(results[kParts * i + part], expected[part]),
+                          2e-4f * std::max(1.0f, glm::length(expected[part])))
                     << "part " << part << " of " << i;
             }
         }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bench/harness.h"
+
+namespace tetralight::bench {
+
+/// The picture of OpenGL against that of rays, and frames of the mesh ball.
+void bench_gl_renderer(const Options& options);
+
+}  // namespace tetralight::bench

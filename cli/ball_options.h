@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "cli/common.h"
+#include "cli/view_options.h"
+#include "pipeline/ball_view.h"
+#include "pipeline/mesh_ball.h"
+
+namespace tetralight::cli {
+
+/// The ball, its light, and where it and the camera stand.
+struct BallOptions {
+    MeshBallSettings settings;
+    BallLight light = BallLight::Probes;
+    Specular specular = Specular::Off;
+
+    void add_to(CLI::App& command);
+
+    /// The ball fills the middle of the probes unless the user placed it, and the camera sees it
+    /// unless the user placed that. `scene` may be null.
+    [[nodiscard]] Camera place(const ProbeVolumeView& volume, const SceneShader* scene,
+                               const ViewOptions& view);
+
+  private:
+    [[nodiscard]] std::vector<glm::dvec3> centers(const ProbeVolumeView& volume,
+                                                  const ProbeBounds& bounds) const;
+    [[nodiscard]] std::vector<double> radii(const ProbeVolumeView& volume,
+                                            const ProbeBounds& bounds) const;
+
+    CLI::Option* center_option_ = nullptr;
+    CLI::Option* radius_option_ = nullptr;
+};
+
+}  // namespace tetralight::cli
