@@ -213,6 +213,7 @@ class Gltf:
         self.solids = []  # (name, low corner, high corner) of everything static, in world space
         self.probes = {}  # group name: world positions
         self.lattice_view = self.view(lattice_png())
+        self.bakes_emission = True
 
     def view(self, data, target=None):
         self.binary += bytes(-len(self.binary) % 4)
@@ -309,7 +310,7 @@ class Gltf:
             "nodes": self.nodes,
             "cameras": self.cameras,
             "meshes": self.meshes,
-            "materials": [material_json(name, *value) for name, value in MATERIALS.items()],
+            "materials": [material_json(name, *value, self.bakes_emission) for name, value in MATERIALS.items()],
             "textures": [{"name": "lattice", "sampler": 0, "source": 0}],
             "samplers": [{"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}],
             "images": [{"name": "lattice", "mimeType": "image/png", "bufferView": self.lattice_view}],
@@ -327,7 +328,7 @@ class Gltf:
                 + struct.pack("<I4s", len(binary), b"BIN\0") + binary)
 
 
-def material_json(name, color, other):
+def material_json(name, color, other, bakes_emission):
     material = {"name": name, "pbrMetallicRoughness":
                 {"baseColorFactor": list(color), "metallicFactor": 0.0, "roughnessFactor": 0.95}}
     if "texture" in other:
@@ -335,6 +336,8 @@ def material_json(name, color, other):
     if "emission" in other:
         material["emissiveFactor"] = list(other["emission"])
         material["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": other["strength"]}}
+        if not bakes_emission:
+            material["extras"] = {"bake_emission": False}
     material.update({key: other[key] for key in ("alphaMode", "alphaCutoff", "doubleSided") if key in other})
     return material
 
@@ -502,8 +505,12 @@ def main():
     parser.add_argument("out", nargs="?", type=Path, metavar="OUT.glb",
                         default=Path(__file__).with_name("courtyard.glb"),
                         help="default: courtyard.glb beside this script")
-    out = parser.parse_args().out
+    parser.add_argument("--unbaked-emission", action="store_true",
+                        help="what shines lights nothing: bakes do not see it")
+    arguments = parser.parse_args()
+    out = arguments.out
     gltf = make_courtyard()
+    gltf.bakes_emission = not arguments.unbaked_emission
     beside = out.with_name(out.name + ".part")
     beside.write_bytes(gltf.glb())
     os.replace(beside, out)

@@ -124,7 +124,7 @@ ImageF shrunk(const ImageF& image, uint32_t scale) {
 }  // namespace
 
 Result<Renderer> Renderer::make(const Scene& scene, const ProbeVolumeView& volume,
-                                const SceneLight& light, std::span<const glm::dvec4> crowd_bounds) {
+                                const SceneLight& light, const RendererSettings& settings) {
     DebugMessages messages;
     auto shaders = make_renderer_shaders();
     if (!shaders) return shaders.error();

@@ -60,7 +60,7 @@ class GlMeshBallTest : public testing::Test {
         settings_.instance_count = count;
         return GlMeshBall::make(settings_, scene_,
                                 *make_scene_light(scene_, volume.view(), ProbeLight::AsTheScene),
-                                volume.view());
+                                volume.view(), 512);
     }
 
     static ImageF draw(GlMeshBall& ball, const Camera& camera, double angle, BallLight light,
