@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p "$out"
 
 bake() { "$tetralight" bake --quiet "$@"; }
-size=(--width 640 --height 360 --antialias 4)
+size=(--width 512 --height 288 --antialias 2)
 render() { # NAME VOLUME ...
     "$tetralight" render "${gallery_scene:-$scene}" "$work/$2" -o "$out/$1.png" --renderer gl "${size[@]}" "${@:3}"
 }
@@ -20,7 +20,8 @@ ball() { # NAME VOLUME ...
 }
 
 bake "$scene" -o "$work/plain.probes" --samples 4096
-bake "$scene" -o "$work/masked.probes" --samples 4096 --mixed-lighting shadowmask
+"$tetralight" grid "$scene" -o "$work/ball.json" --spacing 0.3 --min 4.2,0.15,-2.6 --max 8.2,3.6,1.8 --quiet
+bake "$scene" -g "$work/ball.json" -o "$work/masked.probes" --samples 512 --mixed-lighting shadowmask
 bake "$scene" -o "$work/layers.probes" --samples 2048 --layers sun,emission,transfer
 
 # Inside the house, without and with probes.
@@ -36,7 +37,7 @@ render gallery_beams_one plain.probes "${beams[@]}" --probes one
 render gallery_beams_lppv plain.probes "${beams[@]}"
 render gallery_beams_points plain.probes "${beams[@]}" --show lppv
 # The ground's green on what stands over it.
-render gallery_bounce plain.probes --eye 2.6,0.25,9.6 --target 0.6,0.75,5.6 --fov 42 --exposure 0.9
+render gallery_bounce plain.probes --eye 3.4,0.35,8.6 --target 1.9,0.75,5.4 --fov 30 --exposure 1.1
 # Boxes that shine, with their light in the probes and without.
 glow=(--eye 8,1.7,4.5 --target 4.6,0.9,-0.6 --fov 50 --exposure 0.7)
 render gallery_emission layers.probes "${glow[@]}"
@@ -51,7 +52,8 @@ ball gallery_ball_probes plain.probes "${place[@]}"
 ball gallery_ball_lppv plain.probes "${place[@]}" --lppv
 ball gallery_ball_off plain.probes "${place[@]}" --off
 # The shadow of the house on the mesh ball: from occlusion probes.
-ball gallery_shadow_line masked.probes --center 7.2,2.2,-1 --radius 2 --eye 12.5,4.5,8.5 --target 6.9,1.9,-1
+ball gallery_shadow_line masked.probes --count 420 --center 5.75,1.75,-0.5 --radius 1.5 \
+    --eye 3.6,3.2,6.5 --target 5.9,1.6,-0.6 --fov 33
 # A day: one bake, another sun and another sky each.
 day=(morning noon evening night)
 suns=("1,-0.4,-0.5 3,1.9,1" "0.15,-1,-0.4 3.2,3,2.7" "-1,-0.3,-0.5 3.2,1.5,0.5" "0.4,-1,0.2 0.02,0.03,0.05")

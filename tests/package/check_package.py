@@ -4,6 +4,7 @@
 check_package.py headers PREFIX
 check_package.py consumer PREFIX VOLUME SOURCES
 check_package.py guide PREFIX VOLUME GUIDE
+check_package.py example PREFIX VOLUME SOURCE
 check_package.py components PREFIX
 check_package.py debian PREFIX SHIP_BUILD
 """
@@ -100,6 +101,17 @@ def check_guide(prefix, volume, guide):
         print(printed)
 
 
+def check_example(prefix, volume, source):
+    with tempfile.TemporaryDirectory() as folder:
+        flags = run("pkg-config --cflags --libs tetralight", folder, prefix).split()
+        run(["c++", "-std=c++20", "-O2", source, "-o", "example"] + flags, folder, prefix)
+        printed = run(["./example", volume, "ball.ppm"], folder, prefix)
+        picture = (Path(folder) / "ball.ppm").read_bytes()
+        assert picture.startswith(b"P6\n480 360\n255\n") and len(picture) == 15 + 480 * 360 * 3
+        assert len(set(picture[15:])) > 20, "nothing to see"
+        print(printed)
+
+
 def check_components(prefix):
     with tempfile.TemporaryDirectory() as folder:
         project = ("cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES CXX)\n"
@@ -139,5 +151,6 @@ def check_debian(prefix, ship):
 
 if __name__ == "__main__":
     checks = {"headers": check_headers, "consumer": check_consumer, "guide": check_guide,
+              "example": check_example,
               "components": check_components, "debian": check_debian}
     checks[sys.argv[1]](*sys.argv[2:])
