@@ -9,6 +9,7 @@
 
 #include "bake/survey.h"
 #include "bench/bake_scenes.h"
+#include "bench/closed_solids.h"
 
 namespace tetralight::bench {
 namespace {
@@ -56,20 +57,14 @@ Mesh mesh_of(const AngleSurface& surface) {
     return mesh;
 }
 
-/// The solid angle of all triangles from a position over 4π: whole numbers, 0 = outside (van
-/// Oosterom & Strackee 1983, "The Solid Angle of a Plane Triangle").
+/// Solid angles of all triangles over 4π: whole numbers, 0 = outside.
 double winding_number(const Mesh& mesh, const glm::dvec3& position) {
     double angle = 0.0;
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const auto corner = [&](size_t k) {
-            return glm::dvec3(mesh.positions[mesh.indices[i + k]]) - position;
+            return glm::dvec3(mesh.positions[mesh.indices[i + k]]);
         };
-        const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const double volume = glm::dot(a, glm::cross(b, c));
-        const double rest =
-            la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-        angle += 2.0 * std::atan2(volume, rest);
+        angle += solid_angle({corner(0), corner(1), corner(2)}, position);
     }
     return angle / (2.0 * kTurn);
 }

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cmath>
 
-#include "bake/parallel.h"
-#include "bake/placement/free_space.h"
-#include "bake/placement/lattice.h"
-#include "bake/ray_caster.h"
-#include "bake/survey.h"
-#include "bake/trace_scene.h"
 #include "base/text.h"
 #include "bench/grid_error.h"
+#include "bench/grid_inside.h"
 #include "bench/grid_scenes.h"
 #include "bench/harness.h"
 
@@ -67,119 +61,12 @@ double probes_for_error(const GridSubject& subject, const Options& options) {
     return share;
 }
 
-/// Fates of a dense lattice in the house against the boxes that it is made of.
-void inside() {
-    const House house = make_house();
-    const auto traced = TraceScene::make_static(house.scene);
-    require(bool(traced), "scene");
-    const Box bounds{{-2.0, -0.4, -2.0}, {14.0, 7.0, 10.0}};
-    const auto lattice = make_lattice(bounds, glm::dvec3(0.183), 10'000'000);
-    require(bool(lattice), "lattice");
-    // What is nearer to a face than rounding is on it, neither in nor out.
-    constexpr double kRounding = 2e-6;
-    const std::vector<glm::dvec3> candidates = lattice->positions();
-    std::vector<uint8_t> is_left_inside(candidates.size()), is_lost(candidates.size()),
-        is_free(candidates.size());
-    parallel_for(candidates.size(), 0, [&](size_t i) {
-        is_free[i] = !house.is_inside(candidates[i], -kRounding);
-        const bool is_deep = house.is_inside(candidates[i], kRounding);
-        const Fate unmoved = place_probe(*traced, candidates[i], {}).fate;
-        is_lost[i] = is_free[i] != 0 && !is_kept(unmoved);
-        const PlacedProbe placed = place_probe(*traced, candidates[i], {0.02, 0.08});
-        is_left_inside[i] = (is_kept(unmoved) && is_deep) ||
-                            (is_kept(placed.fate) && house.is_inside(placed.position, kRounding));
-    });
-    const auto count = [](const std::vector<uint8_t>& flags) {
-        return static_cast<double>(std::count(flags.begin(), flags.end(), 1));
-    };
-    report("grid.inside", count(is_left_inside), text("probes of ", candidates.size()));
-    report("grid.inside.lost", 100.0 * count(is_lost) / count(is_free), "% of free candidates");
-    require(count(is_left_inside) == 0.0, "no probe inside geometry");
-}
-
-/// All triangles of a scene for plain rays.
-RayCaster plain_caster(const TraceScene& traced) {
-    RayCaster caster;
-    for (uint32_t g = 0; g < traced.geometry_count(); ++g) {
-        std::vector<glm::vec3> corners;
-        std::vector<uint32_t> indices;
-        for (uint32_t p = 0; p < traced.triangle_count(g); ++p) {
-            for (const glm::vec3& corner : traced.triangle(g, p)) {
-                indices.push_back(static_cast<uint32_t>(corners.size()));
-                corners.push_back(corner);
-            }
-        }
-        caster.add_triangles(corners, indices);
-    }
-    require(bool(caster.commit()), "rays");
-    return caster;
-}
-
-/// The rays of the inside test against the same rays alone.
-void inside_rays(const GridSubject& subject, const Options& options) {
-    const auto traced = TraceScene::make_static(subject.scene);
-    require(bool(traced), "scene");
-    const RayCaster caster = plain_caster(*traced);
-    std::vector<glm::vec3> positions;
-    for (const glm::dvec3& p : random_positions(4000, 5, 1.0)) {
-        positions.push_back(
-            traced->traced_from_world(subject.bounds.low + p * subject.bounds.size()));
-    }
-    const auto directions = survey_directions();
-    Contest contest;
-    contest.figure = "grid.inside_rays." + subject.name;
-    contest.unit = "Mrays/s";
-    contest.baseline_is = "the same rays by Embree alone";
-    contest.work = 1e-6 * static_cast<double>(positions.size() * directions.size());
-    contest.ours = [&] {
-        return seconds([&] {
-            size_t inside_count = 0;
-            for (const glm::vec3& p : positions)
-                inside_count += look_around(*traced, p).is_inside();
-            require(inside_count < positions.size(), "free positions");
-        });
-    };
-    contest.baseline = [&] {
-        return seconds([&] {
-            size_t hit_count = 0;
-            for (const glm::vec3& p : positions) {
-                for (const glm::vec3& d : directions) hit_count += caster.cast({p, d}).has_value();
-            }
-            require(hit_count > 0, "hits");
-        });
-    };
-    run(contest, options);
-}
-
-/// Seconds for a lattice of a million candidates.
-void a_million(const GridSubject& subject) {
-    const auto traced = TraceScene::make_static(subject.scene);
-    require(bool(traced), "scene");
-    const glm::dvec3 size = subject.bounds.size();
-    const auto lattice = make_lattice(
-        subject.bounds, glm::dvec3(std::cbrt(size.x * size.y * size.z / 1e6)), 10'000'000);
-    require(bool(lattice), "lattice");
-    const std::vector<glm::dvec3> candidates = lattice->positions();
-    std::vector<uint8_t> is_there(candidates.size());
-    const double spacing = lattice->axes[0].spacing;
-    const double time = seconds([&] {
-        parallel_for(candidates.size(), 0, [&](size_t i) {
-            is_there[i] =
-                is_kept(place_probe(*traced, candidates[i], {0.1 * spacing, 0.45 * spacing}).fate);
-        });
-    });
-    report("grid.classify_1m." + subject.name, time * 1e6 / static_cast<double>(candidates.size()),
-           "s");
-}
-
 }  // namespace
 
 void bench_grid(const Options& options) {
-    inside();
     std::vector<double> shares;
     for (const GridSubject& subject : grid_subjects(options)) {
-        inside_rays(subject, options);
-        if (!options.is_quick) a_million(subject);
+        measure_inside(subject, options);
         shares.push_back(probes_for_error(subject, options));
     }
     report("grid.probes_for_error", median(shares), "of 4000 regular probes, median");

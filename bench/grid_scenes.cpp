@@ -31,19 +31,19 @@ Mesh box_mesh(const Box& box) {
 
 class HouseBuilder {
   public:
-    House build() {
+    Scene build() {
         const double wide = kRoomsX * kRoom, deep = kRoomsZ * kRoom;
         add({{-3, -0.5, -3}, {wide + 3, 0, deep + 3}}, {0.25, 0.4, 0.2});
         for (int storey = 0; storey < kStoreys; ++storey) add_storey(storey);
         const double top = kStoreys * kStorey;
         add({{-0.3, top, -0.3}, {wide + 0.3, top + kSlab, deep + 0.3}}, {0.5, 0.3, 0.25});
-        house_.scene.environment.radiance = {0.5f, 0.7f, 1.0f};
+        scene_.environment.radiance = {0.5f, 0.7f, 1.0f};
         Light sun;
         sun.intensity = glm::vec3(9.0f, 8.5f, 7.5f);
         sun.direction = glm::normalize(glm::vec3(0.5f, -1.0f, 0.6f));
-        house_.scene.lights.push_back(sun);
-        house_.scene.light_names.emplace_back("sun");
-        return std::move(house_);
+        scene_.lights.push_back(sun);
+        scene_.light_names.emplace_back("sun");
+        return std::move(scene_);
     }
 
   private:
@@ -52,14 +52,12 @@ class HouseBuilder {
         material.base_color = glm::vec4(glm::vec3(albedo), 1.0f);
         material.metallic = 0.0f;
         material.emission = emission;
-        Scene& scene = house_.scene;
         MeshInstance instance;
-        instance.mesh = static_cast<uint32_t>(scene.meshes.size());
-        scene.meshes.push_back(box_mesh(box));
-        scene.meshes.back().material = static_cast<uint32_t>(scene.materials.size());
-        scene.materials.push_back(material);
-        scene.instances.push_back(instance);
-        house_.solids.push_back(box);
+        instance.mesh = static_cast<uint32_t>(scene_.meshes.size());
+        scene_.meshes.push_back(box_mesh(box));
+        scene_.meshes.back().material = static_cast<uint32_t>(scene_.materials.size());
+        scene_.materials.push_back(material);
+        scene_.instances.push_back(instance);
     }
 
     /// A wall from `begin` to `end` along an axis (0 or 2), with one opening in its middle.
@@ -136,7 +134,7 @@ class HouseBuilder {
             glm::vec3(8.0f, 6.0f, 3.5f));
     }
 
-    House house_;
+    Scene scene_;
 };
 
 Box bounds_of(const Scene& scene) {
@@ -164,22 +162,11 @@ GridSubject read_subject(const std::string& name, const std::string& path) {
 
 }  // namespace
 
-bool House::is_inside(const glm::dvec3& position, double depth) const {
-    return std::ranges::any_of(solids, [&](const Box& box) {
-        return glm::all(glm::greaterThan(position, box.low + depth)) &&
-               glm::all(glm::lessThan(position, box.high - depth));
-    });
-}
-
-House make_house() {
-    return HouseBuilder().build();
-}
-
 std::vector<GridSubject> grid_subjects(const Options& options) {
     std::vector<GridSubject> subjects;
     subjects.push_back(
         read_subject("courtyard", TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb"));
-    GridSubject house{"house", make_house().scene, {}};
+    GridSubject house{"house", HouseBuilder().build(), {}};
     house.bounds = bounds_of(house.scene);
     subjects.push_back(std::move(house));
     if (options.scene) subjects.push_back(read_subject("scene", *options.scene));

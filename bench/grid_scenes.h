@@ -11,20 +11,6 @@
 
 namespace tetralight::bench {
 
-/// A house of two storeys with six rooms each, 12 × 8 m: walls, slabs and furniture are closed
-/// boxes that meet and cross. Doors join the rooms, a stairwell the storeys; windows let in sun and
-/// sky, and every other room has a lamp.
-struct House {
-    Scene scene;
-    /// All its solids: a position is inside geometry when one of them holds it.
-    std::vector<Box> solids;
-
-    /// Faces are at floats: a position is inside when it is `depth` metres from them or more.
-    [[nodiscard]] bool is_inside(const glm::dvec3& position, double depth = 0.0) const;
-};
-
-[[nodiscard]] House make_house();
-
 /// A scene to fill with probes.
 struct GridSubject {
     std::string name;
@@ -32,7 +18,10 @@ struct GridSubject {
     Box bounds;
 };
 
-/// The courtyard, the house, and the scene of the options.
+/// The courtyard; a house of two storeys with six rooms each, 12 × 8 m, whose walls, slabs and
+/// furniture are closed boxes that meet and cross, where doors join the rooms, a stairwell the
+/// storeys, windows let in sun and sky and every other room has a lamp; and the scene of the
+/// options.
 [[nodiscard]] std::vector<GridSubject> grid_subjects(const Options& options);
 
 }  // namespace tetralight::bench

@@ -11,9 +11,6 @@ namespace {
 
 constexpr double kLongest = 1e9;
 
-/// Where walls are thin no number of probes brings the error down to nothing.
-constexpr uint64_t kMostAdaptive = 5000;
-
 /// The names that `merge` takes.
 CLI::Validator name_check() {
     const auto check = [](const std::string& name) -> std::string {
@@ -57,14 +54,11 @@ void GridOptions::add_to(CLI::App& command) {
                     "Split the groups by cubes of this size, metres (0 = not split)")
         ->check(numbers_in(0.0, kLongest))
         ->capture_default_str();
-    most_option_ =
-        command
-            .add_option(
-                "--max-probes", settings.max_probe_count,
-                "Refuse grids with more candidates than this; --mode adaptive stays below it (5000 "
-                "when it is not given)")
-            ->check(CLI::NonNegativeNumber)
-            ->capture_default_str();
+    command
+        .add_option("--max-probes", settings.max_probe_count,
+                    "Refuse grids with more candidates than this; --mode adaptive stays below it "
+                    "(default: 10 million, 5000 when adaptive)")
+        ->check(CLI::NonNegativeNumber);
 }
 
 void GridOptions::add_bounds(CLI::App& command) {
@@ -145,8 +139,6 @@ void GridOptions::check_usage() const {
 
 void GridOptions::finish() {
     if (low_option_->count() > 0) settings.bounds = bounds_;
-    const bool is_adaptive = settings.mode == PlacementMode::Adaptive;
-    if (is_adaptive && most_option_->count() == 0) settings.max_probe_count = kMostAdaptive;
     if (spacing_option_->count() > 0) settings.adaptive.start_spacing = settings.spacing;
     if (clearance_option_->count() > 0) settings.clearance = clearance_;
     for (const std::string& seed : seeds_) settings.seeds.push_back(*parse_vec3(seed));

@@ -33,7 +33,6 @@ struct GridOptions {
     CLI::Option* low_option_ = nullptr;
     CLI::Option* clearance_option_ = nullptr;
     CLI::Option* heights_option_ = nullptr;
-    CLI::Option* most_option_ = nullptr;
     CLI::Option* spacing_option_ = nullptr;
     std::vector<CLI::Option*> adaptive_options_;
 };

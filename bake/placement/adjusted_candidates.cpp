@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bake/parallel.h"
+#include "bake/placement/candidate_count.h"
 #include "base/text.h"
 
 namespace tetralight {
@@ -51,14 +52,13 @@ Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustment
     const auto positions = make_candidates(traced, mode, rule);
     if (!positions) return positions.error();
     const glm::dvec3& s = rule.spacing;
+    candidates.reserve(candidates.size() + positions->size());
     const double reach = kReachShare * std::min({s.x, s.y, s.z});
     for (const glm::dvec3& position : *positions) {
         if (adjustment_at(adjustments, position).spacing != owner) continue;
         candidates.push_back({position, reach, owner != nullptr});
     }
-    if (candidates.size() <= rule.max_count) return Ok{};
-    return Error{text("a grid of ", candidates.size(), " probes is more than the limit of ",
-                      rule.max_count)};
+    return check_candidate_count(static_cast<double>(candidates.size()), rule.max_count);
 }
 
 }  // namespace

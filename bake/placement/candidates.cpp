@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "bake/parallel.h"
+#include "bake/placement/candidate_count.h"
 #include "bake/placement/free_space.h"
 #include "bake/placement/lattice.h"
 #include "base/text.h"
@@ -50,16 +51,12 @@ std::vector<LineHit> hits_along(const TraceScene& traced, const Box& bounds, glm
 Result<std::vector<glm::dvec3>> lines_along(const CandidateRule& rule, int axis) {
     Box flat = rule.bounds;
     flat.low[axis] = flat.high[axis] = 0.0;
-    const auto lattice = make_lattice(flat, rule.spacing, 2 * rule.max_count);
+    const auto lattice =
+        make_lattice(flat, rule.spacing, std::max(rule.max_count, 2 * rule.max_count));
     if (!lattice) return lattice.error();
     Lattice one_layer = *lattice;
     one_layer.axes[axis].count = 1;
     return one_layer.positions();
-}
-
-Status check_count(size_t count, uint64_t max_count) {
-    if (count <= max_count) return Ok{};
-    return Error{text("a grid of ", count, " probes is more than the limit of ", max_count)};
 }
 
 bool is_in(const Box& bounds, const glm::dvec3& position) {
@@ -82,7 +79,9 @@ Result<std::vector<glm::dvec3>> join_lines(const std::vector<glm::dvec3>& lines,
     parallel_for(lines.size(), rule.thread_count, [&](size_t i) { add(lines[i], found[i]); });
     std::vector<glm::dvec3> all;
     for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-    if (auto status = check_count(all.size(), rule.max_count); !status) return status.error();
+    if (auto status = check_candidate_count(static_cast<double>(all.size()), rule.max_count);
+        !status)
+        return status.error();
     return all;
 }
 
@@ -142,7 +141,9 @@ Result<std::vector<glm::dvec3>> surface_candidates(const TraceScene& traced,
         if (!some) return some.error();
         all.insert(all.end(), some->begin(), some->end());
     }
-    if (auto status = check_count(all.size(), rule.max_count); !status) return status.error();
+    if (auto status = check_candidate_count(static_cast<double>(all.size()), rule.max_count);
+        !status)
+        return status.error();
     if (all.empty()) return Error{"there is no surface in the bounds"};
     return all;
 }

@@ -85,7 +85,7 @@ class Push {
     [[nodiscard]] bool is_fine(glm::vec3 from, glm::vec3 place) const {
         return glm::distance(place, start_) <= reach_ &&
                (place == from || sees(traced_, from, place)) &&
-               !lies_inside(traced_, place, look_around(traced_, place));
+               standing_of(traced_, place, look_around(traced_, place)) == Standing::Free;
     }
 
     const TraceScene& traced_;
@@ -96,17 +96,26 @@ class Push {
 
 }  // namespace
 
-bool lies_inside(const TraceScene& traced, glm::vec3 position, const Surroundings& around) {
-    if (around.is_inside()) return true;
-    if (around.behind_share == 0.0f) return false;
+Standing standing_of(const TraceScene& traced, glm::vec3 position, const Surroundings& around) {
+    if (around.is_inside()) return Standing::Inside;
+    if (around.behind_share == 0.0f) return Standing::Free;
     constexpr size_t kEvery = 4;
     int inside = 0, outside = 0;
     for (size_t i = 0; i < survey_directions().size(); i += kEvery) {
         const bool is_in = solids_around(traced, position, survey_directions()[i]) > 0;
         ++(is_in ? inside : outside);
     }
-    // Open surfaces miss sides in some directions, closed ones agree in all.
-    return inside > 3 * outside;
+    // Open surfaces miss sides in some directions, and so do faces that coincide; closed solids
+    // agree in all others.
+    if (inside > 3 * outside) return Standing::Inside;
+    return outside > 3 * inside ? Standing::Free : Standing::Doubtful;
+}
+
+bool is_surely_free(const TraceScene& traced, const glm::dvec3& position, double clearance) {
+    const glm::vec3 place = traced.traced_from_world(position);
+    const Surroundings around = look_around(traced, place);
+    return around.surface_distance >= (1.0 - kSlack) * clearance &&
+           standing_of(traced, place, around) == Standing::Free;
 }
 
 bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
@@ -117,7 +126,7 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                         const ClearanceRule& rule) {
     const glm::vec3 start = traced.traced_from_world(candidate);
     const Surroundings around = look_around(traced, start);
-    const bool is_inside = lies_inside(traced, start, around);
+    const bool is_inside = standing_of(traced, start, around) == Standing::Inside;
     PlacedProbe placed{candidate, Fate::Kept, around.surface_distance};
     if (!is_inside && around.surface_distance >= (1.0 - kSlack) * rule.clearance) return placed;
 

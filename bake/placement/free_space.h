@@ -51,12 +51,23 @@ struct PlacedProbe {
 [[nodiscard]] PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                                       const ClearanceRule& rule);
 
-/// Whether a position in traced space lies inside geometry: by the shares of back faces around it
+/// How a position lies to the geometry around it.
+enum class Standing : uint8_t {
+    Free,
+    Doubtful,  ///< taken for free, but nothing is moved there
+    Inside,
+};
+
+/// How a position in traced space stands: by the shares of back faces around it
 /// (`Surroundings::is_inside`), and where there are few of them by counting, in some directions,
 /// all surfaces out to the sky: among solids that cross each other the nearest surfaces may all be
 /// fronts of others.
-[[nodiscard]] bool lies_inside(const TraceScene& traced, glm::vec3 position,
-                               const Surroundings& around);
+[[nodiscard]] Standing standing_of(const TraceScene& traced, glm::vec3 position,
+                                   const Surroundings& around);
+
+/// Whether a world position is free beyond doubt and `clearance` metres from all surfaces.
+[[nodiscard]] bool is_surely_free(const TraceScene& traced, const glm::dvec3& position,
+                                  double clearance);
 
 /// Whether nothing stands between two positions in traced space.
 [[nodiscard]] bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to);

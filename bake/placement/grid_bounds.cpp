@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "bake/placement/candidate_count.h"
 #include "bake/placement/lattice.h"
 #include "base/text.h"
 
@@ -24,25 +26,37 @@ Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings) {
     return *bounds;
 }
 
+uint64_t most_probes(const ProbeGridSettings& settings) {
+    // Where walls are thin no number of probes brings the error down to nothing.
+    const uint64_t usual = settings.mode == PlacementMode::Adaptive ? 5000 : 10'000'000;
+    return settings.max_probe_count.value_or(usual);
+}
+
 Result<glm::dvec3> first_spacing(const Box& bounds, const ProbeGridSettings& settings) {
-    const uint64_t most = settings.max_probe_count;
-    if (settings.mode != PlacementMode::Adaptive) {
-        const auto lattice = make_lattice(bounds, settings.spacing, most);
-        if (!lattice) return lattice.error();
-        return settings.spacing;
-    }
+    const bool is_adaptive = settings.mode == PlacementMode::Adaptive;
     constexpr double kLayers = 8.0, kWider = 1.1;
     const glm::dvec3 size = bounds.size();
     const double longest = std::max({size.x, size.y, size.z});
-    glm::dvec3 spacing = settings.adaptive.start_spacing.value_or(glm::dvec3(longest / kLayers));
-    // Refused when it is no length, or beyond anything; with few probes asked for it is wider.
-    constexpr uint64_t kAnything = 1'000'000'000;
-    auto lattice = make_lattice(bounds, spacing, kAnything);
-    while (lattice && lattice->count() > std::max<uint64_t>(most / 2, 8)) {
-        spacing *= kWider;
-        lattice = make_lattice(bounds, spacing, kAnything);
+    glm::dvec3 spacing = settings.spacing;
+    if (is_adaptive)
+        spacing = settings.adaptive.start_spacing.value_or(glm::dvec3(longest / kLayers));
+    auto count = lattice_count(bounds, spacing);
+    if (!count) return count.error();
+    const uint64_t most = most_probes(settings);
+    if (settings.mode == PlacementMode::Regular) {
+        // As early as can be; other modes have to look for surfaces first.
+        if (auto status = check_candidate_count(*count, most); !status) return status.error();
     }
-    if (!lattice) return lattice.error();
+    if (!is_adaptive) return spacing;
+    if (auto status = check_refined_count(most); !status) return status.error();
+    // With few probes asked for it is wider; beyond reason it is a slip.
+    constexpr uint64_t kAnything = 1'000'000'000;
+    auto status = check_candidate_count(*count, kAnything, std::numeric_limits<uint64_t>::max());
+    if (!status) return status.error();
+    while (*count > static_cast<double>(std::max<uint64_t>(most / 2, 8))) {
+        spacing *= kWider;
+        count = lattice_count(bounds, spacing);
+    }
     return spacing;
 }
 

@@ -13,9 +13,12 @@ namespace tetralight {
 /// take bounds from.
 [[nodiscard]] Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings);
 
+/// The most probes that are allowed.
+[[nodiscard]] uint64_t most_probes(const ProbeGridSettings& settings);
+
 /// Metres between the candidates. The adaptive mode's are an eighth of the longest side when it is
 /// not told, and farther apart where they would be more than half of its probes. Errors: those of
-/// `make_lattice`.
+/// `lattice_count`, and what is beyond reason.
 [[nodiscard]] Result<glm::dvec3> first_spacing(const Box& bounds,
                                                const ProbeGridSettings& settings);
 

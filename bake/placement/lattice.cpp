@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/placement/candidate_count.h"
 #include "base/text.h"
 
 namespace tetralight {
@@ -75,13 +76,17 @@ std::vector<glm::dvec3> Lattice::positions() const {
     return positions;
 }
 
-Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing, uint64_t max_count) {
+Result<double> lattice_count(const Box& bounds, const glm::dvec3& spacing) {
     if (auto status = check(bounds, spacing); !status) return status.error();
     double count = 1.0;
     for (int axis = 0; axis < 3; ++axis) count *= layer_count(bounds, spacing[axis], axis);
-    if (!(count <= static_cast<double>(max_count))) {
-        return Error{text("a grid of ", count, " probes is more than the limit of ", max_count)};
-    }
+    return count;
+}
+
+Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing, uint64_t max_count) {
+    const auto count = lattice_count(bounds, spacing);
+    if (!count) return count.error();
+    if (auto status = check_candidate_count(*count, max_count); !status) return status.error();
     const double step = float_step(bounds, spacing);
     Lattice lattice;
     for (int axis = 0; axis < 3; ++axis) {

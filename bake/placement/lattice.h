@@ -38,14 +38,17 @@ struct Lattice {
     bool operator==(const Lattice&) const = default;
 };
 
+/// How many positions `make_lattice` gives; may be beyond any integer. Errors: spacing that is not
+/// positive, bounds that are empty or not finite.
+[[nodiscard]] Result<double> lattice_count(const Box& bounds, const glm::dvec3& spacing);
+
 /// The lattice in the middle of the bounds, half a spacing or more from their sides. Each axis has
 /// two layers at least; where the bounds are thinner they stand on the lower end of Y and around
 /// the middle of X and Z. Spacing and start are rounded to what floats hold exactly, by less than
 /// 1e-6 of the farthest coordinate, so that neighbors stand exactly in line: that is what keeps
 /// the tetrahedra between them from degenerating.
 ///
-/// Errors: spacing that is not positive, bounds that are empty or not finite, more positions than
-/// `max_count` (the message says how many).
+/// Errors: those of `lattice_count` and `check_candidate_count`.
 [[nodiscard]] Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing,
                                            uint64_t max_count);
 

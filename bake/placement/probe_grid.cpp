@@ -93,7 +93,7 @@ class GridMaker {
                                   rule_.bounds,
                                   rule_.clearance,
                                   [this](const glm::dvec3& position) { return is_free(position); },
-                                  settings_.max_probe_count,
+                                  rule_.max_count,
                                   settings_.thread_count};
         return refine_grid(input, settings_.adaptive, probes_, is_protected_, callback);
     }
@@ -101,9 +101,8 @@ class GridMaker {
     /// Whether the adaptive mode may put a probe there.
     [[nodiscard]] bool is_free(const glm::dvec3& position) const {
         constexpr double kCloser = 0.5;  // sensors in corners, for looking only
-        const ClearanceRule here{kCloser * rule_.clearance, 0.0};
         if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
-        return place_probe(traced_, position, here).fate == Fate::Kept &&
+        return is_surely_free(traced_, position, kCloser * rule_.clearance) &&
                std::ranges::binary_search(wanted_, map_.space_of(position));
     }
 
@@ -152,7 +151,7 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
                              *spacing,
                              *clearance,
                              settings.heights,
-                             settings.max_probe_count,
+                             most_probes(settings),
                              settings.thread_count};
     const Scene canonical = canonical_scene(scene);
     const auto traced = TraceScene::make_static(canonical);

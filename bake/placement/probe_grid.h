@@ -53,8 +53,9 @@ struct ProbeGridSettings {
     /// Metres along the side of the cubes that groups are split by; 0 = one group for each space.
     double region_size = 0.0;
     std::string group_name = "grid";
-    /// More candidates are refused; the adaptive mode puts so many probes at most.
-    uint64_t max_probe_count = 10'000'000;
+    /// More candidates are refused; the adaptive mode puts so many probes at most. None = 10
+    /// million, or 5 000 when adaptive.
+    std::optional<uint64_t> max_probe_count;
     AdaptiveSettings adaptive;
     /// 0 = all.
     uint32_t thread_count = 0;
@@ -90,8 +91,8 @@ struct ProbeGrid {
 /// and the same for every order of the scene's meshes. `callback` is for the adaptive mode.
 ///
 /// Errors: spacing that is not positive, bounds that are empty or not finite, nothing to take
-/// bounds from, a node that is not there, more candidates than `max_probe_count` (the message says
-/// how many), a seed inside geometry or out of bounds, no floor, no probe left.
+/// bounds from, a node that is not there, more candidates than `max_probe_count` or memory allows
+/// (the message says how many), a seed inside geometry or out of bounds, no floor, no probe left.
 [[nodiscard]] Result<ProbeGrid> make_probe_grid(const Scene& scene,
                                                 const ProbeGridSettings& settings,
                                                 const AdaptiveCallback& callback = {});

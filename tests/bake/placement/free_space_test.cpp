@@ -112,6 +112,33 @@ TEST(FreeSpace, AmongFrontsOfOtherSolidsItIsStillInside) {
     EXPECT_EQ(place_probe(*traced, glm::dvec3(0.0), {}).fate, Fate::Inside);
 }
 
+TEST(FreeSpace, NothingIsPushedToWhereItMayBeInside) {
+    // Walls that meet and cross under a roof: where their faces coincide, counts go wrong.
+    Scene scene;
+    const auto wall = [&](const glm::vec3& low, const glm::vec3& high) {
+        add_box(scene, test::grey(), Facing::Outward, low, high);
+    };
+    constexpr float kHalf = 0.075f;
+    wall({0, 0, -kHalf}, {4, 3, kHalf});
+    wall({4, 0, -kHalf}, {8, 3, kHalf});
+    wall({4 - kHalf, 0, 0}, {4 + kHalf, 3, 4});
+    wall({-0.3f, 3, -0.3f}, {8.3f, 3.25f, 4.3f});
+    const auto is_in = [&](const glm::dvec3& p) {
+        return (p.x > 0 && p.x < 8 && std::abs(p.z) < kHalf && p.y > 0 && p.y < 3) ||
+               (std::abs(p.x - 4) < kHalf && p.z > 0 && p.z < 4 && p.y > 0 && p.y < 3) ||
+               (p.x > -0.3f && p.x < 8.3f && p.y > 3 && p.y < 3.25 && p.z > -0.3f && p.z < 4.3f);
+    };
+    const auto traced = TraceScene::make_static(scene);
+    size_t pushed_count = 0;
+    for (const glm::dvec3& p : test::random_positions(20'000, 5, 0.3)) {
+        const PlacedProbe probe = place_probe(*traced, glm::dvec3(4, 2.9, 0) + p, {0.02, 0.08});
+        pushed_count += probe.fate == Fate::Pushed;
+        EXPECT_FALSE(is_kept(probe.fate) && is_in(probe.position))
+            << p.x << ' ' << p.y << ' ' << p.z;
+    }
+    EXPECT_GT(pushed_count, 1000u);
+}
+
 TEST(FreeSpace, IntersectingTurnedSolidsAgainstAnExactTest) {
     // Two boxes that cross, one of them turned: inside is inside of either.
     Scene scene = solid(test::grey());

@@ -41,7 +41,8 @@ RC_GTEST_PROP(Lattice, FloatsHoldItExactly, ()) {
 TEST(Lattice, TenBillionProbesAreRefusedWithTheNumber) {
     const auto lattice = make_lattice({{0, 0, 0}, {1e4, 1e3, 1e3}}, glm::dvec3(1.0), 10'000'000);
     ASSERT_FALSE(lattice);
-    EXPECT_EQ(lattice.error().message, "a grid of 1e+10 probes is more than the limit of 10000000");
+    EXPECT_EQ(lattice.error().message,
+              "a grid of 10000000000 probes is more than the limit of 10000000");
 }
 
 }  // namespace

@@ -28,6 +28,19 @@ TEST(PlacementModes, LayersStandAboveTheFloor) {
     EXPECT_EQ(layers(grid, 1), (std::vector<double>{1.0, 2.0}));
 }
 
+TEST(PlacementModes, LayersAreCountedByTheirColumns) {
+    // 8 x 8 columns with one probe each, where a lattice would have 40 layers.
+    Scene scene;
+    test::add_floor(scene, test::grey(), 4.0f);
+    ProbeGridSettings settings = settings_for({{-4, 0, -4}, {4, 40, 4}}, 1.0);
+    settings.mode = PlacementMode::Layers;
+    settings.heights = {1.0};
+    settings.max_probe_count = 64;
+    EXPECT_EQ(grid_of(scene, settings).probe_count(), 64u);
+    settings.max_probe_count = 63;
+    EXPECT_EQ(error_of(scene, settings), "a grid of 64 probes is more than the limit of 63");
+}
+
 TEST(PlacementModes, SurfacesOfAThinWallHaveProbesOnBothSides) {
     Scene scene;
     test::add_floor(scene, test::grey(), 9.0f);

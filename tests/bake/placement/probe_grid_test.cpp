@@ -147,7 +147,7 @@ TEST(ProbeGrid, RejectsASceneWithoutBounds) {
 
 TEST(ProbeGrid, RejectsTooManyCandidatesAndSaysHowMany) {
     EXPECT_EQ(error_of(Scene{}, settings_for({{0, 0, 0}, {1e4, 1e3, 1e3}}, 1.0)),
-              "a grid of 1e+10 probes is more than the limit of 10000000");
+              "a grid of 10000000000 probes is more than the limit of 10000000");
     // 1e300 layers on each axis overflow even a double.
     EXPECT_EQ(error_of(Scene{}, settings_for({{0, 0, 0}, {1, 1, 1}}, 1e-300)),
               "a grid of inf probes is more than the limit of 10000000");

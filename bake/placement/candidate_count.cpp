@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/placement/candidate_count.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/text.h"
+
+namespace tetralight {
+namespace {
+
+/// A candidate with its position and fate, and what the output file takes to be written.
+constexpr double kBytesPerCandidate = 400.0;
+/// A probe with its light and sensors, in two volumes with their cells, and what builds those.
+constexpr double kBytesPerRefinedProbe = 8000.0;
+
+std::string a_grid_of(double count) {
+    constexpr double kLargestInteger = 1e18;
+    if (!(count < kLargestInteger)) return text("a grid of ", count, " probes");
+    return text("a grid of ", static_cast<uint64_t>(count), " probes");
+}
+
+Status check_memory(double count, double bytes_each, uint64_t free_bytes) {
+    const double bytes = count * bytes_each;
+    if (bytes <= static_cast<double>(free_bytes)) return Ok{};
+    return Error{text(a_grid_of(count), " needs about ", std::round(bytes / 1e8) / 10.0,
+                      " GB of memory, ", std::round(static_cast<double>(free_bytes) / 1e8) / 10.0,
+                      " GB are free")};
+}
+
+}  // namespace
+
+Status check_candidate_count(double count, uint64_t max_count, uint64_t free_bytes) {
+    if (!(count <= static_cast<double>(max_count))) {
+        return Error{text(a_grid_of(count), " is more than the limit of ", max_count)};
+    }
+    return check_memory(count, kBytesPerCandidate, free_bytes);
+}
+
+Status check_refined_count(uint64_t count, uint64_t free_bytes) {
+    return check_memory(static_cast<double>(count), kBytesPerRefinedProbe, free_bytes);
+}
+
+}  // namespace tetralight
