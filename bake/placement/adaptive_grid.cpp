@@ -30,7 +30,7 @@ constexpr double kBeyondCount = 1.3, kBeyondError = 0.9;
 /// Noise of the sensors, as a share of the error, that is too much.
 constexpr double kLargestNoise = 0.5;
 /// Rounds of replacing the least useful probes, and their share.
-constexpr int kReplacements = 4;
+constexpr int kReplacements = 8;
 constexpr double kReplacedShare = 0.2;
 
 class AdaptiveGrid {
@@ -250,11 +250,12 @@ class AdaptiveGrid {
         return Ok{};
     }
 
-    /// Gives the probes that do least another place, for as long as that helps.
+    /// Gives the probes that do least another place; fewer of them when that did not help.
     Status replace() {
+        double share = kReplacedShare;
         for (int i = 0; i < kReplacements; ++i) {
             const size_t count = set_.probes.size();
-            const auto room = static_cast<size_t>(kReplacedShare * static_cast<double>(count));
+            const auto room = static_cast<size_t>(share * static_cast<double>(count));
             if (insert(room) == 0) break;
             if (auto status = survey(); !status) return status;
             while (set_.probes.size() > count) {
@@ -263,8 +264,12 @@ class AdaptiveGrid {
                 if (!*removed) break;
             }
             const bool is_better = set_.error < best_->error && set_.probes.size() <= count;
-            if (!is_better) break;
-            if (auto status = accept(); !status) return status;
+            if (is_better) {
+                if (auto status = accept(); !status) return status;
+                continue;
+            }
+            set_ = *best_;
+            share *= 0.5;
         }
         set_ = *best_;
         return Ok{};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -47,12 +48,16 @@ std::vector<LineHit> hits_along(const TraceScene& traced, const Box& bounds, glm
     return hits;
 }
 
-/// The lines along one axis: a lattice over the other two.
+/// The lines along one axis: a lattice over the other two. Each counts as a candidate.
 Result<std::vector<glm::dvec3>> lines_along(const CandidateRule& rule, int axis) {
     Box flat = rule.bounds;
     flat.low[axis] = flat.high[axis] = 0.0;
-    const auto lattice =
-        make_lattice(flat, rule.spacing, std::max(rule.max_count, 2 * rule.max_count));
+    constexpr double kFlatLayers = 2.0;
+    const auto count = lattice_count(flat, rule.spacing);
+    if (!count) return count.error();
+    const auto status = check_candidate_count(*count / kFlatLayers, rule.max_count);
+    if (!status) return status.error();
+    const auto lattice = make_lattice(flat, rule.spacing, std::numeric_limits<uint64_t>::max());
     if (!lattice) return lattice.error();
     Lattice one_layer = *lattice;
     one_layer.axes[axis].count = 1;
