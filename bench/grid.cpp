@@ -31,13 +31,21 @@ double count_for(const std::vector<ErrorAt>& curve, double error) {
     return curve.back().probe_count;
 }
 
-/// Probes that adaptive grids need for the error of a lattice of 4000, over 4000.
-double probes_for_error(const GridSubject& subject, const Options& options) {
+struct Outcome {
+    /// Probes that adaptive grids need for the error of a lattice of 4000, over 4000.
+    double share = 0.0;
+    /// Probes inside of closed meshes, of all grids.
+    double inside_count = 0.0;
+};
+
+Outcome probes_for_error(const GridSubject& subject, const Options& options) {
     const size_t position_count = options.is_quick ? 4000 : 20'000;
     const uint32_t reference_samples = options.is_quick ? 512 : 2048;
     constexpr uint32_t kProbeSamples = 1024;
     const LightReference reference = make_reference(subject, position_count, reference_samples);
+    Outcome outcome;
     const auto error_of = [&](const char* kind, uint64_t wanted, const ProbeGrid& grid) {
+        outcome.inside_count += count_inside(subject, grid);
         const double error = light_error(subject, grid, reference, kProbeSamples);
         report(text("grid.error.", subject.name, ".", kind, ".", wanted), 100.0 * error,
                text("% with ", grid.probe_count(), " probes"));
@@ -56,20 +64,25 @@ double probes_for_error(const GridSubject& subject, const Options& options) {
         if (options.is_quick || count == kRegularCount) continue;
         error_of("regular", count, regular_grid(subject, count));
     }
-    const double share = count_for(curve, goal) / static_cast<double>(kRegularCount);
-    report("grid.probes_for_error." + subject.name, share, "of 4000 regular probes");
-    return share;
+    outcome.share = count_for(curve, goal) / static_cast<double>(kRegularCount);
+    report("grid.probes_for_error." + subject.name, outcome.share, "of 4000 regular probes");
+    return outcome;
 }
 
 }  // namespace
 
 void bench_grid(const Options& options) {
     std::vector<double> shares;
+    double inside_count = 0.0;
     for (const GridSubject& subject : grid_subjects(options)) {
-        measure_inside(subject, options);
-        shares.push_back(probes_for_error(subject, options));
+        inside_count += measure_inside(subject, options);
+        const Outcome outcome = probes_for_error(subject, options);
+        inside_count += outcome.inside_count;
+        shares.push_back(outcome.share);
     }
+    report("grid.inside", inside_count, "probes and candidates of all");
     report("grid.probes_for_error", median(shares), "of 4000 regular probes, median");
+    require(inside_count == 0.0, "no probe inside geometry");
 }
 
 }  // namespace tetralight::bench

@@ -43,8 +43,9 @@ struct Verdict {
     uint32_t left_inside = 0;  ///< probes
 };
 
-/// Fates of a dense lattice, unmoved and pushed, against what is inside of closed meshes.
-void inside(const GridSubject& subject, const Options& options) {
+/// Fates of a dense lattice, unmoved and pushed, against what is inside of closed meshes. Returns
+/// how many are left there.
+double inside(const GridSubject& subject, const Options& options) {
     const auto traced = TraceScene::make_static(subject.scene);
     require(bool(traced), "scene");
     const ClosedSolids solids(*traced);
@@ -75,6 +76,7 @@ void inside(const GridSubject& subject, const Options& options) {
     report("grid.inside." + subject.name, left,
            text("probes of 3 x ", candidates.size(), ", in ", solids.count(), " closed meshes"));
     report("grid.lost." + subject.name, 100.0 * lost / free, text("% of ", free, " candidates"));
+    return left;
 }
 
 /// All triangles of a scene for plain rays.
@@ -150,10 +152,25 @@ void a_million(const GridSubject& subject) {
 
 }  // namespace
 
-void measure_inside(const GridSubject& subject, const Options& options) {
-    inside(subject, options);
+double measure_inside(const GridSubject& subject, const Options& options) {
+    const double left = inside(subject, options);
     inside_rays(subject, options);
     if (!options.is_quick) a_million(subject);
+    return left;
+}
+
+double count_inside(const GridSubject& subject, const ProbeGrid& grid) {
+    const auto traced = TraceScene::make_static(subject.scene);
+    require(bool(traced), "scene");
+    const ClosedSolids solids(*traced);
+    double count = 0.0;
+    for (const ProbeGroup& group : grid.groups) {
+        for (const glm::dvec3& position : group.positions) {
+            const glm::vec3 place = traced->traced_from_world(position);
+            count += solids.hold(place) && !is_on_a_surface(*traced, place) ? 1.0 : 0.0;
+        }
+    }
+    return count;
 }
 
 }  // namespace tetralight::bench

@@ -46,19 +46,6 @@ std::string range_error(const std::string& input, double low, double high) {
     }
 }
 
-/// From 0 to `largest`, which messages call by its name. CLI11 alone would say that it "could not
-/// convert".
-CLI::Validator whole_numbers(uint64_t largest, const char* name) {
-    const auto check = [largest, name](const std::string& input) -> std::string {
-        uint64_t value = 0;
-        const char* const end = input.data() + input.size();
-        const auto [next, error] = std::from_chars(input.data(), end, value);
-        if (error == std::errc{} && next == end && value <= largest) return "";
-        return text("\"", input, "\" is not a whole number from 0 to ", name);
-    };
-    return {check, ""};
-}
-
 /// Positions beyond this are refused by `merge`, too.
 CLI::Validator finite() {
     return numbers_in(-1e18, 1e18).description("");
@@ -112,6 +99,17 @@ std::optional<glm::dvec3> parse_vec3(const std::string& text) {
 CLI::Validator numbers_in(double low, double high) {
     return {[low, high](const std::string& input) { return range_error(input, low, high); },
             text("[", low, " - ", high, "]")};
+}
+
+CLI::Validator whole_numbers(uint64_t largest, const char* name) {
+    const auto check = [largest, name](const std::string& input) -> std::string {
+        uint64_t value = 0;
+        const char* const end = input.data() + input.size();
+        const auto [next, error] = std::from_chars(input.data(), end, value);
+        if (error == std::errc{} && next == end && value <= largest) return "";
+        return text("\"", input, "\" is not a whole number from 0 to ", name);
+    };
+    return {check, ""};
 }
 
 CLI::Option* add_seed(CLI::App& command, uint64_t& seed, const std::string& help) {

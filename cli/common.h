@@ -51,6 +51,10 @@ CLI::App& add_command(CLI::App& app, Run& run, const char* name, const char* des
 /// refuses NaN.
 [[nodiscard]] CLI::Validator numbers_in(double low, double high);
 
+/// From 0 to `largest`, which messages call by its name. CLI11 alone would say that it "could not
+/// convert".
+[[nodiscard]] CLI::Validator whole_numbers(uint64_t largest, const char* name);
+
 /// A seed: a decimal number below 2^64. CLI11 alone would take the largest one for all beyond it.
 CLI::Option* add_seed(CLI::App& command, uint64_t& seed, const std::string& help);
 

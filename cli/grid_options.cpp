@@ -58,7 +58,7 @@ void GridOptions::add_to(CLI::App& command) {
         .add_option("--max-probes", settings.max_probe_count,
                     "Refuse grids with more candidates than this; --mode adaptive stays below it "
                     "(default: 10 million, 5000 when adaptive)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(whole_numbers(UINT64_MAX, "2^64 - 1"));
 }
 
 void GridOptions::add_bounds(CLI::App& command) {

@@ -132,7 +132,8 @@ std::vector<std::string> grid_warnings(const ProbeGrid& grid) {
     constexpr size_t kMost = 3;
     std::vector<std::string> lines;
     for (size_t i = 0; i < std::min(grid.pockets.size(), kMost); ++i) {
-        const auto& [count, position] = grid.pockets[i];
+        const uint64_t count = grid.pockets[i].probe_count;
+        const glm::vec3 position(grid.pockets[i].position);  // as few digits as tell it
         lines.push_back(text(counted(count, "probe"), " around ", position.x, ",", position.y, ",",
                              position.z, " cannot be reached and ", count == 1 ? "was" : "were",
                              " dropped; --from ", position.x, ",", position.y, ",", position.z,

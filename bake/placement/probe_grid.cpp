@@ -100,7 +100,7 @@ class GridMaker {
 
     /// Whether the adaptive mode may put a probe there.
     [[nodiscard]] bool is_free(const glm::dvec3& position) const {
-        constexpr double kCloser = 0.5;  // sensors in corners, for looking only
+        constexpr double kCloser = 0.5;  // sensors in corners, for measuring only
         if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
         return is_surely_free(traced_, position, kCloser * rule_.clearance) &&
                std::ranges::binary_search(wanted_, map_.space_of(position));

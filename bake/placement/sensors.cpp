@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "bake/parallel.h"
-#include "bake/survey.h"
 
 namespace tetralight {
 namespace {
@@ -29,11 +28,11 @@ bool is_in(const Box& box, const glm::dvec3& p) {
 }  // namespace
 
 SensorPlaces::SensorPlaces(const TraceScene& traced, const Box& bounds, double surface_offset,
-                           Filter filter)
+                           Filter is_free)
     : traced_(traced),
       bounds_(bounds),
       surface_offset_(surface_offset),
-      filter_(std::move(filter)) {
+      is_free_(std::move(is_free)) {
     double sum = 0.0;
     for (uint32_t g = 0; g < traced.geometry_count(); ++g) {
         for (uint32_t p = 0; p < traced.triangle_count(g); ++p) {
@@ -66,13 +65,9 @@ glm::dvec3 SensorPlaces::off_a_surface(uint64_t i) const {
     return traced_.world_from_traced(place) + surface_offset_ * glm::dvec3(normal);
 }
 
-bool SensorPlaces::is_free(const glm::dvec3& position) const {
+bool SensorPlaces::counts(const glm::dvec3& position) const {
     const bool is_number = position == position;  // triangles without area have no normal
-    if (!is_number || !is_in(bounds_, position)) return false;
-    const Surroundings around = look_around(traced_, traced_.traced_from_world(position));
-    constexpr double kCorner = 0.5;  // of the offset: corners are nearer to their other side
-    return !around.is_inside() && around.surface_distance >= kCorner * surface_offset_ &&
-           filter_(position);
+    return is_number && is_in(bounds_, position) && is_free_(position);
 }
 
 std::vector<glm::dvec3> SensorPlaces::next(size_t count, uint32_t thread_count) {
@@ -84,7 +79,7 @@ std::vector<glm::dvec3> SensorPlaces::next(size_t count, uint32_t thread_count) 
         parallel_for(count, thread_count, [&](size_t k) {
             const uint64_t i = tried_ + k;
             some[k] = i % 2 == 0 || triangles_.empty() ? anywhere(i) : off_a_surface(i);
-            is_fine[k] = is_free(some[k]);
+            is_fine[k] = counts(some[k]);
         });
         for (size_t k = 0; k < count && places.size() < count; ++k) {
             ++tried_;

@@ -16,11 +16,13 @@ namespace tetralight {
 /// length (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
 class SensorPlaces {
   public:
-    /// Says whether a free place counts, from many threads.
+    /// Says whether a place is free, from many threads; corners are nearer to their other side than
+    /// the offset.
     using Filter = std::function<bool(const glm::dvec3& position)>;
 
     /// Keeps the references. `surface_offset`: metres off surfaces.
-    SensorPlaces(const TraceScene& traced, const Box& bounds, double surface_offset, Filter filter);
+    SensorPlaces(const TraceScene& traced, const Box& bounds, double surface_offset,
+                 Filter is_free);
 
     /// About `count` more places: fewer where hardly any place is free.
     [[nodiscard]] std::vector<glm::dvec3> next(size_t count, uint32_t thread_count);
@@ -28,7 +30,7 @@ class SensorPlaces {
   private:
     [[nodiscard]] glm::dvec3 anywhere(uint64_t i) const;
     [[nodiscard]] glm::dvec3 off_a_surface(uint64_t i) const;
-    [[nodiscard]] bool is_free(const glm::dvec3& position) const;
+    [[nodiscard]] bool counts(const glm::dvec3& position) const;
 
     struct Triangle {
         uint32_t geometry = 0;
@@ -38,7 +40,7 @@ class SensorPlaces {
     const TraceScene& traced_;
     Box bounds_;
     double surface_offset_;
-    Filter filter_;
+    Filter is_free_;
     std::vector<Triangle> triangles_;
     std::vector<double> area_sums_;  ///< of the triangles up to each
     uint64_t tried_ = 0;

@@ -141,6 +141,11 @@ TEST(ProbeGrid, RejectsBoundsThatAreEmptyOrNotFinite) {
               "bounds nan to 1 along x are empty or not finite");
 }
 
+TEST(ProbeGrid, RejectsBoundsThatAreAPoint) {
+    EXPECT_EQ(error_of(Scene{}, settings_for({{1, 2, 3}, {1, 2, 3}}, 1.0)),
+              "bounds are empty: nothing but 1,2,3");
+}
+
 TEST(ProbeGrid, RejectsASceneWithoutBounds) {
     EXPECT_EQ(error_of(Scene{}, {}), "the scene has no static geometry to take bounds from");
 }

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "bake/placement/free_space.h"
 #include "bake/placement/light_difference.h"
 #include "bake/placement/remove_probes.h"
 #include "bake/placement/sensors.h"
@@ -78,7 +79,7 @@ TEST(SensorPlaces, AreFreeHalfOfThemOffSurfaces) {
     add_box(scene, test::grey(), Facing::Outward, {-1, -1, -1}, {1, 1, 1});
     const auto traced = TraceScene::make_static(scene);
     SensorPlaces places(*traced, {{-2, -2, -2}, {2, 2, 2}}, 0.05,
-                        [](const glm::dvec3&) { return true; });
+                        [&](const glm::dvec3& p) { return is_surely_free(*traced, p, 0.025); });
     const auto found = places.next(1000, 0);
     ASSERT_EQ(found.size(), 1000u);
     size_t near = 0;
