@@ -14,8 +14,8 @@ namespace {
 Status check_seed(const TraceScene& traced, const SpaceMap& map, const glm::dvec3& seed) {
     const std::string place = text("seed ", seed.x, ",", seed.y, ",", seed.z);
     if (!map.contains(seed)) return Error{place + " lies outside of the bounds"};
-    const glm::vec3 place = traced.traced_from_world(seed);
-    if (standing_of(traced, place, look_around(traced, place)) == Standing::Inside) {
+    const glm::vec3 position = traced.traced_from_world(seed);
+    if (standing_of(traced, position, look_around(traced, position)) == Standing::Inside) {
         return Error{place + " lies inside geometry"};
     }
     return Ok{};
