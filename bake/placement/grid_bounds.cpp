@@ -42,6 +42,10 @@ Result<glm::dvec3> first_spacing(const Box& bounds, const ProbeGridSettings& set
         spacing = settings.adaptive.start_spacing.value_or(glm::dvec3(longest / kLayers));
     auto count = lattice_count(bounds, spacing);
     if (!count) return count.error();
+    const glm::dvec3& p = bounds.low;
+    if (p == bounds.high) {
+        return Error{text("bounds are empty: nothing but ", p.x, ",", p.y, ",", p.z)};
+    }
     const uint64_t most = most_probes(settings);
     if (settings.mode == PlacementMode::Regular) {
         // As early as can be; other modes have to look for surfaces first.
