@@ -13,6 +13,7 @@
 #include "cli/paths.h"
 #include "cli/progress.h"
 #include "cli/scene_options.h"
+#include "pipeline/bake_chunks.h"
 #include "pipeline/bake_volume.h"
 #include "pipeline/resumable_bake.h"
 #include "probes/probe_file.h"
@@ -28,6 +29,7 @@ struct Bake {
     BakeVolumeSettings settings;
     std::optional<IndexRange> probes;
     bool is_resumed = false;
+    std::string chunk_folder;
     bool is_explained = false;
     CommonOptions common;
 
@@ -74,8 +76,14 @@ struct Bake {
             ->capture_default_str();
         add_range(command, "--probes", probes,
                   "Bake this range of the probes only, into a part for `tetralight merge`");
-        command.add_flag("--resume", is_resumed,
-                         "Go on with what an interrupted bake left beside the output");
+        auto* resume = command.add_flag(
+            "--resume", is_resumed, "Go on with what an interrupted bake left beside the output");
+        add_path(
+            command, "--chunks", chunk_folder,
+            "Keep finished probes in files of this folder, each on the disk before the next is "
+            "begun, and go on with those that are there")
+            ->excludes(resume)
+            ->excludes(command.get_option("--probes"));
         add_health_options(command, settings.health);
         add_dering_options(command, settings.dering);
         add_lighting_options(command, settings.lighting);
@@ -173,6 +181,7 @@ struct Bake {
     /// Where an interrupted bake is kept: beside the output, where there can be something.
     [[nodiscard]] std::string kept_path() const {
         std::error_code error;
+        if (!chunk_folder.empty()) return "";
         const auto type = std::filesystem::status(output, error).type();
         const bool is_file = type == std::filesystem::file_type::regular ||
                              type == std::filesystem::file_type::not_found;
@@ -224,10 +233,13 @@ struct Bake {
                                                        const PreparedBake& prepared,
                                                        const BakeKeeping& kept) const {
         BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds);
-        auto baked =
-            bake_range(scene, prepared, range_of(prepared), kept,
-                       [&](const BakeProgress& progress) { return display.show(progress); });
+        const auto show = [&](const BakeProgress& progress) { return display.show(progress); };
+        auto baked = chunk_folder.empty()
+                         ? bake_range(scene, prepared, range_of(prepared), kept, show)
+                         : bake_in_chunks(scene, prepared, chunk_folder, show);
         if (baked || baked.error().message != "cancelled") return baked;
+        if (!chunk_folder.empty())
+            return Error{"interrupted; " + chunk_folder + " keeps what is done"};
         if (kept.path.empty()) return Error{"interrupted"};
         return Error{"interrupted; " + kept.path + " keeps what is done, --resume goes on with it"};
     }
