@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bake/memory_estimate.h"
 #include "bake/scene/surface_color.h"
 #include "base/text.h"
 #include "cli/choice.h"
@@ -130,7 +131,14 @@ Status explain(const Scene& scene, const LightingSettings& settings, const Commo
     common.warn(plan->warnings);
     const Json sources = sources_json(scene, *plan);
     const std::string mode = name_of(settings.mixed_lighting);
-    common.print({{"mixed_lighting", mode}, {"sources", sources}},
+    size_t probe_count = 0;
+    for (const ProbeGroup& group : scene.probe_groups) probe_count += group.positions.size();
+    common.print({{"mixed_lighting", mode},
+                  {"sources", sources},
+                  {"triangles", estimate_bake_memory(scene, 0).triangle_count},
+                  {"instances", scene.instances.size()},
+                  {"probe_groups", scene.probe_groups.size()},
+                  {"probes", probe_count}},
                  text("mixed lighting: ", mode, "\n", table_of(sources)));
     return Ok{};
 }

@@ -8,6 +8,9 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/progress.h"
+#ifdef TETRALIGHT_HAS_SERVER
+#include "cli/serve.h"
+#endif
 
 namespace {
 
@@ -54,6 +57,9 @@ void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
     add_meshball(app, run);
     add_info(app, run);
     add_validate(app, run);
+#ifdef TETRALIGHT_HAS_SERVER
+    add_serve(app, run);
+#endif
 }
 
 int run_command(const tetralight::cli::Run& run) {

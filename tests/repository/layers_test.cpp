@@ -39,6 +39,8 @@ const std::map<std::string, Folders> kMayInclude = [] {
     table["pipeline"] = all;
     all.insert("pipeline");
     table["runtime/gl"] = all;
+    table["server"] = {"base", "probes"};
+    all.insert("server");
     all.insert("runtime/gl");
     table["cli"] = all;
     table["bench"] = all;
@@ -99,8 +101,8 @@ TEST(Layers, TheTableHasNoCycle) {
 }
 
 TEST(Layers, EverySourceSaysItsLicenceFirst) {
-    for (const char* top : {"base", "probes", "lppv", "runtime", "bake", "pipeline", "cli", "bench",
-                            "examples", "tests"}) {
+    for (const char* top : {"base", "probes", "lppv", "runtime", "bake", "pipeline", "server",
+                            "cli", "bench", "examples", "tests"}) {
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
             const fs::path extension = entry.path().extension();
             if (extension != ".h" && extension != ".cpp") continue;

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/serve.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include "base/file.h"
+#include "base/text.h"
+#include "cli/choice.h"
+#include "cli/common.h"
+#include "cli/paths.h"
+#include "server/serve.h"
+
+namespace tetralight::cli {
+namespace {
+
+constexpr const char* kTokenVariable = "TETRALIGHT_TOKEN";
+
+/// "127.0.0.1:8080", "[::1]:8080"; port 0 takes one that is free. False: it is neither.
+bool parse_listen(const std::string& listen, server::Settings& settings) {
+    const size_t colon = listen.rfind(':');
+    if (colon == std::string::npos || colon == 0) return false;
+    const char* end = listen.data() + listen.size();
+    const auto [next, error] = std::from_chars(listen.data() + colon + 1, end, settings.port);
+    std::string address = listen.substr(0, colon);
+    if (address.starts_with('[') && address.ends_with(']')) {
+        address = address.substr(1, address.size() - 2);
+    }
+    settings.address = address == "localhost" ? "127.0.0.1" : address;
+    return error == std::errc{} && next == end;
+}
+
+struct Serve {
+    server::Settings settings;
+    std::string listen = "127.0.0.1:8080";
+    std::string token_file;
+
+    void add_to(CLI::App& command) {
+        add_path(command, "--data", settings.data, "Folder of all state; made if it is not there")
+            ->required();
+        command
+            .add_option("--listen", listen,
+                        "Address and port; any other than this machine's own needs a token")
+            ->check(CLI::Validator(
+                [](const std::string& text) {
+                    server::Settings ignored;
+                    return parse_listen(text, ignored) ? ""
+                                                       : "\"" + text + "\" is not ADDRESS:PORT";
+                },
+                "ADDRESS:PORT"))
+            ->capture_default_str();
+        add_path(command, "--token-file", token_file,
+                 "File with the bearer token that clients send; or $TETRALIGHT_TOKEN");
+        command.add_flag("--read-only", settings.is_read_only,
+                         "Answer queries from a folder that another server writes to");
+        command
+            .add_option("--cors-origin", settings.cors_origins,
+                        "Origin whose pages may call, * = all; may be given several times")
+            ->allow_extra_args(false);
+        add_path(command, "--viewer", settings.viewer, "Folder of a web page to serve at /");
+        add_choice(command, "--log", settings.log_level,
+                   {{"debug", server::Log::Level::Debug},
+                    {"info", server::Log::Level::Info},
+                    {"warning", server::Log::Level::Warning},
+                    {"error", server::Log::Level::Error},
+                    {"nothing", server::Log::Level::Nothing}},
+                   "What to write to stderr, as lines of JSON");
+        add_limits(command);
+    }
+
+    void add_limits(CLI::App& command) {
+        const auto add = [&](const char* name, auto& value, const char* help) {
+            command.add_option(name, value, help)
+                ->check(CLI::NonNegativeNumber)
+                ->capture_default_str();
+        };
+        add("--threads", settings.thread_count, "Threads that answer requests (0 = all)");
+        add("--tool-threads", settings.tool_thread_count,
+            "Threads of a bake, and of other programs that work for requests (0 = all)");
+        add("--workers", settings.worker_count, "Such programs at once, beside the bake");
+        add("--max-waiting", settings.max_waiting, "Requests that may wait for them");
+        add("--max-bakes", settings.max_queued_bakes, "Bakes that may wait");
+        add("--max-connections", settings.max_connections, "Open connections");
+        add("--max-body", settings.max_body_bytes, "Bytes of a request");
+        add("--max-upload", settings.max_upload_bytes, "Bytes of an uploaded file");
+        add("--max-positions", settings.max_positions, "Positions of a query");
+        add("--max-triangles", settings.max_triangles, "Triangles of a scene");
+        add("--quota", settings.quota_bytes, "Bytes of all stored files (0 = what the disk has)");
+        add("--tool-memory", settings.tool_memory_bytes,
+            "Bytes of memory of each program (0 = three quarters of the machine's)");
+        add("--tool-seconds", settings.tool_seconds,
+            "Longest time of a program that a request waits for");
+        add("--header-seconds", settings.header_seconds, "Longest time for a request's head");
+        add("--idle-seconds", settings.idle_seconds, "Longest time between requests");
+        add("--transfer-seconds", settings.transfer_seconds, "Longest time for 64 KiB");
+        add("--drain-seconds", settings.drain_seconds,
+            "Longest time for requests that were begun before SIGTERM");
+    }
+
+    [[nodiscard]] Status read_token() {
+        if (const char* token = std::getenv(kTokenVariable)) settings.token = token;
+        // Programs that the server runs have no use for it.
+        ::unsetenv(kTokenVariable);
+        if (token_file.empty()) return Ok{};
+        const auto bytes = read_file(token_file);
+        if (!bytes) return bytes.error();
+        settings.token.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        while (!settings.token.empty() &&
+               std::isspace(static_cast<unsigned char>(settings.token.back())) != 0) {
+            settings.token.pop_back();
+        }
+        if (settings.token.empty()) return Error{token_file + ": is empty"};
+        return Ok{};
+    }
+
+    Status run() {
+        parse_listen(listen, settings);
+        if (auto status = read_token(); !status) return status;
+        // Programs run in folders of their own.
+        settings.data = std::filesystem::absolute(settings.data).lexically_normal().string();
+        if (settings.data.ends_with('/')) settings.data.pop_back();
+        return server::serve(settings, [this](uint16_t port) {
+            const bool is_ipv6 = settings.address.find(':') != std::string::npos;
+            std::cout << "http://" << (is_ipv6 ? "[" + settings.address + "]" : settings.address)
+                      << ":" << port << std::endl;
+        });
+    }
+};
+
+}  // namespace
+
+void add_serve(CLI::App& app, Run& run) {
+    add_command<Serve>(app, run, "serve", "Serve scenes, bakes and queries over HTTP",
+                       "tetralight serve --data /var/lib/tetralight --listen 127.0.0.1:8080");
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/text.h"
+#include "server/arguments.h"
+#include "server/problem.h"
+#include "server/service.h"
+
+namespace tetralight::server {
+namespace {
+
+constexpr OptionRule kBakeRules[] = {
+    {"samples", ValueKind::Integer},       {"target_error", ValueKind::Number},
+    {"max_samples", ValueKind::Integer},   {"bounces", ValueKind::Integer},
+    {"clamp", ValueKind::Number},          {"albedo_boost", ValueKind::Number},
+    {"max_albedo", ValueKind::Number},     {"seed", ValueKind::Integer},
+    {"weld", ValueKind::Number},           {"min_validity", ValueKind::Number},
+    {"virtual_offset", ValueKind::Number}, {"invalid_probes", ValueKind::Text},
+    {"dering", ValueKind::Flag},           {"dering_window", ValueKind::Text},
+    {"mixed_lighting", ValueKind::Text},   {"layers", ValueKind::List},
+    {"only_given_groups", ValueKind::Flag}};
+
+BakeOrder read_order(Service& service, const Json& json) {
+    Fields fields(json);
+    BakeOrder order;
+    order.request = json;
+    SceneInputs scene = read_scene(service, fields);
+    order.inputs = std::move(scene.files);
+    order.arguments = std::move(scene.arguments);
+    for (const std::string& reference : fields.texts("groups")) {
+        const std::string name = text("groups_", order.inputs.size(), ".json");
+        order.inputs.emplace_back(service.store.get(Kind::Groups, reference), name);
+        order.arguments.push_back("--groups=" + name);
+    }
+    const auto options = make_arguments(fields, kBakeRules);
+    order.arguments.insert(order.arguments.end(), options.begin(), options.end());
+    order.name = fields.text("name");
+    check_name(order.name);
+    const double priority = fields.number("priority", 0.0);
+    constexpr double kMost = 100.0;
+    if (!(std::abs(priority) <= kMost)) refuse("priority", priority, "from -100 to 100");
+    order.priority = static_cast<int64_t>(priority);
+    fields.finish();
+    return order;
+}
+
+/// Has the command read options and scene, so that what is wrong is said now and not later.
+void check(Service& service, const BakeOrder& order) {
+    const WorkFolder folder = service.store.make_work_folder();
+    for (const auto& [file, name] : order.inputs) service.store.link(file, folder.file(name));
+    std::vector<std::string> arguments{"bake", "scene.glb", "--explain", "--json"};
+    arguments.insert(arguments.end(), order.arguments.begin(), order.arguments.end());
+    (void)run_tool(service, folder.path(), arguments);
+}
+
+Response submit(Service& service, const Request& request) {
+    const BakeOrder order = read_order(service, parse_object(request.body));
+    check(service, order);
+    const Json bake = service.bakes.submit(order);
+    Response response = json_response(bake, 202);
+    response.headers.emplace_back("Location", "/v1/bakes/" + bake["id"].get<std::string>());
+    return response;
+}
+
+/// The bake whenever it changed, and at last its end.
+Response events(Service& service, const Request& request) {
+    const std::string id = request.captures[0];
+    (void)service.bakes.get(id);  // throws when it is not there
+    Response response{.content_type = "text/event-stream",
+                      .headers = {{"Cache-Control", "no-store"}}};
+    response.events = [&service, id, last = std::string()](std::string& out) mutable {
+        const bool is_over = service.bakes.is_over(id);
+        try {
+            Json bake = service.bakes.get(id);
+            bake.erase("request");
+            Json shown = bake;
+            shown.erase("seconds_left");
+            const std::string now = dump(shown);
+            if (now != last) out += "event: progress\ndata: " + dump(bake) + "\n\n";
+            last = now;
+            if (is_over) out += "event: end\ndata: " + dump(bake) + "\n\n";
+        } catch (const Problem&) {
+            out += "event: end\ndata: {\"state\":\"deleted\"}\n\n";
+            return false;
+        }
+        return !is_over;
+    };
+    return response;
+}
+
+}  // namespace
+
+std::vector<Route> bake_routes(Service& service) {
+    constexpr auto kWorkers = Plan::RunOn::Workers;
+    return {
+        {.method = "POST",
+         .pattern = "/v1/bakes",
+         .access = Access::Writes,
+         .handle = [&](Request& r) { return submit(service, r); },
+         .body_limit = service.settings.max_body_bytes,
+         .run_on = kWorkers},
+        {.method = "GET",
+         .pattern = "/v1/bakes",
+         .handle =
+             [&](Request&) {
+                 return json_response({{"bakes", service.bakes.list()}});
+             }},
+        {.method = "GET",
+         .pattern = "/v1/bakes/{bake}",
+         .handle = [&](Request& r) { return json_response(service.bakes.get(r.captures[0])); }},
+        {.method = "GET",
+         .pattern = "/v1/bakes/{bake}/events",
+         .handle = [&](Request& r) { return events(service, r); }},
+        {.method = "POST",
+         .pattern = "/v1/bakes/{bake}/cancel",
+         .access = Access::Writes,
+         .handle = [&](Request& r) { return json_response(service.bakes.cancel(r.captures[0])); },
+         .run_on = kWorkers},
+        {.method = "DELETE",
+         .pattern = "/v1/bakes/{bake}",
+         .access = Access::Writes,
+         .handle =
+             [&](Request& r) {
+                 service.bakes.remove(r.captures[0]);
+                 return Response{.status = 204, .content_type = ""};
+             },
+         .run_on = kWorkers}};
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/bakes.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+
+#include "base/text.h"
+#include "server/command.h"
+#include "server/problem.h"
+
+namespace tetralight::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string random_id() {
+    static std::random_device device;
+    std::array<char, 24> digits{};
+    std::snprintf(digits.data(), digits.size(), "%08x%08x", device(), device());
+    return digits.data();
+}
+
+struct ChunkCounts {
+    uint64_t done = 0;
+    uint64_t all = 0;
+};
+
+/// What the names of finished chunks say: "BEGIN-END-of-COUNT.chunk".
+ChunkCounts count_chunks(const std::string& folder) {
+    ChunkCounts counts;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+        if (entry.path().extension() != ".chunk") continue;
+        unsigned long begin = 0, end = 0, all = 0;
+        const std::string name = entry.path().filename().string();
+        if (std::sscanf(name.c_str(), "%lu-%lu-of-%lu", &begin, &end, &all) != 3) continue;
+        counts.done += end - begin;
+        counts.all = all;
+    }
+    return counts;
+}
+
+bool is_final(const std::string& state) {
+    return state == "done" || state == "failed" || state == "cancelled";
+}
+
+void require(const Status& status) {
+    if (!status) throw Problem{500, "storage", status.error().message};
+}
+
+}  // namespace
+
+Bakes::Bakes(const Settings& settings, Store& store, Log& log)
+    : settings_(settings), store_(store), log_(log) {
+    if (settings.is_read_only) return;
+    load();
+    drop_unknown_folders();
+    thread_ = std::thread([this] { run(); });
+}
+
+Bakes::~Bakes() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_ending_ = true;
+    }
+    wake_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void Bakes::load() {
+    for (const auto& row : store_.database().run(
+             "SELECT number, id, request, arguments, name, priority, state, volume, error, report, "
+             "created, ended FROM bakes")) {
+        Bake bake;
+        bake.number = std::get<int64_t>(row[0]);
+        bake.id = std::get<std::string>(row[1]);
+        bake.request = Json::parse(std::get<std::string>(row[2]), nullptr, false);
+        bake.arguments = Json::parse(std::get<std::string>(row[3])).get<std::vector<std::string>>();
+        bake.name = std::get<std::string>(row[4]);
+        bake.priority = std::get<int64_t>(row[5]);
+        bake.state = std::get<std::string>(row[6]);
+        bake.volume = std::get<std::string>(row[7]);
+        bake.error = std::get<std::string>(row[8]);
+        const auto& report = std::get<std::string>(row[9]);
+        if (!report.empty()) bake.report = Json::parse(report, nullptr, false);
+        bake.created = std::get<double>(row[10]);
+        bake.ended = std::get<double>(row[11]);
+        bakes_[bake.id] = std::move(bake);
+    }
+}
+
+/// Of bakes that were never accepted, or were over when the server ended.
+void Bakes::drop_unknown_folders() const {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(store_.bake_folder(""), error)) {
+        const auto known = bakes_.find(entry.path().filename().string());
+        if (known == bakes_.end() || is_final(known->second.state)) {
+            remove_all(entry.path().string());
+        }
+    }
+}
+
+Json Bakes::to_json(const Bake& bake) {
+    Json json{{"id", bake.id},
+              {"state", bake.state},
+              {"priority", bake.priority},
+              {"name", bake.name},
+              {"created", bake.created},
+              {"probes_done", bake.probes_done},
+              {"probe_count", bake.probe_count}};
+    if (bake.ended > 0.0) json["ended"] = bake.ended;
+    const uint64_t done = bake.probes_done - std::min(bake.probes_done, bake.probes_before);
+    if (bake.state == "running" && done > 0 && bake.probe_count > bake.probes_done) {
+        const double seconds = now() - bake.started;
+        json["seconds_left"] = seconds / static_cast<double>(done) *
+                               static_cast<double>(bake.probe_count - bake.probes_done);
+    }
+    if (!bake.volume.empty()) json["volume"] = bake.volume;
+    if (!bake.error.empty()) json["error"] = bake.error;
+    if (!bake.report.empty()) json["report"] = bake.report;
+    json["request"] = bake.request;
+    return json;
+}
+
+const Bakes::Bake& Bakes::find_locked(const std::string& id) const {
+    const auto found = bakes_.find(id);
+    if (found != bakes_.end()) return found->second;
+    throw Problem{404, "not_found", "there is no such bake", "bake", id.substr(0, 200)};
+}
+
+size_t Bakes::waiting_locked() const {
+    return static_cast<size_t>(std::ranges::count_if(
+        bakes_, [](const auto& entry) { return !is_final(entry.second.state); }));
+}
+
+Json Bakes::submit(const BakeOrder& order) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (waiting_locked() >= settings_.max_queued_bakes) {
+            throw Problem{429, "queue_full",
+                          text(settings_.max_queued_bakes, " bakes wait already")};
+        }
+    }
+    Bake bake;
+    bake.id = random_id();
+    bake.request = order.request;
+    bake.arguments = order.arguments;
+    bake.name = order.name;
+    bake.priority = order.priority;
+    bake.created = now();
+    const std::string folder = store_.bake_folder(bake.id);
+    try {
+        require(make_folder(folder));
+        for (const auto& [file, name] : order.inputs) store_.link(file, folder + "/" + name);
+        require(sync_folder(folder));
+        require(sync_folder(store_.bake_folder("")));
+        store_.database().transaction([&] {
+            store_.database().run(
+                "INSERT INTO bakes (id, request, arguments, name, priority, state, created) "
+                "VALUES (?, ?, ?, ?, ?, 'queued', ?)",
+                {bake.id, dump(bake.request), dump(Json(bake.arguments)), bake.name, bake.priority,
+                 bake.created});
+            for (const auto& [file, name] : order.inputs) {
+                store_.database().run("INSERT INTO bake_inputs (bake, kind, file) VALUES (?, ?, ?)",
+                                      {bake.id, std::string(name_of(file.kind)), file.id});
+            }
+            bake.number = std::get<int64_t>(
+                store_.database().run("SELECT number FROM bakes WHERE id = ?", {bake.id})[0][0]);
+        });
+    } catch (...) {
+        remove_all(folder);
+        throw;
+    }
+    const std::lock_guard lock(mutex_);
+    bakes_[bake.id] = bake;
+    wake_.notify_all();
+    return to_json(bake);
+}
+
+Json Bakes::get(const std::string& id) const {
+    const std::lock_guard lock(mutex_);
+    return to_json(find_locked(id));
+}
+
+bool Bakes::is_over(const std::string& id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    return found == bakes_.end() || is_final(found->second.state);
+}
+
+Json Bakes::list() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<const Bake*> all;
+    for (const auto& [id, bake] : bakes_) all.push_back(&bake);
+    std::ranges::sort(all, std::greater(), &Bake::number);
+    Json json = Json::array();
+    for (const Bake* bake : all) json.push_back(to_json(*bake));
+    return json;
+}
+
+size_t Bakes::count(const std::string& state) const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<size_t>(std::ranges::count_if(
+        bakes_, [&](const auto& entry) { return entry.second.state == state; }));
+}
+
+Json Bakes::cancel(const std::string& id) {
+    bool is_running = false;
+    {
+        const std::lock_guard lock(mutex_);
+        const Bake& bake = find_locked(id);
+        if (is_final(bake.state)) {
+            throw Problem{409, "is_over", "the bake is over: " + bake.state, "bake", id};
+        }
+        is_running = bake.state == "running";
+    }
+    end(id, "cancelled", "", "", {});
+    // A running one is ended by who runs it, and its folder is removed then.
+    if (!is_running) remove_all(store_.bake_folder(id));
+    return get(id);
+}
+
+void Bakes::remove(const std::string& id) {
+    const std::lock_guard lock(mutex_);
+    if (!is_final(find_locked(id).state)) {
+        throw Problem{409, "not_over", "the bake is not over; cancel it first", "bake", id};
+    }
+    store_.database().run("DELETE FROM bakes WHERE id = ?", {id});
+    bakes_.erase(id);
+}
+
+/// The first end of a bake is the one that counts.
+void Bakes::end(const std::string& id, const std::string& state, const std::string& volume,
+                const std::string& error, const Json& report) {
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    if (found == bakes_.end() || is_final(found->second.state)) return;
+    const double ended = now();
+    store_.database().run(
+        "UPDATE bakes SET state = ?, volume = ?, error = ?, report = ?, ended = ? WHERE id = ?",
+        {state, volume, error, report.empty() ? "" : dump(report), ended, id});
+    Bake& bake = found->second;
+    bake.state = state;
+    bake.volume = volume;
+    bake.error = error;
+    bake.report = report;
+    bake.ended = ended;
+    if (state == "done") bake.probes_done = bake.probe_count = report.value("probes", 0u);
+    log_.write(Log::Level::Info, "a bake is over",
+               {{"bake", id}, {"state", state}, {"volume", volume}, {"error", error}});
+}
+
+Bakes::Bake* Bakes::next_locked() {
+    Bake* next = nullptr;
+    for (auto& [id, bake] : bakes_) {
+        if (bake.state != "queued") continue;
+        const bool is_before = next == nullptr || bake.priority > next->priority ||
+                               (bake.priority == next->priority && bake.number < next->number);
+        if (is_before) next = &bake;
+    }
+    return next;
+}
+
+void Bakes::run() {
+    while (true) {
+        std::unique_lock lock(mutex_);
+        Bake* next = nullptr;
+        wake_.wait(lock, [&] { return is_ending_ || (next = next_locked()) != nullptr; });
+        if (is_ending_) return;
+        next->state = "running";
+        next->started = now();
+        const std::string id = next->id;
+        const auto arguments = next->arguments;
+        const std::string name = next->name;
+        lock.unlock();
+        log_.write(Log::Level::Info, "a bake begins", {{"bake", id}});
+        try {
+            run_bake(id, arguments, name);
+        } catch (const Problem& problem) {
+            try {
+                end(id, "failed", "", problem.detail, {});
+            } catch (const Problem& second) {
+                log_.write(Log::Level::Error, "the end of a bake could not be stored",
+                           {{"bake", id}, {"error", second.detail}});
+                lock.lock();
+                bakes_[id].state = "failed";
+                bakes_[id].error = problem.detail;
+                lock.unlock();
+            }
+        }
+        if (is_over(id)) remove_all(store_.bake_folder(id));
+    }
+}
+
+bool Bakes::goes_on(const std::string& id) {
+    update_progress(id, false);
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    return !is_ending_ && found != bakes_.end() && found->second.state == "running";
+}
+
+void Bakes::update_progress(const std::string& id, bool is_start) {
+    const ChunkCounts counts = count_chunks(store_.bake_folder(id) + "/chunks");
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    if (found == bakes_.end()) return;
+    Bake& bake = found->second;
+    bake.probes_done = counts.done;
+    if (counts.all > 0) bake.probe_count = counts.all;
+    if (is_start) bake.probes_before = counts.done;
+}
+
+void Bakes::run_bake(const std::string& id, const std::vector<std::string>& arguments,
+                     const std::string& name) {
+    using End = CommandResult::End;
+    const std::string folder = store_.bake_folder(id);
+    Command command{.arguments = {"bake", "scene.glb", "--output=out.probes", "--chunks=chunks",
+                                  "--json", text("--threads=", settings_.tool_thread_count)},
+                    .folder = folder,
+                    .goes_on = [&] { return goes_on(id); }};
+    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+    update_progress(id, true);
+    CommandResult result = run_command(settings_, command);
+    // When the server ends, the bake stays as it is, and goes on the next time.
+    if (result.end == End::Stopped) return;
+    if (result.end == End::Fine) {
+        result.report.erase("output");
+        if (!result.warnings.empty()) result.report["warnings"] = result.warnings;
+        Json facts = run_or_throw(
+            settings_, {.arguments = {"info", "out.probes", "--json"}, .folder = folder});
+        const auto added = store_.add(Kind::Volumes, folder + "/out.probes", name, facts);
+        end(id, "done", added.file.id, "", result.report);
+    } else {
+        end(id, "failed", "", result.message, {});
+    }
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/database.h"
+
+#include <sqlite3.h>
+
+#include <array>
+
+#include "base/text.h"
+#include "server/problem.h"
+
+namespace tetralight::server {
+namespace {
+
+/// Number i brings a database of version i to version i + 1. Never changed, only added to.
+constexpr std::array kMigrations = {
+    R"sql(
+        CREATE TABLE files (
+            id TEXT NOT NULL,
+            kind TEXT NOT NULL CHECK (kind IN ('scenes', 'skies', 'groups', 'volumes')),
+            name TEXT NOT NULL,
+            bytes INTEGER NOT NULL,
+            created REAL NOT NULL,
+            facts TEXT NOT NULL,
+            damage TEXT NOT NULL DEFAULT '',
+            PRIMARY KEY (kind, id)
+        ) STRICT;
+        CREATE UNIQUE INDEX file_names ON files (kind, name) WHERE name <> '';
+        CREATE TABLE bakes (
+            number INTEGER PRIMARY KEY AUTOINCREMENT,
+            id TEXT NOT NULL UNIQUE,
+            request TEXT NOT NULL,
+            arguments TEXT NOT NULL,
+            name TEXT NOT NULL,
+            priority INTEGER NOT NULL,
+            state TEXT NOT NULL
+                CHECK (state IN ('queued', 'running', 'done', 'failed', 'cancelled')),
+            volume TEXT NOT NULL DEFAULT '',
+            error TEXT NOT NULL DEFAULT '',
+            report TEXT NOT NULL DEFAULT '',
+            created REAL NOT NULL,
+            ended REAL NOT NULL DEFAULT 0
+        ) STRICT;
+        CREATE TABLE bake_inputs (
+            bake TEXT NOT NULL REFERENCES bakes (id) ON DELETE CASCADE,
+            kind TEXT NOT NULL,
+            file TEXT NOT NULL
+        ) STRICT;
+    )sql",
+};
+
+struct Finalize {
+    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+
+using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
+
+void bind(sqlite3_stmt* statement, int index, const Database::Value& value) {
+    if (const auto* integer = std::get_if<int64_t>(&value)) {
+        sqlite3_bind_int64(statement, index, *integer);
+    } else if (const auto* number = std::get_if<double>(&value)) {
+        sqlite3_bind_double(statement, index, *number);
+    } else if (const auto* words = std::get_if<std::string>(&value)) {
+        sqlite3_bind_text(statement, index, words->data(), static_cast<int>(words->size()),
+                          SQLITE_TRANSIENT);
+    } else {
+        sqlite3_bind_null(statement, index);
+    }
+}
+
+Database::Value column(sqlite3_stmt* statement, int index) {
+    switch (sqlite3_column_type(statement, index)) {
+        case SQLITE_INTEGER:
+            return int64_t{sqlite3_column_int64(statement, index)};
+        case SQLITE_FLOAT:
+            return sqlite3_column_double(statement, index);
+        case SQLITE_NULL:
+            return nullptr;
+        default:
+            return std::string(reinterpret_cast<const char*>(sqlite3_column_text(statement, index)),
+                               static_cast<size_t>(sqlite3_column_bytes(statement, index)));
+    }
+}
+
+[[noreturn]] void fail(sqlite3* handle) {
+    const int code = sqlite3_errcode(handle);
+    const bool is_full = code == SQLITE_FULL;
+    throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "database",
+                  text("the database: ", sqlite3_errmsg(handle))};
+}
+
+}  // namespace
+
+void Database::Close::operator()(sqlite3* handle) const {
+    sqlite3_close_v2(handle);
+}
+
+std::vector<Database::Row> Database::run(const char* sql, const Row& values) {
+    const std::lock_guard lock(*mutex_);
+    sqlite3_stmt* raw = nullptr;
+    if (sqlite3_prepare_v2(handle_.get(), sql, -1, &raw, nullptr) != SQLITE_OK) fail(handle_.get());
+    const Statement statement(raw);
+    for (size_t i = 0; i < values.size(); ++i) bind(raw, static_cast<int>(i) + 1, values[i]);
+    std::vector<Row> rows;
+    int state = sqlite3_step(raw);
+    for (; state == SQLITE_ROW; state = sqlite3_step(raw)) {
+        Row& row = rows.emplace_back();
+        for (int i = 0; i < sqlite3_column_count(raw); ++i) row.push_back(column(raw, i));
+    }
+    if (state != SQLITE_DONE) fail(handle_.get());
+    return rows;
+}
+
+void Database::transaction(const std::function<void()>& work) {
+    const std::lock_guard lock(*mutex_);
+    run("BEGIN IMMEDIATE");
+    try {
+        work();
+        run("COMMIT");
+    } catch (...) {
+        sqlite3_exec(handle_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+        throw;
+    }
+}
+
+Status Database::migrate() {
+    const auto version = static_cast<size_t>(std::get<int64_t>(run("PRAGMA user_version")[0][0]));
+    if (version > kMigrations.size()) {
+        return Error{
+            text("is of version ", version, ", newer than this program's ", kMigrations.size())};
+    }
+    for (size_t i = version; i < kMigrations.size(); ++i) {
+        transaction([&] {
+            if (sqlite3_exec(handle_.get(), kMigrations[i], nullptr, nullptr, nullptr) !=
+                SQLITE_OK) {
+                fail(handle_.get());
+            }
+            run(text("PRAGMA user_version = ", i + 1).c_str());
+        });
+    }
+    return Ok{};
+}
+
+Result<Database> Database::open(const std::string& path) {
+    Database database;
+    sqlite3* raw = nullptr;
+    const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX;
+    const int opened = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
+    database.handle_.reset(raw);
+    if (opened != SQLITE_OK) return Error{text(path, ": ", sqlite3_errmsg(raw))};
+    sqlite3_extended_result_codes(raw, 0);
+    sqlite3_busy_timeout(raw, 5000);
+    try {
+        database.run("PRAGMA journal_mode = WAL");
+        database.run("PRAGMA synchronous = FULL");
+        database.run("PRAGMA foreign_keys = ON");
+        const auto check = database.run("PRAGMA quick_check(1)");
+        const auto* verdict = std::get_if<std::string>(&check.at(0).at(0));
+        if (verdict == nullptr || *verdict != "ok") {
+            return Error{text(path, ": is damaged (", verdict == nullptr ? "" : *verdict, ")")};
+        }
+        if (auto status = database.migrate(); !status) return status.error().in(path);
+    } catch (const Problem& problem) {
+        return Error{text(path, ": ", problem.detail)};
+    }
+    return database;
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <charconv>
+
+#include "base/file.h"
+#include "base/text.h"
+#include "server/problem.h"
+#include "server/service.h"
+
+namespace tetralight::server {
+namespace {
+
+struct ByteRange {
+    uint64_t begin = 0;
+    uint64_t end = 0;
+};
+
+/// One range of `Range: bytes=...`; nothing: none, several or another unit, which means all.
+std::optional<ByteRange> parse_range(std::string_view header, uint64_t size) {
+    constexpr std::string_view kUnit = "bytes=";
+    if (!header.starts_with(kUnit) || header.find(',') != std::string_view::npos) {
+        return std::nullopt;
+    }
+    header.remove_prefix(kUnit.size());
+    const size_t dash = header.find('-');
+    if (dash == std::string_view::npos) return std::nullopt;
+    const auto number = [](std::string_view digits) -> std::optional<uint64_t> {
+        uint64_t value = 0;
+        const char* end = digits.data() + digits.size();
+        const auto [next, error] = std::from_chars(digits.data(), end, value);
+        return error == std::errc{} && next == end ? std::optional(value) : std::nullopt;
+    };
+    const std::string_view first = header.substr(0, dash);
+    const std::string_view last = header.substr(dash + 1);
+    if (first.empty()) {  // the last so many bytes
+        const auto count = number(last);
+        if (!count) return std::nullopt;
+        return ByteRange{size - std::min(*count, size), size};
+    }
+    const auto begin = number(first);
+    const auto end = last.empty() ? std::optional(UINT64_MAX) : number(last);
+    if (!begin || !end || *end < *begin) return std::nullopt;
+    return ByteRange{*begin, *end < size ? *end + 1 : size};
+}
+
+const char* content_type_of(Kind kind) {
+    constexpr const char* kTypes[] = {"model/gltf-binary", "application/octet-stream",
+                                      "application/json", "application/octet-stream"};
+    return kTypes[static_cast<size_t>(kind)];
+}
+
+/// First bytes by which a file is what it should be. Throws before a program is run for nothing.
+void check_magic(Kind kind, int file) {
+    char bytes[8] = {};
+    const ssize_t count = ::pread(file, bytes, sizeof bytes, 0);
+    const std::string_view start(bytes, static_cast<size_t>(std::max<ssize_t>(count, 0)));
+    const bool is_right = kind == Kind::Scenes ? start.starts_with("glTF")
+                          : kind == Kind::Skies
+                              ? start.starts_with("#?") || start.starts_with("\x76\x2f\x31\x01")
+                              : true;
+    if (is_right) return;
+    throw Problem{422, "bad_data",
+                  kind == Kind::Scenes ? "is no binary glTF (.glb)"
+                                       : "is neither Radiance (.hdr) nor OpenEXR (.exr)",
+                  "body"};
+}
+
+/// A scene of nothing, to read a sky with.
+void write_empty_scene(const std::string& path) {
+    const std::string scene = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{}]})";
+    const auto status = write_file(path, std::as_bytes(std::span(scene)));
+    if (!status) throw Problem{500, "storage", status.error().message};
+}
+
+/// Reads an upload as the command would, and says what it holds. Throws when it would not.
+Json find_facts(Service& service, Kind kind, const WorkFolder& folder) {
+    switch (kind) {
+        case Kind::Scenes: {
+            Json facts =
+                run_tool(service, folder.path(), {"bake", "upload.glb", "--explain", "--json"});
+            if (facts.value("triangles", uint64_t{0}) <= service.settings.max_triangles) {
+                return facts;
+            }
+            throw Problem{413, "too_large",
+                          text("a scene may have ", service.settings.max_triangles, " triangles"),
+                          "triangles", dump(facts["triangles"])};
+        }
+        case Kind::Skies: {
+            write_empty_scene(folder.file("empty.gltf"));
+            Json facts =
+                run_tool(service, folder.path(),
+                         {"bake", "empty.gltf", "--sky=upload.hdr", "--explain", "--json"});
+            return {{"warnings", facts.value("warnings", Json::array())}};
+        }
+        case Kind::Groups: {
+            Json facts =
+                run_tool(service, folder.path(),
+                         {"tetrahedralize", "upload.json", "--output=check.probes", "--json"});
+            facts.erase("backend");
+            return facts;
+        }
+        case Kind::Volumes:
+            return run_tool(service, folder.path(), {"info", "upload.probes", "--json"});
+    }
+    return Json::object();
+}
+
+std::string upload_name(Kind kind) {
+    return std::string("upload") + extension_of(kind);
+}
+
+/// Opens the file that an upload comes into.
+void prepare_upload(Service& service, Kind kind, Request& request) {
+    service.store.check_quota(0);
+    WorkFolder folder = service.store.make_work_folder();
+    request.body_file = Descriptor(::open(folder.file(upload_name(kind)).c_str(),
+                                          O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+    if (!request.body_file) {
+        throw Problem{500, "storage", system_error(folder.path(), "write").message};
+    }
+    request.work = std::make_shared<WorkFolder>(std::move(folder));
+}
+
+Response upload(Service& service, Kind kind, Request& request) {
+    const auto folder = std::static_pointer_cast<WorkFolder>(request.work);
+    if (request.body_size == 0) throw Problem{400, "missing_value", "the body is empty", "body"};
+    const std::string* name = request.parameter("name");
+    check_name(name == nullptr ? "" : *name);
+    service.store.check_quota(request.body_size);
+    check_magic(kind, request.body_file.value());
+    const Json facts = find_facts(service, kind, *folder);
+    const auto added = service.store.add(kind, folder->file(upload_name(kind)),
+                                         name == nullptr ? "" : *name, facts);
+    Response response = json_response(to_json_with_facts(added.file), added.is_new ? 201 : 200);
+    response.headers.emplace_back("Location", text("/v1/", name_of(kind), "/", added.file.id));
+    return response;
+}
+
+/// `?limit=` and `?after=` an id; `?name=` one name.
+Response list(Service& service, Kind kind, const Request& request) {
+    constexpr size_t kMost = 1000;
+    size_t limit = kMost;
+    if (const std::string* asked = request.parameter("limit")) {
+        const auto [next, error] =
+            std::from_chars(asked->data(), asked->data() + asked->size(), limit);
+        if (error != std::errc{} || *next != '\0' || limit == 0 || limit > kMost) {
+            throw Problem{400, "invalid_value", "limit: is not from 1 to 1000", "limit", *asked};
+        }
+    }
+    const std::string* after = request.parameter("after");
+    const std::string* name = request.parameter("name");
+    Json files = Json::array();
+    Json next = nullptr;
+    for (const StoredFile& file : service.store.list(kind)) {
+        if (after != nullptr && file.id <= *after) continue;
+        if (name != nullptr && file.name != *name) continue;
+        if (files.size() == limit) {
+            next = files.back()["id"];
+            break;
+        }
+        files.push_back(to_json(file));
+    }
+    return json_response({{name_of(kind), files}, {"next", next}});
+}
+
+Response describe(Service& service, Kind kind, const Request& request) {
+    const auto file = service.store.find(kind, request.captures[0]);
+    if (!file) (void)service.store.get(kind, request.captures[0]);  // throws
+    return json_response(to_json_with_facts(*file));
+}
+
+Response rename(Service& service, Kind kind, const Request& request) {
+    const Json json = parse_object(request.body);
+    Fields fields(json);
+    if (fields.find("name") == nullptr)
+        throw Problem{400, "missing_value", "name: is not given", "name"};
+    const std::string name = fields.text("name");
+    fields.finish();
+    return json_response(to_json(service.store.rename(kind, request.captures[0], name)));
+}
+
+Response remove(Service& service, Kind kind, const Request& request) {
+    const auto file = service.store.find(kind, request.captures[0]);
+    service.store.remove(kind, request.captures[0]);
+    if (file && kind == Kind::Volumes) service.volumes.forget(file->id);
+    return {.status = 204, .content_type = ""};
+}
+
+Response download(Service& service, Kind kind, const Request& request) {
+    const StoredFile stored = service.store.get(kind, request.captures[0]);
+    auto mapping = MappedFile::open(service.store.path(kind, stored.id));
+    if (!mapping) throw Problem{404, "not_found", "it was deleted", noun_of(kind), stored.id};
+    const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
+    Response response =
+        bytes_response(request, {kept->bytes(), kept}, content_type_of(kind), stored.id);
+    response.headers.emplace_back("Content-Disposition", text("attachment; filename=\"", stored.id,
+                                                              extension_of(kind), "\""));
+    return response;
+}
+
+/// One array of a volume's file as it lies there (docs/file_format.md), for viewers.
+Response section(Service& service, const Request& request) {
+    const auto file = service.volumes.open(request.captures[0]);
+    for (const ProbeFile::Section& section : file->sections()) {
+        if (section.name != request.captures[1]) continue;
+        const auto bytes = file->section_bytes(section.name, section.element_size);
+        if (!bytes) break;
+        const StoredFile stored = service.store.get(Kind::Volumes, request.captures[0]);
+        return bytes_response(request, {*bytes, file}, "application/octet-stream",
+                              stored.id + "-" + section.name);
+    }
+    Json names = Json::array();
+    for (const ProbeFile::Section& section : file->sections()) names.push_back(section.name);
+    throw Problem{404, "not_found", "the volume has no such section; it has " + dump(names),
+                  "section", request.captures[1].substr(0, 200)};
+}
+
+void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
+    const std::string all = std::string("/v1/") + name_of(kind);
+    const std::string one = all + "/{" + noun_of(kind) + "}";
+    constexpr auto kWorkers = Plan::RunOn::Workers;
+    const uint64_t small = 65536;
+    routes.push_back({.method = "POST",
+                      .pattern = all,
+                      .access = Access::Writes,
+                      .handle = [&, kind](Request& r) { return upload(service, kind, r); },
+                      .body_limit = service.settings.max_upload_bytes,
+                      .body_to = Plan::BodyTo::File,
+                      .run_on = kWorkers,
+                      .prepare = [&, kind](Request& r) { prepare_upload(service, kind, r); }});
+    routes.push_back({.method = "GET", .pattern = all, .handle = [&, kind](Request& r) {
+                          return list(service, kind, r);
+                      }});
+    routes.push_back({.method = "GET", .pattern = one, .handle = [&, kind](Request& r) {
+                          return describe(service, kind, r);
+                      }});
+    routes.push_back({.method = "PATCH",
+                      .pattern = one,
+                      .access = Access::Writes,
+                      .handle = [&, kind](Request& r) { return rename(service, kind, r); },
+                      .body_limit = small,
+                      .run_on = kWorkers});
+    routes.push_back({.method = "DELETE",
+                      .pattern = one,
+                      .access = Access::Writes,
+                      .handle = [&, kind](Request& r) { return remove(service, kind, r); },
+                      .run_on = kWorkers});
+    routes.push_back({.method = "GET", .pattern = one + "/file", .handle = [&, kind](Request& r) {
+                          return download(service, kind, r);
+                      }});
+}
+
+}  // namespace
+
+Response bytes_response(const Request& request, const Body& body, const std::string& content_type,
+                        const std::string& tag) {
+    const std::string quoted = "\"" + tag + "\"";
+    Response response{.content_type = content_type,
+                      .headers = {{"ETag", quoted},
+                                  {"Accept-Ranges", "bytes"},
+                                  {"Cache-Control", "private, max-age=31536000, immutable"}},
+                      .body = body};
+    if (request.header("if-none-match").find(quoted) != std::string_view::npos) {
+        response.status = 304;
+        response.body = {};
+        return response;
+    }
+    const std::string_view condition = request.header("if-range");
+    const uint64_t size = body.bytes.size();
+    const auto range = parse_range(request.header("range"), size);
+    if (!range || (!condition.empty() && condition != quoted)) return response;
+    if (range->begin >= size || range->begin >= range->end) {
+        throw Problem{416, "invalid_range", text("there are ", size, " bytes"), "range",
+                      std::string(request.header("range"))};
+    }
+    response.status = 206;
+    response.headers.emplace_back("Content-Range",
+                                  text("bytes ", range->begin, "-", range->end - 1, "/", size));
+    response.body.bytes = body.bytes.subspan(range->begin, range->end - range->begin);
+    return response;
+}
+
+std::vector<Route> file_routes(Service& service) {
+    std::vector<Route> routes;
+    for (const Kind kind : kKinds) add_routes(service, kind, routes);
+    routes.push_back({.method = "GET",
+                      .pattern = "/v1/volumes/{volume}/sections/{section}",
+                      .handle = [&](Request& r) { return section(service, r); }});
+    return routes;
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/folders.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace tetralight::server {
+namespace {
+
+Status sync(const std::string& path, int flags) {
+    const Descriptor file(::open(path.c_str(), flags | O_RDONLY | O_CLOEXEC));
+    if (!file || ::fsync(file.value()) != 0) return system_error(path, "sync");
+    return Ok{};
+}
+
+}  // namespace
+
+Status make_folder(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) return Error{path + ": cannot make the folder (" + error.message() + ")"};
+    return Ok{};
+}
+
+Status sync_folder(const std::string& path) {
+    return sync(path, O_DIRECTORY);
+}
+
+Status sync_file(const std::string& path) {
+    return sync(path, 0);
+}
+
+Status move_synced(const std::string& from, const std::string& to) {
+    if (auto status = sync_file(from); !status) return status;
+    if (std::rename(from.c_str(), to.c_str()) != 0) return system_error(to, "write");
+    return sync_folder(std::filesystem::path(to).parent_path().string());
+}
+
+void remove_all(const std::string& path) {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/gate.h"
+
+#include <algorithm>
+
+#include "server/problem.h"
+
+namespace tetralight::server {
+namespace {
+
+bool is_allowed_origin(const Settings& settings, std::string_view origin) {
+    return std::ranges::any_of(settings.cors_origins, [&](const std::string& allowed) {
+        return allowed == "*" || allowed == origin;
+    });
+}
+
+/// "localhost" of "localhost:8080", "::1" of "[::1]:8080".
+std::string_view host_name(std::string_view host) {
+    if (host.starts_with('[')) return host.substr(1, std::min(host.find(']'), host.size()) - 1);
+    return host.substr(0, host.find(':'));
+}
+
+}  // namespace
+
+bool is_loopback(const std::string& address) {
+    const bool is_number = address.find_first_not_of("0123456789.") == std::string::npos;
+    return (address.starts_with("127.") && is_number) || address == "::1" || address == "localhost";
+}
+
+bool is_same_secret(std::string_view a, std::string_view b) noexcept {
+    unsigned char difference = a.size() == b.size() ? 0 : 1;
+    for (size_t i = 0; i < a.size(); ++i) {
+        const char other = b.empty() ? '\0' : b[i % b.size()];
+        difference = static_cast<unsigned char>(difference | (a[i] ^ other));
+    }
+    return difference == 0;
+}
+
+void check_gate(const Settings& settings, const Request& request, Access access) {
+    const std::string_view origin = request.header("origin");
+    const std::string_view host = request.header("host");
+    // A page of another site may send some requests without asking.
+    const bool is_own =
+        origin == "http://" + std::string(host) || origin == "https://" + std::string(host);
+    if (!origin.empty() && !is_own && !is_allowed_origin(settings, origin)) {
+        throw Problem{403, "wrong_origin", "pages of this origin may not call", "origin",
+                      std::string(origin.substr(0, 200))};
+    }
+    if (access == Access::Writes && settings.is_read_only) {
+        throw Problem{403, "read_only", "this server only reads"};
+    }
+    if (settings.token.empty()) {
+        // Without a token, a name that leads here by DNS alone is somebody's trick.
+        if (is_loopback(settings.address) && !is_loopback(std::string(host_name(host)))) {
+            throw Problem{403, "wrong_host", "this server is called localhost", "host",
+                          std::string(host.substr(0, 200))};
+        }
+        return;
+    }
+    if (access == Access::Open) return;
+    constexpr std::string_view kScheme = "Bearer ";
+    const std::string_view credentials = request.header("authorization");
+    if (credentials.starts_with(kScheme) &&
+        is_same_secret(credentials.substr(kScheme.size()), settings.token)) {
+        return;
+    }
+    throw Problem{401, "unauthorized", "the request needs the right bearer token", "authorization"};
+}
+
+void add_cors_headers(const Settings& settings, const Request& request, Response& response) {
+    const std::string_view origin = request.header("origin");
+    if (origin.empty() || !is_allowed_origin(settings, origin)) return;
+    response.headers.emplace_back("Access-Control-Allow-Origin", origin);
+    response.headers.emplace_back("Vary", "Origin");
+    response.headers.emplace_back("Access-Control-Expose-Headers",
+                                  "ETag, Location, X-Request-Id, X-Tetralight-Report");
+}
+
+bool is_preflight(const Request& request) {
+    return request.method == "OPTIONS" && !request.header("origin").empty() &&
+           !request.header("access-control-request-method").empty();
+}
+
+Response preflight_response() {
+    return {.status = 204,
+            .content_type = "",
+            .headers = {{"Access-Control-Allow-Methods", "GET, POST, PATCH, DELETE"},
+                        {"Access-Control-Allow-Headers",
+                         "Authorization, Content-Type, If-None-Match, Range, X-Request-Id"},
+                        {"Access-Control-Max-Age", "600"}}};
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/http.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "base/utf8.h"
+
+namespace tetralight::server {
+namespace {
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+    std::string decoded;
+    for (size_t i = 0; i < text.size(); ++i) {
+        char c = text[i];
+        if (c == '%') {
+            if (text.size() - i < 3) return std::nullopt;
+            const char* digits = text.data() + i + 1;
+            unsigned code = 0;
+            if (std::from_chars(digits, digits + 2, code, 16).ptr != digits + 2) {
+                return std::nullopt;
+            }
+            c = static_cast<char>(code);
+            i += 2;
+        }
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < ' ' || byte == 0x7f) return std::nullopt;
+        decoded += c;
+    }
+    if (!is_utf8(decoded)) return std::nullopt;
+    return decoded;
+}
+
+}  // namespace
+
+std::string_view Request::header(std::string_view name) const {
+    const auto found =
+        std::ranges::find(headers, name, &std::pair<std::string, std::string>::first);
+    return found == headers.end() ? std::string_view() : found->second;
+}
+
+const std::string* Request::parameter(std::string_view name) const {
+    const auto found =
+        std::ranges::find(parameters, name, &std::pair<std::string, std::string>::first);
+    return found == parameters.end() ? nullptr : &found->second;
+}
+
+Body::Body(std::string text) {
+    const auto kept = std::make_shared<const std::string>(std::move(text));
+    bytes = std::as_bytes(std::span(*kept));
+    owner = kept;
+}
+
+Body::Body(std::vector<std::byte> data) {
+    const auto kept = std::make_shared<const std::vector<std::byte>>(std::move(data));
+    bytes = *kept;
+    owner = kept;
+}
+
+std::string_view reason_phrase(unsigned status) {
+    switch (status) {
+        case 200:
+            return "OK";
+        case 201:
+            return "Created";
+        case 202:
+            return "Accepted";
+        case 204:
+            return "No Content";
+        case 206:
+            return "Partial Content";
+        case 304:
+            return "Not Modified";
+        case 400:
+            return "Bad Request";
+        case 401:
+            return "Unauthorized";
+        case 403:
+            return "Forbidden";
+        case 404:
+            return "Not Found";
+        case 405:
+            return "Method Not Allowed";
+        case 408:
+            return "Request Timeout";
+        case 409:
+            return "Conflict";
+        case 410:
+            return "Gone";
+        case 411:
+            return "Length Required";
+        case 413:
+            return "Payload Too Large";
+        case 415:
+            return "Unsupported Media Type";
+        case 416:
+            return "Range Not Satisfiable";
+        case 422:
+            return "Unprocessable Entity";
+        case 429:
+            return "Too Many Requests";
+        case 431:
+            return "Request Header Fields Too Large";
+        case 500:
+            return "Internal Server Error";
+        case 503:
+            return "Service Unavailable";
+        case 504:
+            return "Gateway Timeout";
+        case 507:
+            return "Insufficient Storage";
+        default:
+            return "Unknown";
+    }
+}
+
+bool parse_target(std::string_view target, Request& request) {
+    if (!target.starts_with('/')) return false;
+    const size_t question = std::min(target.find('?'), target.size());
+    auto path = percent_decoded(target.substr(0, question));
+    if (!path) return false;
+    request.path = std::move(*path);
+    std::string_view rest = target.substr(std::min(question + 1, target.size()));
+    while (!rest.empty()) {
+        const std::string_view part = rest.substr(0, rest.find('&'));
+        const size_t equals = std::min(part.find('='), part.size());
+        auto name = percent_decoded(part.substr(0, equals));
+        auto value = percent_decoded(part.substr(std::min(equals + 1, part.size())));
+        if (!name || !value) return false;
+        request.parameters.emplace_back(std::move(*name), std::move(*value));
+        rest.remove_prefix(std::min(part.size() + 1, rest.size()));
+    }
+    return true;
+}
+
+}  // namespace tetralight::server

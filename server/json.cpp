@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/json.h"
+
+#include "base/json_text.h"
+#include "server/problem.h"
+
+namespace tetralight::server {
+
+std::string dump(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Response json_response(const Json& json, unsigned status) {
+    return {.status = status, .body = dump(json) + "\n"};
+}
+
+Json parse_object(std::string_view body) {
+    if (auto status = check_json_depth(body); !status) {
+        throw Problem{400, "invalid_json", status.error().message, "body"};
+    }
+    try {
+        Json json = Json::parse(body);
+        if (json.is_object()) return json;
+        throw Problem{400, "invalid_json", "the body is not a JSON object", "body"};
+    } catch (const Json::exception& exception) {
+        throw Problem{400, "invalid_json", json_error_reason(exception), "body"};
+    }
+}
+
+void refuse(const std::string& key, const Json& value, const std::string& expected) {
+    constexpr size_t kLongest = 80;
+    throw Problem{400, "invalid_value", key + ": is not " + expected, key,
+                  dump(value).substr(0, kLongest)};
+}
+
+const Json* Fields::find(const std::string& key) {
+    asked_.insert(key);
+    const auto found = object_.find(key);
+    return found == object_.end() || found->is_null() ? nullptr : &*found;
+}
+
+std::string Fields::text(const std::string& key, const std::string& otherwise) {
+    const Json* value = find(key);
+    if (value == nullptr) return otherwise;
+    if (!value->is_string()) refuse(key, *value, "a string");
+    return value->get<std::string>();
+}
+
+std::string Fields::required_text(const std::string& key) {
+    if (find(key) == nullptr) throw Problem{400, "missing_value", key + ": is not given", key};
+    return text(key);
+}
+
+bool Fields::flag(const std::string& key) {
+    const Json* value = find(key);
+    if (value == nullptr) return false;
+    if (!value->is_boolean()) refuse(key, *value, "true or false");
+    return value->get<bool>();
+}
+
+double Fields::number(const std::string& key, double otherwise) {
+    const Json* value = find(key);
+    if (value == nullptr) return otherwise;
+    if (!value->is_number()) refuse(key, *value, "a number");
+    return value->get<double>();
+}
+
+std::vector<std::string> Fields::texts(const std::string& key) {
+    const Json* value = find(key);
+    if (value == nullptr) return {};
+    if (!value->is_array()) refuse(key, *value, "an array of strings");
+    std::vector<std::string> texts;
+    for (const Json& element : *value) {
+        if (!element.is_string()) refuse(key, element, "a string");
+        texts.push_back(element.get<std::string>());
+    }
+    return texts;
+}
+
+void Fields::finish() const {
+    for (const auto& [key, value] : object_.items()) {
+        if (!asked_.contains(key)) {
+            throw Problem{400, "unknown_member", "\"" + key + "\" is not known here", key};
+        }
+    }
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/http.h"
+
+namespace tetralight::server {
+
+using Json = nlohmann::ordered_json;
+
+/// On one line. Bytes that are not UTF-8 are replaced.
+[[nodiscard]] std::string dump(const Json& json);
+
+[[nodiscard]] Response json_response(const Json& json, unsigned status = 200);
+
+/// The JSON object of a body. Throws a `Problem`: it is nested too deep, no JSON, no object.
+[[nodiscard]] Json parse_object(std::string_view body);
+
+/// Reads an object member by member, and knows which ones nobody asked for. All throw a `Problem`
+/// that names the member and its value.
+class Fields {
+  public:
+    /// Keeps a reference.
+    explicit Fields(const Json& object) : object_(object) {}
+
+    /// Null: it is not there, or null.
+    [[nodiscard]] const Json* find(const std::string& key);
+
+    [[nodiscard]] std::string text(const std::string& key, const std::string& otherwise = "");
+    [[nodiscard]] std::string required_text(const std::string& key);
+    [[nodiscard]] bool flag(const std::string& key);
+    [[nodiscard]] double number(const std::string& key, double otherwise);
+    [[nodiscard]] std::vector<std::string> texts(const std::string& key);
+
+    /// To be called at the end: refuses members that were not asked for.
+    void finish() const;
+
+  private:
+    const Json& object_;
+    std::set<std::string> asked_;
+};
+
+/// Throws: member `key` is not what it should be.
+[[noreturn]] void refuse(const std::string& key, const Json& value, const std::string& expected);
+
+}  // namespace tetralight::server

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/router.h"
+
+#include <optional>
+
+#include "server/problem.h"
+
+namespace tetralight::server {
+namespace {
+
+std::vector<std::string> split(std::string_view path) {
+    std::vector<std::string> parts;
+    path.remove_prefix(1);
+    while (true) {
+        const size_t slash = path.find('/');
+        parts.emplace_back(path.substr(0, slash));
+        if (slash == std::string_view::npos) return parts;
+        path.remove_prefix(slash + 1);
+    }
+}
+
+/// What a pattern captures of a path; nothing: it is another one.
+std::optional<std::vector<std::string>> match(const std::vector<std::string>& pattern,
+                                              const std::vector<std::string>& path) {
+    if (pattern.size() != path.size()) return std::nullopt;
+    std::vector<std::string> captures;
+    for (size_t i = 0; i < path.size(); ++i) {
+        if (pattern[i].starts_with('{')) {
+            if (path[i].empty()) return std::nullopt;
+            captures.push_back(path[i]);
+        } else if (pattern[i] != path[i]) {
+            return std::nullopt;
+        }
+    }
+    return captures;
+}
+
+}  // namespace
+
+Router::Router(std::vector<Route> routes) : routes_(std::move(routes)) {
+    for (const Route& route : routes_) parts_.push_back(split(route.pattern));
+}
+
+const Route& Router::find(Request& request) const {
+    const std::vector<std::string> path = split(request.path);
+    std::string methods;
+    for (size_t i = 0; i < routes_.size(); ++i) {
+        auto captures = match(parts_[i], path);
+        if (!captures) continue;
+        const std::string& method = routes_[i].method;
+        if (method == request.method || (method == "GET" && request.method == "HEAD")) {
+            request.captures = std::move(*captures);
+            return routes_[i];
+        }
+        methods += (methods.empty() ? "" : ", ") + method;
+    }
+    if (methods.empty()) {
+        throw Problem{404, "no_such_path", "there is nothing at this path", "path", request.path};
+    }
+    throw Problem{405, "wrong_method", "this path takes " + methods, "method", request.method};
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/serve.h"
+
+#include <fcntl.h>
+#include <malloc.h>
+#include <pthread.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <new>
+#include <thread>
+
+#include "base/text.h"
+#include "server/gate.h"
+#include "server/http_server.h"
+#include "server/problem.h"
+#include "server/service.h"
+
+namespace tetralight::server {
+namespace {
+
+/// Answers of a megabyte come again and again: their memory is to stay, not to be mapped each time.
+void keep_memory() {
+    ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
+}
+
+/// As many descriptors as the system allows: each connection is one.
+void raise_descriptor_limit() {
+    rlimit limit = {};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+/// Two servers that write to one folder would undo each other's work.
+Result<Descriptor> lock_folder(const std::string& folder) {
+    const std::string path = folder + "/lock";
+    Descriptor lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
+    if (!lock) return system_error(path, "open");
+    if (::flock(lock.value(), LOCK_EX | LOCK_NB) == 0) return lock;
+    return Error{folder + ": another server has this folder; --read-only serves it too"};
+}
+
+std::vector<Route> all_routes(Service& service) {
+    std::vector<Route> all;
+    for (auto* make : {system_routes, file_routes, query_routes, bake_routes, tool_routes}) {
+        for (Route& route : make(service)) all.push_back(std::move(route));
+    }
+    return all;
+}
+
+/// From the head of a request to its answer.
+class Dispatcher {
+  public:
+    explicit Dispatcher(Service& service) : service_(service), router_(all_routes(service)) {}
+
+    Plan plan(Request& request) const {
+        Plan plan;
+        plan.ignores_body = true;
+        try {
+            if (is_preflight(request)) {
+                plan.handle = [this](Request& r) { return finish(r, preflight_response()); };
+                return plan;
+            }
+            plan_route(request, plan);
+        } catch (const Problem& problem) {
+            plan.ignores_body = true;
+            plan.run_on = Plan::RunOn::Network;
+            plan.handle = [this, problem](Request& r) {
+                return finish(r, problem_response(problem, r.id));
+            };
+        }
+        return plan;
+    }
+
+  private:
+    void plan_route(Request& request, Plan& plan) const {
+        const bool is_page = !service_.settings.viewer.empty() && request.method == "GET" &&
+                             !request.path.starts_with("/v1/") && !is_known(request);
+        if (is_page) {
+            check_gate(service_.settings, request, Access::Open);
+            plan.route = std::string("/");
+            plan.handle = [this](Request& r) {
+                return guarded(r, [&] { return viewer_response(service_, r.path); });
+            };
+            return;
+        }
+        const Route& route = find(request);
+        check_gate(service_.settings, request, route.access);
+        if (route.prepare) route.prepare(request);
+        plan.ignores_body = false;
+        plan.route = route.pattern;
+        plan.body_limit = route.body_limit;
+        plan.body_to = route.body_to;
+        plan.run_on = route.run_on;
+        plan.handle = [this, &route](Request& r) {
+            return guarded(r, [&] { return route.handle(r); });
+        };
+    }
+
+    /// Whoever has no token learns nothing of paths either.
+    const Route& find(Request& request) const {
+        try {
+            return router_.find(request);
+        } catch (const Problem&) {
+            check_gate(service_.settings, request, Access::Reads);
+            throw;
+        }
+    }
+
+    bool is_known(Request& request) const {
+        try {
+            (void)router_.find(request);
+            return true;
+        } catch (const Problem& problem) {
+            return problem.status != 404;
+        }
+    }
+
+    /// Whatever goes wrong becomes an answer.
+    template <class Handle>
+    Response guarded(Request& request, const Handle& handle) const {
+        try {
+            return finish(request, handle());
+        } catch (const Problem& problem) {
+            return finish(request, problem_response(problem, request.id));
+        } catch (const std::bad_alloc&) {
+            return finish(request,
+                          problem_response({503, "no_memory", "not enough memory"}, request.id));
+        } catch (const std::exception& exception) {
+            service_.log.write(Log::Level::Error, "a handler failed",
+                               {{"request_id", request.id}, {"what", exception.what()}});
+            return finish(request, problem_response({500, "internal", "something went wrong here"},
+                                                    request.id));
+        }
+    }
+
+    Response finish(const Request& request, Response response) const {
+        add_cors_headers(service_.settings, request, response);
+        response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+        return response;
+    }
+
+    Service& service_;
+    const Router router_;
+};
+
+/// SIGTERM and SIGINT as a call on a thread of its own, where everything is allowed.
+class SignalWatch {
+  public:
+    explicit SignalWatch(std::function<void()> on_end) : on_end_(std::move(on_end)) {
+        thread_ = std::thread([this] {
+            int signal = 0;
+            ::sigwait(&signals(), &signal);
+            if (signal != SIGUSR1) on_end_();
+        });
+    }
+
+    ~SignalWatch() {
+        ::pthread_kill(thread_.native_handle(), SIGUSR1);
+        thread_.join();
+    }
+
+    SignalWatch(const SignalWatch&) = delete;
+    SignalWatch& operator=(const SignalWatch&) = delete;
+
+    static const sigset_t& signals() {
+        static const sigset_t set = [] {
+            sigset_t all;
+            ::sigemptyset(&all);
+            for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) ::sigaddset(&all, signal);
+            return all;
+        }();
+        return set;
+    }
+
+  private:
+    std::function<void()> on_end_;
+    std::thread thread_;
+};
+
+Json start_facts(const Settings& settings, const Store& store, uint16_t port) {
+    return {{"version", TETRALIGHT_VERSION},
+            {"data", settings.data},
+            {"address", settings.address},
+            {"port", port},
+            {"token", settings.token.empty() ? "none" : "needed"},
+            {"read_only", settings.is_read_only},
+            {"findings", store.findings()}};
+}
+
+}  // namespace
+
+Status serve(const Settings& settings, const std::function<void(uint16_t port)>& is_listening) {
+    if (!is_loopback(settings.address) && settings.token.empty()) {
+        return Error{settings.address + ": is not this machine alone; give a token"};
+    }
+    ::signal(SIGPIPE, SIG_IGN);
+    ::pthread_sigmask(SIG_BLOCK, &SignalWatch::signals(), nullptr);  // threads inherit it
+    keep_memory();
+    raise_descriptor_limit();
+    Log log(settings.log_level);
+    Metrics metrics;
+    Descriptor lock;
+    if (!settings.is_read_only) {
+        if (auto status = make_folder(settings.data); !status) return status;
+        auto locked = lock_folder(settings.data);
+        if (!locked) return locked.error();
+        lock = std::move(*locked);
+    }
+    auto store = Store::open(settings, log, metrics);
+    if (!store) return store.error();
+    OpenVolumes volumes(**store);
+    Bakes bakes(settings, **store, log);
+    Service service{settings, log, metrics, **store, volumes, bakes};
+    const Dispatcher dispatcher(service);
+    auto http = HttpServer::bind(
+        settings, {.plan = [&](Request& request) { return dispatcher.plan(request); },
+                   .answered =
+                       [&](const Exchange& exchange) {
+                           metrics.add(exchange);
+                           log.request(exchange);
+                       },
+                   .refusal =
+                       [](unsigned status, const std::string& code, const std::string& detail) {
+                           return problem_response({status, code, detail}, "");
+                       }});
+    if (!http) return http.error();
+    service.connection_count = [&] { return (*http)->connection_count(); };
+    log.write(Log::Level::Info, "serving", start_facts(settings, **store, (*http)->port()));
+    {
+        const SignalWatch watch([&] {
+            service.is_ending = true;
+            log.write(Log::Level::Info, "ending");
+            (*http)->stop();
+        });
+        is_listening((*http)->port());
+        (*http)->run();
+        service.is_over = true;
+        http->reset();  // its workers end
+    }
+    log.write(Log::Level::Info, "ended");
+    return Ok{};
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+
+#include "server/bakes.h"
+#include "server/log.h"
+#include "server/metrics.h"
+#include "server/open_volumes.h"
+#include "server/router.h"
+#include "server/settings.h"
+#include "server/store.h"
+
+namespace tetralight::server {
+
+/// What handlers work with.
+struct Service {
+    const Settings& settings;
+    Log& log;
+    Metrics& metrics;
+    Store& store;
+    OpenVolumes& volumes;
+    Bakes& bakes;
+    /// No more requests are taken.
+    std::atomic<bool> is_ending = false;
+    /// Programs that work for requests are to end.
+    std::atomic<bool> is_over = false;
+    std::function<uint32_t()> connection_count = [] { return 0u; };
+};
+
+// The routes, by what they are about.
+[[nodiscard]] std::vector<Route> file_routes(Service& service);
+[[nodiscard]] std::vector<Route> query_routes(Service& service);
+[[nodiscard]] std::vector<Route> bake_routes(Service& service);
+[[nodiscard]] std::vector<Route> tool_routes(Service& service);
+[[nodiscard]] std::vector<Route> system_routes(Service& service);
+
+/// A file of the folder of the settings, for the web page that a server may have.
+[[nodiscard]] Response viewer_response(const Service& service, const std::string& path);
+
+/// Runs a command for a request, for as long as the settings and the server's life allow.
+Json run_tool(Service& service, const std::string& folder, std::vector<std::string> arguments);
+
+/// Bytes of a file as a response, whole or by the ranges that the request asks for.
+[[nodiscard]] Response bytes_response(const Request& request, const Body& body,
+                                      const std::string& content_type, const std::string& tag);
+
+/// The scene, the light that a request adds to it and the groups, linked into a folder as
+/// "scene.glb", "sky.hdr" and "groups_0.json": files and options.
+struct SceneInputs {
+    std::vector<std::pair<StoredFile, std::string>> files;
+    std::vector<std::string> arguments;
+};
+
+/// Reads "scene", "sky", "sky_intensity", "sky_rotation" and the sun of a request.
+[[nodiscard]] SceneInputs read_scene(Service& service, Fields& fields);
+
+}  // namespace tetralight::server

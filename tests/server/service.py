@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A running server on a port of its own, and a client for it."""
+import http.client
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+import unittest
+
+COMMAND = os.environ["TETRALIGHT_COMMAND"]
+COURTYARD = os.environ["TETRALIGHT_COURTYARD"]
+BINARY = "application/octet-stream"
+
+
+class Answer:
+    def __init__(self, response, body):
+        self.status = response.status
+        self.headers = response.headers
+        self.body = body
+
+    def json(self):
+        return json.loads(self.body)
+
+
+class Server:
+    """`tetralight serve` on a folder; `kill` is what a power cut leaves of it."""
+
+    def __init__(self, data, *options, env=None):
+        self.data = data
+        self.log_path = data + ".log"
+        self.log = open(self.log_path, "a")
+        listen = () if "--listen" in options else ("--listen", "127.0.0.1:0")
+        self.process = subprocess.Popen(
+            [COMMAND, "serve", "--data", data, *listen, *options],
+            stdout=subprocess.PIPE, stderr=self.log, text=True, env={**os.environ, **(env or {})})
+        line = self.process.stdout.readline()
+        if not line:
+            self.process.wait()
+            raise RuntimeError("the server did not start: " + open(self.log_path).read()[-2000:])
+        self.port = int(line.rsplit(":", 1)[1])
+
+    def connect(self, timeout=60):
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
+
+    def request(self, method, path, body=None, headers=None):
+        headers = dict(headers or {})
+        if isinstance(body, (dict, list)):
+            body = json.dumps(body)
+            headers.setdefault("Content-Type", "application/json")
+        connection = self.connect()
+        try:
+            connection.request(method, path, body, headers)
+            response = connection.getresponse()
+            return Answer(response, response.read())
+        finally:
+            connection.close()
+
+    def get(self, path, **headers):
+        return self.request("GET", path, headers={k.replace("_", "-"): v for k, v in headers.items()})
+
+    def post(self, path, body=None, content_type=None):
+        return self.request("POST", path, body, {"Content-Type": content_type} if content_type else {})
+
+    def raw(self, data, timeout=20, pause=0):
+        """Sends bytes as they are; gives all that comes back until the server closes."""
+        with socket.create_connection(("127.0.0.1", self.port), timeout=timeout) as connection:
+            connection.settimeout(timeout)
+            try:
+                for piece in data if isinstance(data, list) else [data]:
+                    connection.sendall(piece)
+                    time.sleep(pause)
+            except (BrokenPipeError, ConnectionResetError):
+                pass
+            answer = b""
+            try:
+                while piece := connection.recv(65536):
+                    answer += piece
+            except ConnectionResetError:
+                pass
+            return answer
+
+    def wait_for(self, bake, seconds=120):
+        """A bake that is over."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            answer = self.get("/v1/bakes/" + bake).json()
+            if answer["state"] not in ("queued", "running"):
+                return answer
+            time.sleep(0.05)
+        raise AssertionError("the bake is not over: " + json.dumps(answer))
+
+    def kill(self):
+        self.process.send_signal(signal.SIGKILL)
+        self.process.wait()
+        self.close()
+
+    def stop(self, seconds=60):
+        self.process.send_signal(signal.SIGTERM)
+        code = self.process.wait(timeout=seconds)
+        self.close()
+        return code
+
+    def close(self):
+        self.process.stdout.close()
+        self.log.close()
+
+    def is_running(self):
+        return self.process.poll() is None
+
+
+class ServiceTest(unittest.TestCase):
+    """Each test has a folder, and ends the servers that it began."""
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="tetralight_server_")
+        self.data = os.path.join(self.folder, "data")
+        self.servers = []
+
+    def tearDown(self):
+        for server in self.servers:
+            if server.is_running():
+                server.kill()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def start(self, *options, data=None, env=None):
+        server = Server(data or self.data, *options, env=env)
+        self.servers.append(server)
+        return server
+
+    def command(self, *arguments):
+        return subprocess.run([COMMAND, *arguments], cwd=self.folder, check=True,
+                              capture_output=True, text=True).stdout
+
+    def upload(self, server, kind, path, name=""):
+        with open(path, "rb") as file:
+            answer = server.post(f"/v1/{kind}?name={name}", file.read(), BINARY)
+        self.assertIn(answer.status, (200, 201), answer.body)
+        return answer.json()["id"]
+
+    def assert_problem(self, answer, status, code):
+        self.assertEqual(answer.status, status, answer.body[:500])
+        self.assertEqual(answer.headers["Content-Type"], "application/problem+json")
+        problem = answer.json()
+        self.assertEqual(problem["code"], code, problem)
+        self.assertEqual(problem["status"], status)
+        return problem
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def write_groups(path, positions, name="group"):
+    with open(path, "w") as file:
+        json.dump({"groups": [{"name": name, "positions": positions}]}, file)
+
+
+def lattice(count, spacing=1.0):
+    return [[x * spacing, y * spacing, z * spacing]
+            for x in range(count) for y in range(count) for z in range(count)]

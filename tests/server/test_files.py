@@ -1,0 +1,263 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files come in, go out, get names and survive."""
+import json
+import os
+import random
+import threading
+import unittest
+
+from service import BINARY, COURTYARD, ServiceTest, lattice, write_groups, read
+
+
+# Uploads with some bytes changed, of each kind.
+MUTATIONS = int(os.environ.get("TETRALIGHT_MUTATIONS", "25"))
+
+
+class VolumeTest(ServiceTest):
+    def groups_file(self, positions, name="group"):
+        path = os.path.join(self.folder, "groups.json")
+        write_groups(path, positions, name)
+        return path
+
+    def volume_file(self, count=3):
+        groups = self.groups_file(lattice(count))
+        path = os.path.join(self.folder, f"volume{count}.probes")
+        self.command("tetrahedralize", groups, "-o", path)
+        return path
+
+
+class Files(VolumeTest):
+    def test_a_scene_comes_back_byte_for_byte(self):
+        server = self.start()
+        scene = self.upload(server, "scenes", COURTYARD, "court")
+        self.assertEqual(server.get("/v1/scenes/court/file").body, read(COURTYARD))
+        facts = server.get(f"/v1/scenes/{scene}").json()["facts"]
+        self.assertEqual(facts["probes"], 255)
+        self.assertGreater(facts["triangles"], 100)
+
+    def test_the_same_bytes_are_stored_once(self):
+        server = self.start()
+        path = self.volume_file()
+        first = server.post("/v1/volumes", read(path), BINARY)
+        second = server.post("/v1/volumes", read(path), BINARY)
+        self.assertEqual((first.status, second.status), (201, 200))
+        self.assertEqual(first.json()["id"], second.json()["id"])
+        self.assertEqual(len(server.get("/v1/volumes").json()["volumes"]), 1)
+
+    def test_what_is_no_such_file_is_refused_with_its_reason(self):
+        server = self.start()
+        glb = read(COURTYARD)
+        for kind, body in (("scenes", b"nonsense"), ("scenes", glb[:1000]), ("skies", b"nonsense"),
+                           ("skies", b"#?RADIANCE\n\nbroken"), ("groups", b"{}"),
+                           ("groups", b'{"groups":[{"name":"a","positions":[[0,0,1e999]]}]}'),
+                           ("volumes", b"nonsense"), ("scenes", b"glTF" + b"\xff" * 100)):
+            with self.subTest(kind=kind, body=body[:20]):
+                problem = self.assert_problem(server.post(f"/v1/{kind}", body, BINARY), 422,
+                                              "bad_data")
+                self.assertNotIn(self.folder, json.dumps(problem))
+        self.assert_problem(server.post("/v1/scenes", b"", BINARY), 400, "missing_value")
+        for kind in ("scenes", "skies", "groups", "volumes"):
+            self.assertEqual(server.get(f"/v1/{kind}").json()[kind], [])
+        self.assertEqual(os.listdir(os.path.join(self.data, "work")), [])
+
+    def test_uploads_with_a_byte_changed_are_stored_whole_or_not_at_all(self):
+        server = self.start()
+        good = bytearray(read(self.volume_file()))
+        for i in range(0, len(good), len(good) // 40):
+            bad = bytearray(good)
+            bad[i] ^= 0x55
+            answer = server.post("/v1/volumes", bytes(bad), BINARY)
+            self.assertIn(answer.status, (201, 422), i)  # padding is no part of any section
+        self.assertEqual(server.get("/healthz").status, 200)
+
+    def test_mutated_uploads_never_end_the_server(self):
+        server = self.start()
+        generator = random.Random(int(os.environ.get("TETRALIGHT_SEED", "0")))
+        groups = open(self.groups_file(lattice(2)), "rb").read()
+        for kind, good in (("scenes", read(COURTYARD)), ("groups", groups)):
+            for _ in range(MUTATIONS):
+                bad = bytearray(good)
+                for _ in range(generator.randint(1, 8)):
+                    # The head is where structure is.
+                    bad[int(len(bad) * generator.random() ** 3)] = generator.randrange(256)
+                if generator.random() < 0.3:
+                    del bad[generator.randrange(len(bad)):]
+                answer = server.post(f"/v1/{kind}", bytes(bad), BINARY)
+                self.assertIn(answer.status, (200, 201, 400, 422), answer.body)
+        self.assertEqual(server.get("/healthz").status, 200)
+
+    def test_scenes_beyond_a_limit_are_refused(self):
+        server = self.start("--max-triangles", "10")
+        answer = server.post("/v1/scenes", read(COURTYARD), BINARY)
+        self.assert_problem(answer, 413, "too_large")
+
+    def test_the_quota_holds(self):
+        server = self.start("--quota", "100000")
+        self.assert_problem(server.post("/v1/scenes", b"glTF" + bytes(200000), BINARY), 507, "quota")
+
+    def test_ranges_and_tags(self):
+        server = self.start()
+        path = self.volume_file()
+        whole = read(path)
+        file = f"/v1/volumes/{self.upload(server, 'volumes', path)}/file"
+        answer = server.get(file)
+        self.assertEqual(answer.body, whole)
+        tag = answer.headers["ETag"]
+        size = len(whole)
+        for asked, begin, end in (("bytes=0-9", 0, 10), ("bytes=100-", 100, size),
+                                  ("bytes=-7", size - 7, size), (f"bytes=5-{size * 2}", 5, size)):
+            part = server.get(file, Range=asked)
+            self.assertEqual(part.status, 206)
+            self.assertEqual(part.body, whole[begin:end])
+            self.assertEqual(part.headers["Content-Range"], f"bytes {begin}-{end - 1}/{size}")
+        for ignored in ("bytes=5-2", "lines=1-2", "bytes=0-1,4-5", "bytes=a-b"):
+            self.assertEqual(server.get(file, Range=ignored).status, 200)
+        self.assert_problem(server.get(file, Range=f"bytes={size}-"), 416, "invalid_range")
+        self.assertEqual(server.get(file, If_None_Match=tag).status, 304)
+        self.assertEqual(server.get(file, Range="bytes=0-9", If_Range='"other"').status, 200)
+        self.assertEqual(server.get(file, Range="bytes=0-9", If_Range=tag).status, 206)
+
+    def test_sections_are_what_the_file_holds(self):
+        server = self.start()
+        volume = self.upload(server, "volumes", self.volume_file(3))
+        positions = server.get(f"/v1/volumes/{volume}/sections/positions")
+        self.assertEqual(len(positions.body), 27 * 12)
+        self.assertEqual(server.get(f"/v1/volumes/{volume}/sections/nothing").status, 404)
+
+    def test_names_move(self):
+        server = self.start()
+        first = self.upload(server, "volumes", self.volume_file(2), "level")
+        second = self.upload(server, "volumes", self.volume_file(3), "level")
+        self.assertEqual(server.get("/v1/volumes/level").json()["id"], second)
+        self.assertEqual(server.get(f"/v1/volumes/{first}").json()["name"], "")
+        answer = server.request("PATCH", f"/v1/volumes/{first}", {"name": "level"})
+        self.assertEqual(answer.json()["name"], "level")
+        self.assertEqual(server.get("/v1/volumes/level").json()["id"], first)
+        for bad in ("a/b", "x" * 201, "a\u0001", first):
+            answer = server.request("PATCH", f"/v1/volumes/{first}", {"name": bad})
+            self.assert_problem(answer, 400, "invalid_value")
+
+    def test_lists_come_in_pages(self):
+        server = self.start()
+        ids = sorted(self.upload(server, "volumes", self.volume_file(n)) for n in (2, 3, 4))
+        page = server.get("/v1/volumes?limit=2").json()
+        self.assertEqual([v["id"] for v in page["volumes"]], ids[:2])
+        rest = server.get("/v1/volumes?after=" + page["next"]).json()
+        self.assertEqual([v["id"] for v in rest["volumes"]], ids[2:])
+        self.assertIsNone(rest["next"])
+        self.assert_problem(server.get("/v1/volumes?limit=0"), 400, "invalid_value")
+
+    def test_deleted_files_are_gone(self):
+        server = self.start()
+        volume = self.upload(server, "volumes", self.volume_file())
+        self.assertEqual(server.request("DELETE", f"/v1/volumes/{volume}").status, 204)
+        self.assert_problem(server.get(f"/v1/volumes/{volume}"), 404, "not_found")
+        self.assert_problem(server.request("DELETE", f"/v1/volumes/{volume}"), 404, "not_found")
+        self.assertEqual(os.listdir(os.path.join(self.data, "volumes")), [])
+
+    def test_what_was_acknowledged_survives_kill_9(self):
+        server = self.start()
+        volume = self.upload(server, "volumes", self.volume_file(), "level")
+        server.kill()
+        open(os.path.join(self.data, "volumes", "0" * 32 + ".probes"), "w").write("torn upload")
+        again = self.start()
+        self.assertEqual(again.get("/v1/volumes/level").json()["id"], volume)
+        self.assertEqual(len(again.get("/v1/volumes").json()["volumes"]), 1)
+        self.assertEqual(len(os.listdir(os.path.join(self.data, "volumes"))), 1)
+
+    def test_many_upload_at_once(self):
+        server = self.start()
+        paths = [self.volume_file(n) for n in (2, 3)]
+        ids = []
+        threads = [threading.Thread(
+            target=lambda p=paths[i % 2]: ids.append(self.upload(server, "volumes", p, "same")))
+            for i in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(set(ids)), 2)
+        named = [v for v in server.get("/v1/volumes").json()["volumes"] if v["name"] == "same"]
+        self.assertEqual(len(named), 1)
+
+
+class Damage(VolumeTest):
+    """A damaged file is put aside with its reason; the rest is served."""
+
+    def test_a_damaged_volume(self):
+        server = self.start()
+        good = self.upload(server, "volumes", self.volume_file(2))
+        bad = self.upload(server, "volumes", self.volume_file(3))
+        server.stop()
+        path = os.path.join(self.data, "volumes", bad + ".probes")
+        size = os.path.getsize(path)
+        with open(path, "r+b") as file:
+            file.seek(size // 2)
+            file.write(b"\xff" * 64)
+        again = self.start()
+        query = {"positions": [[0, 0, 0]]}
+        problem = self.assert_problem(again.post(f"/v1/volumes/{bad}/query", query), 410,
+                                      "quarantined")
+        self.assertIn("checksum", problem["detail"])
+        self.assertEqual(again.post(f"/v1/volumes/{good}/query", query).status, 200)
+        self.assertEqual(again.get(f"/v1/volumes/{bad}").json()["state"], "quarantined")
+        self.assertEqual(os.listdir(os.path.join(self.data, "quarantine")), [f"volumes-{bad}.probes"])
+        self.assertIn("tetralight_quarantined_total 1", again.get("/metrics").body.decode())
+        # It can come in again.
+        self.assertEqual(self.upload(again, "volumes", self.volume_file(3)), bad)
+        self.assertEqual(again.post(f"/v1/volumes/{bad}/query", query).status, 200)
+
+    def test_a_missing_file(self):
+        server = self.start()
+        volume = self.upload(server, "volumes", self.volume_file())
+        server.stop()
+        os.remove(os.path.join(self.data, "volumes", volume + ".probes"))
+        again = self.start()
+        self.assert_problem(again.get(f"/v1/volumes/{volume}/file"), 410, "quarantined")
+
+    def test_a_damaged_scene(self):
+        server = self.start()
+        scene = self.upload(server, "scenes", COURTYARD)
+        with open(os.path.join(self.data, "scenes", scene + ".glb"), "r+b") as file:
+            file.seek(5000)
+            file.write(b"\xff" * 8)
+        self.assert_problem(server.post("/v1/bakes", {"scene": scene}), 410, "quarantined")
+
+    def test_a_damaged_database(self):
+        server = self.start()
+        volume = self.upload(server, "volumes", self.volume_file(), "level")
+        server.stop()
+        database = os.path.join(self.data, "tetralight.db")
+        for damage in (lambda f: f.write(b"\0" * 100), lambda f: (f.seek(4096), f.write(b"\xff" * 4096)),
+                       lambda f: f.truncate(3000)):
+            with open(database, "r+b") as file:
+                damage(file)
+            again = self.start()
+            self.assertEqual(again.get("/v1/volumes/level").json()["id"], volume)
+            self.assertEqual(again.post("/v1/volumes/level/query", {"positions": [[0, 0, 0]]}).status,
+                             200)
+            self.assertIn("the database was damaged", read(again.log_path).decode())
+            again.stop()
+        aside = os.listdir(os.path.join(self.data, "quarantine"))
+        self.assertTrue(any(name.endswith("tetralight.db") for name in aside))
+
+
+class ReadOnly(VolumeTest):
+    def test_replicas_answer_from_the_same_folder(self):
+        writer = self.start()
+        first = self.upload(writer, "volumes", self.volume_file(2), "level")
+        reader = self.start("--read-only")
+        query = {"positions": [[0.5, 0.5, 0.5]]}
+        self.assertEqual(reader.post("/v1/volumes/level/query", query).body,
+                         writer.post("/v1/volumes/level/query", query).body)
+        self.assert_problem(reader.request("DELETE", f"/v1/volumes/{first}"), 403, "read_only")
+        second = self.upload(writer, "volumes", self.volume_file(3), "level")
+        for _ in range(100):
+            if reader.get("/v1/volumes/level").json()["id"] == second:
+                break
+            threading.Event().wait(0.1)
+        self.assertEqual(reader.get("/v1/volumes/level").json()["id"], second)
+
+
+if __name__ == "__main__":
+    unittest.main()

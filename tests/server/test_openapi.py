@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The description of the service is well formed, and is of this service."""
+import json
+import os
+import re
+import unittest
+
+from service import ServiceTest
+
+METHODS = ("get", "post", "put", "patch", "delete", "head", "options")
+
+
+class OpenApi(ServiceTest):
+    def setUp(self):
+        super().setUp()
+        self.server = self.start()
+        self.document = self.server.get("/openapi.json").json()
+
+    def operations(self):
+        for path, item in self.document["paths"].items():
+            for method, operation in item.items():
+                self.assertIn(method, METHODS)
+                yield path, method, operation
+
+    def test_it_is_openapi_3_1(self):
+        self.assertEqual(self.document["openapi"], "3.1.0")
+        self.assertLessEqual({"title", "version"}, self.document["info"].keys())
+
+    def test_operations_are_whole(self):
+        ids = []
+        tags = {tag["name"] for tag in self.document["tags"]}
+        for path, method, operation in self.operations():
+            with self.subTest(path=path, method=method):
+                ids.append(operation["operationId"])
+                self.assertTrue(operation["summary"])
+                self.assertLessEqual(set(operation["tags"]), tags)
+                self.assertIn("default", operation["responses"])
+                self.assertTrue(any(code.startswith("2") for code in operation["responses"]))
+                for response in operation["responses"].values():
+                    self.assertTrue("$ref" in response or response["description"])
+                in_path = {p["name"] for p in operation.get("parameters", []) if p["in"] == "path"}
+                self.assertEqual(in_path, set(re.findall(r"\{(\w+)\}", path)))
+                for parameter in operation.get("parameters", []):
+                    self.assertIn("schema", parameter)
+                    self.assertTrue(parameter["required"] or parameter["in"] == "query")
+                self.assertTrue("requestBody" not in operation or method in ("post", "patch", "put"))
+        self.assertEqual(len(ids), len(set(ids)))
+
+    def test_references_lead_somewhere(self):
+        def visit(value):
+            if isinstance(value, dict):
+                if "$ref" in value:
+                    target = self.document
+                    for part in value["$ref"].removeprefix("#/").split("/"):
+                        target = target[part]
+                for member in value.values():
+                    visit(member)
+            elif isinstance(value, list):
+                for member in value:
+                    visit(member)
+        visit(self.document)
+
+    def test_schemas_have_types(self):
+        kinds = {"object", "array", "string", "number", "integer", "boolean", "null"}
+        def visit(schema):
+            self.assertTrue(schema.keys() & {"type", "$ref", "oneOf"}, schema)
+            types = schema.get("type", [])
+            self.assertLessEqual(set([types] if isinstance(types, str) else types), kinds)
+            self.assertLessEqual(set(schema.get("required", [])), schema.get("properties", {}).keys())
+            for member in schema.get("properties", {}).values():
+                visit(member)
+            if "items" in schema:
+                visit(schema["items"])
+        for schema in self.document["components"]["schemas"].values():
+            visit(schema)
+
+    def test_every_operation_is_served_and_nothing_else(self):
+        for path, method, _ in self.operations():
+            real = re.sub(r"\{\w+\}", "none", path)
+            answer = self.server.request(method.upper(), real)
+            code = answer.json().get("code") if answer.status >= 400 else None
+            self.assertNotIn(code, ("no_such_path", "wrong_method"), path)
+        source = os.path.join(os.path.dirname(__file__), "..", "..", "server")
+        patterns = set()
+        for name in os.listdir(source):
+            if name.endswith("_routes.cpp"):
+                text = open(os.path.join(source, name)).read()
+                patterns |= set(re.findall(r'"(/(?:v1/[^"]*\{[^"]*|v1/\w+|\w+z|version|metrics|'
+                                           r'openapi\.json))"', text))
+        self.assertLessEqual(patterns, set(self.document["paths"]))
+
+    def test_orders_name_the_members_that_the_service_knows(self):
+        for path, schema in (("/v1/bakes", "BakeOrder"), ("/v1/grid", "GridOrder"),
+                             ("/v1/lppv", "LppvOrder"), ("/v1/render", "RenderOrder"),
+                             ("/v1/relight", "RelightOrder")):
+            source = os.path.join(os.path.dirname(__file__), "..", "..", "server")
+            text = open(os.path.join(source, "tool_routes.cpp")).read() + \
+                open(os.path.join(source, "bake_routes.cpp")).read()
+            rules = re.search(r"k%sRules\[\] = \{(.*?)\};" % schema.removesuffix("Order"), text,
+                              re.S).group(1)
+            members = set(re.findall(r'\{"(\w+)"', rules))
+            self.assertLessEqual(members,
+                                 set(self.document["components"]["schemas"][schema]["properties"]))
+
+
+if __name__ == "__main__":
+    unittest.main()

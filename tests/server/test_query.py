@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Queries give what the command gives, in every form."""
+import json
+import math
+import os
+import random
+import shutil
+import struct
+import subprocess
+import tempfile
+import threading
+import unittest
+
+from service import BINARY, COMMAND, COURTYARD, ServiceTest, lattice, write_groups
+
+FLOATS, PACKED, HALVES = 1, 2, 3
+OCCLUSION, CELLS = 1, 2
+
+
+def binary_query(positions, sh=FLOATS, wants=0, outside=0, precision=0, fade=0.0, magic=b"TLQ1",
+                 count=None):
+    header = magic + struct.pack("<IBBBBf", len(positions) if count is None else count, sh, wants,
+                                 outside, precision, fade)
+    return header + struct.pack(f"<{3 * len(positions)}f", *(x for p in positions for x in p))
+
+
+class Query(ServiceTest):
+    @classmethod
+    def setUpClass(cls):
+        generator = random.Random(1)
+        cls.positions = [[struct.unpack("<f", struct.pack("<f", generator.uniform(-12, 12)))[0]
+                          for _ in range(3)] for _ in range(500)]
+        cls.folder_of_all = tempfile.mkdtemp(prefix="tetralight_server_")
+        cls.path = os.path.join(cls.folder_of_all, "court.probes")
+        subprocess.run([COMMAND, "bake", COURTYARD, "-o", cls.path, "--samples", "16", "-b", "1",
+                        "--quiet"], check=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder_of_all)
+
+    def setUp(self):
+        super().setUp()
+        self.server = self.start()
+        self.volume = self.upload(self.server, "volumes", self.path, "court")
+
+    def expected(self, *options):
+        lines = subprocess.run(
+            [COMMAND, "query", self.path, "--json", *options], check=True, capture_output=True,
+            text=True, input="\n".join(" ".join(map(repr, p)) for p in self.positions)).stdout
+        return [json.loads(line) for line in lines.splitlines()]
+
+    def query(self, **members):
+        answer = self.server.post("/v1/volumes/court/query", members)
+        self.assertEqual(answer.status, 200, answer.body)
+        return answer.json()["answers"]
+
+    def binary(self, *arguments, **options):
+        return self.server.post("/v1/volumes/court/query", binary_query(*arguments, **options),
+                                BINARY)
+
+    def test_json_is_what_the_command_prints(self):
+        # Walks begin elsewhere, so that weights may differ in their last bits.
+        for options, members in (((), {}), (("--outside", "clamp"), {"outside": "clamp"}),
+                                 (("--outside", "ambient", "--fade", "3"),
+                                  {"outside": "ambient", "fade": 3})):
+            for ours, theirs in zip(self.query(positions=self.positions, **members),
+                                    self.expected(*options), strict=True):
+                self.assertEqual(list(ours), list(theirs))
+                self.assertEqual(ours["position"], theirs["position"])
+                for a, b in zip(ours["irradiance_sh"], theirs["irradiance_sh"], strict=True):
+                    for x, y in zip(a, b, strict=True):
+                        self.assertAlmostEqual(x, y, delta=1e-4 * (1 + abs(y)))
+
+    def test_binary_is_what_json_says(self):
+        answers = self.query(positions=self.positions)
+        count = len(self.positions)
+        body = self.binary(self.positions, wants=OCCLUSION | CELLS).body
+        self.assertEqual(body[:4], b"TLA1")
+        self.assertEqual(len(body), 16 + count * (108 + 16 + 24))
+        sh = struct.unpack_from(f"<{27 * count}f", body, 16)
+        occlusion = struct.unpack_from(f"<{4 * count}f", body, 16 + 108 * count)
+        for i, answer in enumerate(answers):
+            flat = [x for coefficient in answer["irradiance_sh"] for x in coefficient]
+            for x, y in zip(sh[27 * i:27 * i + 27], flat, strict=True):
+                self.assertAlmostEqual(x, y, delta=1e-5 * (1 + abs(y)))
+            self.assertEqual(list(occlusion[4 * i:4 * i + 4]), answer["occlusion"])
+            cell = struct.unpack_from("<I", body, 16 + 124 * count + 24 * i)[0]
+            self.assertEqual(cell, answer["cell"])
+
+    def test_forms_of_sh(self):
+        count = len(self.positions)
+        floats = struct.unpack_from(f"<{27 * count}f", self.binary(self.positions).body, 16)
+        halves = struct.unpack_from(f"<{27 * count}e", self.binary(self.positions, HALVES).body, 16)
+        for x, y in zip(halves, floats, strict=True):
+            self.assertAlmostEqual(x, y, delta=2e-3 * abs(y) + 1e-4)
+        packed = struct.unpack_from(f"<{28 * count}f", self.binary(self.positions, PACKED).body, 16)
+        # SHAr.w = (k_0 L_0 - k_6 L_6), with E_0 = pi L_0 and E_6 = pi / 4 L_6.
+        for i in range(count):
+            l0, l6 = floats[27 * i] / math.pi, floats[27 * i + 18] / (math.pi / 4)
+            expected = 0.28209479 * l0 - 0.07884789 * l6
+            self.assertAlmostEqual(packed[28 * i + 3], expected, delta=1e-4 * (1 + abs(expected)))
+        only_cells = self.binary(self.positions, 0, CELLS).body
+        self.assertEqual(len(only_cells), 16 + 24 * count)
+
+    def test_no_position_at_all(self):
+        self.assertEqual(self.query(positions=[]), [])
+        self.assertEqual(len(self.binary([]).body), 16)
+
+    def test_positions_that_are_not_finite(self):
+        for bad in (math.nan, math.inf, -math.inf):
+            problem = self.assert_problem(self.binary([[0, 0, 0], [0, bad, 0]]), 400, "not_finite")
+            self.assertEqual(problem["field"], "positions[1]")
+        for text in ('{"positions":[[NaN,0,0]]}', '{"positions":[[1e999,0,0]]}'):
+            answer = self.server.post("/v1/volumes/court/query", text, "application/json")
+            self.assertEqual(answer.status, 400)
+
+    def test_values_that_are_none(self):
+        for members, field in (({"positions": [[1, 2]]}, "positions[0]"), ({"positions": 3}, "positions"),
+                               ({"positions": [["a", 1, 2]]}, "positions[0]"),
+                               ({"positions": [], "outside": "x"}, "outside"),
+                               ({"positions": [], "fade": -1}, "fade"),
+                               ({"positions": [], "more": 1}, "more"), ({}, "positions")):
+            answer = self.server.post("/v1/volumes/court/query", members)
+            self.assertEqual(answer.status, 400)
+            self.assertEqual(answer.json()["field"], field)
+
+    def test_headers_that_are_none(self):
+        good = [[0, 0, 0]]
+        for body in (b"", b"TLQ1", binary_query(good, magic=b"TLQ2"), binary_query(good, sh=4),
+                     binary_query(good, wants=4), binary_query(good, sh=0),
+                     binary_query(good, outside=3), binary_query(good, precision=2),
+                     binary_query(good, fade=math.nan), binary_query(good, count=2),
+                     binary_query(good, count=0xffffffff), binary_query(good)[:-1]):
+            answer = self.server.post("/v1/volumes/court/query", body, BINARY)
+            self.assert_problem(answer, 400, "invalid_header")
+
+    def test_too_many_positions(self):
+        self.server.stop()
+        self.server = self.start("--max-positions", "10")
+        self.assertEqual(self.binary([[0, 0, 0]] * 10).status, 200)
+        self.assert_problem(self.binary([[0, 0, 0]] * 11), 413, "too_large")
+
+    def test_a_volume_is_deleted_and_replaced_while_it_is_queried(self):
+        other = os.path.join(self.folder, "other.probes")
+        groups = os.path.join(self.folder, "groups.json")
+        write_groups(groups, lattice(2))
+        self.command("tetrahedralize", groups, "-o", other)
+        whole = {self.binary(self.positions).body}
+        first = self.volume
+        second = self.upload(self.server, "volumes", other, "court")
+        whole.add(self.binary(self.positions).body)
+        is_over = threading.Event()
+        answers = []
+
+        def ask():
+            while not is_over.is_set():
+                answers.append(self.binary(self.positions))
+                is_over.wait(0.005)
+
+        askers = [threading.Thread(target=ask) for _ in range(4)]
+        for asker in askers:
+            asker.start()
+        for _ in range(4):
+            for id, path in ((first, self.path), (second, other)):
+                self.upload(self.server, "volumes", path, "court")
+                # Two clients delete it at once.
+                deleters = [threading.Thread(target=self.server.request,
+                                             args=("DELETE", "/v1/volumes/" + id)) for _ in range(2)]
+                if id == first:
+                    for deleter in deleters:
+                        deleter.start()
+                    for deleter in deleters:
+                        deleter.join()
+        is_over.set()
+        for asker in askers:
+            asker.join()
+        for answer in answers:
+            self.assertIn(answer.status, (200, 404))
+            if answer.status == 200:
+                self.assertIn(answer.body, whole)
+        self.assertIn(200, {answer.status for answer in answers})
+
+
+if __name__ == "__main__":
+    unittest.main()
