@@ -3,6 +3,9 @@
 #include <map>
 
 #include "bench/harness.h"
+#ifdef TETRALIGHT_HAS_SERVER
+#include "bench/server.h"
+#endif
 
 int main(int argc, char** argv) {
     using namespace tetralight::bench;
@@ -13,6 +16,9 @@ int main(int argc, char** argv) {
         {"grid", bench_grid},
         {"lppv", bench_lppv},
         {"runtime", bench_runtime},
+#ifdef TETRALIGHT_HAS_SERVER
+        {"server", bench_server},
+#endif
         {"tetrahedralize", bench_tetrahedralize}};
 
     CLI::App app("Runs benchmarks and prints one JSON object a figure.", "tetralight_bench");

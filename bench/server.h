@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bench/harness.h"
+
+namespace tetralight::bench {
+
+/// The HTTP service, by the `tetralight` program beside this one.
+void bench_server(const Options& options);
+
+}  // namespace tetralight::bench
