@@ -120,6 +120,16 @@ class ServiceTest(unittest.TestCase):
         self.data = os.path.join(self.folder, "data")
         self.servers = []
 
+    @staticmethod
+    def eventually(is_so, seconds=20):
+        """Whether it becomes so."""
+        end = time.monotonic() + seconds
+        while not is_so():
+            if time.monotonic() > end:
+                return False
+            time.sleep(0.02)
+        return True
+
     def tearDown(self):
         for server in self.servers:
             if server.is_running():
