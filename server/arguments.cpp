@@ -39,7 +39,7 @@ std::string joined(const std::string& member, const Json& value, size_t count) {
     }
     std::string list;
     for (const Json& element : value) {
-        list += (list.empty() ? "" : ",") + number_text(member, element);
+        list += text(list.empty() ? "" : ",", number_text(member, element));
     }
     return list;
 }
@@ -50,7 +50,7 @@ std::string words(const std::string& member, const Json& value) {
     for (const Json& element : value) {
         const std::string word = plain_text(member, element);
         if (word.find(',') != std::string::npos) refuse(member, element, "without commas");
-        list += (list.empty() ? "" : ",") + word;
+        list += text(list.empty() ? "" : ",", word);
     }
     return list;
 }
