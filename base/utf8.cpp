@@ -47,4 +47,12 @@ bool has_control_character(std::string_view text) noexcept {
                                [](char c) { return is_in(c, 0x00, 0x1f) || is_in(c, 0x7f, 0x7f); });
 }
 
+Status check_characters(std::string_view name) {
+    if (has_control_character(name)) {
+        return Error{"the name holds a line break or another control character"};
+    }
+    if (!is_utf8(name)) return Error{"the name is not UTF-8"};
+    return Ok{};
+}
+
 }  // namespace tetralight

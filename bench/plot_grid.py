@@ -3,7 +3,9 @@
 """Draws the curves of `./run bench grid` as an SVG: error over the number of probes.
 
     ./run bench grid --scene sponza.glb > grid.jsonl
-    bench/plot_grid.py grid.jsonl > docs/images/grid_error.svg
+    bench/plot_grid.py grid.jsonl Sponza > docs/images/grid_error.svg
+
+The second argument is the name of the scene that --scene gave.
 """
 import json
 import math
@@ -69,6 +71,8 @@ def panel(scene, curves, left):
 
 def main():
     scenes = read_curves(sys.argv[1])
+    if len(sys.argv) > 2 and "scene" in scenes:
+        scenes[sys.argv[2]] = scenes.pop("scene")
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH * len(scenes)}" height="{HEIGHT + 22}" '
            'font-family="sans-serif" font-size="11" fill="#333">',
            '<rect width="100%" height="100%" fill="#fff"/>']

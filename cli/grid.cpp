@@ -5,6 +5,7 @@
 #include "bake/scene/probe_groups_gltf.h"
 #include "bake/scene/probe_groups_json.h"
 #include "cli/common.h"
+#include "cli/grid_interrupt.h"
 #include "cli/grid_options.h"
 #include "cli/grid_preview.h"
 #include "cli/grid_progress.h"
@@ -22,58 +23,103 @@ Status write_groups(const std::string& path, std::span<const ProbeGroup> groups)
     return write_probe_groups(path, groups);
 }
 
+/// Where the result of a run that was cut short goes: not over a whole one.
+std::string partial_path(const std::string& output) {
+    std::error_code error;
+    if (output == "-" || !std::filesystem::is_regular_file(output, error)) return output;
+    std::filesystem::path path = output;
+    return path.replace_extension(".partial" + path.extension().string()).string();
+}
+
 struct Grid {
     SceneOptions scene_options;
     std::string output;
-    std::string preview;
+    GridPreview preview;
     GridOptions options;
     CommonOptions common;
 
     void add_to(CLI::App& command) {
         scene_options.add_to(command);
         add_output(command, output, ".json,.glb", "Probe-group file to write");
-        add_file_to_write(command, "--preview", preview, ".png",
-                          "Picture to write of the scene with the probes, lit by a quick bake");
+        preview.add_to(command);
         options.add_to(command);
         common.add_to(command);
-        command.parse_complete_callback([this] { options.check_usage(); });
+        command.parse_complete_callback([this] {
+            options.check_usage();
+            if (output == "-" && preview.path == "-") {
+                throw CLI::ValidationError("--preview", "stdout takes the probes already");
+            }
+        });
+    }
+
+    [[nodiscard]] std::vector<std::string> inputs() const {
+        return {scene_options.path, scene_options.adjustments, scene_options.sky.sky};
+    }
+
+    [[nodiscard]] Status check_files() const {
+        if (auto status = check_output(output, inputs()); !status) return status;
+        if (preview.path.empty()) return Ok{};
+        std::vector<std::string> others = inputs();
+        others.push_back(output);
+        if (output != "-" && is_same_file(output, preview.path)) {
+            return Error{preview.path + ": is the output of this command, too"};
+        }
+        return check_output(preview.path, others);
     }
 
     Status run() {
-        const std::string& path = scene_options.path;
-        std::vector<std::string> inputs{path, scene_options.adjustments, scene_options.sky.sky};
-        if (auto status = check_output(output, inputs); !status) return status;
-        if (!preview.empty()) {
-            inputs.push_back(output);
-            auto status = check_output(preview, inputs);
-            if (!status) return status;
-        }
+        if (auto status = check_files(); !status) return status;
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
+        if (auto status = preview.choose_camera(*scene, scene_options.path); !status) return status;
         options.finish();
         options.settings.thread_count = common.thread_count;
         const auto grid = make_grid(*scene);
-        if (!grid) return grid.error().in(path);
+        if (!grid) return located(grid.error());
+        common.warn(grid_warnings(*grid, options.settings));
+        if (grid->adaptive && grid->adaptive->end == AdaptiveEnd::Interrupted) return keep(*grid);
         if (auto status = write_groups(output, grid->groups); !status) return status;
-        if (!preview.empty()) {
-            auto status = write_preview(preview, *scene, *grid, common.thread_count);
+        if (!preview.path.empty()) {
+            const GridInterrupt interrupt("interrupted; " + output + " is written, " +
+                                          preview.path + " is as it was");
+            auto status = preview.write(*scene, *grid, common.thread_count);
             if (!status) return status;
         }
-        common.warn(grid_warnings(*grid));
         common.report(output, grid_json(output, *grid), grid_text(output, *grid));
-        if (!grid->adaptive || grid->adaptive->end != AdaptiveEnd::Interrupted) return Ok{};
-        return Error{"interrupted; " + output + " holds the last whole result"};
+        return Ok{};
+    }
+
+    [[nodiscard]] std::string interrupted() const {
+        return "interrupted; " + output + " is as it was";
+    }
+
+    [[nodiscard]] Error located(const Error& error) const {
+        if (error.message == "interrupted") return Error{interrupted()};
+        return error.in(scene_options.path);
     }
 
     [[nodiscard]] Result<ProbeGrid> make_grid(const Scene& scene) const {
         if (options.settings.mode != PlacementMode::Adaptive) {
+            const GridInterrupt interrupt(interrupted());
             return make_probe_grid(scene, options.settings);
         }
         GridProgressDisplay display(common.is_quiet);
         return make_probe_grid(scene, options.settings, [&](const AdaptiveProgress& progress) {
             return display.show(progress);
         });
+    }
+
+    /// The last whole result of a run that was cut short.
+    [[nodiscard]] Status keep(const ProbeGrid& grid) const {
+        const std::string path = partial_path(output);
+        if (auto status = check_output(path, inputs()); !status) {
+            return status.error().in(interrupted());
+        }
+        if (auto status = write_groups(path, grid.groups); !status) return status;
+        common.report(path, grid_json(path, grid), grid_text(path, grid));
+        const std::string before = path == output ? "interrupted" : interrupted();
+        return Error{before + "; " + path + " holds the last whole result"};
     }
 };
 

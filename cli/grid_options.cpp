@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/grid_options.h"
 
+#include <cmath>
+
 #include "base/text.h"
+#include "base/utf8.h"
 #include "cli/amounts.h"
 #include "cli/choice.h"
 #include "cli/common.h"
+#include "cli/validators.h"
 
 namespace tetralight::cli {
 namespace {
@@ -15,14 +19,27 @@ constexpr double kLongest = 1e9;
 CLI::Validator name_check() {
     const auto check = [](const std::string& name) -> std::string {
         if (name.empty()) return "the name is empty";
-        return name.find('\n') == std::string::npos ? "" : "the name holds a line break";
+        const auto status = check_characters(name);
+        return status ? "" : status.error().message;
+    };
+    return {check, ""};
+}
+
+CLI::Validator at_least_one() {
+    const auto check = [](const std::string& count) -> std::string {
+        return count.find_first_not_of('0') == std::string::npos ? "there is no grid of 0 probes"
+                                                                 : "";
     };
     return {check, ""};
 }
 
 CLI::Validator position_check() {
     const auto check = [](const std::string& position) -> std::string {
-        return parse_vec3(position) ? "" : "\"" + position + "\" is not of the form x,y,z";
+        const auto parsed = parse_vec3(position);
+        if (!parsed) return "\"" + position + "\" is not of the form x,y,z";
+        const glm::dvec3& p = *parsed;
+        const bool is_finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+        return is_finite ? "" : "\"" + position + "\" is not finite";
     };
     return {check, ""};
 }
@@ -58,7 +75,8 @@ void GridOptions::add_to(CLI::App& command) {
         .add_option("--max-probes", settings.max_probe_count,
                     "Refuse grids with more candidates than this; --mode adaptive stays below it "
                     "(default: 10 million, 5000 when adaptive)")
-        ->check(whole_numbers(UINT64_MAX, "2^64 - 1"));
+        ->check(whole_numbers(UINT64_MAX, "2^64 - 1"))
+        ->check(at_least_one());
 }
 
 void GridOptions::add_bounds(CLI::App& command) {
@@ -70,6 +88,7 @@ void GridOptions::add_bounds(CLI::App& command) {
         .add_option("--bounds-of", settings.bounds_of,
                     "Fill the box around the node of this name; may be given several times")
         ->allow_extra_args(false)
+        ->check(not_empty("name"))
         ->excludes(low_option_);
 }
 

@@ -1,51 +1,111 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/grid_preview.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
 
 #include "bake/image/write_image.h"
-#include "bake/scene/scene_bounds.h"
-#include "cli/view_options.h"
+#include "cli/paths.h"
 #include "pipeline/bake_volume.h"
-#include "pipeline/render_gizmos.h"
+#include "pipeline/light_balls.h"
+#include "pipeline/render_scene.h"
 
 namespace tetralight::cli {
 namespace {
 
-/// Balls of this share of the scene's diagonal can be told apart, and hide little.
-constexpr double kBallShare = 0.004;
-
 /// As many as the eye needs.
 constexpr uint32_t kSampleCount = 128;
 
-float ball_radius(const Scene& scene) {
-    const auto bounds = scene_bounds(scene, [](const MeshInstance&) { return true; });
-    const double diagonal = bounds ? glm::length(bounds->size()) : 0.0;
-    return static_cast<float>(diagonal > 0.0 ? kBallShare * diagonal : 0.1);
+/// Metres from each probe to the nearest other one: these share a cell.
+std::vector<float> nearest_distances(const ProbeVolumeView& volume) {
+    std::vector<float> nearest(volume.probe_count(), std::numeric_limits<float>::infinity());
+    for (const Cell& cell : volume.cells) {
+        for (const uint32_t a : cell.vertices) {
+            for (const uint32_t b : cell.vertices) {
+                if (a == b || a == kNoIndex || b == kNoIndex) continue;
+                const float distance = glm::distance(volume.positions[a], volume.positions[b]);
+                nearest[a] = std::min(nearest[a], distance);
+            }
+        }
+    }
+    return nearest;
+}
+
+/// Balls that do not touch, but for those that would be too small to be seen.
+std::vector<LightBall> probe_balls(const ProbeVolumeView& volume, const Camera& camera) {
+    constexpr float kOfSpacing = 0.35f;
+    // Radii, as shares of the picture's height.
+    constexpr double kLargest = 0.008, kSmallest = 0.0015;
+    const std::vector<float> nearest = nearest_distances(volume);
+    std::vector<LightBall> balls;
+    for (uint32_t i = 0; i < volume.probe_count(); ++i) {
+        const glm::dvec3 center = volume.info.world_origin + glm::dvec3(volume.positions[i]);
+        const double height = 2.0 * std::tan(0.5 * camera.fov_y_radians) *
+                              glm::distance(center, glm::dvec3(camera.world_from_camera[3]));
+        const float radius =
+            std::clamp(kOfSpacing * nearest[i], static_cast<float>(kSmallest * height),
+                       static_cast<float>(kLargest * height));
+        balls.push_back({center, radius, volume.irradiance[i]});
+    }
+    return balls;
+}
+
+/// What a ray sees: the scene, and the first ball, dimmed where it is hidden.
+glm::vec3 radiance_along(const SceneShader& shader, const LightBalls& balls,
+                         const ProbeVolumeView& volume, const glm::dvec3& origin,
+                         glm::vec3 direction) {
+    constexpr float kHidden = 0.5f;
+    const auto surface = shader.shade(origin, direction);
+    const glm::vec3 behind = surface ? surface->radiance : sky_radiance(volume, direction);
+    const auto ball = balls.shade(origin, direction);
+    if (!ball) return behind;
+    const bool is_hidden = surface && surface->distance < ball->distance;
+    return is_hidden ? glm::mix(behind, ball->radiance, kHidden) : ball->radiance;
 }
 
 }  // namespace
 
-Status write_preview(const std::string& path, const Scene& scene, const ProbeGrid& grid,
-                     uint32_t thread_count) {
+void GridPreview::add_to(CLI::App& command) {
+    CLI::Option* option = add_file_to_write(
+        command, "--preview", path, ".png",
+        "Picture to write of the scene with the probes, lit by a quick bake, seen through walls");
+    view.add_to(command);
+    view.add_camera_name(command);
+    for (const char* name : {"--width", "--height", "--antialias", "--exposure", "--eye",
+                             "--target", "--fov", "--camera"}) {
+        command.get_option(name)->needs(option);
+    }
+}
+
+Status GridPreview::choose_camera(const Scene& scene, const std::string& scene_path) {
+    if (path.empty()) return Ok{};
+    const auto camera = view.camera_in(scene, scene_path);
+    if (!camera) return camera.error();
+    camera_ = *camera;
+    return Ok{};
+}
+
+Status GridPreview::write(const Scene& scene, const ProbeGrid& grid, uint32_t thread_count) {
     BakeVolumeSettings settings;
     settings.bake.sample_count = kSampleCount;
     settings.bake.thread_count = thread_count;
     const auto baked = bake_volume(scene, grid.groups, settings);
     if (!baked) return baked.error();
-    const Camera camera = scene.cameras.empty() ? overview(scene) : scene.cameras.front();
-    RenderSettings render;
-    render.thread_count = thread_count;
     const ProbeVolumeView volume = baked->volume.view();
     const auto shader = SceneShader::make(scene, volume);
     if (!shader) return shader.error();
-    GizmoSettings show;
-    show.has_probes = true;
-    show.ball_radius = ball_radius(scene);
-    const auto image = render_gizmos(ray_traced_pictures(*shader, volume), volume, camera, render,
-                                     make_gizmos(volume, {}, show));
-    if (!image) return image.error();
-    return write_png(path, *image);
+    const auto balls = LightBalls::make(probe_balls(volume, camera_));
+    if (!balls) return balls.error();
+    view.settings.thread_count = thread_count;
+    const ImageF image =
+        render_view(camera_, view.settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
+            return radiance_along(*shader, *balls, volume, origin, direction);
+        });
+    return write_png(path, develop(image, view.settings.exposure));
 }
 
 }  // namespace tetralight::cli

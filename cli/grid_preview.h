@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 #include "bake/placement/probe_grid.h"
 #include "bake/scene/scene.h"
 #include "base/result.h"
+#include "cli/view_options.h"
 
 namespace tetralight::cli {
 
-/// Bakes a grid quickly and writes a picture of the scene with its probes as balls, lit by what
-/// they hold: from the scene's first camera, or from above.
-[[nodiscard]] Status write_preview(const std::string& path, const Scene& scene,
-                                   const ProbeGrid& grid, uint32_t thread_count);
+/// `--preview`: a picture of the scene with the probes of a grid as balls, lit by a quick bake.
+/// What hides a ball is seen through.
+struct GridPreview {
+    std::string path;
+    ViewOptions view;
+
+    void add_to(CLI::App& command);
+
+    /// To be called before `write`, and before long work. Error: no such camera.
+    Status choose_camera(const Scene& scene, const std::string& scene_path);
+
+    [[nodiscard]] Status write(const Scene& scene, const ProbeGrid& grid, uint32_t thread_count);
+
+  private:
+    Camera camera_;
+};
 
 }  // namespace tetralight::cli

@@ -32,7 +32,9 @@ constexpr std::array<float, 8> kEnds{0.05f, 0.1f, 0.25f, 0.5f,
 std::array<uint64_t, kEnds.size()> histogram(const ProbeGrid& grid) {
     std::array<uint64_t, kEnds.size()> counts{};
     for (const float distance : grid.surface_distances) {
-        const auto end = std::ranges::upper_bound(kEnds, distance);
+        // Probes at the clearance may be short of it by rounding.
+        constexpr float kSlack = 1.002f;
+        const auto end = std::ranges::upper_bound(kEnds, kSlack * distance);
         ++counts[std::min<size_t>(end - kEnds.begin(), kEnds.size() - 1)];
     }
     return counts;
@@ -63,6 +65,7 @@ Json adaptive_json(const AdaptiveReport& report) {
     return {{"error", report.error},
             {"end", name_of(report.end)},
             {"rounds", report.round_count},
+            {"start_spacing", to_json(report.start_spacing)},
             {"start_probes", report.start_count},
             {"most_probes", report.largest_count},
             {"sampled_positions", report.position_count},
@@ -82,6 +85,42 @@ std::string share_text(uint64_t count, uint64_t all) {
     return all == 0 ? "" : percent(static_cast<double>(count) / static_cast<double>(all));
 }
 
+/// With as few digits as tell it.
+std::string place_text(const glm::dvec3& position) {
+    const glm::vec3 p(position);
+    return text(p.x, ",", p.y, ",", p.z);
+}
+
+constexpr size_t kMostLines = 3;
+
+void add_pockets(const ProbeGrid& grid, std::vector<std::string>& lines) {
+    for (size_t i = 0; i < std::min(grid.pockets.size(), kMostLines); ++i) {
+        const uint64_t count = grid.pockets[i].probe_count;
+        const std::string place = place_text(grid.pockets[i].position);
+        lines.push_back(text(counted(count, "probe"), " around ", place, " cannot be reached and ",
+                             count == 1 ? "was" : "were", " dropped; --from ", place,
+                             " would keep them"));
+    }
+    if (grid.pockets.size() > kMostLines) {
+        lines.push_back(text("and ", grid.pockets.size() - kMostLines,
+                             " smaller spaces; --unreachable keep keeps all"));
+    }
+}
+
+void add_empty_spaces(const ProbeGrid& grid, std::vector<std::string>& lines) {
+    for (size_t i = 0; i < std::min(grid.empty_spaces.size(), kMostLines); ++i) {
+        const EmptySpace& space = grid.empty_spaces[i];
+        const std::string place = place_text(space.position);
+        lines.push_back(text("the space around ", place, " has no probes; ",
+                             space.is_wanted ? "a smaller --spacing would give it some"
+                                             : "--from " + place + " would ask for some"));
+    }
+    if (grid.empty_spaces.size() > kMostLines) {
+        lines.push_back(
+            text("and ", grid.empty_spaces.size() - kMostLines, " more spaces have no probes"));
+    }
+}
+
 }  // namespace
 
 Json grid_json(const std::string& output, const ProbeGrid& grid) {
@@ -97,6 +136,11 @@ Json grid_json(const std::string& output, const ProbeGrid& grid) {
         pockets.push_back({{"probes", pocket.probe_count}, {"position", to_json(pocket.position)}});
     }
     json["pockets"] = pockets;
+    Json empty = Json::array();
+    for (const EmptySpace& space : grid.empty_spaces) {
+        empty.push_back({{"position", to_json(space.position)}, {"is_wanted", space.is_wanted}});
+    }
+    json["empty_spaces"] = empty;
     Json bins = Json::array();
     const auto counts = histogram(grid);
     for (size_t i = 0; i < counts.size(); ++i) {
@@ -128,20 +172,19 @@ std::string grid_text(const std::string& output, const ProbeGrid& grid) {
                 histogram_text(grid));
 }
 
-std::vector<std::string> grid_warnings(const ProbeGrid& grid) {
-    constexpr size_t kMost = 3;
+std::vector<std::string> grid_warnings(const ProbeGrid& grid, const ProbeGridSettings& settings) {
     std::vector<std::string> lines;
-    for (size_t i = 0; i < std::min(grid.pockets.size(), kMost); ++i) {
-        const uint64_t count = grid.pockets[i].probe_count;
-        const glm::vec3 position(grid.pockets[i].position);  // as few digits as tell it
-        lines.push_back(text(counted(count, "probe"), " around ", position.x, ",", position.y, ",",
-                             position.z, " cannot be reached and ", count == 1 ? "was" : "were",
-                             " dropped; --from ", position.x, ",", position.y, ",", position.z,
-                             " would keep them"));
+    add_pockets(grid, lines);
+    add_empty_spaces(grid, lines);
+    for (const std::string& name : grid.adjustments_outside) {
+        lines.push_back(text("adjustment volume \"", name, "\" lies outside of the box to fill"));
     }
-    if (grid.pockets.size() > kMost) {
-        lines.push_back(text("and ", grid.pockets.size() - kMost,
-                             " smaller spaces; --unreachable keep keeps all"));
+    const auto& asked = settings.adaptive.start_spacing;
+    if (grid.adaptive && asked && grid.adaptive->start_spacing != *asked) {
+        lines.push_back(text("--spacing ", place_text(*asked),
+                             " asks for more than half of the most probes to begin with; it began "
+                             "with ",
+                             place_text(grid.adaptive->start_spacing)));
     }
     return lines;
 }

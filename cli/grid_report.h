@@ -16,7 +16,9 @@ namespace tetralight::cli {
 /// The same as a table.
 [[nodiscard]] std::string grid_text(const std::string& output, const ProbeGrid& grid);
 
-/// Spaces that were left out, one line each for the largest.
-[[nodiscard]] std::vector<std::string> grid_warnings(const ProbeGrid& grid);
+/// Spaces that were left out, one line each for the largest, and what else went otherwise than the
+/// settings ask for.
+[[nodiscard]] std::vector<std::string> grid_warnings(const ProbeGrid& grid,
+                                                     const ProbeGridSettings& settings);
 
 }  // namespace tetralight::cli

@@ -8,15 +8,12 @@
 
 #include "base/file_writer.h"
 #include "base/text.h"
+#include "cli/validators.h"
 
 namespace tetralight::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-CLI::Validator not_empty() {
-    return {[](const std::string& path) { return path.empty() ? "the path is empty" : ""; }, ""};
-}
 
 CLI::Validator has_extension(const std::string& extension) {
     const auto check = [extension](const std::string& path) -> std::string {
@@ -64,12 +61,12 @@ std::string what_is_there(const fs::path& path) {
 
 CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& path,
                       const std::string& help) {
-    return command.add_option(name, path, help)->check(not_empty());
+    return command.add_option(name, path, help)->check(not_empty("path"));
 }
 
 CLI::Option* add_paths(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
                        const std::string& help) {
-    return command.add_option(name, paths, help)->check(not_empty());
+    return command.add_option(name, paths, help)->check(not_empty("path"));
 }
 
 CLI::Option* add_file_to_write(CLI::App& command, const std::string& name, std::string& path,

@@ -48,6 +48,7 @@ class AdaptiveGrid {
                                const std::vector<bool>& is_protected) {
         take_start(probes, is_protected);
         report_.start_count = set_.probes.size();
+        for (const glm::dvec3& sensor : input_.sensors) add_sensor(sensor);
         Status status = refine();
         if (status) status = remove_and_replace();
         if (!status && status.error().message != "cancelled") return status.error();
@@ -112,9 +113,13 @@ class AdaptiveGrid {
         if (there >= wanted) return;
         for (const glm::dvec3& place :
              places_.next(std::max(wanted - there, there / 2), input_.thread_count)) {
-            const uint32_t sensor = add_to_pool(place);
-            (++sensor_count_ % kCheckEvery == 0 ? checks_ : sensors_).push_back(sensor);
+            add_sensor(place);
         }
+    }
+
+    void add_sensor(const glm::dvec3& place) {
+        const uint32_t sensor = add_to_pool(place);
+        (++sensor_count_ % kCheckEvery == 0 ? checks_ : sensors_).push_back(sensor);
     }
 
     Status bake() {
@@ -125,6 +130,9 @@ class AdaptiveGrid {
     Status survey() {
         while (true) {
             add_sensors();
+            if (checks_.empty()) {
+                return Error{"the bounds have no free place off surfaces to measure light at"};
+            }
             if (auto status = bake(); !status) return status;
             set_.volume = volume_of(pool_, set_.probes);
             const auto errors =
@@ -211,12 +219,21 @@ class AdaptiveGrid {
         return sum * share * share;
     }
 
+    [[nodiscard]] std::vector<uint32_t> spaces_of(const std::vector<uint32_t>& probes) const {
+        std::vector<uint32_t> spaces;
+        for (const uint32_t probe : probes) {
+            spaces.push_back(input_.space_of(pool_.position(probe)));
+        }
+        return spaces;
+    }
+
     /// Removes probes down to a number, while the error stays below one; false: none could go.
     Result<bool> remove(size_t fewest, double largest_error) {
         const RemoveRule rule{std::max<size_t>(fewest, 4), sum_at(largest_error), 0.125,
                               input_.thread_count};
-        auto left =
-            remover_.pass(set_.probes, set_.volume, sensors_, set_.errors, is_protected_, rule);
+        auto left = remover_.pass({set_.probes, spaces_of(set_.probes), set_.volume, sensors_,
+                                   set_.errors, is_protected_},
+                                  rule);
         if (left.size() == set_.probes.size()) return false;
         set_.probes = std::move(left);
         if (auto status = survey(); !status) return status.error();

@@ -58,6 +58,8 @@ struct AdaptiveReport {
     double error = 0.0;
     AdaptiveEnd end = AdaptiveEnd::TargetReached;
     uint32_t round_count = 0;
+    /// Metres between the lattice's probes that it began with.
+    glm::dvec3 start_spacing{0.0};
     /// Probes at the start, and before those were removed that do little.
     uint64_t start_count = 0;
     uint64_t largest_count = 0;
@@ -75,6 +77,10 @@ struct AdaptiveInput {
     double clearance = 0.0;
     /// Whether a probe may stand at a position that is free.
     std::function<bool(const glm::dvec3& position)> may_stand;
+    /// The space that a position lies in: each keeps probes that span what its start spans.
+    std::function<uint32_t(const glm::dvec3& position)> space_of;
+    /// Where light is measured beside places that are spread evenly: in small spaces.
+    std::vector<glm::dvec3> sensors;
     uint64_t max_probe_count = 0;
     uint32_t thread_count = 0;
 };
@@ -85,7 +91,8 @@ struct AdaptiveInput {
 /// it. Probes flagged `is_protected` (one a start) stay. Deterministic without a time budget.
 ///
 /// When it is interrupted or out of time, the result is that of the last round; the error
-/// "interrupted" (or "out of time ...") says that there was none yet.
+/// "interrupted" (or "out of time ...") says that there was none yet. Further errors: no place to
+/// measure light at, and spaces that need more probes than there may be.
 [[nodiscard]] Result<AdaptiveReport> refine_grid(const AdaptiveInput& input,
                                                  const AdaptiveSettings& settings,
                                                  std::vector<PlacedProbe>& probes,

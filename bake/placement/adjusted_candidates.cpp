@@ -29,22 +29,6 @@ Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, Placem
     return Error{"unknown mode"};
 }
 
-/// The part of the bounds that a volume reaches into; none where it lies outside.
-std::optional<Box> bounds_in(const Box& bounds, const ProbeAdjustment& adjustment) {
-    const double half = adjustment.shape == AdjustmentShape::Sphere ? 1.0 : 0.5;
-    Box box{glm::dvec3(std::numeric_limits<double>::max()),
-            glm::dvec3(std::numeric_limits<double>::lowest())};
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 local(corner & 1 ? half : -half, corner & 2 ? half : -half,
-                               corner & 4 ? half : -half, 1.0);
-        const glm::dvec3 world(adjustment.world_from_volume * local);
-        box = {glm::min(box.low, world), glm::max(box.high, world)};
-    }
-    box = {glm::max(box.low, bounds.low), glm::min(box.high, bounds.high)};
-    if (glm::any(glm::greaterThan(box.low, box.high))) return std::nullopt;
-    return box;
-}
-
 /// Adds what of a rule's candidates stands where `owner` sets the spacing; null: no volume does.
 Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustments,
            PlacementMode mode, const CandidateRule& rule, const ProbeAdjustment* owner,
@@ -62,6 +46,21 @@ Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustment
 }
 
 }  // namespace
+
+std::optional<Box> bounds_in(const Box& bounds, const ProbeAdjustment& adjustment) {
+    const double half = adjustment.shape == AdjustmentShape::Sphere ? 1.0 : 0.5;
+    Box box{glm::dvec3(std::numeric_limits<double>::max()),
+            glm::dvec3(std::numeric_limits<double>::lowest())};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 local(corner & 1 ? half : -half, corner & 2 ? half : -half,
+                               corner & 4 ? half : -half, 1.0);
+        const glm::dvec3 world(adjustment.world_from_volume * local);
+        box = {glm::min(box.low, world), glm::max(box.high, world)};
+    }
+    box = {glm::max(box.low, bounds.low), glm::min(box.high, bounds.high)};
+    if (glm::any(glm::greaterThan(box.low, box.high))) return std::nullopt;
+    return box;
+}
 
 Result<std::vector<Candidate>> adjusted_candidates(const TraceScene& traced,
                                                    std::span<const ProbeAdjustment> adjustments,
@@ -92,7 +91,7 @@ std::vector<PlacedProbe> place_candidates(const TraceScene& traced,
         const auto& [position, reach, is_adjusted] = candidates[i];
         placed[i] = {position, Fate::Forbidden, 0.0f};
         if (adjustment_at(adjustments, position).forbids_probes) return;
-        placed[i] = place_probe(traced, position, {rule.clearance, reach});
+        placed[i] = place_probe(traced, position, {rule.clearance, reach, rule.bounds});
         // Nothing is pushed into a volume that wants nothing.
         if (adjustment_at(adjustments, placed[i].position).forbids_probes) {
             placed[i].fate = Fate::Forbidden;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Candidate {
     /// An adjustment volume asks for it.
     bool is_adjusted = false;
 };
+
+/// The part of the bounds that a volume reaches into; none where it lies outside.
+[[nodiscard]] std::optional<Box> bounds_in(const Box& bounds, const ProbeAdjustment& adjustment);
 
 /// Candidates of the mode by the rule where no volume sets a spacing, and by the volume's own
 /// spacing where one does. Errors as in candidates.h.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/placement/candidate_count.h"
 
-#include <cmath>
 #include <string>
 
+#include "bake/memory_estimate.h"
 #include "base/text.h"
 
 namespace tetralight {
@@ -23,9 +23,8 @@ std::string a_grid_of(double count) {
 Status check_memory(double count, double bytes_each, uint64_t free_bytes) {
     const double bytes = count * bytes_each;
     if (bytes <= static_cast<double>(free_bytes)) return Ok{};
-    return Error{text(a_grid_of(count), " needs about ", std::round(bytes / 1e8) / 10.0,
-                      " GB of memory, ", std::round(static_cast<double>(free_bytes) / 1e8) / 10.0,
-                      " GB are free")};
+    return Error{text(a_grid_of(count), " needs about ", gigabytes(bytes), " of memory, ",
+                      gigabytes(free_bytes), " are free")};
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "bake/parallel.h"
 #include "bake/placement/candidate_count.h"
 #include "bake/placement/free_space.h"
+#include "bake/placement/grid_bounds.h"
 #include "bake/placement/lattice.h"
 #include "base/text.h"
 
@@ -52,28 +53,7 @@ std::vector<LineHit> hits_along(const TraceScene& traced, const Box& bounds, glm
 Result<std::vector<glm::dvec3>> lines_along(const CandidateRule& rule, int axis) {
     Box flat = rule.bounds;
     flat.low[axis] = flat.high[axis] = 0.0;
-    constexpr double kFlatLayers = 2.0;
-    const auto count = lattice_count(flat, rule.spacing);
-    if (!count) return count.error();
-    const auto status = check_candidate_count(*count / kFlatLayers, rule.max_count);
-    if (!status) return status.error();
-    const auto lattice = make_lattice(flat, rule.spacing, std::numeric_limits<uint64_t>::max());
-    if (!lattice) return lattice.error();
-    Lattice one_layer = *lattice;
-    one_layer.axes[axis].count = 1;
-    return one_layer.positions();
-}
-
-bool is_in(const Box& bounds, const glm::dvec3& position) {
-    constexpr double kRounding = 1e-6;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double slack = kRounding * std::max(1.0, bounds.size()[axis]);
-        if (position[axis] < bounds.low[axis] - slack ||
-            position[axis] > bounds.high[axis] + slack) {
-            return false;
-        }
-    }
-    return true;
+    return lattice_candidates({flat, rule.spacing, 0.0, {}, rule.max_count, 0});
 }
 
 /// Calls `add(line, found)` for each line and joins what was found in the lines' order.
@@ -115,12 +95,14 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
             for (const double height : rule.heights) {
                 const glm::vec3 top(0.0f, static_cast<float>(height), 0.0f);
                 if (!sees(traced, foot, foot + top)) continue;
-                found.push_back(hit.position + glm::dvec3(0.0, height, 0.0));
+                const glm::dvec3 candidate = hit.position + glm::dvec3(0.0, height, 0.0);
+                if (is_in(rule.bounds, candidate)) found.push_back(candidate);
             }
         }
     });
     if (candidates && candidates->empty()) {
-        return Error{text("there is no floor below any of ", columns->size(), " columns")};
+        return Error{text("there is no floor, or no room above it in the bounds, in any of ",
+                          columns->size(), " columns")};
     }
     return candidates;
 }
@@ -137,10 +119,11 @@ Result<std::vector<glm::dvec3>> surface_candidates(const TraceScene& traced,
                 const int main = facing.x >= facing.y && facing.x >= facing.z ? 0
                                  : facing.y >= facing.z                       ? 1
                                                                               : 2;
-                if (main != axis || !is_in(rule.bounds, hit.position)) continue;
+                if (main != axis) continue;
                 const glm::dvec3 off = rule.clearance * glm::dvec3(hit.side.normal);
-                found.push_back(hit.position + off);
-                found.push_back(hit.position - off);
+                for (const glm::dvec3& candidate : {hit.position + off, hit.position - off}) {
+                    if (is_in(rule.bounds, candidate)) found.push_back(candidate);
+                }
             }
         });
         if (!some) return some.error();

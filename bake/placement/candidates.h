@@ -32,12 +32,13 @@ struct CandidateRule {
 
 /// Columns `spacing` apart, and in each the heights above every floor in the bounds: surfaces that
 /// face up, by less than 60° off, seen from above, of all storeys. Heights that something stands
-/// between and the floor are left out. Error: no column has a floor.
+/// between and the floor are left out, and so are those above the bounds. Error: nothing is left.
 [[nodiscard]] Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
                                                                const CandidateRule& rule);
 
 /// Both sides of every surface in the bounds, at the clearance, about one `spacing` apart: where
-/// lines along the axes meet surfaces that face more along this axis than along the others.
+/// lines along the axes meet surfaces that face more along this axis than along the others. What
+/// is not in the bounds is left out.
 [[nodiscard]] Result<std::vector<glm::dvec3>> surface_candidates(const TraceScene& traced,
                                                                  const CandidateRule& rule);
 

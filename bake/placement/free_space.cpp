@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/placement/free_space.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "bake/capture_offset.h"
+#include "bake/placement/grid_bounds.h"
 #include "bake/survey.h"
 
 namespace tetralight {
@@ -42,7 +45,8 @@ class Push {
         : traced_(traced),
           start_(start),
           clearance_(static_cast<float>(rule.clearance)),
-          reach_(static_cast<float>(rule.reach)) {}
+          reach_(static_cast<float>(rule.reach)),
+          bounds_(rule.bounds) {}
 
     /// Out of geometry, and then away from what is there.
     [[nodiscard]] std::optional<glm::vec3> out_of_geometry() const {
@@ -67,14 +71,44 @@ class Push {
         return std::nullopt;
     }
 
-    /// For candidates on a surface, which have no gradient, and in corners, where it leads nowhere.
-    [[nodiscard]] std::optional<glm::vec3> along_axes() const {
+    /// The shortest way along an axis: out of geometry, away from surfaces, or off the surface that
+    /// the candidate stands on.
+    [[nodiscard]] std::optional<glm::vec3> along_axes(bool is_inside, float distance) const {
         constexpr glm::vec3 kAxes[] = {{0, 1, 0},  {0, -1, 0}, {1, 0, 0},
                                        {-1, 0, 0}, {0, 0, 1},  {0, 0, -1}};
+        const float touching = touching_distance();
+        std::vector<Way> ways;
         for (const glm::vec3& axis : kAxes) {
-            // From a little off the surface, so that the way is not blocked by it.
-            const glm::vec3 from = start_ + 2.0f * kSlack * clearance_ * axis;
-            if (const auto place = along_gradient(from)) return place;
+            if (distance < touching) {
+                // A little off, so that the way is not blocked by the surface that it stands on.
+                add_way(start_ + touching * axis, axis, ways);
+            } else if (!is_inside) {
+                add_way(start_, axis, ways);
+            } else if (const auto beyond = exit(axis)) {
+                add_way(*beyond, axis, ways);
+            }
+        }
+        // Up comes before other ways that differ by rounding only.
+        const float step = kSlack * clearance_;
+        std::ranges::stable_sort(ways, {}, [&](const Way& way) {
+            return std::round(glm::distance(way.place, start_) / step);
+        });
+        for (const Way& way : ways) {
+            if (is_fine(way.from, way.place)) return way.place;
+        }
+        return std::nullopt;
+    }
+
+    /// Out of an edge or a corner where walls meet, for a candidate that stands in it.
+    [[nodiscard]] std::optional<glm::vec3> off_edges(float distance) const {
+        if (!(distance < touching_distance())) return std::nullopt;
+        for (const float axis_count : {2.0f, 3.0f}) {
+            for (int n = 0; n < 27; ++n) {
+                const glm::vec3 way(n % 3 - 1, 1 - n / 9, n / 3 % 3 - 1);
+                if (glm::dot(way, way) != axis_count) continue;
+                const glm::vec3 from = start_ + touching_distance() * glm::normalize(way);
+                if (const auto place = along_gradient(from)) return place;
+            }
         }
         return std::nullopt;
     }
@@ -82,8 +116,40 @@ class Push {
   private:
     static constexpr float kMinValidity = 0.75f;
 
+    /// A straight way to a place with clearance.
+    struct Way {
+        glm::vec3 from{0.0f};
+        glm::vec3 place{0.0f};
+    };
+
+    /// Beyond the first surface along an axis, if the candidate is behind it.
+    [[nodiscard]] std::optional<glm::vec3> exit(const glm::vec3& axis) const {
+        const auto side = traced_.cast_side({start_, axis, reach_});
+        if (!side || !side->is_from_behind) return std::nullopt;
+        return traced_.ray_origin(*side, start_ + side->distance * axis, axis);
+    }
+
+    /// What stands nearer to a surface stands on it.
+    [[nodiscard]] float touching_distance() const { return 2.0f * kSlack * clearance_; }
+
+    void add_way(const glm::vec3& from, const glm::vec3& axis, std::vector<Way>& ways) const {
+        constexpr int kMaxSteps = 8;
+        glm::vec3 place = from;
+        for (int i = 0; i < kMaxSteps && glm::distance(place, start_) <= reach_; ++i) {
+            const auto nearest = traced_.nearest_surface(place);
+            const float distance = nearest ? glm::distance(place, *nearest) : clearance_;
+            if (distance >= clearance_) {
+                ways.push_back({from, place});
+                return;
+            }
+            // No nearer place along the axis has clearance.
+            place += (clearance_ * (1.0f + kSlack) - distance) * axis;
+        }
+    }
+
     [[nodiscard]] bool is_fine(glm::vec3 from, glm::vec3 place) const {
         return glm::distance(place, start_) <= reach_ &&
+               is_in(bounds_, traced_.world_from_traced(place)) &&
                (place == from || sees(traced_, from, place)) &&
                standing_of(traced_, place, look_around(traced_, place)) == Standing::Free;
     }
@@ -92,6 +158,7 @@ class Push {
     glm::vec3 start_;
     float clearance_;
     float reach_;
+    Box bounds_;
 };
 
 }  // namespace
@@ -131,8 +198,12 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
     if (!is_inside && around.surface_distance >= (1.0 - kSlack) * rule.clearance) return placed;
 
     const Push push(traced, start, rule);
-    auto place = is_inside ? push.out_of_geometry() : push.along_gradient(start);
-    if (!place && rule.clearance > 0.0) place = push.along_axes();
+    std::optional<glm::vec3> place;
+    if (rule.clearance > 0.0) {
+        place = push.along_axes(is_inside, around.surface_distance);
+        if (!place) place = push.off_edges(around.surface_distance);
+    }
+    if (!place) place = is_inside ? push.out_of_geometry() : push.along_gradient(start);
     if (!place) {
         placed.fate = is_inside ? Fate::Inside : Fate::TooClose;
         return placed;

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 
+#include "bake/scene/scene_bounds.h"
 #include "bake/survey.h"
 #include "bake/trace_scene.h"
 
@@ -33,6 +35,9 @@ struct ClearanceRule {
     double clearance = 0.0;
     /// A candidate that has to move moves this far at most, metres.
     double reach = 0.0;
+    /// It moves to nowhere else.
+    Box bounds{glm::dvec3(-std::numeric_limits<double>::infinity()),
+               glm::dvec3(std::numeric_limits<double>::infinity())};
 };
 
 /// A candidate, and where it stands in the end.
@@ -47,7 +52,8 @@ struct PlacedProbe {
 
 /// Keeps a candidate where it stands, moves it out of geometry and away from surfaces, or says why
 /// it cannot be kept. A move leads through no surface but the one that the candidate is behind of:
-/// along the way from the nearest surface, or else along one of the axes. Pure.
+/// the shortest way along one of the axes, which leaves it in the planes of its lattice, or else
+/// away from the nearest surface. Pure.
 [[nodiscard]] PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                                       const ClearanceRule& rule);
 

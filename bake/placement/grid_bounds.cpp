@@ -11,19 +11,76 @@
 
 namespace tetralight {
 
+namespace {
+
+constexpr int kUp = 1;
+
+/// Whether an instance is a node of this name, or lies below one.
+bool is_part_of(const Scene& scene, const MeshInstance& instance, const std::string& name) {
+    if (instance.name == name) return true;
+    for (uint32_t node = instance.node; node != kNoIndex; node = scene.nodes[node].parent) {
+        if (scene.nodes[node].name == name) return true;
+    }
+    return false;
+}
+
+Status check_name(const Scene& scene, const std::string& name) {
+    const auto is_part = [&](const MeshInstance& i) { return is_part_of(scene, i, name); };
+    if (std::ranges::any_of(scene.instances, is_part)) return Ok{};
+    const bool is_there = std::ranges::count(scene.nodes, name, &SceneNode::name) > 0;
+    if (is_there) return Error{text("node \"", name, "\" has no mesh to take bounds from")};
+    return Error{text("there is no node \"", name, "\"")};
+}
+
+}  // namespace
+
 Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings) {
     if (settings.bounds) return *settings.bounds;
     for (const std::string& name : settings.bounds_of) {
-        const bool is_there = std::ranges::any_of(
-            scene.instances, [&](const MeshInstance& instance) { return instance.name == name; });
-        if (!is_there) return Error{text("no node \"", name, "\" has a mesh to take bounds from")};
+        if (auto status = check_name(scene, name); !status) return status.error();
     }
     const auto bounds = scene_bounds(scene, [&](const MeshInstance& instance) {
         if (settings.bounds_of.empty()) return instance.contributes_gi;
-        return std::ranges::find(settings.bounds_of, instance.name) != settings.bounds_of.end();
+        return std::ranges::any_of(settings.bounds_of, [&](const std::string& name) {
+            return is_part_of(scene, instance, name);
+        });
     });
     if (!bounds) return Error{"the scene has no static geometry to take bounds from"};
     return *bounds;
+}
+
+Box with_room(const Box& bounds, const glm::dvec3& spacing, double clearance,
+              const ProbeGridSettings& settings) {
+    if (settings.bounds) return bounds;
+    Box box = bounds;
+    const glm::dvec3 size = bounds.size();
+    const double flat = settings.mode == PlacementMode::Adaptive ? 0.125 : 0.25;
+    const double least = flat * std::max({size.x, size.y, size.z});
+    for (int axis = 0; axis < 3; ++axis) {
+        const double missing = std::min(2.0 * spacing[axis], least) - size[axis];
+        if (missing <= 0.0) continue;
+        if (axis != kUp) box.low[axis] -= 0.5 * missing;
+        box.high[axis] += axis == kUp ? missing : 0.5 * missing;
+    }
+    if (settings.mode == PlacementMode::Layers && !settings.heights.empty()) {
+        box.high[kUp] += std::ranges::max(settings.heights);
+    }
+    if (settings.mode == PlacementMode::Surface) {
+        box.low -= glm::dvec3(clearance, 0.0, clearance);
+        box.high += glm::dvec3(clearance);
+    }
+    return box;
+}
+
+bool is_in(const Box& box, const glm::dvec3& position) {
+    constexpr double kRounding = 1e-6;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double slack = kRounding * std::max(1.0, box.size()[axis]);
+        if (position[axis] < box.low[axis] - slack || position[axis] > box.high[axis] + slack) {
+            return false;
+        }
+    }
+    return true;
 }
 
 uint64_t most_probes(const ProbeGridSettings& settings) {

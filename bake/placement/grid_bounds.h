@@ -9,9 +9,18 @@
 namespace tetralight {
 
 /// The box to fill: what is given, or around the nodes that are named, or around all that
-/// contributes global illumination. Errors: a name that no node with a mesh has, and nothing to
-/// take bounds from.
+/// contributes global illumination. A node's box is that of all below it. Errors: a name that no
+/// node has, or none that has a mesh, and nothing to take bounds from.
 [[nodiscard]] Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings);
+
+/// The box with room for what the mode puts around the scene's surfaces: flat scenes have air above
+/// them, layers stand above the highest floor, and surfaces have outer sides. A box that is given
+/// stays as it is.
+[[nodiscard]] Box with_room(const Box& bounds, const glm::dvec3& spacing, double clearance,
+                            const ProbeGridSettings& settings);
+
+/// Whether a position lies in a box, rounding aside.
+[[nodiscard]] bool is_in(const Box& box, const glm::dvec3& position);
 
 /// The most probes that are allowed.
 [[nodiscard]] uint64_t most_probes(const ProbeGridSettings& settings);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bake/placement/candidate_count.h"
 #include "base/text.h"
@@ -11,7 +12,8 @@ namespace tetralight {
 namespace {
 
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
-constexpr int kUp = 1;
+/// Of the spacing; thinner bounds are flat.
+constexpr double kFlatShare = 0.001;
 
 Status check(const Box& bounds, const glm::dvec3& spacing) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -28,18 +30,34 @@ Status check(const Box& bounds, const glm::dvec3& spacing) {
     return Ok{};
 }
 
-/// How many layers fit; may be beyond any integer.
-double layer_count(const Box& bounds, double spacing, int axis) {
-    // What is short of a whole spacing by rounding only (bounds come from float vertices) is whole.
-    return std::max(2.0, std::floor(bounds.size()[axis] / spacing + 1e-6));
+bool is_flat(double size, double spacing) {
+    return size < kFlatShare * spacing;
 }
 
-/// A power of two, multiples of which floats hold exactly wherever the lattice may reach.
-double float_step(const Box& bounds, const glm::dvec3& spacing) {
-    double farthest = 0.0;
+/// How many layers fit; may be beyond any integer.
+double layer_count(double size, double spacing) {
+    if (is_flat(size, spacing)) return 1.0;
+    // What is short of a whole spacing by rounding only (bounds come from float vertices) is whole.
+    return std::max(2.0, std::floor(size / spacing + 1e-6));
+}
+
+/// Less than asked for where two layers would not fit.
+glm::dvec3 fitting_spacing(const Box& bounds, const glm::dvec3& spacing) {
+    glm::dvec3 fitting = spacing;
     for (int axis = 0; axis < 3; ++axis) {
-        farthest = std::max({farthest, std::abs(bounds.low[axis]) + 2.0 * spacing[axis],
-                             std::abs(bounds.high[axis]) + 2.0 * spacing[axis]});
+        const double size = bounds.size()[axis];
+        if (is_flat(size, spacing[axis])) continue;
+        const bool holds_two = size / spacing[axis] + 1e-6 >= 2.0;
+        if (!holds_two) fitting[axis] = 0.5 * size;
+    }
+    return fitting;
+}
+
+/// A power of two, multiples of which floats hold exactly wherever the bounds reach.
+double float_step(const Box& bounds) {
+    double farthest = std::numeric_limits<double>::min();
+    for (int axis = 0; axis < 3; ++axis) {
+        farthest = std::max({farthest, std::abs(bounds.low[axis]), std::abs(bounds.high[axis])});
     }
     constexpr int kFloatBits = 24;
     return std::ldexp(1.0, std::ilogb(farthest) + 1 - kFloatBits);
@@ -49,16 +67,12 @@ double rounded(double value, double step) {
     return std::round(value / step) * step;
 }
 
-LatticeAxis layers_along(const Box& bounds, double spacing, double step, int axis) {
-    const double count = layer_count(bounds, spacing, axis);
+LatticeAxis layers_along(const Box& bounds, double spacing, double count, double step, int axis) {
     // Spacings that are not many steps would change visibly.
     constexpr double kFewSteps = 1024.0;
     const bool is_rounded = spacing > kFewSteps * step;
     if (is_rounded) spacing = rounded(spacing, step);
-    const double size = bounds.size()[axis];
-    const double centered = bounds.low[axis] + 0.5 * (size - (count - 1.0) * spacing);
-    const double standing = bounds.low[axis] + 0.5 * spacing;
-    const double first = axis == kUp ? std::max(centered, standing) : centered;
+    const double first = bounds.low[axis] + 0.5 * (bounds.size()[axis] - (count - 1.0) * spacing);
     return {is_rounded ? rounded(first, step) : first, spacing, static_cast<uint64_t>(count)};
 }
 
@@ -79,7 +93,9 @@ std::vector<glm::dvec3> Lattice::positions() const {
 Result<double> lattice_count(const Box& bounds, const glm::dvec3& spacing) {
     if (auto status = check(bounds, spacing); !status) return status.error();
     double count = 1.0;
-    for (int axis = 0; axis < 3; ++axis) count *= layer_count(bounds, spacing[axis], axis);
+    for (int axis = 0; axis < 3; ++axis) {
+        count *= layer_count(bounds.size()[axis], spacing[axis]);
+    }
     return count;
 }
 
@@ -87,10 +103,12 @@ Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing, uint6
     const auto count = lattice_count(bounds, spacing);
     if (!count) return count.error();
     if (auto status = check_candidate_count(*count, max_count); !status) return status.error();
-    const double step = float_step(bounds, spacing);
+    const double step = float_step(bounds);
+    const glm::dvec3 fitting = fitting_spacing(bounds, spacing);
     Lattice lattice;
     for (int axis = 0; axis < 3; ++axis) {
-        lattice.axes[axis] = layers_along(bounds, spacing[axis], step, axis);
+        const double layers = layer_count(bounds.size()[axis], spacing[axis]);
+        lattice.axes[axis] = layers_along(bounds, fitting[axis], layers, step, axis);
     }
     return lattice;
 }

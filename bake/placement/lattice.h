@@ -42,11 +42,12 @@ struct Lattice {
 /// positive, bounds that are empty or not finite.
 [[nodiscard]] Result<double> lattice_count(const Box& bounds, const glm::dvec3& spacing);
 
-/// The lattice in the middle of the bounds, half a spacing or more from their sides. Each axis has
-/// two layers at least; where the bounds are thinner they stand on the lower end of Y and around
-/// the middle of X and Z. Spacing and start are rounded to what floats hold exactly, by less than
-/// 1e-6 of the farthest coordinate, so that neighbors stand exactly in line: that is what keeps
-/// the tetrahedra between them from degenerating.
+/// The lattice in the middle of the bounds, half a spacing or more from their sides. An axis that
+/// is too short for two layers has two nevertheless, a quarter of it from its ends, so that what
+/// stands between them has light; a flat one (thinner than a thousandth of the spacing) has one
+/// layer. Spacing and start are rounded to what floats hold exactly, by less than 1e-6 of the
+/// farthest coordinate, so that neighbors stand exactly in line: that is what keeps the tetrahedra
+/// between them from degenerating.
 ///
 /// Errors: those of `lattice_count` and `check_candidate_count`.
 [[nodiscard]] Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing,

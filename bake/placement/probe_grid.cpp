@@ -2,11 +2,16 @@
 #include "bake/placement/probe_grid.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
 #include <utility>
 
 #include "bake/placement/adjusted_candidates.h"
+#include "bake/placement/affine_dimension.h"
 #include "bake/placement/candidates.h"
 #include "bake/placement/canonical_scene.h"
+#include "bake/placement/empty_spaces.h"
 #include "bake/placement/grid_bounds.h"
 #include "bake/placement/group_by_region.h"
 #include "bake/placement/reach.h"
@@ -18,6 +23,9 @@ namespace {
 
 /// Probes on surfaces keep this share of the spacing from each other.
 constexpr double kCrowdedShare = 0.5;
+/// Of a space that the lattice missed: probes to start with, these and sensors, and those among
+/// which they are chosen.
+constexpr size_t kStartProbes = 8, kStartPlaces = 64, kMostPlaces = 256;
 
 std::vector<glm::dvec3> kept_positions(const std::vector<PlacedProbe>& probes) {
     std::vector<glm::dvec3> positions;
@@ -47,6 +55,18 @@ std::string none_left(const ProbeGrid& grid) {
                 " forbidden");
 }
 
+/// Without heights that are nearer than the clearance to one before them.
+std::vector<double> heights_apart(const std::vector<double>& heights, double clearance) {
+    std::vector<double> apart;
+    for (const double height : heights) {
+        const bool is_near = std::ranges::any_of(apart, [&](double other) {
+            return height == other || std::abs(height - other) < clearance;
+        });
+        if (!is_near) apart.push_back(height);
+    }
+    return apart;
+}
+
 /// The stages of one grid.
 class GridMaker {
   public:
@@ -63,8 +83,9 @@ class GridMaker {
         auto reach = drop_unreachable(traced_, map_, settings_, probes_);
         if (!reach) return reach.error();
         grid_.pockets = std::move(reach->pockets);
+        wanted_ = std::move(reach->wanted);
+        look_into_empty_spaces(reach->filled);
         if (settings_.mode == PlacementMode::Adaptive && !kept_positions(probes_).empty()) {
-            wanted_ = std::move(reach->wanted);
             auto report = adapt(callback);
             if (!report) return report.error();
             grid_.adaptive = *report;
@@ -81,26 +102,122 @@ class GridMaker {
         if (settings_.mode == PlacementMode::Surface) {
             drop_crowded(traced_, kCrowdedShare * smallest(rule_.spacing), probes_);
         }
+        for (const ProbeAdjustment& adjustment : scene_.probe_adjustments) {
+            const bool is_outside = !bounds_in(rule_.bounds, adjustment);
+            if (is_outside) grid_.adjustments_outside.push_back(adjustment.name);
+        }
         for (const Candidate& candidate : *candidates) {
             is_protected_.push_back(candidate.is_adjusted);
         }
         return Ok{};
     }
 
+    [[nodiscard]] bool is_wanted(uint32_t space) const {
+        const bool keeps_all = settings_.other_spaces == OtherSpaces::Keep;
+        return keeps_all || std::ranges::binary_search(wanted_, space);
+    }
+
+    /// Spaces that the lattice missed are told of; the adaptive mode starts in those it shall fill,
+    /// and in those where too few probes stand to enclose anything.
+    void look_into_empty_spaces(const std::vector<uint32_t>& filled) {
+        constexpr size_t kCubicMetre = 8;  // posts
+        const bool is_adaptive = settings_.mode == PlacementMode::Adaptive;
+        const PlaceRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMostPlaces : 1,
+                             rule_.thread_count};
+        const std::vector<uint32_t> done = is_adaptive ? well_filled(filled) : filled;
+        std::vector<SpacePlaces> spaces = find_places(traced_, map_, done, rule);
+        if (wanted_.empty() && !spaces.empty()) {  // the largest, where nothing stands anywhere
+            wanted_ = {std::ranges::max_element(spaces, {}, &SpacePlaces::post_count)->space};
+        }
+        for (SpacePlaces& space : spaces) {
+            if (is_adaptive && is_wanted(space.space)) {
+                start_in(space);
+                continue;
+            }
+            const bool is_seeded = !settings_.seeds.empty() && is_wanted(space.space);
+            if (space.post_count < kCubicMetre && !is_seeded) continue;
+            grid_.empty_spaces.push_back({space.places[0], is_wanted(space.space)});
+        }
+    }
+
+    /// Those of the filled spaces whose probes enclose a volume, or are not wanted.
+    [[nodiscard]] std::vector<uint32_t> well_filled(const std::vector<uint32_t>& filled) const {
+        std::map<uint32_t, std::vector<glm::dvec3>> probes = probes_by_space();
+        std::vector<uint32_t> done;
+        for (const uint32_t space : filled) {
+            if (!is_wanted(space) || affine_dimension(probes[space]) == 3) done.push_back(space);
+        }
+        return done;
+    }
+
+    [[nodiscard]] std::map<uint32_t, std::vector<glm::dvec3>> probes_by_space() const {
+        const std::vector<glm::dvec3> positions = kept_positions(probes_);
+        const std::vector<uint32_t> spaces = map_.spaces_of(positions, rule_.thread_count);
+        std::map<uint32_t, std::vector<glm::dvec3>> result;
+        for (size_t i = 0; i < spaces.size(); ++i) result[spaces[i]].push_back(positions[i]);
+        return result;
+    }
+
+    /// Puts probes to the ends of a space that the lattice missed, and sensors between them.
+    void start_in(SpacePlaces& space) {
+        const auto probes = probes_by_space();
+        const auto there = probes.find(space.space);
+        std::vector<glm::dvec3> taken;
+        if (there != probes.end()) taken = there->second;
+        std::erase_if(space.places, [&](const glm::dvec3& place) {
+            return adjustment_at(scene_.probe_adjustments, place).forbids_probes ||
+                   std::ranges::any_of(taken, [&](const glm::dvec3& probe) {
+                       return glm::distance(probe, place) <= rule_.clearance;
+                   });
+        });
+        spread_out(space.places, taken, kStartPlaces);
+        for (size_t i = 0; i < std::min(space.places.size(), kStartPlaces); ++i) {
+            const glm::dvec3& place = space.places[i];
+            if (i >= kStartProbes) {
+                sensors_.push_back(place);
+                continue;
+            }
+            probes_.push_back(place_probe(traced_, place, {rule_.clearance}));
+            is_protected_.push_back(false);
+        }
+        if (!std::ranges::binary_search(wanted_, space.space)) {
+            wanted_.insert(std::ranges::upper_bound(wanted_, space.space), space.space);
+        }
+    }
+
+    /// The fewest probes that span what the start spans in each space.
+    [[nodiscard]] size_t fewest_probes() const {
+        size_t count = 0;
+        for (const auto& [space, probes] : probes_by_space()) {
+            count += static_cast<size_t>(affine_dimension(probes) + 1);
+        }
+        return count;
+    }
+
     Result<AdaptiveReport> adapt(const AdaptiveCallback& callback) {
+        const size_t fewest = fewest_probes();
+        if (fewest > rule_.max_count) {
+            return Error{text(wanted_.size(), " spaces need ", fewest,
+                              " probes at least, more than the limit of ", rule_.max_count)};
+        }
         const AdaptiveInput input{scene_,
                                   traced_,
                                   rule_.bounds,
                                   rule_.clearance,
                                   [this](const glm::dvec3& position) { return is_free(position); },
+                                  [this](const glm::dvec3& p) { return map_.space_of(p); },
+                                  std::move(sensors_),
                                   rule_.max_count,
                                   settings_.thread_count};
-        return refine_grid(input, settings_.adaptive, probes_, is_protected_, callback);
+        auto report = refine_grid(input, settings_.adaptive, probes_, is_protected_, callback);
+        if (report) report->start_spacing = rule_.spacing;
+        return report;
     }
 
     /// Whether the adaptive mode may put a probe there.
     [[nodiscard]] bool is_free(const glm::dvec3& position) const {
         constexpr double kCloser = 0.5;  // sensors in corners, for measuring only
+        if (!is_in(rule_.bounds, position)) return false;
         if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
         return is_surely_free(traced_, position, kCloser * rule_.clearance) &&
                std::ranges::binary_search(wanted_, map_.space_of(position));
@@ -129,8 +246,9 @@ class GridMaker {
     const CandidateRule& rule_;
     SpaceMap map_;
     std::vector<PlacedProbe> probes_;
-    std::vector<bool> is_protected_;  ///< one a candidate
-    std::vector<uint32_t> wanted_;
+    std::vector<bool> is_protected_;   ///< one a candidate
+    std::vector<uint32_t> wanted_;     ///< spaces, sorted
+    std::vector<glm::dvec3> sensors_;  ///< of spaces that the lattice missed
     ProbeGrid grid_;
 };
 
@@ -147,10 +265,10 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
     for (const ProbeAdjustment& adjustment : scene.probe_adjustments) {
         if (auto status = check(adjustment); !status) return status.error();
     }
-    const CandidateRule rule{*bounds,
+    const CandidateRule rule{with_room(*bounds, *spacing, *clearance, settings),
                              *spacing,
                              *clearance,
-                             settings.heights,
+                             heights_apart(settings.heights, *clearance),
                              most_probes(settings),
                              settings.thread_count};
     const Scene canonical = canonical_scene(scene);

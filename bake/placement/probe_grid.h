@@ -38,11 +38,13 @@ struct ProbeGridSettings {
     PlacementMode mode = PlacementMode::Regular;
     /// Metres between probes on each axis; `adaptive` has its own.
     glm::dvec3 spacing{1.0};
-    /// What to fill; none = the bounds of what contributes global illumination.
+    /// What to fill: no probe stands outside of it. None = the bounds of what contributes global
+    /// illumination, with some room around (`with_room`).
     std::optional<Box> bounds;
-    /// Nodes whose bounds to fill instead, by name.
+    /// Nodes whose bounds, with all below them, to fill instead, by name.
     std::vector<std::string> bounds_of;
-    /// Layers: metres above the floor.
+    /// Layers: metres above the floor. Of those nearer to each other than the clearance the first
+    /// counts.
     std::vector<double> heights{0.3, 1.7};
     /// Metres that probes keep from surfaces; none = a tenth of the smallest spacing, 0.25 at most
     /// (0.05 when adaptive).
@@ -70,6 +72,16 @@ struct Pocket {
     bool operator==(const Pocket&) const = default;
 };
 
+/// A space that nothing stands in.
+struct EmptySpace {
+    /// Where a probe could stand.
+    glm::dvec3 position{0.0};
+    /// It was asked for.
+    bool is_wanted = false;
+
+    bool operator==(const EmptySpace&) const = default;
+};
+
 struct ProbeGrid {
     /// Of one region each, in world space; none is empty.
     std::vector<ProbeGroup> groups;
@@ -80,6 +92,10 @@ struct ProbeGrid {
     std::array<uint64_t, kFateCount> fate_counts{};
     /// The spaces that were dropped, the largest first.
     std::vector<Pocket> pockets;
+    /// Spaces of a cubic metre or so that no candidate stands in.
+    std::vector<EmptySpace> empty_spaces;
+    /// The scene's adjustment volumes that do not reach into the bounds, by name.
+    std::vector<std::string> adjustments_outside;
     std::optional<AdaptiveReport> adaptive;
 
     [[nodiscard]] uint64_t count(Fate fate) const { return fate_counts[static_cast<size_t>(fate)]; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "bake/placement/group_by_region.h"
 #include "bake/survey.h"
@@ -18,7 +19,16 @@ Status check_seed(const TraceScene& traced, const SpaceMap& map, const glm::dvec
     if (standing_of(traced, position, look_around(traced, position)) == Standing::Inside) {
         return Error{place + " lies inside geometry"};
     }
+    if (map.space_of(seed) == kNoIndex) {
+        return Error{place + " lies in a gap that is too narrow to be searched"};
+    }
     return Ok{};
+}
+
+std::vector<uint32_t> sorted_once(std::vector<uint32_t> spaces) {
+    std::ranges::sort(spaces);
+    spaces.erase(std::ranges::unique(spaces).begin(), spaces.end());
+    return spaces;
 }
 
 std::vector<uint32_t> wanted_spaces(const SpaceMap& map, const ProbeGridSettings& settings,
@@ -29,9 +39,7 @@ std::vector<uint32_t> wanted_spaces(const SpaceMap& map, const ProbeGridSettings
         wanted.resize(std::min<size_t>(wanted.size(), 1));
         if (!settings.seeds.empty()) wanted = map.spaces_of(settings.seeds);
     }
-    std::ranges::sort(wanted);
-    wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
-    return wanted;
+    return sorted_once(std::move(wanted));
 }
 
 }  // namespace
@@ -50,6 +58,7 @@ Result<Reach> drop_unreachable(const TraceScene& traced, SpaceMap& map,
     map.join(settings.seeds, settings.thread_count);
     const std::vector<uint32_t> spaces = map.spaces_of(positions, settings.thread_count);
     Reach reach;
+    reach.filled = sorted_once(spaces);
     reach.wanted = wanted_spaces(map, settings, spaces);
     std::map<uint32_t, Pocket> pockets;
     size_t i = 0;

@@ -17,13 +17,15 @@ struct Reach {
     /// One a probe that is kept.
     std::vector<uint32_t> spaces;
     std::vector<Pocket> pockets;
-    /// The spaces to fill, sorted.
+    /// The spaces to fill, sorted. Where other spaces are kept it is only those of probes.
     std::vector<uint32_t> wanted;
+    /// All spaces that have probes, kept or dropped, sorted.
+    std::vector<uint32_t> filled;
 };
 
 /// Drops the probes that cannot be reached from the seeds, or from the space that most probes are
 /// in, when other spaces are not kept. Joins in the map what probes and seeds see. Error: a seed
-/// inside geometry or out of bounds.
+/// inside geometry, out of bounds or in a gap that the map has no post in.
 [[nodiscard]] Result<Reach> drop_unreachable(const TraceScene& traced, SpaceMap& map,
                                              const ProbeGridSettings& settings,
                                              std::vector<PlacedProbe>& probes);

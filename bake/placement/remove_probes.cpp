@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "bake/parallel.h"
+#include "bake/placement/affine_dimension.h"
 #include "base/assert.h"
 #include "probes/content_hash.h"
 
@@ -60,15 +62,46 @@ std::vector<uint32_t> in_pool(const std::vector<uint32_t>& numbers,
     return result;
 }
 
+/// The probes that are left in each space.
+class ProbesOfSpaces {
+  public:
+    ProbesOfSpaces(const LightPool& pool, std::span<const uint32_t> probes,
+                   std::span<const uint32_t> spaces)
+        : spaces_(spaces) {
+        for (size_t i = 0; i < probes.size(); ++i) {
+            positions_.push_back(pool.position(probes[i]));
+            left_[spaces[i]].push_back(static_cast<uint32_t>(i));
+        }
+    }
+
+    /// Takes one away, unless the others of its space span less without it.
+    bool remove(uint32_t i) {
+        std::vector<uint32_t>& all = left_[spaces_[i]];
+        std::vector<uint32_t> others = all;
+        std::erase(others, i);
+        if (dimension(others) < dimension(all)) return false;
+        all = std::move(others);
+        return true;
+    }
+
+  private:
+    [[nodiscard]] int dimension(const std::vector<uint32_t>& probes) const {
+        std::vector<glm::dvec3> positions;
+        for (const uint32_t probe : probes) positions.push_back(positions_[probe]);
+        return affine_dimension(positions);
+    }
+
+    std::span<const uint32_t> spaces_;
+    std::vector<glm::dvec3> positions_;
+    std::map<uint32_t, std::vector<uint32_t>> left_;
+};
+
 }  // namespace
 
-std::vector<uint32_t> ProbeRemover::pass(std::span<const uint32_t> probes,
-                                         const ProbeVolume& volume,
-                                         std::span<const uint32_t> sensors,
-                                         std::span<const SensorError> errors,
-                                         const std::vector<bool>& is_protected,
-                                         const RemoveRule& rule) {
-    TETRALIGHT_ASSERT(errors.size() == sensors.size(), "one error for each sensor");
+std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveRule& rule) {
+    TETRALIGHT_ASSERT(input.errors.size() == input.sensors.size(), "one error for each sensor");
+    TETRALIGHT_ASSERT(input.spaces.size() == input.probes.size(), "one space for each probe");
+    const auto& [probes, spaces, volume, sensors, errors, is_protected] = input;
     const Lists cells = cells_of_probes(volume);
     const Lists sensors_in = sensors_of_cells(volume, errors);
     std::vector<Star> stars(probes.size());
@@ -104,11 +137,13 @@ std::vector<uint32_t> ProbeRemover::pass(std::span<const uint32_t> probes,
     for (const SensorError& error : errors) sum += double{error.square};
     const auto most = static_cast<size_t>(rule.largest_share * static_cast<double>(probes.size()));
     std::vector<bool> is_gone(probes.size(), false), is_stale(probes.size(), false);
+    ProbesOfSpaces left_in(pool_, probes, spaces);
     size_t gone = 0;
     for (const uint32_t i : queue) {
         if (gone >= std::max<size_t>(most, 1) || probes.size() - gone <= rule.fewest) break;
         if (is_stale[i] || is_protected[probes[i]]) continue;
         if (sum + costs[i].change > rule.largest_sum) break;
+        if (!left_in.remove(i)) continue;
         sum += costs[i].change;
         is_gone[i] = true;
         ++gone;

@@ -24,6 +24,17 @@ struct RemoveRule {
     uint32_t thread_count = 0;
 };
 
+/// What probes are removed from.
+struct RemoveInput {
+    std::span<const uint32_t> probes;  ///< by number in the pool
+    std::span<const uint32_t> spaces;  ///< one a probe
+    const ProbeVolume& volume;         ///< of the probes
+    std::span<const uint32_t> sensors;
+    std::span<const SensorError> errors;  ///< one a sensor
+    /// Those that stay, by number in the pool.
+    const std::vector<bool>& is_protected;
+};
+
 /// Takes away the probes without which the light changes least (after Vardis et al. 2021,
 /// "Illumination-driven light probe placement", with a queue in place of their search): what a
 /// removal costs is found in the Delaunay cells of the probe's neighbors alone, which are those
@@ -34,14 +45,9 @@ class ProbeRemover {
     explicit ProbeRemover(const LightPool& pool) : pool_(pool) {}
 
     /// The probes that are left after one pass, the cheapest first, none beside another one that
-    /// goes; all of them when nothing can go. `volume` and `errors` are of `probes`; protected
-    /// probes, by number in the pool, stay.
-    [[nodiscard]] std::vector<uint32_t> pass(std::span<const uint32_t> probes,
-                                             const ProbeVolume& volume,
-                                             std::span<const uint32_t> sensors,
-                                             std::span<const SensorError> errors,
-                                             const std::vector<bool>& is_protected,
-                                             const RemoveRule& rule);
+    /// goes; all of them when nothing can go. Each space keeps probes that span what all of its
+    /// probes span.
+    [[nodiscard]] std::vector<uint32_t> pass(const RemoveInput& input, const RemoveRule& rule);
 
   private:
     /// Of one probe, by number in the pool.

@@ -7,6 +7,7 @@
 
 #include "bake/parallel.h"
 #include "bake/placement/free_space.h"
+#include "bake/placement/grid_bounds.h"
 
 namespace tetralight {
 namespace {
@@ -180,6 +181,15 @@ std::vector<uint32_t> SpaceMap::spaces_of(std::span<const glm::dvec3> positions,
     std::vector<uint32_t> spaces(positions.size());
     parallel_for(positions.size(), thread_count,
                  [&](size_t i) { spaces[i] = space_of(positions[i]); });
+    return spaces;
+}
+
+std::map<uint32_t, std::vector<glm::dvec3>> SpaceMap::posts_by_space(const Box& box) const {
+    std::map<uint32_t, std::vector<glm::dvec3>> spaces;
+    for (uint32_t i = 0; i < parent_.size(); ++i) {
+        const glm::dvec3 position = posts_.at(i);
+        if (!is_blocked_[i] && is_in(box, position)) spaces[root(i)].push_back(position);
+    }
     return spaces;
 }
 

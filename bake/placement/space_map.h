@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,9 @@ class SpaceMap {
 
     [[nodiscard]] std::vector<uint32_t> spaces_of(std::span<const glm::dvec3> positions,
                                                   uint32_t thread_count = 0) const;
+
+    /// The posts in a box, but for those on a surface, by the space that they lie in.
+    [[nodiscard]] std::map<uint32_t, std::vector<glm::dvec3>> posts_by_space(const Box& box) const;
 
     [[nodiscard]] bool contains(const glm::dvec3& position) const;
 

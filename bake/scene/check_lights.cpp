@@ -31,9 +31,7 @@ Status check_lights(const Scene& scene) {
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const std::string name = i < scene.light_names.size() ? scene.light_names[i] : "";
         auto status = check_light(scene.lights[i]);
-        if (status && has_control_character(name)) {
-            status = Error{"the name holds a line break or another control character"};
-        }
+        if (status) status = check_characters(name);
         if (status) continue;
         return status.error().in(text("light ", i, " \"", name, "\""));
     }

@@ -64,7 +64,9 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     scene.probe_groups = std::move(probe_groups->groups);
     scene.probe_adjustments = std::move(*adjustments);
     scene.instances = std::move(*instances);
-    scene.nodes = detail::scene_nodes(document, *nodes);
+    auto scene_nodes = detail::scene_nodes(document, *nodes);
+    if (!scene_nodes) return scene_nodes.error();
+    scene.nodes = std::move(*scene_nodes);
     scene.cameras = detail::read_cameras(document, *nodes);
     append_warnings(scene, lights->warnings);
     warn_about_skins(document, *nodes, scene);

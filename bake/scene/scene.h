@@ -86,7 +86,8 @@ struct Mesh {
 
 /// Where a thing that moves takes its probe light from.
 enum class LightProbeUsage : uint8_t {
-    Blend,        ///< one place, the centre of its bounds
+    Off,          ///< none: the ambient light of the volume
+    Blend,        ///< one place: its anchor, else the centre of its bounds
     ProxyVolume,  ///< a grid around it (lppv/lppv.h)
 };
 
@@ -97,6 +98,9 @@ struct SceneNode {
     glm::dmat4 world_from_node{1.0};
     /// `extras.light_probes`, inherited.
     LightProbeUsage light_probes = LightProbeUsage::Blend;
+    /// `extras.probe_anchor`, inherited: the node at whose origin things that move take their
+    /// light, or kNoIndex.
+    uint32_t probe_anchor = kNoIndex;
 
     bool operator==(const SceneNode&) const = default;
 };

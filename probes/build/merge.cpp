@@ -24,12 +24,9 @@ Error position_error(const ProbeGroup& group, size_t index, const char* what, gl
 
 Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
     if (group.name.empty()) return Error{"a probe group has no name"};
-    if (has_control_character(group.name)) {
-        return Error{text("group \"", group.name,
-                          "\": the name holds a line break or another control character")};
+    if (const auto status = check_characters(group.name); !status) {
+        return status.error().in(text("group \"", group.name, "\""));
     }
-    if (!is_utf8(group.name))
-        return Error{text("group \"", group.name, "\": the name is not UTF-8")};
     if (previous != nullptr && previous->name == group.name) {
         return Error{text("group \"", group.name, "\": there are two groups of this name")};
     }

@@ -23,5 +23,14 @@ TEST(Utf8, RefusesOverlongFormsSurrogatesAndWhatIsCutOff) {
     }
 }
 
+TEST(Utf8, RefusesNamesWithControlCharactersOrOtherBytes) {
+    EXPECT_TRUE(check_characters("Lampe \xc3\xa4"));
+    for (const char* name : {"a\nb", "a\tb", "\x7f"}) {
+        EXPECT_EQ(check_characters(name).error().message,
+                  "the name holds a line break or another control character");
+    }
+    EXPECT_EQ(check_characters("\xff").error().message, "the name is not UTF-8");
+}
+
 }  // namespace
 }  // namespace tetralight

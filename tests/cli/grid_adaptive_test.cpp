@@ -53,6 +53,34 @@ TEST_F(GridAdaptive, CtrlCLeavesTheLastWholeResult) {
     }
 }
 
+TEST_F(GridAdaptive, CtrlCPutsTheLastWholeResultBesideAnOlderFile) {
+    write("g.json", "old");
+    RunningCommand grid(folder(),
+                        {"grid", kCourtyard, "-o", "g.json", "--mode", "adaptive", "--target-error",
+                         "0.01%", "--max-probes", "50000"},
+                        "");
+    while (!grid.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    grid.send(SIGINT);
+    const CommandResult result = grid.wait();
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_TRUE(contains(result.err, "interrupted; g.json is as it was")) << result.err;
+    EXPECT_EQ(read("g.json"), "old");
+    if (contains(result.err, "g.partial.json holds the last whole result")) {
+        EXPECT_GT(count_in("g.partial.json"), 4u);
+    } else {
+        EXPECT_EQ(file_names().size(), 1u);  // a slow machine
+    }
+}
+
+TEST_F(GridAdaptive, SaysThatItBeganWithAWiderSpacing) {
+    const CommandResult result =
+        succeed({"grid", kCourtyard, "-o", "g.json", "--mode", "adaptive", "--spacing", "0.5",
+                 "--max-probes", "40", "--target-error", "50%"});
+    EXPECT_TRUE(contains(result.err, "--spacing 0.5,0.5,0.5 asks for more than half"))
+        << result.err;
+}
+
 TEST_F(GridAdaptive, OptionsOfItsOwnAreForItAlone) {
     for (const char* option : {"--target-error", "--time-budget", "--bounces", "--seed"}) {
         EXPECT_TRUE(
@@ -65,6 +93,12 @@ TEST_F(GridAdaptive, OptionsOfItsOwnAreForItAlone) {
 TEST_F(GridAdaptive, PreviewIsAPicture) {
     succeed({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "g.png"});
     EXPECT_EQ(read("g.png").substr(1, 3), "PNG");
+    succeed({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "g.png", "--width",
+             "64", "--height", "48", "--eye", "0,9,9", "--target", "0,0,0"});
+    EXPECT_EQ(read("g.png").substr(16, 8), std::string("\0\0\0\x40\0\0\0\x30", 8));
+    EXPECT_TRUE(
+        contains(misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--width", "64"}),
+                 "--preview"));
     const std::string message =
         fail({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "no/g.png"});
     EXPECT_TRUE(contains(message, "no/g.png")) << message;
@@ -79,10 +113,24 @@ TEST_F(GridAdaptive, AdjustmentsReachTheGridAndTheBake) {
     EXPECT_LT(wide["candidates"], plain["candidates"]);
     succeed({"bake", kCourtyard, "-g", "wide.json", "--only-given-groups", "-o", "v.probes", "-s",
              "16", "--adjustments", "a.json"});
-    const std::string table = succeed({"query", "v.probes", "--to", "csv"}, "0 1.5 0\n").out;
+    std::string table = succeed({"query", "v.probes", "--to", "csv"}, "0 1.5 0\n").out;
+    std::erase(table, '-');  // of -0
     size_t place = table.find('\n');
     for (int comma = 0; comma < 4; ++comma) place = table.find(',', place + 1);  // x, y, z, cell
     EXPECT_TRUE(table.substr(place).starts_with(",0,0,0,0,0,0,0,0,0,")) << table;
+}
+
+TEST_F(GridAdaptive, SaysWhichVolumesDoNothing) {
+    const Arguments command{"grid", kCourtyard,      "-o",    "g.json", "--spacing",
+                            "4",    "--adjustments", "a.json"};
+    write("a.json", R"({"adjustments": [{"name": "x", "shape": "sphere", "center": [0, 900, 0],
+                                         "radius": 2, "spacing": 1}]})");
+    EXPECT_TRUE(
+        contains(succeed(command).err, "adjustment volume \"x\" lies outside of the box to fill"));
+    write("a.json", R"({"adjustments": [{"name": "x", "shape": "box", "size": [1, -2, 1],
+                                         "forbid": true}]})");
+    EXPECT_TRUE(contains(fail(command),
+                         "a.json: adjustment volume \"x\": size -2 is not a positive length"));
 }
 
 TEST_F(GridAdaptive, BadAdjustmentsAreRefusedAndTheOldFileStays) {

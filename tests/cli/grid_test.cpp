@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <thread>
+
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {
@@ -70,6 +73,46 @@ TEST_F(Grid, RefusesWhatDoesNotGoTogether) {
     EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--from", "1,2"}), "--from"));
     EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--clearance", "-1"}), "--clearance"));
     EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--mode", "best"}), "--mode"));
+}
+
+TEST_F(Grid, RefusesNumbersThatAreNone) {
+    const auto message = [&](const char* option, const char* value) {
+        return misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "1", option, value});
+    };
+    EXPECT_TRUE(contains(message("--from", "nan,0,0"), "--from: \"nan,0,0\" is not finite"));
+    EXPECT_TRUE(contains(message("--max-probes", "0"), "--max-probes"));
+    EXPECT_TRUE(contains(misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "nan"}),
+                         "--spacing: \"nan\" is not a number"));
+}
+
+TEST_F(Grid, StdoutTakesOneFile) {
+    const std::string message =
+        misuse({"grid", kCourtyard, "-o", "-", "--preview", "-", "--spacing", "4"});
+    EXPECT_TRUE(contains(message, "--preview: stdout takes the probes already")) << message;
+}
+
+TEST_F(Grid, SaysThatProbeGroupsAreNoScene) {
+    write("groups.json", kFiveProbes);
+    EXPECT_EQ(fail({"grid", "groups.json", "-o", "g.json", "--spacing", "4"}),
+              "tetralight: groups.json: holds probe groups, no scene\n");
+}
+
+TEST_F(Grid, SaysThatThereIsNoNodeOfThatName) {
+    const std::string message =
+        fail({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--bounds-of", "the moon"});
+    EXPECT_TRUE(contains(message, "there is no node \"the moon\"")) << message;
+}
+
+TEST_F(Grid, CtrlCLeavesTheOldFileAndSaysSo) {
+    write("g.json", "old");
+    RunningCommand grid(folder(), {"grid", kCourtyard, "-o", "g.json", "--spacing", "0.2"}, "");
+    while (!grid.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    grid.send(SIGINT);
+    const CommandResult result = grid.wait();
+    EXPECT_EQ(result.exit_code, 130);
+    EXPECT_EQ(result.err, "tetralight: interrupted; g.json is as it was\n");
+    EXPECT_EQ(read("g.json"), "old");
+    EXPECT_EQ(file_names().size(), 1u);
 }
 
 TEST_F(Grid, NamesTheGroupAsAsked) {

@@ -158,6 +158,7 @@ struct GltfNode {
     // Extras of Tetralight's own.
     std::optional<bool> contributes_gi;
     std::optional<std::string> light_probes;
+    std::optional<std::string> probe_anchor;
     GltfLightExtras light_extras;
     bool is_probe_group = false;
     bool dering = false;

@@ -143,6 +143,7 @@ GltfNode converted(const tinygltf::Node& node) {
     }
     result.contributes_gi = boolean_extra(node.extras, "contribute_gi");
     result.light_probes = string_extra(node.extras, "light_probes");
+    result.probe_anchor = string_extra(node.extras, "probe_anchor");
     result.is_probe_group = boolean_extra(node.extras, "light_probe_group").value_or(false);
     result.dering = boolean_extra(node.extras, "dering").value_or(false);
     result.probe_adjustment = adjustment_from(node.extras);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/scene/detail/gltf_nodes.h"
 
+#include <map>
+#include <string>
+
 #include "bake/scene/detail/gltf_transform.h"
 #include "base/text.h"
 
@@ -46,6 +49,14 @@ Status check_no_cycle(const GltfDocument& document, const std::vector<uint32_t>&
     return Ok{};
 }
 
+Result<LightProbeUsage> usage_from(const std::string& word) {
+    if (word == "off") return LightProbeUsage::Off;
+    if (word == "blend") return LightProbeUsage::Blend;
+    if (word == "proxy_volume") return LightProbeUsage::ProxyVolume;
+    return Error{
+        text("extras.light_probes is \"", word, "\", not \"off\", \"blend\" or \"proxy_volume\"")};
+}
+
 /// The roots of the scene; without a scene, all nodes that have no parent.
 Result<std::vector<uint32_t>> find_roots(const GltfDocument& document,
                                          const std::vector<uint32_t>& parents) {
@@ -85,17 +96,14 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
         placed.world_from_node = parent->world_from_node * source.parent_from_node;
         placed.contributes_gi = parent->contributes_gi;
         placed.light_probes = parent->light_probes;
+        placed.anchored_by = parent->anchored_by;
     }
     placed.contributes_gi = source.contributes_gi.value_or(placed.contributes_gi);
+    if (source.probe_anchor) placed.anchored_by = node;
     if (source.light_probes) {
-        if (*source.light_probes == "proxy_volume") {
-            placed.light_probes = LightProbeUsage::ProxyVolume;
-        } else if (*source.light_probes == "blend") {
-            placed.light_probes = LightProbeUsage::Blend;
-        } else {
-            return Error{text(node_place(document, node), ": extras.light_probes is \"",
-                              *source.light_probes, "\", not \"blend\" or \"proxy_volume\"")};
-        }
+        const auto usage = usage_from(*source.light_probes);
+        if (!usage) return usage.error().in(node_place(document, node));
+        placed.light_probes = *usage;
     }
     if (is_finite_affine(source.parent_from_node) && is_finite_affine(placed.world_from_node)) {
         return placed;
@@ -125,6 +133,16 @@ Result<std::vector<GltfWorldNode>> flatten_from(const GltfDocument& document,
     return result;
 }
 
+/// Where the node of each name stands; kNoIndex where several have it.
+std::map<std::string, uint32_t> unique_names(std::span<const SceneNode> nodes) {
+    std::map<std::string, uint32_t> positions;
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        const bool is_first = positions.emplace(nodes[i].name, i).second;
+        if (!is_first) positions[nodes[i].name] = kNoIndex;
+    }
+    return positions;
+}
+
 }  // namespace
 
 Result<std::vector<GltfWorldNode>> flatten_nodes(const GltfDocument& document) {
@@ -137,15 +155,28 @@ Result<std::vector<GltfWorldNode>> flatten_nodes(const GltfDocument& document) {
     return flatten_from(document, *roots);
 }
 
-std::vector<SceneNode> scene_nodes(const GltfDocument& document,
-                                   std::span<const GltfWorldNode> nodes) {
+Result<std::vector<SceneNode>> scene_nodes(const GltfDocument& document,
+                                           std::span<const GltfWorldNode> nodes) {
     std::vector<uint32_t> position_of(document.nodes.size(), kNoIndex);
     std::vector<SceneNode> result;
     for (const GltfWorldNode& placed : nodes) {
         position_of[placed.node] = static_cast<uint32_t>(result.size());
         const uint32_t parent = placed.parent == kNoIndex ? kNoIndex : position_of[placed.parent];
         result.push_back({document.nodes[placed.node].name, parent, placed.world_from_node,
-                          placed.light_probes});
+                          placed.light_probes, kNoIndex});
+    }
+    const std::map<std::string, uint32_t> positions = unique_names(result);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].anchored_by == kNoIndex) continue;
+        const std::string& anchor = *document.nodes[nodes[i].anchored_by].probe_anchor;
+        const auto found = positions.find(anchor);
+        if (found == positions.end() || found->second == kNoIndex) {
+            return Error{text(node_place(document, nodes[i].anchored_by),
+                              ": extras.probe_anchor is \"", anchor, "\", ",
+                              found == positions.end() ? "which no node is called"
+                                                       : "which several nodes are called")};
+        }
+        result[i].probe_anchor = found->second;
     }
     return result;
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
+#include "bake/placement/affine_dimension.h"
 #include "tests/bake/placement/grid_support.h"
 
 namespace tetralight {
@@ -126,6 +128,110 @@ TEST(AdaptiveGrid, InTheDarkTheStartIsEnough) {
     const ProbeGrid grid = grid_of(scene, adaptive(100, 0.05));
     EXPECT_EQ(grid.adaptive->error, 0.0);
     EXPECT_LE(grid.probe_count(), 64u);
+}
+
+TEST(AdaptiveGrid, WhatIsLeftInTheDarkStillEnclosesAVolume) {
+    Scene scene;
+    add_box(scene, test::grey(), Facing::Inward, {0, 0, 0}, {4, 4, 4});
+    EXPECT_EQ(affine_dimension(positions_of(grid_of(scene, adaptive(100, 0.05)))), 3);
+}
+
+/// Air of 16 m with a sealed and lit room of 2 m in it, between the layers of a lattice of 8 m.
+Scene hidden_room() {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, test::grey(), 8.0f, -8.0f);
+    add_box(scene, test::grey(), Facing::Outward, {-1.2f, -1.2f, -1.2f}, {1.2f, 1.2f, 1.2f});
+    add_box(scene, test::diffuse(glm::vec3(0.5f), glm::vec3(1.0f)), Facing::Inward, {-1, -1, -1},
+            {1, 1, 1});
+    return scene;
+}
+
+ProbeGridSettings coarse_in_the_air() {
+    ProbeGridSettings settings = adaptive(60, 0.3);
+    settings.bounds = Box{{-8, -8, -8}, {8, 8, 8}};
+    settings.spacing = glm::dvec3(8.0);
+    settings.adaptive.start_spacing = settings.spacing;
+    return settings;
+}
+
+std::vector<glm::dvec3> in_hidden_room(const ProbeGrid& grid) {
+    std::vector<glm::dvec3> positions = positions_of(grid);
+    std::erase_if(positions, [](const glm::dvec3& p) {
+        return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1.0;
+    });
+    return positions;
+}
+
+TEST(AdaptiveGrid, FillsSpacesThatItsLatticeMisses) {
+    ProbeGridSettings settings = coarse_in_the_air();
+    settings.other_spaces = OtherSpaces::Keep;
+    const ProbeGrid both = grid_of(hidden_room(), settings);
+    EXPECT_EQ(affine_dimension(in_hidden_room(both)), 3);
+    EXPECT_GT(positions_of(both).size(), in_hidden_room(both).size());
+    settings.seeds = {{0.3, 0.2, 0.1}};
+    settings.other_spaces = OtherSpaces::Drop;
+    const ProbeGrid room = grid_of(hidden_room(), settings);
+    EXPECT_EQ(affine_dimension(in_hidden_room(room)), 3);
+    EXPECT_EQ(positions_of(room).size(), in_hidden_room(room).size());
+    EXPECT_EQ(room.groups.size(), 1u);
+}
+
+TEST(AdaptiveGrid, TellsOfSpacesThatItLeavesEmpty) {
+    const ProbeGrid grid = grid_of(hidden_room(), coarse_in_the_air());
+    ASSERT_EQ(grid.empty_spaces.size(), 1u);
+    EXPECT_FALSE(grid.empty_spaces[0].is_wanted);
+    const glm::dvec3 place = glm::abs(grid.empty_spaces[0].position);
+    EXPECT_LT(std::max({place.x, place.y, place.z}), 1.0);
+}
+
+TEST(AdaptiveGrid, FewerProbesThanItsSpacesNeedAreRefused) {
+    Scene scene = hidden_room();
+    add_box(scene, test::grey(), Facing::Inward, {-1, -1, 3}, {1, 1, 5});
+    add_box(scene, test::grey(), Facing::Outward, {-1.2f, -1.2f, 2.8f}, {1.2f, 1.2f, 5.2f});
+    ProbeGridSettings settings = coarse_in_the_air();
+    settings.other_spaces = OtherSpaces::Keep;
+    settings.max_probe_count = 11;
+    EXPECT_EQ(error_of(scene, settings),
+              "3 spaces need 12 probes at least, more than the limit of 11");
+}
+
+TEST(AdaptiveGrid, OverAPlaneItHasAirToFill) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, test::grey(), 8.0f);
+    const ProbeGrid grid = grid_of(scene, adaptive(60, 0.05));
+    EXPECT_GT(grid.adaptive->error, 0.0);
+    EXPECT_EQ(affine_dimension(positions_of(grid)), 3);
+    for (const glm::dvec3& p : positions_of(grid)) EXPECT_LE(p.y, 2.0);  // an eighth of 16 m
+}
+
+TEST(AdaptiveGrid, WithoutAPlaceToMeasureItReportsNoError) {
+    const Scene scene = two_rooms();
+    const auto traced = TraceScene::make_static(scene);
+    const AdaptiveInput input{scene,
+                              *traced,
+                              {{-8, 0, -2}, {8, 3, 2}},
+                              0.1,
+                              [](const auto&) { return false; },
+                              [](const auto&) { return 0u; },
+                              {},
+                              100,
+                              0};
+    std::vector<PlacedProbe> probes;
+    for (const double x : {1.0, 2.0, 3.0, 4.0}) probes.push_back({{x, 1, 0}});
+    const auto report = refine_grid(input, {}, probes, {}, {});
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().message,
+              "the bounds have no free place off surfaces to measure light at");
+}
+
+TEST(AdaptiveGrid, SaysWithWhichSpacingItBegan) {
+    ProbeGridSettings settings = coarse_in_the_air();
+    EXPECT_EQ(grid_of(hidden_room(), settings).adaptive->start_spacing, glm::dvec3(8.0));
+    settings.adaptive.start_spacing = settings.spacing = glm::dvec3(0.5);
+    // 32 layers along each axis are far more than half of 60 probes.
+    EXPECT_GT(grid_of(hidden_room(), settings).adaptive->start_spacing.x, 4.0);
 }
 
 TEST(AdaptiveGrid, RefusesASpacingThatIsNoLength) {

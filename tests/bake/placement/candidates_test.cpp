@@ -42,7 +42,7 @@ TEST(LayerCandidates, StandAboveEveryStorey) {
     for (const float y : {0.0f, 3.0f}) {
         add_box(scene, test::grey(), Facing::Outward, {-2, y - 0.2f, -2}, {2, y, 2});
     }
-    const auto found = layers_over(scene, rule_for({{-2, -0.2, -2}, {2, 3, 2}}, 2.0));
+    const auto found = layers_over(scene, rule_for({{-2, -0.2, -2}, {2, 5, 2}}, 2.0));
     // Four columns, each with two heights over two floors.
     EXPECT_EQ(heights_of(found), (std::multiset<double>{0.5, 0.5, 0.5, 0.5, 1.5, 1.5, 1.5, 1.5, 3.5,
                                                         3.5, 3.5, 3.5, 4.5, 4.5, 4.5, 4.5}));
@@ -52,6 +52,13 @@ TEST(LayerCandidates, FindNoRoomAboveALowCeiling) {
     Scene scene;
     test::add_floor(scene, test::grey(), 5.0f);
     test::add_ceiling(scene, test::grey(), 5.0f, 1.0f);
+    const auto found = layers_over(scene, rule_for({{-2, 0, -2}, {2, 1, 2}}, 2.0));
+    EXPECT_EQ(heights_of(found), (std::multiset<double>{0.5, 0.5, 0.5, 0.5}));
+}
+
+TEST(LayerCandidates, StayBelowTheUpperEndOfTheBounds) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 5.0f);
     const auto found = layers_over(scene, rule_for({{-2, 0, -2}, {2, 1, 2}}, 2.0));
     EXPECT_EQ(heights_of(found), (std::multiset<double>{0.5, 0.5, 0.5, 0.5}));
 }
@@ -71,7 +78,8 @@ TEST(LayerCandidates, ASceneWithoutAFloorIsAnError) {
     const auto traced = TraceScene::make_static(scene);
     const auto found = layer_candidates(*traced, rule_for({{-2, 0, -2}, {2, 3, 2}}, 2.0));
     ASSERT_FALSE(found);
-    EXPECT_EQ(found.error().message, "there is no floor below any of 4 columns");
+    EXPECT_EQ(found.error().message,
+              "there is no floor, or no room above it in the bounds, in any of 4 columns");
 }
 
 TEST(SurfaceCandidates, StandOnBothSidesAtTheClearance) {
@@ -88,13 +96,24 @@ TEST(SurfaceCandidates, FollowWallsOfAllDirections) {
     Scene scene;
     add_box(scene, test::grey(), Facing::Outward, {-1, -1, -1}, {1, 1, 1});
     const auto traced = TraceScene::make_static(scene);
-    const auto found = surface_candidates(*traced, rule_for({{-1, -1, -1}, {1, 1, 1}}, 1.0));
+    const auto found =
+        surface_candidates(*traced, rule_for({{-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}}, 1.0));
     ASSERT_TRUE(found);
     EXPECT_EQ(found->size(), 6u * 4u * 2u);
     for (const glm::dvec3& p : *found) {
         const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         EXPECT_NEAR(std::abs(farthest - 1.0), 0.1, 1e-6);
     }
+}
+
+TEST(SurfaceCandidates, LeaveOutTheSideBeyondTheBounds) {
+    Scene scene;
+    test::add_floor(scene, test::two_sided(), 2.0f);
+    const auto traced = TraceScene::make_static(scene);
+    const auto found = surface_candidates(*traced, rule_for({{-2, 0, -2}, {2, 2, 2}}, 1.0));
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->size(), 16u);
+    for (const glm::dvec3& p : *found) EXPECT_NEAR(p.y, 0.1, 1e-6);
 }
 
 TEST(Crowded, FlagsTheSecondOfTwoThatSeeEachOther) {

@@ -65,6 +65,43 @@ TEST(FreeSpace, OnAFloorItStandsUp) {
     EXPECT_NEAR(probe.position.y, 0.1, 1e-3);
 }
 
+TEST(FreeSpace, OnAWallItStepsOffAlongTheAxis) {
+    // Exactly on a face, and on an edge, where two ways out are as long.
+    const PlacedProbe face = place(solid(test::grey()), {1, 0.2, 0.1}, {0.1, 0.4});
+    EXPECT_EQ(face.fate, Fate::Pushed);
+    EXPECT_NEAR(face.position.x, 1.1, 1e-3);
+    EXPECT_EQ(glm::dvec2(face.position.y, face.position.z), glm::dvec2(0.2, 0.1));
+    const PlacedProbe edge = place(solid(test::grey()), {1, 1, 0.1}, {0.1, 0.4});
+    EXPECT_EQ(edge.fate, Fate::Pushed);
+    EXPECT_NEAR(edge.position.y, 1.1, 1e-3);
+    EXPECT_EQ(glm::dvec2(edge.position.x, edge.position.z), glm::dvec2(1, 0.1));
+}
+
+TEST(FreeSpace, InTheCornerOfARoomItStepsOffBothWalls) {
+    Scene room;
+    add_box(room, test::grey(), Facing::Inward, {-1, -1, -1}, {1, 1, 1});
+    add_box(room, test::grey(), Facing::Outward, {-1.2f, -1.2f, -1.2f}, {1.2f, 1.2f, 1.2f});
+    const PlacedProbe probe = place(room, {-1, 0.3, -1}, {0.1, 0.4});
+    EXPECT_EQ(probe.fate, Fate::Pushed);
+    EXPECT_NEAR(glm::distance(probe.position, glm::dvec3(-0.9, 0.3, -0.9)), 0.0, 1e-3);
+    EXPECT_EQ(probe.position.y, 0.3);
+}
+
+TEST(FreeSpace, APushLeavesThePlanesOfTheLatticeOnlyWhereItMust) {
+    // Outside of an edge: the nearest way off it is the diagonal, but an axis will do.
+    const PlacedProbe probe = place(solid(test::grey()), {1.05, 1.05, 0.3}, {0.2, 0.4});
+    EXPECT_EQ(probe.fate, Fate::Pushed);
+    EXPECT_NEAR(probe.position.y, 1.0 + std::sqrt(0.2 * 0.2 - 0.05 * 0.05), 1e-3);
+    EXPECT_EQ(glm::dvec2(probe.position.x, probe.position.z), glm::dvec2(1.05, 0.3));
+}
+
+TEST(FreeSpace, NothingIsPushedOutOfTheBounds) {
+    const Box bounds{{-2, -2, -2}, {1.15, 2, 2}};
+    EXPECT_EQ(place(solid(test::grey()), {1.05, 0, 0}, {0.2, 0.4, bounds}).fate, Fate::TooClose);
+    EXPECT_EQ(place(solid(test::grey()), {0.95, 0, 0}, {0.2, 0.4, bounds}).fate, Fate::Inside);
+    EXPECT_EQ(place(solid(test::grey()), {1.05, 0, 0}, {0.1, 0.4, bounds}).fate, Fate::Pushed);
+}
+
 TEST(FreeSpace, ASlabThinnerThanTheClearanceKeepsBothSidesApart) {
     // 2 cm thick; the clearance is 10 cm.
     Scene scene;

@@ -30,12 +30,32 @@ RC_GTEST_PROP(Lattice, FloatsHoldItExactly, ()) {
     }
     const auto lattice = make_lattice(bounds, glm::dvec3(spacing), 1'000'000'000);
     RC_ASSERT(static_cast<bool>(lattice));
-    for (const LatticeAxis& axis : lattice->axes) {
+    for (int a = 0; a < 3; ++a) {
+        const LatticeAxis& axis = lattice->axes[a];
+        const double size = bounds.size()[a];
         for (const uint64_t i : {uint64_t{0}, uint64_t{1}, axis.count - 1}) {
+            if (i >= axis.count) continue;
             RC_ASSERT(static_cast<double>(static_cast<float>(axis.at(i))) == axis.at(i));
+            RC_ASSERT(std::abs(axis.at(i) - bounds.center()[a]) <= 0.5 * size + 1e-3);
         }
-        RC_ASSERT(std::abs(axis.spacing - spacing) < 1e-3 * spacing);
+        const double fitting = size == 0.0 ? spacing : std::min(spacing, 0.5 * size);
+        RC_ASSERT(std::abs(axis.spacing - fitting) < 1e-3 * fitting);
     }
+}
+
+TEST(Lattice, AnAxisTooShortForTwoLayersHasThemAQuarterFromItsEnds) {
+    const auto lattice = make_lattice({{0, 0, 0}, {8, 8, 8}}, {1000.0, 6.0, 4.0}, 100);
+    ASSERT_TRUE(lattice);
+    ASSERT_EQ(lattice->count(), 8u);
+    EXPECT_EQ(lattice->at(0), glm::dvec3(2, 2, 2));
+    EXPECT_EQ(lattice->at(7), glm::dvec3(6, 6, 6));
+}
+
+TEST(Lattice, AFlatAxisHasOneLayer) {
+    const auto lattice = make_lattice({{0, 3, 0}, {4, 3, 4}}, glm::dvec3(2.0), 100);
+    ASSERT_TRUE(lattice);
+    ASSERT_EQ(lattice->count(), 4u);
+    EXPECT_EQ(lattice->at(3), glm::dvec3(3, 3, 3));
 }
 
 TEST(Lattice, TenBillionProbesAreRefusedWithTheNumber) {

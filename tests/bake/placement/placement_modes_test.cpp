@@ -68,7 +68,70 @@ TEST(PlacementModes, BoundsOfNamedNodes) {
     const ProbeGrid grid = grid_of(scene, settings);
     EXPECT_EQ(grid.candidate_count, 64u);
     settings.bounds_of = {"room", "attic"};
-    EXPECT_EQ(error_of(scene, settings), "no node \"attic\" has a mesh to take bounds from");
+    EXPECT_EQ(error_of(scene, settings), "there is no node \"attic\"");
+}
+
+TEST(PlacementModes, BoundsOfANodeAreThoseOfAllBelowIt) {
+    Scene scene;
+    scene.nodes = {{.name = "house"}, {.name = "upstairs", .parent = 0}, {.name = "garden"}};
+    test::add_floor(scene, test::grey(), 90.0f);
+    const auto add_room = [&](uint32_t node, float low) {
+        add_box(scene, test::grey(), Facing::Inward, {0, low, 0}, {4, low + 4, 4}).node = node;
+    };
+    add_room(0, 0.0f);
+    add_room(1, 4.0f);
+    ProbeGridSettings settings;
+    settings.bounds_of = {"house"};
+    EXPECT_EQ(grid_of(scene, settings).candidate_count, 4u * 8u * 4u);
+    settings.bounds_of = {"garden"};
+    EXPECT_EQ(error_of(scene, settings), "node \"garden\" has no mesh to take bounds from");
+}
+
+/// A room of 4 m with a box in it on a floor that goes on outside.
+Scene furnished_room() {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, test::two_sided(), 20.0f);
+    add_box(scene, test::grey(), Facing::Outward, {-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f});
+    return scene;
+}
+
+TEST(PlacementModes, NoneLeavesTheGivenBox) {
+    using enum PlacementMode;
+    const Box box{{-2, 0, -2}, {2, 1.5, 2}};
+    for (const PlacementMode mode : {Regular, Layers, Surface, Adaptive}) {
+        ProbeGridSettings settings = settings_for(box, 0.5);
+        settings.mode = mode;
+        settings.max_probe_count = mode == Adaptive ? 100 : 100'000;
+        settings.heights = {0.3, 1.7};
+        const ProbeGrid grid = grid_of(furnished_room(), settings);
+        for (const glm::dvec3& p : positions_of(grid)) {
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_GE(p[axis], box.low[axis] - 1e-5) << static_cast<int>(mode);
+                EXPECT_LE(p[axis], box.high[axis] + 1e-5) << static_cast<int>(mode);
+            }
+        }
+    }
+}
+
+TEST(PlacementModes, ASceneHasRoomForLayersAboveItsHighestFloor) {
+    Scene scene;
+    add_box(scene, test::grey(), Facing::Outward, {-4, 0, -4}, {4, 3, 4});
+    ProbeGridSettings settings;
+    settings.spacing = glm::dvec3(2.0);
+    settings.mode = PlacementMode::Layers;
+    settings.heights = {1.0};
+    EXPECT_EQ(layers(grid_of(scene, settings), 1), (std::vector<double>{4.0}));
+}
+
+TEST(PlacementModes, HeightsThatAreNearlyEqualCountOnce) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 4.0f);
+    ProbeGridSettings settings = settings_for({{-4, 0, -4}, {4, 3, 4}}, 2.0);
+    settings.mode = PlacementMode::Layers;
+    settings.clearance = 0.1;
+    settings.heights = {1.0, 1.0, 2.0, 1.05, 1.5};
+    EXPECT_EQ(layers(grid_of(scene, settings), 1), (std::vector<double>{1.0, 1.5, 2.0}));
 }
 
 TEST(PlacementModes, DistancesBelongToTheProbes) {

@@ -72,19 +72,19 @@ TEST(ProbeGrid, DropsCandidatesInsideASolidAndCountsThem) {
 
 TEST(ProbeGrid, OverAnOpenPlaneBothHeightsStay) {
     Scene scene;
-    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 2.0f);
-    const ProbeGrid grid = grid_of(scene, {});  // bounds: the plane itself
+    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 4.0f);
+    const ProbeGrid grid = grid_of(scene, {});  // bounds: the plane, and two spacings above it
     EXPECT_EQ(grid.count(Fate::Inside), 0u);
     EXPECT_EQ(layers(grid, 1), (std::vector<double>{0.5, 1.5}));
-    EXPECT_EQ(positions_of(grid).size(), 32u);
+    EXPECT_EQ(positions_of(grid).size(), 128u);
 }
 
-TEST(ProbeGrid, ThinBoundsKeepTwoLayersAroundTheirMiddle) {
-    const ProbeGrid grid = grid_of(Scene{}, settings_for({{0, 0, 0}, {0.2, 4, 4}}, 1.0));
-    // Rounded to multiples of a float's step.
-    ASSERT_EQ(layers(grid, 0).size(), 2u);
-    EXPECT_NEAR(layers(grid, 0)[0], 0.1 - 0.5, 1e-6);
-    EXPECT_NEAR(layers(grid, 0)[1], 0.1 + 0.5, 1e-6);
+TEST(ProbeGrid, FarApartProbesStillStandAmongTheScenesThings) {
+    Scene scene = solid_in_the_middle();
+    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 8.0f, -1.0f);
+    const ProbeGrid grid = grid_of(scene, settings_for({{-8, -1, -8}, {8, 3, 8}}, 1000.0));
+    EXPECT_EQ(layers(grid, 0), (std::vector<double>{-4, 4}));
+    EXPECT_EQ(layers(grid, 1), (std::vector<double>{0, 2}));
 }
 
 TEST(ProbeGrid, ThingsThatMoveNeitherGiveBoundsNorBuryProbes) {

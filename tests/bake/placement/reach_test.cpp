@@ -79,6 +79,18 @@ TEST(Reach, RefusesSeedsThatLieInAWallOrOutside) {
     EXPECT_EQ(error_of(sealed_box(), settings), "seed 99,0,0 lies outside of the bounds");
 }
 
+TEST(Reach, ASpaceBetweenTheProbesIsToldOf) {
+    // Layers at ±2.5 are none of the box.
+    ProbeGridSettings settings = settings_for(kTen, 5.0);
+    ProbeGrid grid = grid_of(sealed_box(), settings);
+    ASSERT_EQ(grid.empty_spaces.size(), 1u);
+    EXPECT_TRUE(is_in_box(grid.empty_spaces[0].position, 1.8));
+    EXPECT_FALSE(grid.empty_spaces[0].is_wanted);
+    settings.other_spaces = OtherSpaces::Keep;
+    EXPECT_TRUE(grid_of(sealed_box(), settings).empty_spaces.at(0).is_wanted);
+    EXPECT_TRUE(grid_of(sealed_box(), settings_for(kTen, 1.0)).empty_spaces.empty());
+}
+
 /// A wall across `kTen` with a door of 0.9 × 2 m.
 Scene wall_with_door() {
     Scene scene;

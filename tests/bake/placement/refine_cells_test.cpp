@@ -115,7 +115,8 @@ TEST(ProbeRemover, RemovesWhatInterpolationMakesGoodAlready) {
     for (int pass = 0; pass < 40 && probes.size() > rule.fewest; ++pass) {
         const ProbeVolume volume = volume_of(pool, probes);
         const auto errors = survey_light(volume, pool, sensors, nullptr, 1);
-        probes = remover.pass(probes, volume, sensors, errors, is_protected, rule);
+        const std::vector<uint32_t> spaces(probes.size(), 0);  // all in one
+        probes = remover.pass({probes, spaces, volume, sensors, errors, is_protected}, rule);
     }
     EXPECT_EQ(probes.size(), 8u);
     EXPECT_NE(std::find(probes.begin(), probes.end(), 21u), probes.end());

@@ -208,8 +208,42 @@ TEST(GltfNodes, RefusesUnknownUsesOfProbes) {
     GltfBuilder gltf;
     gltf.add_root({{"name", "a"}, {"extras", {{"light_probes", "grid"}}}});
     EXPECT_EQ(gltf.error(),
-              "scene.glb: node 0 \"a\": extras.light_probes is \"grid\", not \"blend\" or "
+              "scene.glb: node 0 \"a\": extras.light_probes is \"grid\", not \"off\", \"blend\" or "
               "\"proxy_volume\"");
+}
+
+TEST(GltfNodes, AnchorsAreInheritedAndFoundByName) {
+    GltfBuilder gltf;
+    const size_t wheel = gltf.add("nodes", {{"name", "wheel"}, {"mesh", gltf.add_triangle()}});
+    const size_t lamp = gltf.add(
+        "nodes",
+        {{"name", "lamp"}, {"mesh", gltf.add_triangle()}, {"extras", {{"light_probes", "off"}}}});
+    gltf.add_root(
+        {{"name", "car"}, {"children", {wheel, lamp}}, {"extras", {{"probe_anchor", "roof"}}}});
+    gltf.add_root({{"name", "roof"}, {"translation", {1, 2, 3}}});
+    const Scene scene = scene_of(gltf);
+    ASSERT_EQ(scene.nodes.size(), 4u);
+    const uint32_t roof = scene.nodes[0].probe_anchor;
+    ASSERT_LT(roof, 4u);
+    EXPECT_EQ(scene.nodes[roof].world_from_node[3], glm::dvec4(1, 2, 3, 1));
+    EXPECT_EQ(scene.nodes[1].probe_anchor, roof);
+    EXPECT_EQ(scene.nodes[2].light_probes, LightProbeUsage::Off);
+    EXPECT_EQ(scene.nodes[roof].probe_anchor, kNoIndex);
+}
+
+TEST(GltfNodes, RefusesAnchorsThatAreNotOneNode) {
+    GltfBuilder gltf;
+    gltf.add_root({{"name", "twin"}});
+    gltf.add_root({{"name", "twin"}});
+    gltf.add_root({{"name", "car"}, {"extras", {{"probe_anchor", "twin"}}}});
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: node 2 \"car\": extras.probe_anchor is \"twin\", which several nodes are "
+              "called");
+    GltfBuilder lone;
+    lone.add_root({{"name", "car"}, {"extras", {{"probe_anchor", "roof"}}}});
+    EXPECT_EQ(
+        lone.error(),
+        "scene.glb: node 0 \"car\": extras.probe_anchor is \"roof\", which no node is called");
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "bake/placement/space_map.h"
+#include "bake/scene/scene_bounds.h"
+#include "bake/trace_scene.h"
+
+namespace tetralight {
+
+/// Places of one space where a probe may stand.
+struct SpacePlaces {
+    uint32_t space = 0;
+    std::vector<glm::dvec3> places;
+    /// How many posts of the map the space has in the bounds.
+    size_t post_count = 0;
+};
+
+/// Where probes may stand, free beyond doubt and at the clearance.
+struct PlaceRule {
+    Box bounds;
+    double clearance = 0.0;
+    /// In each space.
+    size_t most_places = 1;
+    uint32_t thread_count = 0;
+};
+
+/// The spaces of a map, but for those that are `filled` (sorted), and where they have room. Spaces
+/// in the bounds without any are left out.
+[[nodiscard]] std::vector<SpacePlaces> find_places(const TraceScene& traced, const SpaceMap& map,
+                                                   std::span<const uint32_t> filled,
+                                                   const PlaceRule& rule);
+
+/// Puts the `count` places first that stand farthest from each other and from those `taken`.
+void spread_out(std::vector<glm::dvec3>& places, std::span<const glm::dvec3> taken, size_t count);
+
+}  // namespace tetralight
