@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "bake/parallel.h"
@@ -11,6 +12,7 @@
 #include "cli/choice.h"
 #include "cli/common.h"
 #include "cli/lppv_grid_options.h"
+#include "cli/lppv_warnings.h"
 #include "cli/paths.h"
 #include "lppv/sparse_lppv.h"
 #include "pipeline/lppv_validity.h"
@@ -47,6 +49,30 @@ Json to_json(const glm::uvec3& v) {
     return {v.x, v.y, v.z};
 }
 
+Json bounds_json(const glm::dvec3& low, const glm::dvec3& high,
+                 const glm::dmat4& world_from_local = glm::dmat4(1.0)) {
+    const double* matrix = glm::value_ptr(world_from_local);
+    return {{"low", cli::to_json(low)},
+            {"high", cli::to_json(high)},
+            {"world_from_local", std::vector<double>(matrix, matrix + 16)}};
+}
+
+/// The box around the active points of a sparse grid; without blocks a point.
+struct PointBox {
+    glm::ivec3 first{0};
+    glm::ivec3 last{0};
+};
+
+PointBox box_of(const SparseLppv& lppv) {
+    if (lppv.blocks.empty()) return {};
+    glm::ivec3 low = lppv.blocks[0], high = low;
+    for (const glm::ivec3& block : lppv.blocks) {
+        low = glm::min(low, block);
+        high = glm::max(high, block);
+    }
+    return {low * kSparseBlockSide, (high + 1) * kSparseBlockSide - 1};
+}
+
 struct LppvCommand {
     std::string volume_path;
     std::string scene_path;
@@ -54,6 +80,7 @@ struct LppvCommand {
     LppvGridOptions grid;
     LppvFill fill;
     LppvFileSettings file;
+    CLI::Option* layout_option = nullptr;
     Layout layout = Layout::Automatic;
     bool is_sparse = false;
     double reach = 0.0;
@@ -77,10 +104,11 @@ struct LppvCommand {
             add_choice(command, "--precision", file.precision,
                        {{"half", LppvTexelFormat::Half}, {"float", LppvTexelFormat::Float}},
                        "Numbers of the file; .nvdb has floats");
-        add_choice(command, "--layout", layout,
-                   {{"auto", Layout::Automatic}, {"four", Layout::Four}, {"seven", Layout::Seven}},
-                   "Slabs of a texture: SHA and occlusion (four), or all bands (seven); auto = "
-                   "seven for --mode full");
+        layout_option = add_choice(
+            command, "--layout", layout,
+            {{"auto", Layout::Automatic}, {"four", Layout::Four}, {"seven", Layout::Seven}},
+            "Slabs of a texture: SHA and occlusion (four), or all bands (seven); auto = seven for "
+            "--mode full");
         auto* sparse_option =
             command.add_flag("--sparse", is_sparse,
                              "Only blocks of 8x8x8 points near probes and the scene's surfaces, at "
@@ -90,11 +118,15 @@ struct LppvCommand {
                         "With --sparse: how near, in metres (default: one spacing)")
             ->check(numbers_in(0.0, 1e9).description(""))
             ->needs(sparse_option);
-        for (const char* name : {"--object", "--bounds", "--resolution", "--mode", "--layout"}) {
+        for (const char* name : {"--object", "--bounds", "--resolution", "--placement",
+                                 "--unity-limits", "--mode", "--layout"}) {
             sparse_option->excludes(command.get_option(name));
         }
         common.add_to(command);
-        command.parse_complete_callback([this] { check_file(); });
+        command.parse_complete_callback([this] {
+            grid.check_usage();
+            check_file();
+        });
     }
 
     /// What does not go together, as wrong usage.
@@ -109,6 +141,9 @@ struct LppvCommand {
             precision_option->count() > 0 && file.precision == LppvTexelFormat::Half;
         if (file.kind == LppvFileKind::NanoVdb && is_half) {
             throw CLI::ValidationError("--precision", ".nvdb files have floats");
+        }
+        if (layout_option->count() > 0 && !is_texture(file.kind)) {
+            throw CLI::ValidationError("--layout", "only .dds and .ktx2 files have slabs");
         }
         const bool is_full = fill.quality == LppvQuality::Full;
         const bool is_seven = layout == Layout::Seven || (layout == Layout::Automatic && is_full);
@@ -137,7 +172,8 @@ struct LppvCommand {
 
     Status run_dense(const Scene& scene, const ProbeVolumeView& volume) {
         const auto points = grid.make_grid(scene, volume);
-        if (!points) return points.error().in(grid.object.empty() ? volume_path : scene_path);
+        if (!points) return points.error().in(scene_path);
+        common.warn(grid.warnings(*points));
         std::vector<float> validity;
         if (!scene_path.empty()) {
             auto surveyed = survey_grid(scene, *points, common.thread_count);
@@ -152,18 +188,15 @@ struct LppvCommand {
         const Stopwatch writing;
         file.thread_count = common.thread_count;
         if (auto status = write_lppv(output, *lppv, file); !status) return status;
+        common.warn(lppv_warnings(*lppv, file));
         report(*lppv, fill_seconds, writing.seconds());
         return Ok{};
     }
 
     void report(const Lppv& lppv, double fill_seconds, double write_seconds) const {
         const LppvGrid& points = lppv.grid;
-        const double* matrix = glm::value_ptr(points.world_from_local);
         Json json{{"output", output},
-                  {"bounds",
-                   {{"low", cli::to_json(points.low)},
-                    {"high", cli::to_json(points.high)},
-                    {"world_from_local", std::vector<double>(matrix, matrix + 16)}}},
+                  {"bounds", bounds_json(points.low, points.high, points.world_from_local)},
                   {"resolution", to_json(points.resolution)},
                   {"spacing", cli::to_json(points.spacing())},
                   {"points", points.point_count()},
@@ -171,7 +204,7 @@ struct LppvCommand {
                   {"bytes", file_size(output)},
                   {"fill_seconds", fill_seconds},
                   {"write_seconds", write_seconds}};
-        if (file.kind == LppvFileKind::Dds || file.kind == LppvFileKind::Ktx2) {
+        if (is_texture(file.kind)) {
             json["constants"] = Json::parse(lppv_constants_json(lppv, file.layout));
         }
         const glm::uvec3& size = points.resolution;
@@ -189,11 +222,11 @@ struct LppvCommand {
     Status run_sparse(const Scene& scene, const ProbeVolumeView& volume) {
         SparseBlocks blocks(1.0 / grid.settings.density);
         const double near = reach > 0.0 ? reach : blocks.spacing();
-        if (auto status = add_blocks_near_probes(volume, near, blocks); !status) {
-            return status.error().in(volume_path);
-        }
-        if (auto status = add_blocks_near_surfaces(scene, near, blocks); !status) {
-            return status.error().in(scene_path);
+        auto status = add_blocks_near_probes(volume, near, blocks);
+        if (status) status = add_blocks_near_surfaces(scene, near, blocks);
+        if (!status) {
+            throw CLI::ValidationError(reach > 0.0 ? "--density, --reach" : "--density",
+                                       status.error().message);
         }
         const Stopwatch filling;
         const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads());
@@ -201,16 +234,20 @@ struct LppvCommand {
         const Stopwatch writing;
         const auto precision =
             file.precision == LppvTexelFormat::Half ? VdbPrecision::Half : VdbPrecision::Float;
-        const auto status = file.kind == LppvFileKind::NanoVdb
-                                ? write_nvdb(output, lppv, common.thread_count)
-                                : write_vdb(output, lppv, precision, common.thread_count);
+        status = file.kind == LppvFileKind::NanoVdb
+                     ? write_nvdb(output, lppv, common.thread_count)
+                     : write_vdb(output, lppv, precision, common.thread_count);
         if (!status) return status;
-        const size_t points = lppv.irradiance.size();
+        common.warn(half_warnings(largest_value(lppv.irradiance), file));
+        const PointBox box = box_of(lppv);
         common.report(output,
                       {{"output", output},
+                       {"bounds", bounds_json(lppv.spacing * glm::dvec3(box.first),
+                                              lppv.spacing * glm::dvec3(box.last))},
+                       {"resolution", to_json(glm::uvec3(box.last - box.first + 1))},
                        {"spacing", lppv.spacing},
                        {"blocks", lppv.blocks.size()},
-                       {"points", points},
+                       {"points", lppv.irradiance.size()},
                        {"bytes", file_size(output)},
                        {"fill_seconds", fill_seconds},
                        {"write_seconds", writing.seconds()}},

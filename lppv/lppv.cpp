@@ -19,15 +19,11 @@ constexpr auto kThisThread = [](size_t count, auto&& task) {
     for (size_t i = 0; i < count; ++i) task(i);
 };
 
-void replace_invalid(const LppvFill& fill, Lppv& lppv) {
+void light_invalid_points(const LppvFill& fill, Lppv& lppv) {
     const std::vector<uint32_t> nearest = detail::nearest_valid(
         lppv.grid.resolution, lppv.grid.spacing(), fill.validity, fill.min_validity);
-    for (size_t i = 0; i < nearest.size(); ++i) {
-        if (nearest[i] == i || nearest[i] == kNoIndex) continue;
-        lppv.irradiance[i] = lppv.irradiance[nearest[i]];
-        if (!lppv.occlusion.empty()) lppv.occlusion[i] = lppv.occlusion[nearest[i]];
-        ++lppv.replaced_count;
-    }
+    lppv.replaced_count +=
+        detail::replace_invalid(nearest, std::span(lppv.irradiance), lppv.occlusion);
 }
 
 void make_band_2_constant(std::vector<IrradianceSh>& irradiance) {
@@ -146,7 +142,7 @@ Status check_fill(const LppvGrid& grid, const LppvFill& fill) {
 }
 
 void finish_lppv(const LppvFill& fill, Lppv& lppv) {
-    if (!fill.validity.empty()) replace_invalid(fill, lppv);
+    if (!fill.validity.empty()) light_invalid_points(fill, lppv);
     if (fill.quality == LppvQuality::Normal) make_band_2_constant(lppv.irradiance);
 }
 

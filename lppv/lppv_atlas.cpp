@@ -172,14 +172,6 @@ struct LppvAtlas::Scratch {
         light.resize(count);
         occlusion.resize(count);
     }
-
-    void replace_invalid(std::span<const uint32_t> nearest_valid) {
-        for (size_t i = 0; i < nearest_valid.size(); ++i) {
-            if (nearest_valid[i] == kNoIndex) continue;
-            light[i] = light[nearest_valid[i]];
-            occlusion[i] = occlusion[nearest_valid[i]];
-        }
-    }
 };
 
 void LppvAtlas::run_task(const ProbeVolumeView& volume, std::span<const uint32_t> ids,
@@ -200,7 +192,7 @@ void LppvAtlas::fill(const ProbeVolumeView& probes, Volume& volume, Scratch& scr
     locate(probes, scratch.positions, scratch.locations);
     const auto status = blend(probes, scratch.locations, scratch.light, scratch.occlusion);
     TETRALIGHT_ASSERT(status, "there is room for the light of each location");
-    scratch.replace_invalid(volume.nearest_valid);
+    detail::replace_invalid(volume.nearest_valid, std::span(scratch.light), scratch.occlusion);
     volume.band_2 = {};
     if (volume.quality != LppvQuality::Low) volume.band_2 = mean_band_2(scratch.light);
     if (texture_.layout == LppvLayout::SevenSlabs) {

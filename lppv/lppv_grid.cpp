@@ -61,7 +61,7 @@ Status check_bounds(const glm::dvec3& low, const glm::dvec3& high) {
 
 /// The box around the corners of all parts, in a space.
 Result<Bounds> automatic_bounds(const LppvObject& object, const glm::dmat4& world_from_local) {
-    if (object.parts.empty()) return Error{"the object has no mesh to wrap; give custom bounds"};
+    if (object.parts.empty()) return Error{"there is no mesh to wrap"};
     const glm::dmat4 local_from_world = glm::inverse(world_from_local);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Bounds bounds{world_from_local, glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};

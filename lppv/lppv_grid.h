@@ -122,8 +122,10 @@ struct LppvGrid {
 };
 
 /// The grid of an object. An object scaled to nothing along an axis, and a box without thickness,
-/// are fine. Errors say the value: bounds that are not finite or reversed, an object without parts,
-/// a transform that is not affine or flattens it askew, and more points than are allowed.
+/// are fine: a density gives such an axis one point; a custom resolution keeps its number, so that
+/// an object that is squashed flat keeps its place in an atlas, all of them at one place. Errors
+/// say the value: bounds that are not finite or reversed, an object without parts, a transform that
+/// is not affine or flattens it askew, and more points than are allowed.
 [[nodiscard]] Result<LppvGrid> make_lppv_grid(const LppvObject& object,
                                               const LppvSettings& settings);
 

@@ -28,6 +28,13 @@ uint32_t texel_index(float coordinate, uint32_t size) {
     return static_cast<uint32_t>(std::min(coordinate, static_cast<float>(size - 1)));
 }
 
+/// The texels of one grid point.
+detail::SlabTexels point_texels(const Lppv& lppv, LppvLayout layout, size_t point) {
+    const glm::vec4 lit(1.0f);
+    return detail::slab_texels(layout, pack_sh(lppv.irradiance[point]),
+                               lppv.occlusion.empty() ? lit : lppv.occlusion[point]);
+}
+
 }  // namespace
 
 LppvTexture make_lppv_texture(const Lppv& lppv, LppvLayout layout, LppvTexelFormat format) {
@@ -36,10 +43,8 @@ LppvTexture make_lppv_texture(const Lppv& lppv, LppvLayout layout, LppvTexelForm
     LppvTexture texture{layout, format, {slabs * grid.x, grid.y, grid.z}, {}};
     const size_t bytes = texel_size(format);
     texture.texels.resize(slabs * lppv.grid.point_count() * bytes);
-    const glm::vec4 lit(1.0f);
     for (size_t i = 0; i < lppv.irradiance.size(); ++i) {
-        const auto texels = detail::slab_texels(layout, pack_sh(lppv.irradiance[i]),
-                                                lppv.occlusion.empty() ? lit : lppv.occlusion[i]);
+        const auto texels = point_texels(lppv, layout, i);
         const size_t row = i / grid.x, column = i % grid.x;
         for (uint32_t slab = 0; slab < slabs; ++slab) {
             const size_t texel = (row * slabs + slab) * grid.x + column;
@@ -47,6 +52,17 @@ LppvTexture make_lppv_texture(const Lppv& lppv, LppvLayout layout, LppvTexelForm
         }
     }
     return texture;
+}
+
+float largest_texel_value(const Lppv& lppv, LppvLayout layout) {
+    float largest = 0.0f;
+    for (size_t i = 0; i < lppv.irradiance.size(); ++i) {
+        const auto texels = point_texels(lppv, layout, i);
+        for (uint32_t slab = 0; slab < slab_count(layout); ++slab) {
+            for (int c = 0; c < 4; ++c) largest = std::max(largest, std::abs(texels[slab][c]));
+        }
+    }
+    return largest;
 }
 
 LppvConstants make_lppv_constants(const Lppv& lppv, LppvLayout layout) {

@@ -27,6 +27,9 @@ namespace tetralight {
 enum class LppvLayout : uint8_t { FourSlabs, SevenSlabs };
 enum class LppvTexelFormat : uint8_t { Half, Float };
 
+/// The largest half; what is beyond it is stored as it.
+inline constexpr float kLargestHalf = 65504.0f;
+
 [[nodiscard]] constexpr uint32_t slab_count(LppvLayout layout) noexcept {
     return layout == LppvLayout::FourSlabs ? 4 : 7;
 }
@@ -40,7 +43,7 @@ struct LppvTexture {
     LppvTexelFormat format = LppvTexelFormat::Half;
     /// Texels, all slabs together.
     glm::uvec3 size{0};
-    /// RGBA, x fastest, then y. Halves saturate at ±65504.
+    /// RGBA, x fastest, then y. Halves saturate at ±kLargestHalf.
     std::vector<std::byte> texels;
 
     bool operator==(const LppvTexture&) const = default;
@@ -48,6 +51,9 @@ struct LppvTexture {
 
 [[nodiscard]] LppvTexture make_lppv_texture(const Lppv& lppv, LppvLayout layout,
                                             LppvTexelFormat format);
+
+/// The largest magnitude among the texels of such a texture, as floats.
+[[nodiscard]] float largest_texel_value(const Lppv& lppv, LppvLayout layout);
 
 /// What a shader needs beside the texture, as std140 has it. The first four are Unity's
 /// unity_ProbeVolumeWorldToObject, unity_ProbeVolumeParams, unity_ProbeVolumeMin and

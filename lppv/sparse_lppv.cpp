@@ -43,7 +43,9 @@ Status SparseBlocks::add_box(const glm::dvec3& low, const glm::dvec3& high) {
         const double b = std::floor((std::floor(high[axis] / spacing_) + 1.0) / kSparseBlockSide);
         if (!(a >= -kLargestBlock && b < kLargestBlock && a <= b)) {
             return Error{text("a box from ", low[axis], " to ", high[axis],
-                              " has no place in a grid of spacing ", spacing_)};
+                              " m reaches beyond a sparse grid of spacing ", spacing_,
+                              " m: it ends ", kLargestBlock * kSparseBlockSide * spacing_,
+                              " m from the origin")};
         }
         count *= b - a + 1.0;
         first[static_cast<size_t>(axis)] = static_cast<int64_t>(a);

@@ -39,6 +39,7 @@ bool shares_volume(const Scene& scene, uint32_t node, uint32_t top) {
 
 SceneObject object_at(const Scene& scene, uint32_t top) {
     SceneObject object;
+    object.place = "node \"" + scene.nodes[top].name + "\"";
     object.world_from_object = scene.nodes[top].world_from_node;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         if (shares_volume(scene, scene.instances[i].node, top)) add_instance(scene, i, object);
@@ -47,6 +48,12 @@ SceneObject object_at(const Scene& scene, uint32_t top) {
 }
 
 }  // namespace
+
+Result<LppvGrid> make_object_grid(const SceneObject& object, const LppvSettings& settings) {
+    auto grid = make_lppv_grid(object.view(), settings);
+    if (!grid) return grid.error().in(object.place);
+    return grid;
+}
 
 Result<SceneObject> find_object(const Scene& scene, const std::string& name) {
     uint32_t found = kNoIndex;

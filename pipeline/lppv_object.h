@@ -13,6 +13,8 @@ namespace tetralight {
 
 /// What a proxy volume wraps in a scene.
 struct SceneObject {
+    /// For messages: `node "ship"`.
+    std::string place;
     glm::dmat4 world_from_object{1.0};
     /// Boxes of `instances`.
     std::vector<LppvPart> parts;
@@ -20,6 +22,10 @@ struct SceneObject {
 
     [[nodiscard]] LppvObject view() const { return {world_from_object, parts}; }
 };
+
+/// The grid that wraps an object. Errors as `make_lppv_grid`; they begin with the object's place.
+[[nodiscard]] Result<LppvGrid> make_object_grid(const SceneObject& object,
+                                                const LppvSettings& settings);
 
 /// The node of that name with its meshes, and those of its children whose `light_probes` is
 /// `proxy_volume`. Errors: there is no such node, or several of that name.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/write_lppv.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <vector>
@@ -125,6 +127,21 @@ Status write_lppv(const std::string& path, const Lppv& lppv, const LppvFileSetti
         default:
             return write_voxels(path, lppv, settings);
     }
+}
+
+float largest_value(std::span<const IrradianceSh> irradiance) {
+    float largest = 0.0f;
+    for (const IrradianceSh& sh : irradiance) {
+        for (const glm::vec3& c : sh.coefficients) {
+            largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+        }
+    }
+    return largest;
+}
+
+float largest_value(const Lppv& lppv, const LppvFileSettings& settings) {
+    return is_texture(settings.kind) ? largest_texel_value(lppv, settings.layout)
+                                     : largest_value(lppv.irradiance);
 }
 
 std::string lppv_constants_json(const Lppv& lppv, LppvLayout layout) {

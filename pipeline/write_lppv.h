@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "base/result.h"
@@ -18,6 +19,11 @@ enum class LppvFileKind : uint8_t {
     Ktx2,     ///< .ktx2: the same, with the shader's constants as JSON
 };
 
+/// Whether a kind is a texture, which has a layout.
+[[nodiscard]] constexpr bool is_texture(LppvFileKind kind) noexcept {
+    return kind == LppvFileKind::Dds || kind == LppvFileKind::Ktx2;
+}
+
 /// By its extension; a path without one: OpenVdb. None: it has another.
 [[nodiscard]] std::optional<LppvFileKind> lppv_file_kind(const std::string& path);
 
@@ -31,10 +37,15 @@ struct LppvFileSettings {
     uint32_t thread_count = 0;
 };
 
-/// Writes a proxy volume; the old file stays whole on failure. Error also: a kind that this program
-/// was built without.
+/// Writes a proxy volume; halves saturate at ±kLargestHalf in every kind of file. The old file
+/// stays whole on failure. Error also: a kind that this program was built without.
 [[nodiscard]] Status write_lppv(const std::string& path, const Lppv& lppv,
                                 const LppvFileSettings& settings);
+
+/// The largest magnitude of what such a file holds of the light, before it is cut to the largest
+/// half.
+[[nodiscard]] float largest_value(const Lppv& lppv, const LppvFileSettings& settings);
+[[nodiscard]] float largest_value(std::span<const IrradianceSh> irradiance);
 
 /// The constants of a texture's shader as JSON, what `LppvConstants` has.
 [[nodiscard]] std::string lppv_constants_json(const Lppv& lppv, LppvLayout layout);

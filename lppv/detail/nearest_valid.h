@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -17,5 +18,21 @@ namespace tetralight::detail {
 [[nodiscard]] std::vector<uint32_t> nearest_valid(glm::uvec3 resolution, glm::dvec3 spacing,
                                                   std::span<const float> validity,
                                                   float min_validity);
+
+/// Gives points that are not valid the light and occlusion of their nearest valid ones; occlusion
+/// may be empty. Returns how many it replaced.
+template <class Light>
+size_t replace_invalid(std::span<const uint32_t> nearest_valid, std::span<Light> light,
+                       std::span<glm::vec4> occlusion) noexcept {
+    size_t count = 0;
+    for (size_t i = 0; i < nearest_valid.size(); ++i) {
+        const uint32_t nearest = nearest_valid[i];
+        if (nearest == i || nearest == kNoIndex) continue;
+        light[i] = light[nearest];
+        if (!occlusion.empty()) occlusion[i] = occlusion[nearest];
+        ++count;
+    }
+    return count;
+}
 
 }  // namespace tetralight::detail

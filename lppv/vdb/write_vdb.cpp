@@ -14,6 +14,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 #include <memory>
 #include <new>
 #include <ostream>
@@ -21,6 +22,7 @@
 
 #include "base/file.h"
 #include "base/text.h"
+#include "lppv/lppv_texture.h"
 #include "lppv/vdb/detail/memory_stream.h"
 #include "lppv/vdb/detail/vdb_uuid.h"
 
@@ -62,8 +64,17 @@ glm::dmat4 world_from_index(const LppvGrid& grid) {
     return transform;
 }
 
+/// Voxels along each axis: points of an axis without thickness are all at one place.
+glm::ivec3 voxel_counts(const LppvGrid& grid) {
+    glm::ivec3 counts(1);
+    for (int i = 0; i < 3; ++i) {
+        if (grid.step[i] > 0.0) counts[i] = static_cast<int>(grid.resolution[i]);
+    }
+    return counts;
+}
+
 VoxelBlocks voxel_blocks(const Lppv& lppv) {
-    const glm::ivec3 size(lppv.grid.resolution);
+    const glm::ivec3 size = voxel_counts(lppv.grid);
     const size_t row = lppv.grid.resolution.x, plane = row * lppv.grid.resolution.y;
     VoxelBlocks voxels{
         world_from_index(lppv.grid), {}, lppv.irradiance, lppv.validity, lppv.occlusion};
@@ -155,9 +166,13 @@ typename Grid::Ptr make_grid(const std::string& name, const VoxelBlocks& voxels,
 
 openvdb::GridPtrVec make_grids(const VoxelBlocks& voxels, VdbPrecision precision) {
     openvdb::GridPtrVec grids;
+    // OpenVDB would write infinity for what is beyond the largest half.
+    const float most =
+        precision == VdbPrecision::Half ? kLargestHalf : std::numeric_limits<float>::max();
     for (int k = 0; k < kShCoefficientCount; ++k) {
         grids.push_back(make_grid<openvdb::Vec3SGrid>(text("sh", k), voxels, [&](size_t i) {
-            const glm::vec3& c = voxels.irradiance[i].coefficients[static_cast<size_t>(k)];
+            const glm::vec3 c =
+                glm::clamp(voxels.irradiance[i].coefficients[static_cast<size_t>(k)], -most, most);
             return openvdb::Vec3s(c.x, c.y, c.z);
         }));
     }

@@ -11,7 +11,8 @@
 // Proxy volumes as OpenVDB and NanoVDB files: nine vector grids `sh0` .. `sh8`, the RGB irradiance
 // coefficients of `IrradianceSh`, a float grid `validity` (1 = free), and, where the volume has it,
 // occlusion as four float grids `occlusion0` .. `occlusion3` (1 = lit). One active voxel a grid
-// point; index (i, j, k) is point (i, j, k) of the grid. Blocks of one value are tiles. The
+// point; index (i, j, k) is point (i, j, k) of the grid, and along an axis without thickness there
+// is one, since its points are all at one place. Blocks of one value are tiles. The
 // transform leads to the world, in metres. Metadata of the file and of each grid: `sh:basis`,
 // `sh:quantity`, `sh:axes`.
 
@@ -19,7 +20,7 @@ namespace tetralight {
 
 enum class VdbPrecision : uint8_t {
     Float,
-    Half,  ///< half floats in the file; readers get floats
+    Half,  ///< half floats in the file, up to ±65504; readers get floats
 };
 
 /// Writes an OpenVDB file, compressed by Blosc. The same bytes for the same values, on any number

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {
@@ -83,26 +85,103 @@ TEST_F(LppvCommand, RefusesWhatDoesNotGoTogether) {
     EXPECT_TRUE(contains(misuse(arguments("a.exr", {"--sparse"})), "can be sparse"));
     EXPECT_TRUE(contains(misuse(arguments("a.nvdb", {"--precision", "half"})), "have floats"));
     misuse(arguments("a.vdb", {"--object", "beam_long"}));
+    misuse(arguments("a.vdb", {"--scene", kCourtyard, "--object", ""}));
     misuse(arguments("a.vdb", {"--bounds", "0,0,0,1,1"}));
     misuse(arguments("a.vdb", {"--resolution", "2,2,2", "--density", "1"}));
     misuse(arguments("a.vdb", {"--sparse", "--mode", "low"}));
 }
 
-TEST_F(LppvCommand, SaysWhatIsWrongWithABox) {
-    EXPECT_TRUE(contains(fail_and_keep("a.vdb", arguments("a.vdb", {"--bounds", "2,0,0,1,1,1"})),
-                         "bounds are reversed along x: 2 to 1"));
-    EXPECT_TRUE(contains(fail(arguments("a.vdb", {"--bounds", "nan,0,0,1,1,1"})),
-                         "bounds are not finite along x: nan to 1"));
-    EXPECT_TRUE(contains(fail(arguments("a.vdb", {"--resolution", "10000,1000,1000"})),
-                         "10000 x 1000 x 1000 points (1e+10 in all) is too large"));
-    EXPECT_TRUE(
-        contains(fail(arguments("a.vdb", {"--sparse", "--density", "1000", "--scene", kCourtyard})),
-                 "a sparse grid of"));
+TEST_F(LppvCommand, SaysWhatIsWrongWithABoxAndNamesTheOption) {
+    const auto message = [&](Arguments more) { return misuse(arguments("a.vdb", more)); };
+    const auto expect = [&](const Arguments& more, const std::string& words) {
+        const std::string said = message(more);
+        EXPECT_TRUE(contains(said, "tetralight lppv: " + words)) << said;
+    };
+    expect({"--bounds", "2,0,0,1,1,1"}, "--bounds: reversed along x: 2 to 1");
+    expect({"--bounds", "nan,0,0,1,1,1"}, "--bounds: \"nan\" is not a number");
+    expect({"--bounds", "-1e30,0,0,1,1,1"}, "--bounds: -1e30 is not in the range");
+    expect({"--bounds", "1e9,0,0,1000000001,1,1", "--density", "10"},
+           "--bounds: floats cannot tell grid points 0.1111");
+    expect({"--bounds", "0,0,0,1,1,1", "--orientation", "0,0,0,0"}, "--orientation: ");
+    expect({"--resolution", "10000,1000,1000"},
+           "--resolution: a grid of 10000 x 1000 x 1000 points (1e+10 in all) is too large");
+    expect({"--resolution", "10000000000,1,1"}, "--resolution: \"10000000000\" is not a whole");
+    expect({"--resolution", "-1,1,1"}, "--resolution: \"-1\" is not a whole");
+    expect({"--resolution", "0,1,1"}, "--resolution: a grid of 0 x 1 x 1 points has none");
+    expect({"--density", "1e6"}, "--density: a grid of ");
+}
+
+TEST_F(LppvCommand, SaysWhatASparseGridCannotHold) {
+    const auto expect = [&](Arguments more, const std::string& words) {
+        more.insert(more.end(), {"--sparse", "--scene", kCourtyard});
+        const std::string said = misuse(arguments("a.vdb", more));
+        EXPECT_TRUE(contains(said, "tetralight lppv: " + words)) << said;
+    };
+    expect({"--density", "1000"}, "--density: a sparse grid of ");
+    expect({"--density", "1e8"}, "--density: a box from ");
+    expect({"--reach", "1e5"}, "--density, --reach: a sparse grid of ");
+}
+
+TEST_F(LppvCommand, GivesTheBoxOfASparseGrid) {
+    const Json json = run_json(arguments("a.vdb", {"--sparse", "--density", "2"}));
+    for (int i = 0; i < 3; ++i) {
+        const double size =
+            json["bounds"]["high"][i].get<double>() - json["bounds"]["low"][i].get<double>();
+        const int count = json["resolution"][i];
+        EXPECT_EQ(count % 8, 0);
+        EXPECT_EQ(size, 0.5 * (count - 1));
+    }
+}
+
+TEST_F(LppvCommand, TurnsABoxOfTheWorld) {
+    const double half = std::sqrt(0.5);  // a quarter turn about y
+    const Json json =
+        run_json(arguments("a.vdb", {"--bounds", "0,0,0,4,2,2", "--orientation",
+                                     "0," + std::to_string(half) + ",0," + std::to_string(half)}));
+    EXPECT_EQ(json["resolution"], Json({4, 2, 2}));
+    const Json& matrix = json["bounds"]["world_from_local"];
+    const double world_from_local[] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 2, 1, 1, 1};
+    for (size_t i = 0; i < 16; ++i) {
+        EXPECT_NEAR(matrix[i].get<double>(), world_from_local[i], 1e-12) << i;
+    }
+}
+
+TEST_F(LppvCommand, AnAxisWithoutThicknessHasOnePoint) {
+    const Arguments plane{"--bounds", "0,1,0,4,1,4", "--resolution", "3,2,3"};
+    EXPECT_EQ(run_json(arguments("a.vdb", plane))["resolution"], Json({3, 1, 3}));
+    const std::string said = succeed(arguments("a.vdb", plane)).err;
+    EXPECT_TRUE(contains(said, "no thickness along y: one grid point there, not 2")) << said;
+}
+
+TEST_F(LppvCommand, SaysThatSevenSlabsLeaveOutOcclusion) {
+    succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--mixed-lighting", "shadowmask"});
+    EXPECT_TRUE(contains(succeed(beam("a.ktx2")).err, "no room for the occlusion"));
+    EXPECT_EQ(succeed(beam("a.ktx2", {"--mode", "normal"})).err, "");
+    EXPECT_EQ(succeed(beam("a.vdb")).err, "");
+}
+
+TEST_F(LppvCommand, SaysWhatAFileDoesNotHold) {
+    succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--sky", "1e6"});
+    const auto warnings = [&](const std::string& output, const Arguments& more) {
+        return succeed(beam(output, more)).err;
+    };
+    for (const std::string kind : {"vdb", "exr", "dds", "ktx2"}) {
+        EXPECT_TRUE(contains(warnings("a." + kind, {}),
+                             "were cut to 65504, the largest half; "
+                             "--precision float keeps them"))
+            << kind;
+    }
+    EXPECT_EQ(warnings("a.vdb", {"--precision", "float"}), "");
+    EXPECT_EQ(warnings("a.nvdb", {}), "");
+    EXPECT_TRUE(contains(warnings("a.dds", {"--layout", "four"}), "hold band 2 as its mean"));
+    EXPECT_TRUE(contains(misuse(beam("a.vdb", {"--layout", "four"})), "--layout: only .dds"));
 }
 
 TEST_F(LppvCommand, NamesAnObjectThatIsNotThere) {
     EXPECT_TRUE(contains(fail(arguments("a.vdb", {"--scene", kCourtyard, "--object", "boat"})),
                          "courtyard.glb: there is no node \"boat\""));
+    const std::string lamp = fail(arguments("a.vdb", {"--scene", kCourtyard, "--object", "sun"}));
+    EXPECT_TRUE(contains(lamp, " \"sun\": there is no mesh to wrap")) << lamp;
 }
 
 }  // namespace

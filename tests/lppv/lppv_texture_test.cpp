@@ -142,5 +142,19 @@ TEST(LppvTexture, HalvesSaturate) {
     EXPECT_EQ(fetch_texel(halves, {0, 0, 0}).w, 65504.0f);
 }
 
+TEST(LppvTexture, KnowsItsLargestValue) {
+    Lppv lppv;
+    lppv.grid = test::grid_in_box({2, 1, 1}, glm::dvec3(1.0), 0.0);
+    lppv.irradiance.resize(2);
+    lppv.irradiance[1].coefficients[0] = {0.0f, -1e6f, 0.0f};
+    const float w = std::abs(pack_sh(lppv.irradiance[1]).sha_g.w);  // s0, the rest is 0
+    EXPECT_GT(w, kLargestHalf);
+    for (const auto layout : {LppvLayout::FourSlabs, LppvLayout::SevenSlabs}) {
+        EXPECT_EQ(largest_texel_value(lppv, layout), w);
+        const LppvTexture halves = make_lppv_texture(lppv, layout, LppvTexelFormat::Half);
+        EXPECT_EQ(fetch_texel(halves, {3, 0, 0}).w, -kLargestHalf);
+    }
+}
+
 }  // namespace
 }  // namespace tetralight

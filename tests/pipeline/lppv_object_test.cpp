@@ -66,6 +66,14 @@ TEST(LppvObject, NamesNodesThatAreNotThereOnce) {
     EXPECT_EQ(find_object(scene, "mast").error().message, "there are several nodes \"mast\"");
 }
 
+TEST(LppvObject, ErrorsOfItsGridNameTheNode) {
+    LppvSettings settings;
+    settings.density = 100.0;
+    const auto grid = make_object_grid(*find_object(make_ship(), "ship"), settings);
+    ASSERT_FALSE(grid);
+    EXPECT_EQ(grid.error().message.find("node \"ship\": a grid of 200 x 900 x 200 points"), 0u);
+}
+
 TEST(LppvValidity, PointsInSolidsAreInvalid) {
     Scene scene;
     test::add_box(scene, {}, test::Facing::Outward, glm::vec3(-1.0f), glm::vec3(1.0f));

@@ -83,6 +83,32 @@ TEST(WriteVdb, HalvesAreSmallerAndNear) {
               0.7 * static_cast<double>(std::filesystem::file_size(folder.path("float.vdb"))));
 }
 
+TEST(WriteVdb, HalvesSaturate) {
+    const TempFolder folder;
+    Lppv lppv = make_test_lppv({2, 1, 1});
+    lppv.irradiance[0].coefficients[0] = {1e6f, -1e6f, 1.0f};
+    ASSERT_TRUE(write_vdb(folder.path("a.vdb"), lppv, VdbPrecision::Half));
+    std::map<std::string, std::string> meta;
+    const auto grids = test::read_vdb(folder.path("a.vdb"), meta);
+    EXPECT_EQ(grids.at("sh0").active[0].value, glm::vec3(65504.0f, -65504.0f, 1.0f));
+}
+
+TEST(WriteVdb, PointsAtOnePlaceAreOneVoxel) {
+    const TempFolder folder;
+    const ProbeVolume volume = test::make_cube_volume();
+    const LppvGrid grid = test::grid_in_box({3, 2, 3}, {2.0, 0.0, 2.0}, 0.0);
+    const Lppv lppv = *make_lppv(volume.view(), grid, {});
+    ASSERT_TRUE(write_vdb(folder.path("a.vdb"), lppv, VdbPrecision::Float));
+    std::map<std::string, std::string> meta;
+    const auto grids = test::read_vdb(folder.path("a.vdb"), meta);
+    ASSERT_EQ(grids.at("sh0").active.size(), 9u);
+    for (const test::ReadVoxel& voxel : grids.at("sh0").active) {
+        EXPECT_EQ(voxel.index.y, 0);
+        const size_t i = grid.point_index(glm::uvec3(voxel.index));
+        EXPECT_EQ(voxel.value, lppv.irradiance[i].coefficients[0]);
+    }
+}
+
 TEST(WriteVdb, BlocksOfOneValueAreTiles) {
     const TempFolder folder;
     const ProbeVolume volume = test::make_random_volume(test::random_positions(200, 3), 4);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/write_lppv.h"
+
+namespace tetralight::cli {
+
+/// What a file does not hold of a proxy volume that it was written from, one line each: light
+/// beyond the largest half, occlusion, band 2.
+[[nodiscard]] std::vector<std::string> lppv_warnings(const Lppv& lppv,
+                                                     const LppvFileSettings& file);
+
+/// The first of them, of any file. `largest` is the largest magnitude that it was to hold.
+[[nodiscard]] std::vector<std::string> half_warnings(float largest, const LppvFileSettings& file);
+
+}  // namespace tetralight::cli
