@@ -2,7 +2,11 @@
 #include "cli/ball_options.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
+
+#include "base/text.h"
 
 namespace tetralight::cli {
 
@@ -18,6 +22,7 @@ void BallOptions::add_to(CLI::App& command) {
                                         "Radius of the ball (default: from the probes)");
     radius_option_->check(numbers_in(1e-6, 1e9));
     add_seed(command, settings.seed, "Seed of places and colours");
+    command.add_flag("--plain", settings.is_plain, "White, rough spheres, which show light alone");
     auto* lppv = command.add_flag_callback(
         "--lppv", [this] { light = BallLight::ProxyVolume; },
         "Light the spheres by a grid around the ball instead of one query each: they move without "
@@ -58,6 +63,17 @@ std::vector<double> BallOptions::radii(const ProbeVolumeView& volume,
     return {largest, 0.5 * largest, 0.25 * largest};
 }
 
+/// Floats hold the spheres' places: they have to be finer than the smallest sphere.
+void BallOptions::check_center() const {
+    const glm::dvec3 distance = glm::abs(settings.center);
+    const double farthest = std::max({distance.x, distance.y, distance.z});
+    const double smallest = 0.5 * settings.instance_size * settings.radius;
+    const bool is_fine = smallest > farthest * std::numeric_limits<float>::epsilon();
+    if (center_option_->count() == 0 || is_fine) return;
+    throw CLI::ValidationError("--center", text("floats cannot place spheres of ", smallest,
+                                                " m at ", farthest, " m from the origin"));
+}
+
 Camera BallOptions::place(const ProbeVolumeView& volume, const SceneShader* scene,
                           const ViewOptions& view) {
     const ProbeBounds bounds = probe_bounds(volume);
@@ -65,6 +81,7 @@ Camera BallOptions::place(const ProbeVolumeView& volume, const SceneShader* scen
                                           centers(volume, bounds), radii(volume, bounds));
     settings.center = found.center;
     settings.radius = found.radius;
+    check_center();
     return view.has_camera ? view.camera() : found.camera;
 }
 

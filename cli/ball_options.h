@@ -25,6 +25,7 @@ struct BallOptions {
                                const ViewOptions& view);
 
   private:
+    void check_center() const;
     [[nodiscard]] std::vector<glm::dvec3> centers(const ProbeVolumeView& volume,
                                                   const ProbeBounds& bounds) const;
     [[nodiscard]] std::vector<double> radii(const ProbeVolumeView& volume,

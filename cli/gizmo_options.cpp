@@ -6,6 +6,7 @@
 
 #include "cli/choice.h"
 #include "cli/common.h"
+#include "cli/validators.h"
 
 namespace tetralight::cli {
 namespace {
@@ -33,8 +34,12 @@ std::string parse_show(const std::string& text, GizmoSettings& settings) {
         } else if (word.starts_with(kSelection)) {
             const std::string y = i + 1 < words.size() ? words[i + 1] : "";
             const std::string z = i + 2 < words.size() ? words[i + 2] : "";
-            settings.selection = parse_vec3(word.substr(kSelection.size()) + "," + y + "," + z);
+            std::string place = word.substr(kSelection.size()) + "," + y + "," + z;
+            settings.selection = parse_vec3(place);
             if (!settings.selection) return "selection needs three numbers: selection=x,y,z";
+            if (const std::string wrong = positions()(place); !wrong.empty()) {
+                return "selection: " + wrong;
+            }
             i += 2;
         } else {
             return "\"" + word + "\" is none of probes, cells, lppv, selection=x,y,z";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -18,19 +19,24 @@
 #include "probes/probe_file.h"
 #ifdef TETRALIGHT_HAS_GL
 #include "cli/ball_window.h"
+#include "cli/open_gl.h"
 #include "runtime/gl/gl_mesh_ball.h"
-#include "runtime/gl/offscreen_context.h"
 #endif
 
 namespace tetralight::cli {
 namespace {
 
 /// "ball.png", 7 → "ball_0007.png"
-std::string frame_path(const std::string& path, uint32_t frame) {
+std::string frame_path(const std::filesystem::path& path, uint32_t frame) {
     char number[16];
     std::snprintf(number, sizeof number, "_%04u", frame);
-    const size_t point = path.rfind('.');
-    return path.substr(0, point) + number + path.substr(point);
+    const std::string name = path.stem().string() + number + path.extension().string();
+    return (path.parent_path() / name).string();
+}
+
+bool is_stream(const std::string& path) {
+    std::error_code error;
+    return path == "-" || std::filesystem::is_character_file(path, error);
 }
 
 struct MeshBall {
@@ -72,11 +78,24 @@ struct MeshBall {
         add_renderer(command, renderer);
         view.add_to(command);
         common.add_to(command);
+        command.parse_complete_callback([this] { check_usage(); });
+    }
+
+    void check_usage() const {
+        view.check_usage();
+        if (frame_count > 1 && !has_window && is_stream(output)) {
+            throw CLI::ValidationError(
+                "--frames", "several pictures need a file name, which \"" + output + "\" is not");
+        }
+    }
+
+    [[nodiscard]] std::string picture_path(uint32_t frame) const {
+        return frame_count == 1 ? output : frame_path(output, frame);
     }
 
     Status run() {
         if (!has_window) {
-            auto status = check_output(output, {volume_path, scene_path});
+            auto status = check_output(picture_path(0), {volume_path, scene_path});
             if (!status) return status;
         }
         const auto file = open_probe_file(volume_path);
@@ -90,7 +109,7 @@ struct MeshBall {
             common.warn(read->warnings);
             scene = std::move(*read);
             auto made = SceneShader::make(scene, file->view());
-            if (!made) return made.error();
+            if (!made) return made.error().in(scene_path);
             shader.emplace(std::move(*made));
         }
         return render(file->view(), scene, shader ? &*shader : nullptr);
@@ -102,9 +121,8 @@ struct MeshBall {
         if (has_window) return show(volume, scene, camera);
         if (renderer == RendererKind::Gl) {
 #ifdef TETRALIGHT_HAS_GL
-            auto context = OffscreenContext::create();
+            const auto context = open_gl(view.settings, common);
             if (context) return render_gl(volume, scene, camera);
-            common.warn({context.error().message + "; rendering on the CPU"});
 #else
             common.warn({"this build has no OpenGL; rendering on the CPU"});
 #endif
@@ -165,8 +183,8 @@ struct MeshBall {
             const auto picture = draw(2.0 * std::numbers::pi * frame / frame_count);
             if (!picture) return picture.error();
             query_seconds = picture->query_seconds;
-            const std::string path = frame_count == 1 ? output : frame_path(output, frame);
-            auto status = write_png(path, develop(picture->image, view.settings.exposure));
+            auto status =
+                write_png(picture_path(frame), develop(picture->image, view.settings.exposure));
             if (!status) return status;
         }
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

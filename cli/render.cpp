@@ -10,10 +10,12 @@
 #include "cli/gizmo_options.h"
 #include "cli/paths.h"
 #include "cli/renderer_options.h"
+#include "cli/validators.h"
 #include "cli/view_options.h"
 #include "pipeline/render_gizmos.h"
 #include "probes/probe_file.h"
 #ifdef TETRALIGHT_HAS_GL
+#include "cli/open_gl.h"
 #include "runtime/gl/gl_pictures.h"
 #endif
 
@@ -24,7 +26,6 @@ struct Render {
     std::string scene_path;
     std::string volume_path;
     std::string output;
-    std::string camera_name;
     GizmoOptions gizmos;
     ProbeLight probes = ProbeLight::AsTheScene;
     RendererKind renderer = RendererKind::Cpu;
@@ -36,10 +37,6 @@ struct Render {
         add_path(command, "VOLUME", volume_path, "Probe volume baked from it (.probes)")
             ->required();
         add_output(command, output, ".png", "Picture to write");
-        auto* camera_option =
-            command.add_option("--camera", camera_name,
-                               "Camera of the scene by name; without it and --eye the scene's "
-                               "first, else an overview");
         gizmos.add_to(command);
         add_renderer(command, renderer);
         add_choice(command, "--probes", probes,
@@ -50,28 +47,15 @@ struct Render {
                    "Who takes light from the probes: all, as the scene asks; all, and things that "
                    "move from one place each; what stands still alone; nothing");
         view.add_to(command);
-        camera_option->excludes(view.eye_option);
+        view.add_camera_name(command);
         common.add_to(command);
-    }
-
-    [[nodiscard]] Result<Camera> camera(const Scene& scene) const {
-        if (view.has_camera) return view.camera();
-        for (const Camera& candidate : scene.cameras) {
-            if (!camera_name.empty() && candidate.name != camera_name) continue;
-            return candidate;
-        }
-        if (camera_name.empty()) return overview(scene);
-        std::string names;
-        for (const Camera& candidate : scene.cameras) names += " \"" + candidate.name + "\"";
-        return Error{scene_path + ": no camera \"" + camera_name +
-                     "\"; there is:" + (names.empty() ? " none" : names)};
     }
 
     /// By OpenGL where it was asked for and is there, else by rays.
     [[nodiscard]] Result<Image8> draw(const Scene& scene, const ProbeVolumeView& volume,
                                       const Camera& camera) const {
         auto light = make_scene_light(scene, volume, probes);
-        if (!light) return light.error();
+        if (!light) return light.error().in(scene_path);
         const Gizmos shown = make_gizmos(volume, light->proxy_volumes, gizmos.settings);
         const auto render = [&](const PictureSource& source) {
             return render_gizmos(source, volume, camera, view.settings, shown,
@@ -79,9 +63,11 @@ struct Render {
         };
         if (renderer == RendererKind::Gl) {
 #ifdef TETRALIGHT_HAS_GL
-            auto pictures = GlPictures::make(scene, volume, *light);
-            if (pictures) return render(pictures->source());
-            common.warn({pictures.error().message + "; rendering on the CPU"});
+            if (auto context = open_gl(view.settings, common)) {
+                auto pictures = GlPictures::make(std::move(*context), scene, volume, *light);
+                if (pictures) return render(pictures->source());
+                common.warn({pictures.error().message + "; rendering on the CPU"});
+            }
 #else
             common.warn({"this build has no OpenGL; rendering on the CPU"});
 #endif
@@ -99,7 +85,7 @@ struct Render {
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         common.warn_if_unlit(volume_path, file->view());
-        const auto chosen = camera(*scene);
+        const auto chosen = view.camera_in(*scene, scene_path);
         if (!chosen) return chosen.error();
 
         view.settings.thread_count = common.thread_count;

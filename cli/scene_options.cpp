@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "bake/scene/probe_adjustments_json.h"
+#include "bake/scene/probe_groups_json.h"
 #include "bake/scene/read_gltf.h"
 #include "cli/common.h"
 #include "cli/paths.h"
@@ -56,6 +57,7 @@ void SceneOptions::add_to(CLI::App& command) {
 
 Result<Scene> SceneOptions::read() const {
     auto scene = read_gltf(path);
+    if (!scene && read_probe_groups(path)) return Error{path + ": holds probe groups, no scene"};
     if (!scene) return scene;
     if (auto status = add_adjustments(*scene); !status) return status.error();
     if (auto status = sky.apply(path, scene->environment, scene->warnings); !status) {

@@ -8,6 +8,7 @@
 
 #include "bake/scene/scene_bounds.h"
 #include "cli/common.h"
+#include "cli/validators.h"
 
 namespace tetralight::cli {
 
@@ -24,7 +25,7 @@ void ViewOptions::add_to(CLI::App& command) {
                     "Factor before tone mapping (Khronos PBR Neutral); 0 = automatic")
         ->check(numbers_in(0.0, 1e9))
         ->capture_default_str();
-    eye_option = add_vec3(command, "--eye", eye, "Camera position");
+    auto* eye_option = add_vec3(command, "--eye", eye, "Camera position");
     auto* target_option = add_vec3(command, "--target", target, "What the camera looks at");
     eye_option->needs(target_option)->each([this](const std::string&) { has_camera = true; });
     target_option->needs(eye_option);
@@ -32,11 +33,34 @@ void ViewOptions::add_to(CLI::App& command) {
         ->check(numbers_in(1.0, 170.0))
         ->needs(eye_option)
         ->capture_default_str();
-    command.parse_complete_callback([this] {
-        if (has_camera && eye == target) {
-            throw CLI::ValidationError("--target", "is the same point as --eye");
-        }
-    });
+    command.parse_complete_callback([this] { check_usage(); });
+}
+
+void ViewOptions::check_usage() const {
+    if (has_camera && eye == target) {
+        throw CLI::ValidationError("--target", "is the same point as --eye");
+    }
+}
+
+void ViewOptions::add_camera_name(CLI::App& command) {
+    command
+        .add_option("--camera", camera_name,
+                    "Camera of the scene by name; without it and --eye the scene's first, else an "
+                    "overview")
+        ->check(not_empty("name"))
+        ->excludes(command.get_option("--eye"));
+}
+
+Result<Camera> ViewOptions::camera_in(const Scene& scene, const std::string& scene_path) const {
+    if (has_camera) return camera();
+    for (const Camera& candidate : scene.cameras) {
+        if (camera_name.empty() || candidate.name == camera_name) return candidate;
+    }
+    if (camera_name.empty()) return overview(scene);
+    std::string names;
+    for (const Camera& candidate : scene.cameras) names += " \"" + candidate.name + "\"";
+    return Error{scene_path + ": no camera \"" + camera_name +
+                 "\"; there is:" + (names.empty() ? " none" : names)};
 }
 
 Camera ViewOptions::camera() const {

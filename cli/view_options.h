@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
+#include "base/result.h"
 #include "pipeline/image_renderer.h"
 
 namespace tetralight::cli {
@@ -16,10 +17,20 @@ struct ViewOptions {
     glm::dvec3 target{0.0};
     double fov_degrees = 45.0;
     bool has_camera = false;
-    /// For what excludes it.
-    CLI::Option* eye_option = nullptr;
+    /// Of a camera of the scene; empty = the scene's first, else an overview.
+    std::string camera_name;
 
     void add_to(CLI::App& command);
+
+    /// What does not go together, as wrong usage. `add_to` has it called, unless the command sets a
+    /// callback of its own after that.
+    void check_usage() const;
+
+    /// `--camera`, for commands that show a scene. To be called after `add_to`.
+    void add_camera_name(CLI::App& command);
+
+    /// The user's camera, or one of the scene. Error: no camera of that name.
+    [[nodiscard]] Result<Camera> camera_in(const Scene& scene, const std::string& scene_path) const;
 
     /// The user's camera. Precondition: `has_camera`.
     [[nodiscard]] Camera camera() const;

@@ -39,7 +39,7 @@ render gallery_beams_points plain.probes "${beams[@]}" --show lppv
 # The ground's green on what stands over it.
 render gallery_bounce plain.probes --eye 3.4,0.35,8.6 --target 1.9,0.75,5.4 --fov 30 --exposure 1.1
 # Boxes that shine, with their light in the probes and without.
-glow=(--eye 8,1.7,4.5 --target 4.6,0.9,-0.6 --fov 50 --exposure 0.7)
+glow=(--eye 8,2.4,1.5 --target 4.5,0.6,-1.2 --fov 50 --exposure 0.7)
 render gallery_emission layers.probes "${glow[@]}"
 python3 examples/scenes/make_courtyard.py "$work/unbaked.glb" --unbaked-emission >/dev/null
 bake "$work/unbaked.glb" -o "$work/unbaked.probes" --samples 4096
@@ -52,8 +52,8 @@ ball gallery_ball_probes plain.probes "${place[@]}"
 ball gallery_ball_lppv plain.probes "${place[@]}" --lppv
 ball gallery_ball_off plain.probes "${place[@]}" --off
 # The shadow of the house on the mesh ball: from occlusion probes.
-ball gallery_shadow_line masked.probes --count 420 --center 5.75,1.75,-0.5 --radius 1.5 \
-    --eye 3.6,3.2,6.5 --target 5.9,1.6,-0.6 --fov 33
+ball gallery_shadow_line masked.probes --plain --count 600 --center 6.1,1.75,-0.5 --radius 1.5 \
+    --eye 6.2,1.7,7 --target 5.95,1.7,-0.5 --fov 29
 # A day: one bake, another sun and another sky each.
 day=(morning noon evening night)
 suns=("1,-0.4,-0.5 3,1.9,1" "0.15,-1,-0.4 3.2,3,2.7" "-1,-0.3,-0.5 3.2,1.5,0.5" "0.4,-1,0.2 0.02,0.03,0.05")
@@ -71,6 +71,6 @@ render gallery_selection plain.probes --show selection=0.6,1.3,6.2 --ball-radius
 
 if command -v pngquant >/dev/null; then
     for picture in "$out"/gallery_*.png "$out"/courtyard_cells.png; do
-        pngquant 128 --speed 1 --force --output "$picture" "$picture"
+        pngquant 256 --speed 1 --force --output "$picture" "$picture"
     done
 fi

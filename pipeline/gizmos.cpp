@@ -64,10 +64,8 @@ void add_proxy_balls(const Lppv& lppv, float asked_radius, std::vector<LightBall
     }
     const double share = smallest < 1e30 ? 2.5 * kBallShare * smallest : 0.1;
     const float radius = asked_radius > 0.0f ? asked_radius : static_cast<float>(share);
-    const glm::uvec3 size = lppv.grid.resolution;
-    for (uint32_t i = 0; i < lppv.irradiance.size(); ++i) {
-        const glm::uvec3 point(i % size.x, i / size.x % size.y, i / size.x / size.y);
-        balls.push_back({lppv.grid.world_position(point), radius, lppv.irradiance[i]});
+    for (size_t i = 0; i < lppv.irradiance.size(); ++i) {
+        balls.push_back({lppv.grid.world_position(lppv.grid.point(i)), radius, lppv.irradiance[i]});
     }
 }
 

@@ -119,22 +119,20 @@ class LitBall {
         glm::vec3 sum = shade_diffuse(albedo, light, point.normal, glm::vec3(0.0f)) +
                         mirrored(dominant, dominant_irradiance(light, dominant));
         for (const RuntimeLight& runtime : direct_lights_) {
-            const float share = visibility(runtime, occlusion, point);
-            if (share == 0.0f) continue;
             const Illumination arriving = illuminate(runtime.light, glm::vec3(point.position));
-            sum += share *
-                   (albedo * direct_light(runtime.light, glm::vec3(point.position), point.normal) +
-                    mirrored(arriving.to_light, arriving.irradiance));
+            const float share = visibility(runtime, arriving, occlusion, point);
+            if (share == 0.0f) continue;
+            sum += share * (albedo * direct_light(arriving, point.normal) +
+                            mirrored(arriving.to_light, arriving.irradiance));
         }
         return sum;
     }
 
     /// Shadows of the scene come from the probes where they hold those of a light, else from rays;
     /// those of spheres and of what moves in the scene from rays.
-    [[nodiscard]] float visibility(const RuntimeLight& runtime, const glm::vec4& occlusion,
-                                   const Point& point) const {
+    [[nodiscard]] float visibility(const RuntimeLight& runtime, const Illumination& arriving,
+                                   const glm::vec4& occlusion, const Point& point) const {
         const float share = runtime.visibility(occlusion);
-        const Illumination arriving = illuminate(runtime.light, glm::vec3(point.position));
         const bool is_lit = glm::dot(point.normal, arriving.to_light) > 0.0f &&
                             arriving.irradiance != glm::vec3(0.0f);
         if (share == 0.0f || !is_lit) return 0.0f;
@@ -172,8 +170,13 @@ std::vector<BallInstance> make_mesh_ball(const MeshBallSettings& settings) {
         const float hue = random.next();
         const glm::vec3 color = color_from_hue(hue, 0.1f + 0.4f * random.next());
         const float metallic = random.next() < 0.25f ? 1.0f : 0.0f;
+        const float smoothness = 0.05f + 0.75f * random.next();
         instances.push_back({settings.center + distance * direction, settings.radius * size, color,
-                             metallic, 0.05f + 0.75f * random.next()});
+                             metallic, smoothness});
+        if (!settings.is_plain) continue;
+        instances.back().color = glm::vec3(0.9f);
+        instances.back().metallic = 0.0f;
+        instances.back().smoothness = 0.0f;
     }
     return instances;
 }

@@ -22,6 +22,8 @@ struct MeshBallSettings {
     /// Radius of an instance as a share of the ball's: from half of this to one and a half of it.
     double instance_size = 0.06;
     uint64_t seed = 0;
+    /// White and rough instead of colours and gloss: shows the light alone.
+    bool is_plain = false;
 };
 
 /// One sphere of the mesh ball.
@@ -35,8 +37,8 @@ struct BallInstance {
     bool operator==(const BallInstance&) const = default;
 };
 
-/// Spheres with random places, sizes, colours and gloss in a ball, a quarter of them metal; the
-/// same for the same settings.
+/// Spheres with random places, sizes, colours and gloss in a ball, a quarter of them metal, unless
+/// they are plain; the same for the same settings.
 [[nodiscard]] std::vector<BallInstance> make_mesh_ball(const MeshBallSettings& settings);
 
 /// A turn about the vertical axis through a place.

@@ -26,6 +26,19 @@ InstanceLight light_mover(const glm::dvec3& anchor, const ProbeVolumeView& volum
     return result;
 }
 
+/// Where something that moves takes its light: its anchor, else the centre of its bounds.
+glm::dvec3 light_anchor(const Scene& scene, const MeshInstance& instance, const Box& bounds) {
+    if (instance.node == kNoIndex) return bounds.center();
+    const uint32_t anchor = scene.nodes[instance.node].probe_anchor;
+    if (anchor == kNoIndex) return bounds.center();
+    return glm::dvec3(scene.nodes[anchor].world_from_node[3]);
+}
+
+bool takes_no_probes(const Scene& scene, const MeshInstance& instance) {
+    return instance.node != kNoIndex &&
+           scene.nodes[instance.node].light_probes == LightProbeUsage::Off;
+}
+
 /// What the bake did not see shines as it does.
 std::vector<float> find_emission_weights(const Scene& scene, const ProbeVolumeView& volume) {
     std::vector<float> weights(scene.materials.size(), 1.0f);
@@ -45,7 +58,7 @@ Status add_proxy_volumes(const Scene& scene, const ProbeVolumeView& volume, Scen
     for (const SceneObject& object : find_proxy_objects(scene)) {
         LppvSettings settings;
         settings.density = kProxyDensity;
-        const auto grid = make_lppv_grid(object.view(), settings);
+        const auto grid = make_object_grid(object, settings);
         if (!grid) return grid.error();
         auto lppv = make_lppv(volume, *grid, {});
         if (!lppv) return lppv.error();
@@ -71,7 +84,8 @@ Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& v
         InstanceLight& lit = light.instances.emplace_back();
         const auto bounds = instance_bounds(scene, instance);
         if (!instance.contributes_gi && bounds) {
-            lit = light_mover(bounds->center(), volume, light.lights);
+            lit = light_mover(light_anchor(scene, instance, *bounds), volume, light.lights);
+            if (takes_no_probes(scene, instance)) lit.light = pack_sh(volume.info.ambient);
             if (!has_movers) lit.use = ProbeUse::Off;
         }
         if (probes == ProbeLight::Nothing) lit.use = ProbeUse::Off;

@@ -57,7 +57,7 @@ struct SceneLight {
     std::vector<float> emission_weights;
 };
 
-/// Error: a proxy volume that cannot be made.
+/// Error: a proxy volume that cannot be made; it names the node.
 [[nodiscard]] Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& volume,
                                                   ProbeLight probes);
 

@@ -9,7 +9,10 @@
 namespace tetralight {
 
 glm::vec3 direct_light(const Light& light, glm::vec3 position, glm::vec3 normal) noexcept {
-    const Illumination arriving = illuminate(light, position);
+    return direct_light(illuminate(light, position), normal);
+}
+
+glm::vec3 direct_light(const Illumination& arriving, glm::vec3 normal) noexcept {
     const float cosine = std::max(0.0f, glm::dot(normal, arriving.to_light));
     return arriving.irradiance * (cosine * std::numbers::inv_pi_v<float>);
 }

@@ -12,6 +12,8 @@ namespace tetralight {
 /// not `Baked`.
 [[nodiscard]] glm::vec3 direct_light(const Light& light, glm::vec3 position,
                                      glm::vec3 normal) noexcept;
+/// The same of light whose arrival is known.
+[[nodiscard]] glm::vec3 direct_light(const Illumination& arriving, glm::vec3 normal) noexcept;
 
 /// Exitant radiance of a Lambert surface under probe light and `direct` (a sum of `direct_light`,
 /// each times its visibility): albedo · (max(0, E(n)/π) + direct).

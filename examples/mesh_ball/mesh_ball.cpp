@@ -75,8 +75,8 @@ float hit(const Instance& instance, glm::vec3 eye, glm::vec3 direction) {
 glm::vec3 shade(const Instance& instance, glm::vec3 place,
                 const std::vector<RuntimeLight>& lights) {
     const glm::vec3 normal = (place - glm::vec3(instance.sphere)) / instance.sphere.w;
-    glm::vec3 direct(
-        0.0f);  // what the bake left to the runtime; shadows of the scene from the probes
+    // What the bake left to the runtime; shadows of the scene come from the probes.
+    glm::vec3 direct(0.0f);
     for (const RuntimeLight& light : lights) {
         if (light.lights_moving)
             direct +=
@@ -88,11 +88,15 @@ glm::vec3 shade(const Instance& instance, glm::vec3 place,
 int main(int argc, char** argv) {
     if (argc != 3 && argc != 7)
         return std::fprintf(stderr, "mesh_ball VOLUME OUT.ppm [X Y Z RADIUS]\n"), 2;
-    const auto number = [&](int i, float otherwise) {
-        return argc > i ? std::strtof(argv[i], nullptr) : otherwise;
-    };
-    const glm::vec3 center(number(3, 0.0f), number(4, 1.5f), number(5, 0.0f));
-    const float radius = number(6, 1.0f);
+    float ball[] = {0.0f, 1.5f, 0.0f, 1.0f};
+    for (int i = 3; i < argc; ++i) {
+        char* end = nullptr;
+        ball[i - 3] = std::strtof(argv[i], &end);
+        if (end == argv[i] || *end != '\0' || !std::isfinite(ball[i - 3]))
+            return std::fprintf(stderr, "mesh_ball: \"%s\" is not a number\n", argv[i]), 2;
+    }
+    const glm::vec3 center(ball[0], ball[1], ball[2]);
+    const float radius = ball[3];
 
     const auto file = open_probe_file(argv[1]);
     if (!file) return std::fprintf(stderr, "%s\n", file.error().message.c_str()), 1;
@@ -118,6 +122,6 @@ int main(int argc, char** argv) {
         for (int k = 0; k < 3; ++k)
             out.put(char(std::lround(255.0f * std::pow(shown[k], 1.0f / 2.2f))));
     }
+    if (!out.flush()) return std::fprintf(stderr, "%s: cannot write\n", argv[2]), 1;
     std::printf("%zu instances in %s\n", instances.size(), argv[2]);
-    return out.good() ? 0 : 1;
 }

@@ -26,9 +26,14 @@ Result<GlPictures> GlPictures::make(const Scene& scene, const ProbeVolumeView& v
                                     const SceneLight& light) {
     auto context = OffscreenContext::create();
     if (!context) return context.error();
+    return make(std::move(*context), scene, volume, light);
+}
+
+Result<GlPictures> GlPictures::make(OffscreenContext context, const Scene& scene,
+                                    const ProbeVolumeView& volume, const SceneLight& light) {
     auto renderer = Renderer::make(scene, volume, light, {.shadow_map_size = 4096});
     if (!renderer) return renderer.error();
-    return GlPictures(std::move(*context), std::move(*renderer));
+    return GlPictures(std::move(context), std::move(*renderer));
 }
 
 PictureSource GlPictures::source() {

@@ -17,6 +17,11 @@ class GlPictures {
     [[nodiscard]] static Result<GlPictures> make(const Scene& scene, const ProbeVolumeView& volume,
                                                  const SceneLight& light);
 
+    /// The same by a context that is current.
+    [[nodiscard]] static Result<GlPictures> make(OffscreenContext context, const Scene& scene,
+                                                 const ProbeVolumeView& volume,
+                                                 const SceneLight& light);
+
     /// Of them; refers to this.
     [[nodiscard]] PictureSource source();
 

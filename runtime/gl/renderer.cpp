@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "bake/scene/scene_bounds.h"
+#include "runtime/gl/driver.h"
 #include "runtime/shade.h"
 
 namespace tetralight {
@@ -94,13 +95,6 @@ glm::vec4 occlusion_of(const InstanceLight& instance, std::span<const RuntimeLig
 void set_culling(bool is_on, bool is_mirrored) {
     is_on ? glEnable(GL_CULL_FACE) : glDisable(GL_CULL_FACE);
     glFrontFace(is_mirrored ? GL_CW : GL_CCW);
-}
-
-Status check_size(uint32_t width, uint32_t height) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (std::max(width, height) <= static_cast<uint32_t>(most)) return Ok{};
-    return Error{"OpenGL: the picture is larger than " + std::to_string(most) + " pixels a side"};
 }
 
 /// Averages blocks of `scale` × `scale` pixels.
@@ -375,12 +369,10 @@ Status Renderer::draw(const Camera& camera, const RenderTarget& target,
 
 Result<ImageF> Renderer::render(const Camera& camera, const RenderSettings& settings,
                                 std::span<const Crowd> crowds) {
-    // Four samples a pixel are what OpenGL promises; more are more pixels.
-    const uint32_t scale = std::max(1u, settings.samples_per_axis / 2);
+    const uint32_t scale = pixels_per_axis(settings);
+    if (auto status = check_size(settings, scale); !status) return status.error();
     const uint32_t samples = settings.samples_per_axis == 1 ? 1 : 4;
-    const uint32_t width = settings.width * scale, height = settings.height * scale;
-    if (auto status = check_size(width, height); !status) return status.error();
-    const RenderTarget target(width, height, samples);
+    const RenderTarget target(settings.width * scale, settings.height * scale, samples);
     if (auto status = draw(camera, target, crowds); !status) return status.error();
     const ImageF image = shrunk(target.read(), scale);
     if (auto status = messages_.check(); !status) return status.error();
@@ -389,9 +381,9 @@ Result<ImageF> Renderer::render(const Camera& camera, const RenderSettings& sett
 
 Result<DepthImage> Renderer::depth(const Camera& camera, const RenderSettings& settings,
                                    std::span<const Crowd> crowds) {
-    const uint32_t width = 2 * settings.width, height = 2 * settings.height;
-    if (auto status = check_size(width, height); !status) return status.error();
-    const RenderTarget target(width, height, 1);
+    if (auto status = check_size(settings, 2); !status) return status.error();
+    const uint32_t width = 2 * settings.width;
+    const RenderTarget target(width, 2 * settings.height, 1);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     meshes_.bind(kMaterialBinding);

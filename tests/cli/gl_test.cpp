@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
 #include "tests/cli/command_fixture.h"
 #include "tests/cli/picture.h"
@@ -47,7 +49,9 @@ class Gl : public CommandFixture {
     }
 
     /// Whether this machine has OpenGL.
-    [[nodiscard]] bool has_gl() const { return succeed(render({"--renderer", "gl"})).err.empty(); }
+    [[nodiscard]] bool has_gl() const {
+        return !contains(succeed(render({"--renderer", "gl"})).err, "rendering on the CPU");
+    }
 };
 
 TEST_F(Gl, DrawsWhatRaysShow) {
@@ -77,6 +81,29 @@ TEST_F(Gl, WithoutOpenGlItSaysSoAndTakesTheCpu) {
     EXPECT_TRUE(contains(ball.err, "; rendering on the CPU")) << ball.err;
 }
 
+TEST_F(Gl, TakesTheCpuForPicturesThatAreTooLarge) {
+    if (!has_gl()) GTEST_SKIP() << "no OpenGL";
+    const std::string said =
+        succeed({"meshball", "v.probes", "-o", "p.png", "--count", "1", "--renderer", "gl",
+                 "--width", "16384", "--height", "2", "--antialias", "16"})
+            .err;
+    EXPECT_TRUE(contains(said, "131072 with those for its antialiasing; rendering on the CPU"))
+        << said;
+}
+
+TEST_F(Gl, SaysThatADriverIsSoftware) {
+    const std::string mesa = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
+    ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", mesa.c_str(), 1);
+    ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+    const bool is_there = std::filesystem::exists(mesa) && has_gl();
+    const std::string by_gl = succeed(render({"--renderer", "gl"})).err;
+    ::unsetenv("LIBGL_ALWAYS_SOFTWARE");
+    ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+    if (!is_there) GTEST_SKIP() << "no software OpenGL";
+    EXPECT_TRUE(contains(by_gl, "warning: OpenGL runs in software, llvmpipe (")) << by_gl;
+    EXPECT_EQ(std::ranges::count(by_gl, '\n'), 1) << by_gl;
+}
+
 TEST_F(Gl, LightsTheBallInThreeWays) {
     for (const std::string renderer : {"cpu", "gl"}) {
         const Arguments plain = meshball({"--renderer", renderer});
@@ -100,6 +127,9 @@ TEST_F(Gl, NamesWhatItCannotShow) {
     EXPECT_TRUE(contains(misuse(render({"--show", "probes,ghosts"})), "\"ghosts\""));
     EXPECT_TRUE(contains(misuse(render({"--show", "selection=1,2"})), "three numbers"));
     EXPECT_TRUE(contains(misuse(render({"--show", "selection=1,2,x"})), "three numbers"));
+    EXPECT_TRUE(
+        contains(misuse(render({"--show", "selection=1,2,nan"})), "\"nan\" is not a number"));
+    EXPECT_TRUE(contains(misuse(render({"--show", "selection=1e30,2,3"})), "1e30 is not in"));
 }
 
 TEST_F(Gl, AWindowNeedsAScreen) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "tests/cli/command_fixture.h"
@@ -12,9 +13,10 @@ class MeshBall : public CommandFixture {
     MeshBall() { bake_courtyard("v.probes"); }
 
     [[nodiscard]] static Arguments arguments(const Arguments& more) {
-        Arguments all{"meshball", "v.probes", "-o", "m.png",       "--width",
-                      "24",       "--height", "16", "--antialias", "1"};
+        Arguments all{"meshball", "v.probes", "--width",     "24",
+                      "--height", "16",       "--antialias", "1"};
         all.insert(all.end(), more.begin(), more.end());
+        if (std::ranges::count(more, "-o") == 0) all.insert(all.end(), {"-o", "m.png"});
         return all;
     }
 
@@ -63,6 +65,11 @@ TEST_F(MeshBall, PutsTheBallWhereAsked) {
     EXPECT_TRUE(picture(here) != picture(there));
 }
 
+TEST_F(MeshBall, RefusesPlacesThatFloatsDoNotResolve) {
+    EXPECT_TRUE(contains(misuse(arguments({"--center", "1e9,0,0"})), "--center: floats cannot"));
+    succeed(arguments({"--center", "1e9,0,0", "--radius", "1e5"}));
+}
+
 TEST_F(MeshBall, StaysInTheRoomWithProbesThatAreInARoom) {
     // Probes in the courtyard's house: |x| < 4, |z| < 3, its roof at 3.75 m, its open side at +z.
     write("room.json", R"({"groups": [{"name": "room", "positions":
@@ -74,6 +81,22 @@ TEST_F(MeshBall, StaysInTheRoomWithProbesThatAreInARoom) {
     EXPECT_LT(std::abs(eye[0].get<double>()), 4.0) << eye;
     EXPECT_LT(eye[1], 3.75) << eye;
     EXPECT_GT(eye[2], -3.0) << eye;
+}
+
+TEST_F(MeshBall, NumbersTheFramesOfAnyName) {
+    std::filesystem::create_directory(path("a.b"));
+    for (const std::string name : {"seq", "a.b/ball", "a.b/ball.PNG"}) {
+        succeed(arguments({"-o", name, "--frames", "2", "--count", "9"}));
+    }
+    for (const std::string name : {"seq_0000", "a.b/ball_0001", "a.b/ball_0001.PNG"}) {
+        EXPECT_TRUE(decode_picture(read(name))) << name;
+    }
+}
+
+TEST_F(MeshBall, WritesNoFramesToStreams) {
+    for (const std::string name : {"-", "/dev/null"}) {
+        EXPECT_TRUE(contains(misuse(arguments({"-o", name, "--frames", "2"})), "--frames: "));
+    }
 }
 
 TEST_F(MeshBall, WarnsOfAVolumeWithoutLight) {

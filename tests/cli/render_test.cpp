@@ -5,6 +5,17 @@
 namespace tetralight::test {
 namespace {
 
+/// A triangle that moves and asks for a proxy volume, a kilometre wide.
+const std::string kFarScene =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"name": "far", "mesh": 0, "scale": [1000, 1000, 1000],
+               "extras": {"light_probes": "proxy_volume", "contribute_gi": false}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 0, 1]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIA/"}]})";
+
 class Render : public CommandFixture {
   protected:
     Render() { bake_courtyard("v.probes"); }
@@ -51,6 +62,17 @@ TEST_F(Render, ListsTheCamerasWhenItHasNoneOfTheName) {
     EXPECT_TRUE(contains(message, "\"camera\" \"camera_interior\"")) << message;
 }
 
+TEST_F(Render, NamesTheNodeWhoseProxyVolumeIsTooLarge) {
+    write("far.gltf", kFarScene);
+    const std::string message = fail({"render", "far.gltf", "v.probes", "-o", "r.png"});
+    EXPECT_TRUE(contains(message, "far.gltf: node \"far\": a grid of 3000 x 1 x 3000 points"))
+        << message;
+}
+
+TEST_F(Render, RefusesEmptyNames) {
+    EXPECT_TRUE(contains(misuse(arguments({"--camera", ""})), "--camera: the name is empty"));
+}
+
 TEST_F(Render, RefusesToLookFromAPointAtItself) {
     EXPECT_TRUE(contains(misuse(arguments({"--eye", "1,2,3", "--target", "1,2,3"})), "--target"));
 }
@@ -58,7 +80,7 @@ TEST_F(Render, RefusesToLookFromAPointAtItself) {
 TEST_F(Render, RefusesTwoCameras) {
     const std::string message =
         misuse(arguments({"--eye", "1,2,3", "--target", "0,0,0", "--camera", "camera"}));
-    EXPECT_TRUE(contains(message, "--camera excludes --eye")) << message;
+    EXPECT_TRUE(contains(message, "--eye excludes --camera")) << message;
 }
 
 TEST_F(Render, DrawsTheCellsWhenAsked) {

@@ -48,6 +48,21 @@ BallInstance sphere(const glm::dvec3& center, double radius) {
 
 const std::vector<BallInstance> kOneSphere = {sphere({0, 0, 0}, 2.0)};
 
+TEST(MakeMeshBall, PlainSpheresStandWhereColouredOnesDo) {
+    MeshBallSettings settings;
+    settings.instance_count = 40;
+    const auto colored = make_mesh_ball(settings);
+    settings.is_plain = true;
+    const auto plain = make_mesh_ball(settings);
+    ASSERT_EQ(plain.size(), colored.size());
+    for (size_t i = 0; i < plain.size(); ++i) {
+        EXPECT_EQ(plain[i].center, colored[i].center);
+        EXPECT_EQ(plain[i].radius, colored[i].radius);
+        EXPECT_EQ(plain[i].color, plain[0].color);
+        EXPECT_EQ(plain[i].metallic, 0.0f);
+    }
+}
+
 TEST(MakeMeshBall, SameSettingsGiveTheSameInstances) {
     MeshBallSettings settings;
     const auto instances = make_mesh_ball(settings);

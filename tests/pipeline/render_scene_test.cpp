@@ -189,6 +189,24 @@ TEST(RenderScene, MoversTakeTheLightOfTheirCentre) {
     }
 }
 
+TEST(RenderScene, MoversTakeTheLightOfTheirAnchor) {
+    Scene scene = moving_floor(LightProbeUsage::Blend);
+    glm::dmat4 world_from_anchor(1.0);
+    world_from_anchor[3] = {2, 1, 0, 1};
+    scene.nodes.push_back({"anchor", kNoIndex, world_from_anchor});
+    scene.nodes[0].probe_anchor = 1;
+    for (const double x : {-3.0, 3.0}) {
+        expect_near(seen(scene, growing_volume(), {x, 3, 0.1}, {x, 0, 0}), kAlbedo * 1.2f);
+    }
+}
+
+TEST(RenderScene, MoversWithoutProbesTakeTheAmbientLight) {
+    const Scene scene = moving_floor(LightProbeUsage::Off);
+    ProbeVolume volume = growing_volume();
+    volume.info.ambient = constant_light(glm::vec3(0.3f));
+    expect_near(seen(scene, volume, {3, 3, 0.1}, {3, 0, 0}), kAlbedo * 0.3f);
+}
+
 TEST(RenderScene, LargeMoversThatAskForItTakeTheLightOfEachPlace) {
     const Scene scene = moving_floor(LightProbeUsage::ProxyVolume);
     for (const double x : {-3.0, 0.5, 3.0}) {

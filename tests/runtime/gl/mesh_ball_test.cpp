@@ -15,6 +15,7 @@
 #include "runtime/gl/sphere_mesh.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/volume_sun.h"
 
 namespace tetralight {
 namespace {
@@ -36,12 +37,7 @@ ProbeVolume make_volume() {
         light.coefficients[1] += glm::vec3(0.5f, 0.4f, 0.3f);
         volume.irradiance[i] = irradiance_from_radiance(light);
     }
-    Scene lights;
-    test::add_sun(lights, LightMode::Mixed, glm::vec3(std::numbers::pi_v<float>)).direction =
-        glm::normalize(glm::vec3(0.4f, -1.0f, -0.3f));
-    volume.lights = lights.lights;
-    volume.light_names = "sun\n";
-    volume.light_states = {{MixedLighting::Indirect, kNoIndex, kNoIndex, 0}};
+    test::add_sun(volume, {0.4f, -1.0f, -0.3f});
     volume.info.ambient = irradiance_from_radiance(constant_radiance(glm::vec3(0.2f)));
     return volume;
 }

@@ -10,7 +10,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 #include <optional>
 
 #include "pipeline/render_gizmos.h"
@@ -18,6 +17,7 @@
 #include "runtime/gl/gl_pictures.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/volume_sun.h"
 
 namespace tetralight {
 namespace {
@@ -54,15 +54,6 @@ Scene box_on_floor() {
     test::add_box(scene, test::diffuse({0.3f, 0.6f, 0.9f}), test::Facing::Outward, {-1, 0, -1},
                   {1, 2, 1});
     return scene;
-}
-
-void add_sun_to(ProbeVolume& volume, glm::vec3 direction) {
-    Scene lights;
-    test::add_sun(lights, LightMode::Mixed, glm::vec3(std::numbers::pi_v<float>)).direction =
-        glm::normalize(direction);
-    volume.lights = lights.lights;
-    volume.light_names = "sun\n";
-    volume.light_states = {{MixedLighting::Indirect, kNoIndex, kNoIndex, 0}};
 }
 
 class GlRenderer : public testing::Test {
@@ -155,14 +146,14 @@ TEST_F(GlRenderer, AgreesOnProxyVolumes) {
 
 TEST_F(GlRenderer, AgreesOnTheSunAndItsShadows) {
     ProbeVolume volume = varied_volume();
-    add_sun_to(volume, {0.5f, -1.0f, 0.3f});
+    test::add_sun(volume, {0.5f, -1.0f, 0.3f});
     EXPECT_LE(difference(box_on_floor(), volume), kShadowEdges);
 }
 
 TEST_F(GlRenderer, AgreesOnLampsAndTheirShadows) {
     for (const LightType type : {LightType::Point, LightType::Spot, LightType::Disc}) {
         ProbeVolume volume = varied_volume();
-        add_sun_to(volume, {0.2f, -1.0f, 0.1f});
+        test::add_sun(volume, {0.2f, -1.0f, 0.1f});
         Light& light = volume.lights[0];
         light.type = type;
         light.position = {2.5f, 4.0f, 1.0f};
@@ -176,7 +167,7 @@ TEST_F(GlRenderer, AgreesOnLampsAndTheirShadows) {
 TEST_F(GlRenderer, OnMovingThingsProbesHoldTheShadowsOfStillOnes) {
     for (const bool floor_moves : {false, true}) {
         ProbeVolume volume = varied_volume();
-        add_sun_to(volume, {0.1f, -1.0f, 0.2f});
+        test::add_sun(volume, {0.1f, -1.0f, 0.2f});
         volume.light_states[0] = {MixedLighting::Shadowmask, 0, kNoIndex, 0};
         volume.occlusion.assign(60, {0.25f, 1, 1, 1});
         volume.occlusion_lights.assign(60, {0, kNoIndex, kNoIndex, kNoIndex});
