@@ -25,7 +25,8 @@ std::vector<T> sorted(std::vector<T> values) {
 }  // namespace
 
 BakeStatistics bake_statistics(const BakedProbes& baked, double target_error) {
-    const auto directions = sorted(baked.direction_count);
+    auto directions = sorted(baked.direction_count);
+    std::erase(directions, 0u);  // took none, and has its light from elsewhere
     auto errors = sorted(baked.standard_error);
     errors.erase(errors.begin(), std::ranges::upper_bound(errors, 0.0f));  // 0: not known
     BakeStatistics statistics;

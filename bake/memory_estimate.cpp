@@ -55,12 +55,15 @@ bool emits(const Material& material) {
     return material.bakes_emission && emission_source(material).factor != glm::vec3(0.0f);
 }
 
-/// "20.3 GB"
-std::string gigabytes(uint64_t bytes) {
-    return text(std::round(static_cast<double>(bytes) / 1e8) / 10.0, " GB");
+}  // namespace
+
+std::string gigabytes(double bytes) {
+    return text(std::round(bytes / 1e8) / 10.0, " GB");
 }
 
-}  // namespace
+std::string gigabytes(uint64_t bytes) {
+    return gigabytes(static_cast<double>(bytes));
+}
 
 BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count, const SplitLayout& split) {
     BakeMemory memory;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "bake/light_plan.h"
 #include "bake/scene/scene.h"
@@ -31,6 +32,10 @@ struct BakeMemory {
 /// Memory that this process may still take: the system's free memory, or what is left of a limit of
 /// its control group. The largest number where the system does not say.
 [[nodiscard]] uint64_t free_memory();
+
+/// "20.3 GB", to a tenth.
+[[nodiscard]] std::string gigabytes(double bytes);
+[[nodiscard]] std::string gigabytes(uint64_t bytes);
 
 /// Refuses a bake that `limit_bytes` do not hold, with the estimate: "needs about 20.3 GB ...".
 [[nodiscard]] Status check_bake_memory(const Scene& scene, size_t probe_count,

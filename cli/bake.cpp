@@ -16,6 +16,7 @@
 #include "pipeline/bake_chunks.h"
 #include "pipeline/bake_volume.h"
 #include "pipeline/resumable_bake.h"
+#include "pipeline/reuse_probes.h"
 #include "probes/probe_file.h"
 
 namespace tetralight::cli {
@@ -30,6 +31,8 @@ struct Bake {
     std::optional<IndexRange> probes;
     bool is_resumed = false;
     std::string chunk_folder;
+    std::string progress_file;
+    std::string reuse_path;
     bool is_explained = false;
     CommonOptions common;
 
@@ -84,6 +87,13 @@ struct Bake {
             "begun, and go on with those that are there")
             ->excludes(resume)
             ->excludes(command.get_option("--probes"));
+        add_path(command, "--reuse", reuse_path,
+                 "Bake only what changed: probes that stayed where they were take their light from "
+                 "this volume; where scene or settings differ, bake all and say why")
+            ->excludes(resume)
+            ->excludes(command.get_option("--probes"));
+        add_path(command, "--progress-file", progress_file,
+                 "Say in this file how far it is, as JSON, twice a second");
         add_health_options(command, settings.health);
         add_dering_options(command, settings.dering);
         add_lighting_options(command, settings.lighting);
@@ -175,13 +185,19 @@ struct Bake {
         settings.bake.thread_count = common.thread_count;
         auto prepared = prepare_bake(*scene, files->groups(), settings);
         if (!prepared) return files->locate(prepared.error());
+        if (reuse_path.empty()) return bake(*scene, std::move(*prepared));
+        const auto old = open_probe_file(reuse_path);
+        if (!old) return old.error();
+        if (const Status status = reuse_probes(old->view(), *prepared); !status) {
+            common.warn({text(reuse_path, ": nothing is re-used: ", status.error().message)});
+        }
         return bake(*scene, std::move(*prepared));
     }
 
     /// Where an interrupted bake is kept: beside the output, where there can be something.
     [[nodiscard]] std::string kept_path() const {
         std::error_code error;
-        if (!chunk_folder.empty()) return "";
+        if (!chunk_folder.empty() || !reuse_path.empty()) return "";
         const auto type = std::filesystem::status(output, error).type();
         const bool is_file = type == std::filesystem::file_type::regular ||
                              type == std::filesystem::file_type::not_found;
@@ -232,11 +248,15 @@ struct Bake {
     [[nodiscard]] Result<RangeBake> bake_with_progress(const Scene& scene,
                                                        const PreparedBake& prepared,
                                                        const BakeKeeping& kept) const {
-        BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds);
+        BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds,
+                                    progress_file);
         const auto show = [&](const BakeProgress& progress) { return display.show(progress); };
-        auto baked = chunk_folder.empty()
-                         ? bake_range(scene, prepared, range_of(prepared), kept, show)
-                         : bake_in_chunks(scene, prepared, chunk_folder, show);
+        const auto bake = [&](const PreparedBake& some) {
+            return chunk_folder.empty() ? bake_range(scene, some, range_of(some), kept, show)
+                                        : bake_in_chunks(scene, some, chunk_folder, show);
+        };
+        auto baked = reuse_path.empty() ? bake(prepared) : bake(bake_of_others(prepared));
+        if (baked && !reuse_path.empty()) baked->partial = spread_others(prepared, baked->partial);
         if (baked || baked.error().message != "cancelled") return baked;
         if (!chunk_folder.empty())
             return Error{"interrupted; " + chunk_folder + " keeps what is done"};

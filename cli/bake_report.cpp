@@ -26,12 +26,13 @@ std::string work_text(uint64_t ray_count, const BakeRun& run) {
                 magnitude(ray_rate(ray_count, run)), "rays/s)");
 }
 
-/// What became of probes in geometry, if there are any.
+/// What became of probes in geometry, if there are any, and how many were not baked.
 std::string health_text(const BakeReport& report) {
     std::string parts;
     if (report.moved_count > 0) parts += ", " + grouped(report.moved_count) + " moved";
     if (report.left_out_count > 0) parts += ", " + grouped(report.left_out_count) + " left out";
     if (report.dilated_count > 0) parts += ", " + grouped(report.dilated_count) + " dilated";
+    if (report.reused_count > 0) parts += ", " + grouped(report.reused_count) + " re-used";
     return parts;
 }
 
@@ -62,7 +63,8 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
         {{"lattice_groups", report.lattice_group_names}, {"largest_snap", report.largest_snap}});
     json.update({{"moved", report.moved_count},
                  {"left_out", report.left_out_count},
-                 {"dilated", report.dilated_count}});
+                 {"dilated", report.dilated_count},
+                 {"reused", report.reused_count}});
     json.update(work(report.ray_count, run));
     json.update(to_json(report.statistics));
     json["seconds"] = {{"merge", report.merge_seconds},

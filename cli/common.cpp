@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
 #include <iostream>
 
 #include "base/text.h"
+#include "cli/validators.h"
 
 namespace tetralight::cli {
 namespace {
@@ -35,7 +37,7 @@ std::string range_error(const std::string& input, double low, double high) {
         const std::string part(begin, comma);
         double value = 0.0;
         const auto [next, error] = std::from_chars(begin, comma, value);
-        if (error == std::errc::invalid_argument || next != comma) {
+        if (error == std::errc::invalid_argument || next != comma || std::isnan(value)) {
             return text("\"", part, "\" is not a number");
         }
         if (error != std::errc{} || !(value >= low && value <= high)) {
@@ -44,11 +46,6 @@ std::string range_error(const std::string& input, double low, double high) {
         if (comma == end) return {};
         begin = comma + 1;
     }
-}
-
-/// Positions beyond this are refused by `merge`, too.
-CLI::Validator finite() {
-    return numbers_in(-1e18, 1e18).description("");
 }
 
 }  // namespace
@@ -126,7 +123,7 @@ CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& va
         value = *parsed;
     };
     return command.add_option_function<std::string>(name, parse, help)
-        ->check(finite())
+        ->check(positions())
         ->type_name("X,Y,Z");
 }
 
@@ -142,7 +139,7 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
         value = *parsed;
     };
     return command.add_option_function<std::string>(name, parse, help)
-        ->check(finite())
+        ->check(positions())
         ->type_name("M|X,Y,Z");
 }
 

@@ -85,11 +85,9 @@ int main(int argc, char** argv) {
     declare_commands(app, run);
     try {
         app.parse(argc, argv);
+        return run_command(run);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kExitFine : kExitUsage;
-    }
-    try {
-        return run_command(run);
     } catch (const std::bad_alloc&) {
         std::cerr << "tetralight: not enough memory\n";
         return kExitBadData;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "cli/amounts.h"
@@ -14,6 +16,7 @@ namespace tetralight::cli {
 namespace {
 
 constexpr int kBarWidth = 32;
+constexpr double kSecondsBetweenWrites = 0.5;
 
 volatile std::sig_atomic_t g_signal = 0;  // a signal handler can reach nothing else
 
@@ -22,11 +25,17 @@ extern "C" void on_interrupt(int signal) {
     std::signal(signal, SIG_DFL);  // a second one ends the program at once
 }
 
+double ray_rate(const BakeProgress& progress, double seconds) {
+    return static_cast<double>(progress.ray_count) / std::max(seconds, 1e-9);
+}
+
 }  // namespace
 
-BakeProgressDisplay::BakeProgressDisplay(bool is_quiet, double time_budget_seconds)
+BakeProgressDisplay::BakeProgressDisplay(bool is_quiet, double time_budget_seconds,
+                                         std::string file)
     : is_quiet_(is_quiet),
       time_budget_seconds_(time_budget_seconds),
+      file_(std::move(file)),
       is_terminal_(::isatty(STDERR_FILENO) == 1) {
     for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_interrupt);
 }
@@ -48,23 +57,27 @@ double BakeProgressDisplay::share_done(const BakeProgress& progress, double seco
     return std::max(progress.share_done, seconds / time_budget_seconds_);
 }
 
-std::string BakeProgressDisplay::summary(const BakeProgress& progress, double seconds) const {
+std::optional<double> BakeProgressDisplay::seconds_left(const BakeProgress& progress,
+                                                        double seconds) const {
     const double share = share_done(progress, seconds);
-    const double rate = static_cast<double>(progress.ray_count) / std::max(seconds, 1e-9);
+    if (share <= first_share_) return std::nullopt;
+    return seconds * (1.0 - share) / (share - first_share_);
+}
+
+std::string BakeProgressDisplay::summary(const BakeProgress& progress, double seconds) const {
     std::string line = grouped(progress.probes_done) + "/" + grouped(progress.probe_count) +
-                       " probes, " + magnitude(rate) + "rays/s";
+                       " probes, " + magnitude(ray_rate(progress, seconds)) + "rays/s";
     if (progress.worst_error > 0.0f) line += ", worst error " + percent(progress.worst_error);
-    if (share > first_share_ && share < 1.0) {
-        const double left = seconds * (1.0 - share) / (share - first_share_);
-        line += ", " + duration(left) + " left";
-    }
+    const auto left = seconds_left(progress, seconds);
+    if (left && *left > 0.0) line += ", " + duration(*left) + " left";
     return line;
 }
 
 bool BakeProgressDisplay::show(const BakeProgress& progress) {
     if (first_share_ < 0.0) first_share_ = progress.share_done;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    if (!file_.empty()) write_file(progress, elapsed.count());
     if (!is_quiet_) {
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         if (is_terminal_) {
             draw_bar(progress, elapsed.count());
         } else {
@@ -87,6 +100,23 @@ void BakeProgressDisplay::print_line(const BakeProgress& progress, double second
     if (seconds < 1.0 || tenth == last_tenth_) return;
     last_tenth_ = tenth;
     std::cerr << "Progress: " << tenth * 10 << "%, " << summary(progress, seconds) << '\n';
+}
+
+/// Readers see the old facts or the new ones. A file that cannot be written stops no bake.
+void BakeProgressDisplay::write_file(const BakeProgress& progress, double seconds) {
+    const bool is_last = progress.probes_done == progress.probe_count;
+    if (seconds < next_write_seconds_ && !is_last) return;
+    next_write_seconds_ = seconds + kSecondsBetweenWrites;
+    Json json{{"probes_done", progress.probes_done},
+              {"probe_count", progress.probe_count},
+              {"rays", progress.ray_count},
+              {"rays_per_second", ray_rate(progress, seconds)},
+              {"seconds_left", nullptr}};
+    if (const auto left = seconds_left(progress, seconds)) json["seconds_left"] = *left;
+    const std::string beside = file_ + ".new";
+    std::ofstream(beside) << dump(json) << '\n';
+    std::error_code error;
+    std::filesystem::rename(beside, file_, error);
 }
 
 }  // namespace tetralight::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 #include "bake/bake_probes.h"
@@ -9,11 +10,12 @@
 namespace tetralight::cli {
 
 /// Shows how a bake goes on, on stderr: a bar on a terminal once it takes longer than a second, a
-/// plain line for each tenth elsewhere, nothing when quiet. Ctrl-C and SIGTERM cancel the bake.
+/// plain line for each tenth elsewhere, nothing when quiet; and in a file for other programs.
+/// Ctrl-C and SIGTERM cancel the bake.
 class BakeProgressDisplay {
   public:
-    /// `time_budget_seconds` 0: none.
-    BakeProgressDisplay(bool is_quiet, double time_budget_seconds);
+    /// `time_budget_seconds` 0: none. `file` empty: none.
+    BakeProgressDisplay(bool is_quiet, double time_budget_seconds, std::string file = "");
     ~BakeProgressDisplay();
     BakeProgressDisplay(const BakeProgressDisplay&) = delete;
     BakeProgressDisplay& operator=(const BakeProgressDisplay&) = delete;
@@ -27,12 +29,19 @@ class BakeProgressDisplay {
   private:
     /// How far a bake is, in [0, 1], `seconds` after it began.
     [[nodiscard]] double share_done(const BakeProgress& progress, double seconds) const;
+    /// As long as the rest takes at the pace of this run, whatever earlier ones left done; nothing
+    /// while that is not known.
+    [[nodiscard]] std::optional<double> seconds_left(const BakeProgress& progress,
+                                                     double seconds) const;
     [[nodiscard]] std::string summary(const BakeProgress& progress, double seconds) const;
     void draw_bar(const BakeProgress& progress, double seconds);
     void print_line(const BakeProgress& progress, double seconds);
+    void write_file(const BakeProgress& progress, double seconds);
 
     bool is_quiet_;
     double time_budget_seconds_;
+    std::string file_;
+    double next_write_seconds_ = 0.0;
     double first_share_ = -1.0;  ///< what an earlier run left done; negative: not known yet
     bool is_terminal_;
     bool is_bar_drawn_ = false;

@@ -70,6 +70,17 @@ void add(ContentHash& hash, const Environment& environment) {
     hash.add(rotation_radians);
 }
 
+/// The name decides between volumes of one size.
+void add(ContentHash& hash, const ProbeAdjustment& adjustment) {
+    const auto& [name, shape, world_from_volume, forbids_probes, spacing, validity, intensity] =
+        adjustment;
+    hash.add(std::vector<char>(name.begin(), name.end()));
+    hash.add(shape);
+    hash.add(world_from_volume);
+    hash.add(validity.value_or(-1.0f));
+    hash.add(intensity.value_or(-1.0f));
+}
+
 template <class T>
 void add_each(ContentHash& hash, const std::vector<T>& elements) {
     hash.add(static_cast<uint64_t>(elements.size()));
@@ -125,9 +136,20 @@ void add(ContentHash& hash, const BakeVolumeSettings& settings) {
 
 }  // namespace
 
-uint64_t bake_key(const Scene& scene, const PreparedBake& prepared) {
+uint64_t scene_key(const Scene& scene) {
     ContentHash hash;
     add(hash, scene);
+    return hash.value();
+}
+
+uint64_t adjustments_key(const std::vector<ProbeAdjustment>& adjustments) {
+    ContentHash hash;
+    add_each(hash, adjustments);
+    return hash.value();
+}
+
+uint64_t bake_key(const PreparedBake& prepared) {
+    ContentHash hash;
     add(hash, prepared.settings);
     hash.add(probe_file_bytes(prepared.volume.view()));
     hash.add(prepared.capture_positions);

@@ -8,9 +8,15 @@
 
 namespace tetralight {
 
-/// Hash of all that the bytes of a baked volume depend on: what a bake sees of the scene, the
-/// volume that waits for its light (and with it groups, metadata, program version), capture
-/// positions and settings but for the number of threads. `prepared.key` is no part of it.
-[[nodiscard]] uint64_t bake_key(const Scene& scene, const PreparedBake& prepared);
+/// Hash of what the light of a probe depends on in a scene: all that a bake sees of it.
+[[nodiscard]] uint64_t scene_key(const Scene& scene);
+
+/// Hash of what adjustment volumes say about baked probes.
+[[nodiscard]] uint64_t adjustments_key(const std::vector<ProbeAdjustment>& adjustments);
+
+/// Hash of all that the bytes of a baked volume depend on: the volume that waits for its light (and
+/// with it groups, and metadata with the scene's key and the program's version), capture positions
+/// and settings but for the number of threads. `prepared.key` is no part of it.
+[[nodiscard]] uint64_t bake_key(const PreparedBake& prepared);
 
 }  // namespace tetralight

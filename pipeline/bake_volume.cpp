@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/bake_volume.h"
 
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include "bake/bake_tallies.h"
@@ -15,6 +17,7 @@
 #include "pipeline/dilate_probes.h"
 #include "pipeline/probe_warnings.h"
 #include "pipeline/split_light.h"
+#include "pipeline/take_reused.h"
 #include "probes/build/make_probe_volume.h"
 #include "probes/build/merge_warnings.h"
 #include "probes/compact_probes.h"
@@ -34,13 +37,21 @@ class Stopwatch {
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+std::string hexadecimal(uint64_t number) {
+    std::array<char, 17> digits{};
+    std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(number));
+    return digits.data();
+}
+
 /// What is left at its default that changes no byte is left out.
-std::string metadata(const BakeVolumeSettings& settings, bool has_dering) {
+std::string metadata(const Scene& scene, const PreparedBake& prepared, bool has_dering) {
+    const BakeVolumeSettings& settings = prepared.settings;
     const BakeSettings& bake = settings.bake;
     const HealthSettings& health = settings.health;
-    std::string json = text("{\"generator\":\"tetralight ", TETRALIGHT_VERSION,
-                            "\",\"samples\":", bake.sample_count, ",\"bounces\":", bake.bounces,
-                            ",\"seed\":", bake.seed, ",\"min_validity\":", health.min_validity,
+    std::string json = text("{\"generator\":\"tetralight ", TETRALIGHT_VERSION, "\",\"scene\":\"",
+                            hexadecimal(scene_key(scene)), "\",\"samples\":", bake.sample_count,
+                            ",\"bounces\":", bake.bounces, ",\"seed\":", bake.seed,
+                            ",\"min_validity\":", health.min_validity,
                             ",\"virtual_offset\":", health.virtual_offset, ",\"invalid_probes\":\"",
                             name_of(health.invalid), "\"");
     const auto add = [&](const char* name, auto value) {
@@ -56,6 +67,10 @@ std::string metadata(const BakeVolumeSettings& settings, bool has_dering) {
     }
     if (settings.lighting.mixed_lighting != MixedLighting::Indirect) {
         json += text(",\"mixed_lighting\":\"", name_of(settings.lighting.mixed_lighting), "\"");
+    }
+    if (!prepared.overrides.empty()) {
+        json += text(",\"adjustments\":\"", hexadecimal(adjustments_key(scene.probe_adjustments)),
+                     "\"");
     }
     if (has_dering) {
         json += text(",\"dering\":\"", name_of(settings.dering.window), "\"");
@@ -102,7 +117,7 @@ void store_lights(const Scene& scene, const LightingPlan& plan, PreparedBake& pr
     const auto& asks = prepared.merged.group_dering;
     const bool has_dering = settings.dering.is_for_all_groups ||
                             std::find(asks.begin(), asks.end(), true) != asks.end();
-    volume.metadata = metadata(settings, has_dering);
+    volume.metadata = metadata(scene, prepared, has_dering);
 }
 
 void store_light(const BakedProbes& baked, ProbeVolume& volume) {
@@ -124,6 +139,18 @@ void add_target_warning(const BakeStatistics& statistics, double target_error, s
                             statistics.worst_error, ") with the samples and the time they had"));
 }
 
+void remove_ringing(const MergedProbes& merged, const DeringSettings& settings,
+                    ProbeVolume& volume) {
+    if (volume.layers.empty()) {
+        dering_probes(merged, settings, volume.irradiance);
+    } else {
+        dering_layers(dering_asked_for(merged, settings), settings.window, volume);
+    }
+    auto marks = dering_marks(merged, settings);
+    const bool is_any = std::ranges::any_of(marks, [](uint8_t mark) { return mark != 0; });
+    if (is_any || !volume.transfer.empty()) volume.dering = std::move(marks);
+}
+
 /// What is done to baked light, before it is rounded to halves.
 void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport& report) {
     const BakeVolumeSettings& settings = prepared.settings;
@@ -134,14 +161,10 @@ void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport&
     add_dark_warnings(prepared.merged, volume.irradiance, settings.bake.sample_count,
                       report.warnings);
     override_probes(prepared.overrides, volume);
-    if (volume.layers.empty()) {
-        dering_probes(prepared.merged, settings.dering, volume.irradiance);
-        make_compact_probes(volume);
-    } else {
-        make_compact_probes(volume);  // for what recombining leaves alone
-        finish_layers(dering_asked_for(prepared.merged, settings.dering), settings.dering.window,
-                      volume);
-    }
+    remove_ringing(prepared.merged, settings.dering, volume);
+    take_reused(prepared.reused, volume);
+    make_compact_probes(volume);
+    sum_layers(volume);
 }
 
 }  // namespace
@@ -187,21 +210,24 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     report.tetrahedralize_seconds = watch.lap();
 
     store_lights(scene, *plan, prepared);
-    prepared.key = bake_key(scene, prepared);
+    prepared.key = bake_key(prepared);
     return prepared;
 }
 
 BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies,
                         std::span<const double> split_rows) {
     TETRALIGHT_ASSERT(tallies.size() == prepared.volume.positions.size(), "one for each probe");
-    const BakedProbes baked = baked_probes(tallies);
+    BakedProbes baked = baked_probes(tallies);
+    take_reused(prepared.reused, baked);
     ProbeVolume volume = std::move(prepared.volume);
     BakeReport report = std::move(prepared.report);
     store_light(baked, volume);
     store_split(tallies, split_rows, volume);
+    take_reused(prepared.reused, volume);
 
     const double target_error = prepared.settings.bake.target_error;
     report.ray_count = baked.ray_count;
+    report.reused_count = prepared.reused.count();
     report.statistics = bake_statistics(baked, target_error);
     const auto merge_lines = merge_warnings(prepared.merged, volume.info.dimension);
     report.warnings.insert(report.warnings.begin(), merge_lines.begin(), merge_lines.end());

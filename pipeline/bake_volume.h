@@ -14,6 +14,7 @@
 #include "pipeline/lighting_plan.h"
 #include "pipeline/override_probes.h"
 #include "pipeline/prepare_probes.h"
+#include "pipeline/reused_probes.h"
 #include "probes/build/merge.h"
 #include "probes/probe_group.h"
 #include "probes/probe_volume.h"
@@ -50,6 +51,8 @@ struct BakeReport {
     size_t moved_count = 0;
     size_t left_out_count = 0;
     size_t dilated_count = 0;
+    /// Probes that took the light of an earlier bake.
+    size_t reused_count = 0;
     /// Of all runs, when the bake was put aside in between.
     uint64_t ray_count = 0;
     BakeStatistics statistics;
@@ -82,6 +85,8 @@ struct PreparedBake {
     /// Hash of all that the light depends on, and of the volume: what has another key is no part of
     /// the same bake.
     uint64_t key = 0;
+    /// None, unless `reuse_probes` found some.
+    ReusedProbes reused{};
     BakeReport report;
 };
 
@@ -90,8 +95,9 @@ struct PreparedBake {
                                                 const BakeVolumeSettings& settings);
 
 /// Puts the light of all probes into the volume. A function of the volume, `merged`, `is_invalid`,
-/// the settings, the tallies and the rows of what light was split into (`SplitRows`) alone.
-/// Precondition: one tally for each probe, and one row of `split_layout(volume)`.
+/// the settings, the tallies and the rows of what light was split into (`SplitRows`), and what is
+/// reused, alone. Precondition: one tally for each probe, and one row of `split_layout(volume)`;
+/// empty ones where light is reused.
 [[nodiscard]] BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies,
                                       std::span<const double> split_rows = {});
 

@@ -19,6 +19,15 @@ std::vector<bool> dering_asked_for(const MergedProbes& merged, const DeringSetti
     return is_asked_for;
 }
 
+std::vector<uint8_t> dering_marks(const MergedProbes& merged, const DeringSettings& settings) {
+    const auto mark = static_cast<uint8_t>(1 + static_cast<uint8_t>(settings.window));
+    std::vector<uint8_t> marks;
+    for (const bool is_asked_for : dering_asked_for(merged, settings)) {
+        marks.push_back(is_asked_for ? mark : uint8_t{0});
+    }
+    return marks;
+}
+
 size_t dering_probes(const MergedProbes& merged, const DeringSettings& settings,
                      std::span<IrradianceSh> irradiance) {
     TETRALIGHT_ASSERT(irradiance.size() == merged.positions.size(), "one irradiance a probe");

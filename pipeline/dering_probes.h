@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct DeringSettings {
 /// for when one of them asks.
 [[nodiscard]] std::vector<bool> dering_asked_for(const MergedProbes& merged,
                                                  const DeringSettings& settings);
+
+/// What volumes record of it, one a probe: 0, or 1 + the window.
+[[nodiscard]] std::vector<uint8_t> dering_marks(const MergedProbes& merged,
+                                                const DeringSettings& settings);
 
 /// Removes ringing from the probes of all groups that ask for it, and returns how many these are.
 /// Precondition: one irradiance a probe.

@@ -104,9 +104,8 @@ class Planner {
     /// "light:NAME" and "material:NAME".
     Status add_named(const std::string& word, uint32_t layer) {
         if (word == "sun" || word == "sky" || word == "emission") return Ok{};
-        if (has_control_character(word)) {
-            return Error{text("layer \"", word,
-                              "\": the name holds a line break or another control character")};
+        if (const auto status = check_characters(word); !status) {
+            return status.error().in(text("layer \"", word, "\""));
         }
         const size_t colon = word.find(':');
         const std::string kind = word.substr(0, colon);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/split_light.h"
 
+#include <algorithm>
+
 #include "base/assert.h"
 #include "probes/recombine.h"
 #include "probes/relight.h"
@@ -75,7 +77,9 @@ void store_split(std::span<const ProbeTally> tallies, std::span<const double> ro
     if (layout.has_occlusion) volume.occlusion.resize(tallies.size());
     for (size_t i = 0; i < tallies.size(); ++i) {
         const auto row = rows.subspan(i * layout.size(), layout.size());
-        const auto directions = static_cast<double>(tallies[i].direction_count);
+        // A probe without directions has no light, and zeros for it.
+        const auto directions =
+            static_cast<double>(std::max<uint64_t>(tallies[i].direction_count, 1));
         for (uint32_t layer = 0; layer < layout.layer_count; ++layer) {
             layer_light(volume, layer)[i] =
                 irradiance_from_row(row.subspan(layer * SplitLayout::kLayer), directions);
@@ -100,20 +104,20 @@ void store_rest(ProbeVolume& volume) {
     }
 }
 
-void finish_layers(const std::vector<bool>& is_dering_asked_for, DeringWindow window,
+void dering_layers(const std::vector<bool>& is_dering_asked_for, DeringWindow window,
                    ProbeVolume& volume) {
-    if (!volume.transfer.empty()) {
-        const auto mark = static_cast<uint8_t>(1 + static_cast<uint8_t>(window));
-        for (const bool is_asked_for : is_dering_asked_for) {
-            volume.dering.push_back(is_asked_for ? mark : uint8_t{0});
-        }
-    }
     for (size_t layer = 0; layer < volume.layers.size(); ++layer) {
         const auto light = layer_light(volume, layer);
         for (size_t i = 0; i < light.size(); ++i) {
             if (is_dering_asked_for[i]) light[i] = dering(light[i], window);
         }
-        volume.layers[layer].largest = largest_coefficient(light);
+    }
+}
+
+void sum_layers(ProbeVolume& volume) {
+    if (volume.layers.empty()) return;
+    for (size_t layer = 0; layer < volume.layers.size(); ++layer) {
+        volume.layers[layer].largest = largest_coefficient(layer_light(volume, layer));
     }
     const Status status = recombine(volume, layer_weights(volume.view()));
     TETRALIGHT_ASSERT(status, "weights of 1 are fine");

@@ -27,9 +27,11 @@ void store_split(std::span<const ProbeTally> tallies, std::span<const double> ro
 void store_rest(ProbeVolume& volume);
 
 /// Removes ringing from each layer of the probes that ask for it, so that every sum with weights
-/// that are not negative has none; and makes the light of the volume the sum. Probes of volumes
-/// with a transfer keep in mind what was done. Precondition: the volume has layers.
-void finish_layers(const std::vector<bool>& is_dering_asked_for, DeringWindow window,
+/// that are not negative has none.
+void dering_layers(const std::vector<bool>& is_dering_asked_for, DeringWindow window,
                    ProbeVolume& volume);
+
+/// Makes the light of the volume the sum of its layers, where it has some.
+void sum_layers(ProbeVolume& volume);
 
 }  // namespace tetralight

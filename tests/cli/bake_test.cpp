@@ -55,30 +55,34 @@ class Bake : public CommandFixture {
     }
 };
 
+TEST_F(Bake, TellsOtherProgramsOfTheWorkOfThisRun) {
+    const Arguments bake{"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--chunks", "chunks"};
+    succeed(bake);
+    std::filesystem::remove(folder() / "chunks/16-32-of-255.chunk");
+    Arguments again = bake;
+    again.insert(again.end(), {"--progress-file", "progress.json"});
+    succeed(again);
+    const Json part =
+        run_json({"bake", kCourtyard, "-o", "v.part", "-s", "16", "--probes", "16..32"});
+    const Json progress = Json::parse(read("progress.json"));
+    EXPECT_EQ(progress["rays"], part["rays"]);
+    EXPECT_GT(progress["rays_per_second"], 0);
+    EXPECT_EQ(progress["probes_done"], part["all_probes"]);
+    EXPECT_EQ(progress["probe_count"], part["all_probes"]);
+    EXPECT_EQ(progress["seconds_left"], 0);
+}
+
 TEST_F(Bake, JsonHasTheDocumentedFields) {
     const Json json = run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    const std::vector<std::string> expected{"bounces",
-                                            "dilated",
-                                            "dimension",
-                                            "groups",
-                                            "hull_cells",
-                                            "inner_cells",
-                                            "largest_snap",
-                                            "lattice_groups",
-                                            "left_out",
-                                            "moved",
-                                            "output",
-                                            "over_target",
-                                            "probes",
-                                            "rays",
-                                            "rays_per_second",
-                                            "samples",
-                                            "samples_per_probe",
-                                            "seconds",
-                                            "standard_error",
-                                            "welded"};  // sorted
+    const std::vector<std::string> expected{"bounces",      "dilated",        "dimension",
+                                            "groups",       "hull_cells",     "inner_cells",
+                                            "largest_snap", "lattice_groups", "left_out",
+                                            "moved",        "output",         "over_target",
+                                            "probes",       "rays",           "rays_per_second",
+                                            "reused",       "samples",        "samples_per_probe",
+                                            "seconds",      "standard_error", "welded"};  // sorted
     EXPECT_EQ(keys, expected);
 }
 
