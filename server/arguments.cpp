@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "base/utf8.h"
 #include "server/problem.h"
 
 namespace tetralight::server {
@@ -26,9 +27,7 @@ std::string number_text(const std::string& member, const Json& value) {
 std::string plain_text(const std::string& member, const Json& value) {
     if (!value.is_string()) refuse(member, value, "a string");
     const auto words = value.get<std::string>();
-    const bool is_plain = std::ranges::none_of(
-        words, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
-    if (!is_plain || words.empty()) refuse(member, value, "plain text");
+    if (has_control_character(words) || words.empty()) refuse(member, value, "plain text");
     return words;
 }
 

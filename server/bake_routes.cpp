@@ -18,6 +18,16 @@ constexpr OptionRule kBakeRules[] = {
     {"mixed_lighting", ValueKind::Text},   {"layers", ValueKind::List},
     {"only_given_groups", ValueKind::Flag}};
 
+int64_t read_priority(Fields& fields) {
+    constexpr int64_t kMost = 100;
+    const Json* priority = fields.find("priority");
+    if (priority == nullptr) return 0;
+    const bool is_right =
+        priority->is_number_integer() && *priority <= kMost && *priority >= -kMost;
+    if (!is_right) refuse("priority", *priority, "a whole number from -100 to 100");
+    return priority->get<int64_t>();
+}
+
 BakeOrder read_order(Service& service, const Json& json) {
     Fields fields(json);
     BakeOrder order;
@@ -25,35 +35,39 @@ BakeOrder read_order(Service& service, const Json& json) {
     SceneInputs scene = read_scene(service, fields);
     order.inputs = std::move(scene.files);
     order.arguments = std::move(scene.arguments);
-    for (const std::string& reference : fields.texts("groups")) {
-        const std::string name = text("groups_", order.inputs.size(), ".json");
-        order.inputs.emplace_back(service.store.get(Kind::Groups, reference), name);
+    const std::vector<std::string> groups = fields.texts("groups");
+    for (size_t i = 0; i < groups.size(); ++i) {
+        const std::string name = text("groups_", i, ".json");
+        order.inputs.emplace_back(
+            file_for(service, Kind::Groups, text("groups[", i, "]"), groups[i]), name);
         order.arguments.push_back("--groups=" + name);
+    }
+    const std::string reuse = fields.text("reuse");
+    if (!reuse.empty()) {
+        order.inputs.emplace_back(file_for(service, Kind::Volumes, "reuse", reuse), "reuse.probes");
+        order.arguments.push_back("--reuse=reuse.probes");
     }
     const auto options = make_arguments(fields, kBakeRules);
     order.arguments.insert(order.arguments.end(), options.begin(), options.end());
     order.name = fields.text("name");
     check_name(order.name);
-    const double priority = fields.number("priority", 0.0);
-    constexpr double kMost = 100.0;
-    if (!(std::abs(priority) <= kMost)) refuse("priority", priority, "from -100 to 100");
-    order.priority = static_cast<int64_t>(priority);
+    order.priority = read_priority(fields);
     fields.finish();
     return order;
 }
 
 /// Has the command read options and scene, so that what is wrong is said now and not later.
-void check(Service& service, const BakeOrder& order) {
+void check(Service& service, const Request& request, const BakeOrder& order) {
     const WorkFolder folder = service.store.make_work_folder();
     for (const auto& [file, name] : order.inputs) service.store.link(file, folder.file(name));
     std::vector<std::string> arguments{"bake", "scene.glb", "--explain", "--json"};
     arguments.insert(arguments.end(), order.arguments.begin(), order.arguments.end());
-    (void)run_tool(service, folder.path(), arguments);
+    (void)run_tool(service, request, folder.path(), arguments);
 }
 
 Response submit(Service& service, const Request& request) {
     const BakeOrder order = read_order(service, parse_object(request.body));
-    check(service, order);
+    check(service, request, order);
     const Json bake = service.bakes.submit(order);
     Response response = json_response(bake, 202);
     response.headers.emplace_back("Location", "/v1/bakes/" + bake["id"].get<std::string>());
@@ -71,12 +85,10 @@ Response events(Service& service, const Request& request) {
         try {
             Json bake = service.bakes.get(id);
             bake.erase("request");
-            Json shown = bake;
-            shown.erase("seconds_left");
-            const std::string now = dump(shown);
-            if (now != last) out += "event: progress\ndata: " + dump(bake) + "\n\n";
+            const std::string now = dump(bake);
+            if (now != last) out += "event: progress\ndata: " + now + "\n\n";
             last = now;
-            if (is_over) out += "event: end\ndata: " + dump(bake) + "\n\n";
+            if (is_over) out += "event: end\ndata: " + now + "\n\n";
         } catch (const Problem&) {
             out += "event: end\ndata: {\"state\":\"deleted\"}\n\n";
             return false;

@@ -8,14 +8,20 @@
 #include <filesystem>
 #include <random>
 
+#include "base/file.h"
 #include "base/text.h"
 #include "server/command.h"
 #include "server/problem.h"
+#include "server/tool_problem.h"
 
 namespace tetralight::server {
 namespace {
 
 namespace fs = std::filesystem;
+
+// In the folder of a bake.
+constexpr const char* kChunks = "chunks";
+constexpr const char* kProgress = "progress.json";
 
 std::string random_id() {
     static std::random_device device;
@@ -44,12 +50,17 @@ ChunkCounts count_chunks(const std::string& folder) {
     return counts;
 }
 
-bool is_final(const std::string& state) {
-    return state == "done" || state == "failed" || state == "cancelled";
+/// What the running command says of its pace, or an empty object.
+Json read_pace(const std::string& path) {
+    const auto bytes = read_file(path);
+    if (!bytes) return Json::object();
+    const auto* text = reinterpret_cast<const char*>(bytes->data());
+    Json pace = Json::parse(text, text + bytes->size(), nullptr, false);
+    return pace.is_object() ? pace : Json::object();
 }
 
-void require(const Status& status) {
-    if (!status) throw Problem{500, "storage", status.error().message};
+bool is_final(const std::string& state) {
+    return state == "done" || state == "failed" || state == "cancelled";
 }
 
 }  // namespace
@@ -74,7 +85,7 @@ Bakes::~Bakes() {
 void Bakes::load() {
     for (const auto& row : store_.database().run(
              "SELECT number, id, request, arguments, name, priority, state, volume, error, report, "
-             "created, ended FROM bakes")) {
+             "created, ended, probes_done, probe_count FROM bakes")) {
         Bake bake;
         bake.number = std::get<int64_t>(row[0]);
         bake.id = std::get<std::string>(row[1]);
@@ -89,6 +100,8 @@ void Bakes::load() {
         if (!report.empty()) bake.report = Json::parse(report, nullptr, false);
         bake.created = std::get<double>(row[10]);
         bake.ended = std::get<double>(row[11]);
+        bake.probes_done = static_cast<uint64_t>(std::get<int64_t>(row[12]));
+        bake.probe_count = static_cast<uint64_t>(std::get<int64_t>(row[13]));
         bakes_[bake.id] = std::move(bake);
     }
 }
@@ -113,11 +126,9 @@ Json Bakes::to_json(const Bake& bake) {
               {"probes_done", bake.probes_done},
               {"probe_count", bake.probe_count}};
     if (bake.ended > 0.0) json["ended"] = bake.ended;
-    const uint64_t done = bake.probes_done - std::min(bake.probes_done, bake.probes_before);
-    if (bake.state == "running" && done > 0 && bake.probe_count > bake.probes_done) {
-        const double seconds = now() - bake.started;
-        json["seconds_left"] = seconds / static_cast<double>(done) *
-                               static_cast<double>(bake.probe_count - bake.probes_done);
+    if (!is_final(bake.state)) {
+        json["rays_per_second"] = bake.rays_per_second;
+        json["seconds_left"] = bake.seconds_left;
     }
     if (!bake.volume.empty()) json["volume"] = bake.volume;
     if (!bake.error.empty()) json["error"] = bake.error;
@@ -154,10 +165,10 @@ Json Bakes::submit(const BakeOrder& order) {
     bake.created = now();
     const std::string folder = store_.bake_folder(bake.id);
     try {
-        require(make_folder(folder));
+        require_stored(make_folder(folder));
         for (const auto& [file, name] : order.inputs) store_.link(file, folder + "/" + name);
-        require(sync_folder(folder));
-        require(sync_folder(store_.bake_folder("")));
+        require_stored(sync_folder(folder));
+        require_stored(sync_folder(store_.bake_folder("")));
         store_.database().transaction([&] {
             store_.database().run(
                 "INSERT INTO bakes (id, request, arguments, name, priority, state, created) "
@@ -229,7 +240,8 @@ void Bakes::remove(const std::string& id) {
     if (!is_final(find_locked(id).state)) {
         throw Problem{409, "not_over", "the bake is not over; cancel it first", "bake", id};
     }
-    store_.database().run("DELETE FROM bakes WHERE id = ?", {id});
+    store_.with_reserve([&] { store_.database().run("DELETE FROM bakes WHERE id = ?", {id}); });
+    remove_all(store_.bake_folder(id));
     bakes_.erase(id);
 }
 
@@ -239,19 +251,41 @@ void Bakes::end(const std::string& id, const std::string& state, const std::stri
     const std::lock_guard lock(mutex_);
     const auto found = bakes_.find(id);
     if (found == bakes_.end() || is_final(found->second.state)) return;
-    const double ended = now();
-    store_.database().run(
-        "UPDATE bakes SET state = ?, volume = ?, error = ?, report = ?, ended = ? WHERE id = ?",
-        {state, volume, error, report.empty() ? "" : dump(report), ended, id});
-    Bake& bake = found->second;
+    const std::string reason = in_words_of(found->second.request, error);
+    Bake bake = found->second;
     bake.state = state;
     bake.volume = volume;
-    bake.error = error;
+    bake.error = reason;
     bake.report = report;
-    bake.ended = ended;
+    bake.ended = now();
     if (state == "done") bake.probes_done = bake.probe_count = report.value("probes", 0u);
+    store_.with_reserve([&] {
+        store_.database().run(
+            "UPDATE bakes SET state = ?, volume = ?, error = ?, report = ?, ended = ?, "
+            "probes_done = ?, probe_count = ? WHERE id = ?",
+            {state, volume, reason, report.empty() ? "" : dump(report), bake.ended,
+             static_cast<int64_t>(bake.probes_done), static_cast<int64_t>(bake.probe_count), id});
+    });
+    found->second = std::move(bake);
     log_.write(Log::Level::Info, "a bake is over",
-               {{"bake", id}, {"state", state}, {"volume", volume}, {"error", error}});
+               {{"bake", id}, {"state", state}, {"volume", volume}, {"error", reason}});
+}
+
+/// False: that could not be stored. The bake keeps its folder then, and goes on the next time.
+bool Bakes::fail(const std::string& id, const std::string& error) {
+    try {
+        end(id, "failed", "", error, {});
+        return true;
+    } catch (const Problem& problem) {
+        log_.write(Log::Level::Error, "the end of a bake could not be stored",
+                   {{"bake", id}, {"error", problem.detail}});
+    }
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    if (found == bakes_.end()) return true;
+    found->second.state = "failed";
+    found->second.error = error;
+    return false;
 }
 
 Bakes::Bake* Bakes::next_locked() {
@@ -272,7 +306,6 @@ void Bakes::run() {
         wake_.wait(lock, [&] { return is_ending_ || (next = next_locked()) != nullptr; });
         if (is_ending_) return;
         next->state = "running";
-        next->started = now();
         const std::string id = next->id;
         const auto arguments = next->arguments;
         const std::string name = next->name;
@@ -281,62 +314,60 @@ void Bakes::run() {
         try {
             run_bake(id, arguments, name);
         } catch (const Problem& problem) {
-            try {
-                end(id, "failed", "", problem.detail, {});
-            } catch (const Problem& second) {
-                log_.write(Log::Level::Error, "the end of a bake could not be stored",
-                           {{"bake", id}, {"error", second.detail}});
-                lock.lock();
-                bakes_[id].state = "failed";
-                bakes_[id].error = problem.detail;
-                lock.unlock();
-            }
+            if (!fail(id, problem.detail)) continue;
         }
         if (is_over(id)) remove_all(store_.bake_folder(id));
+        store_.keep_reserve();
     }
 }
 
 bool Bakes::goes_on(const std::string& id) {
-    update_progress(id, false);
+    update_progress(id);
     const std::lock_guard lock(mutex_);
     const auto found = bakes_.find(id);
     return !is_ending_ && found != bakes_.end() && found->second.state == "running";
 }
 
-void Bakes::update_progress(const std::string& id, bool is_start) {
-    const ChunkCounts counts = count_chunks(store_.bake_folder(id) + "/chunks");
+void Bakes::update_progress(const std::string& id) {
+    const std::string folder = store_.bake_folder(id) + "/";
+    const ChunkCounts counts = count_chunks(folder + kChunks);
+    const Json pace = read_pace(folder + kProgress);
     const std::lock_guard lock(mutex_);
     const auto found = bakes_.find(id);
     if (found == bakes_.end()) return;
     Bake& bake = found->second;
     bake.probes_done = counts.done;
-    if (counts.all > 0) bake.probe_count = counts.all;
-    if (is_start) bake.probes_before = counts.done;
+    bake.probe_count = pace.value("probe_count", counts.all);
+    bake.rays_per_second = pace.value("rays_per_second", Json());
+    bake.seconds_left = pace.value("seconds_left", Json());
 }
 
 void Bakes::run_bake(const std::string& id, const std::vector<std::string>& arguments,
                      const std::string& name) {
     using End = CommandResult::End;
     const std::string folder = store_.bake_folder(id);
-    Command command{.arguments = {"bake", "scene.glb", "--output=out.probes", "--chunks=chunks",
+    std::error_code error;
+    fs::remove(folder + "/" + kProgress, error);  // of a run that is over
+    Command command{.arguments = {"bake", "scene.glb", "--output=out.probes",
+                                  text("--chunks=", kChunks), text("--progress-file=", kProgress),
                                   "--json", text("--threads=", settings_.tool_thread_count)},
                     .folder = folder,
+                    .is_background = true,
                     .goes_on = [&] { return goes_on(id); }};
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    update_progress(id, true);
+    update_progress(id);
     CommandResult result = run_command(settings_, command);
     // When the server ends, the bake stays as it is, and goes on the next time.
     if (result.end == End::Stopped) return;
-    if (result.end == End::Fine) {
-        result.report.erase("output");
-        if (!result.warnings.empty()) result.report["warnings"] = result.warnings;
-        Json facts = run_or_throw(
-            settings_, {.arguments = {"info", "out.probes", "--json"}, .folder = folder});
-        const auto added = store_.add(Kind::Volumes, folder + "/out.probes", name, facts);
-        end(id, "done", added.file.id, "", result.report);
-    } else {
-        end(id, "failed", "", result.message, {});
-    }
+    if (result.end != End::Fine) throw Problem{500, "bake_failed", result.message};
+    result.report.erase("output");
+    if (!result.warnings.empty()) result.report["warnings"] = result.warnings;
+    const Json facts =
+        run_or_throw(settings_, {.arguments = {"info", "out.probes", "--json"}, .folder = folder});
+    std::string volume;
+    store_.with_reserve(
+        [&] { volume = store_.add(Kind::Volumes, folder + "/out.probes", name, facts).file.id; });
+    end(id, "done", volume, "", result.report);
 }
 
 }  // namespace tetralight::server

@@ -67,11 +67,13 @@ class Bakes {
         std::string error;
         Json report;
         double created = 0.0;
-        double started = 0.0;
         double ended = 0.0;
+        /// By the chunks on the disk.
         uint64_t probes_done = 0;
-        uint64_t probes_before = 0;  ///< done by earlier runs
         uint64_t probe_count = 0;
+        /// Of the run that goes on; null: not known.
+        Json rays_per_second;
+        Json seconds_left;
     };
 
     [[nodiscard]] static Json to_json(const Bake& bake);
@@ -84,7 +86,8 @@ class Bakes {
     void run_bake(const std::string& id, const std::vector<std::string>& arguments,
                   const std::string& name);
     [[nodiscard]] bool goes_on(const std::string& id);
-    void update_progress(const std::string& id, bool is_start);
+    void update_progress(const std::string& id);
+    [[nodiscard]] bool fail(const std::string& id, const std::string& error);
     void end(const std::string& id, const std::string& state, const std::string& volume,
              const std::string& error, const Json& report);
 

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -27,8 +28,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMostOutput = size_t{16} << 20;
-/// How much less a command counts than the server: queries are answered while bakes run.
-constexpr int kNiceness = 19;
+/// How much less than queries a command counts that somebody waits for.
+constexpr int kNiceness = 5;
+/// With SCHED_IDLE: no query that wakes up waits for a bake.
+constexpr int kLeastPriority = 19;
 
 struct Pipe {
     Descriptor read;
@@ -50,12 +53,15 @@ uint64_t memory_limit(const Settings& settings) {
 /// The new process, before it becomes the command. Calls only what is allowed after a fork of a
 /// process with threads.
 [[noreturn]] void become(const char* program, char* const* arguments, const char* folder,
-                         uint64_t memory, int output, int errors, pid_t parent) {
+                         uint64_t memory, bool is_background, int output, int errors,
+                         pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(127);  // it was too late for that
     // A group of its own: Ctrl-C is for the server, which then ends its commands.
     ::setpgid(0, 0);
-    ::setpriority(PRIO_PROCESS, 0, kNiceness);
+    ::setpriority(PRIO_PROCESS, 0, is_background ? kLeastPriority : kNiceness);
+    const sched_param no_priority{};
+    if (is_background) ::sched_setscheduler(0, SCHED_IDLE, &no_priority);
     const rlimit limit{memory, memory};
     ::setrlimit(RLIMIT_DATA, &limit);
     const rlimit no_core{0, 0};
@@ -95,6 +101,12 @@ struct Child {
         return output || errors;
     }
 
+    /// With the programs that it began.
+    void kill() const {
+        ::kill(-pid, SIGKILL);
+        ::kill(pid, SIGKILL);  // it may have no group yet
+    }
+
     static void take(const pollfd& end, Descriptor& from, std::string& text) {
         if (end.revents == 0 || !from) return;
         std::array<char, 65536> memory;
@@ -122,7 +134,9 @@ std::optional<Child> start(const Settings& settings, const Command& command) {
     const pid_t parent = ::getpid();
     const pid_t pid = ::fork();
     if (pid == 0) {
-        become(program.c_str(), arguments.data(), command.folder.c_str(), memory,
+        // The same program even where another was installed since.
+        const char* file = settings.program.empty() ? "/proc/self/exe" : program.c_str();
+        become(file, arguments.data(), command.folder.c_str(), memory, command.is_background,
                output->write.value(), errors->write.value(), parent);
     }
     if (pid < 0) return std::nullopt;
@@ -197,7 +211,7 @@ CommandResult run_command(const Settings& settings, const Command& command) {
             forced = End::TooSlow;
         }
         // Whatever it leaves behind, it is written so that it may end at any time.
-        if (forced) ::kill(child->pid, SIGKILL);
+        if (forced) child->kill();
     }
     int status = 0;
     while (::waitpid(child->pid, &status, 0) < 0 && errno == EINTR) {
@@ -210,37 +224,17 @@ CommandResult run_command(const Settings& settings, const Command& command) {
     return result;
 }
 
-Json run_or_throw(const Settings& settings, const Command& command) {
-    CommandResult result = run_command(settings, command);
-    const std::string& message = result.message;
-    switch (result.end) {
-        case CommandResult::End::Fine:
-            break;
-        case CommandResult::End::BadData:
-            if (message.find("No space left") != std::string::npos) {
-                throw Problem{507, "disk_full", message};
-            }
-            throw Problem{422, "bad_data", message};
-        case CommandResult::End::BadUsage: {
-            // "--spacing: -1 is not in the range": the option is the member's name.
-            if (!message.starts_with("--")) throw Problem{400, "invalid_value", message};
-            const size_t end = std::min(message.find_first_of(": "), message.size());
-            std::string field = message.substr(2, end - 2);
-            std::ranges::replace(field, '-', '_');
-            throw Problem{400, "invalid_value", field + message.substr(end), field};
-        }
-        case CommandResult::End::TooSlow:
-            throw Problem{504, "too_slow",
-                          text("it takes longer than ", command.limit_seconds, " s")};
-        case CommandResult::End::Stopped:
-            throw Problem{503, "ending", "the server ends"};
-        case CommandResult::End::Crashed:
-            throw Problem{500, "tool_failed", message};
-    }
+Json report_of(CommandResult result) {
     result.report.erase("output");
     result.report.erase("file");
     if (!result.warnings.empty()) result.report["warnings"] = result.warnings;
     return std::move(result.report);
+}
+
+Json run_or_throw(const Settings& settings, const Command& command) {
+    CommandResult result = run_command(settings, command);
+    if (result.end == CommandResult::End::Fine) return report_of(std::move(result));
+    throw Problem{500, "tool_failed", result.message};
 }
 
 }  // namespace tetralight::server

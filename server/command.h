@@ -22,6 +22,8 @@ struct Command {
     std::string folder;
     /// After so many seconds it is ended; 0 = never.
     double limit_seconds = 0.0;
+    /// Nobody waits for it: it takes what the processors have left.
+    bool is_background = false;
     /// Called a few times a second on the calling thread; false ends the command.
     std::function<bool()> goes_on = {};
 };
@@ -44,11 +46,15 @@ struct CommandResult {
     std::vector<std::string> warnings = {};
 };
 
-/// Runs a command in its folder, with little priority, and waits for its end. It dies with the
-/// calling thread.
+/// Runs a command in its folder, with less priority than queries, and waits for its end. It dies
+/// with the calling thread.
 [[nodiscard]] CommandResult run_command(const Settings& settings, const Command& command);
 
-/// The same, where everything but success is a `Problem` for the client.
+/// What it reported, without the files of its folder, with its warnings. Precondition: it ended
+/// well.
+[[nodiscard]] Json report_of(CommandResult result);
+
+/// The report of a command for the server itself. Throws a `Problem` unless it ends well.
 Json run_or_throw(const Settings& settings, const Command& command);
 
 /// The program to run: that of the settings, or this one.

@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <array>
+#include <cerrno>
 
 #include "base/text.h"
 #include "server/problem.h"
@@ -46,6 +47,26 @@ constexpr std::array kMigrations = {
             file TEXT NOT NULL
         ) STRICT;
     )sql",
+    R"sql(
+        CREATE TABLE names (
+            kind TEXT NOT NULL,
+            name TEXT NOT NULL CHECK (name <> ''),
+            file TEXT NOT NULL,
+            PRIMARY KEY (kind, name),
+            FOREIGN KEY (kind, file) REFERENCES files (kind, id) ON DELETE CASCADE
+        ) STRICT;
+        CREATE INDEX names_of_files ON names (kind, file);
+        INSERT INTO names SELECT kind, name, id FROM files WHERE name <> '';
+        DROP INDEX file_names;
+        ALTER TABLE files DROP COLUMN name;
+    )sql",
+    R"sql(
+        ALTER TABLE bakes ADD COLUMN probes_done INTEGER NOT NULL DEFAULT 0;
+        ALTER TABLE bakes ADD COLUMN probe_count INTEGER NOT NULL DEFAULT 0;
+        UPDATE bakes SET probes_done = coalesce(json_extract(report, '$.probes'), 0),
+                         probe_count = coalesce(json_extract(report, '$.probes'), 0)
+            WHERE state = 'done' AND json_valid(report);
+    )sql",
 };
 
 struct Finalize {
@@ -83,7 +104,9 @@ Database::Value column(sqlite3_stmt* statement, int index) {
 
 [[noreturn]] void fail(sqlite3* handle) {
     const int code = sqlite3_errcode(handle);
-    const bool is_full = code == SQLITE_FULL;
+    const int reason = sqlite3_system_errno(handle);
+    const bool is_full =
+        code == SQLITE_FULL || (code == SQLITE_IOERR && (reason == ENOSPC || reason == EDQUOT));
     throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "database",
                   text("the database: ", sqlite3_errmsg(handle))};
 }
@@ -140,19 +163,32 @@ Status Database::migrate() {
     return Ok{};
 }
 
-Result<Database> Database::open(const std::string& path) {
-    Database database;
+Status Database::connect(const std::string& path, const char* locking_mode) {
     sqlite3* raw = nullptr;
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX;
     const int opened = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
-    database.handle_.reset(raw);
+    handle_.reset(raw);
     if (opened != SQLITE_OK) return Error{text(path, ": ", sqlite3_errmsg(raw))};
     sqlite3_extended_result_codes(raw, 0);
     sqlite3_busy_timeout(raw, 5000);
     try {
-        database.run("PRAGMA journal_mode = WAL");
-        database.run("PRAGMA synchronous = FULL");
-        database.run("PRAGMA foreign_keys = ON");
+        run(text("PRAGMA locking_mode = ", locking_mode).c_str());
+        run("PRAGMA journal_mode = WAL");
+        run("PRAGMA synchronous = FULL");
+        run("PRAGMA foreign_keys = ON");
+    } catch (const Problem& problem) {
+        return Error{text(path, ": ", problem.detail)};
+    }
+    return Ok{};
+}
+
+Result<Database> Database::open(const std::string& path) {
+    Database database;
+    auto connected = database.connect(path, "NORMAL");
+    // A full disk has no space for the file by which programs share the log. Alone, none is needed.
+    if (!connected) connected = database.connect(path, "EXCLUSIVE");
+    if (!connected) return connected.error();
+    try {
         const auto check = database.run("PRAGMA quick_check(1)");
         const auto* verdict = std::get_if<std::string>(&check.at(0).at(0));
         if (verdict == nullptr || *verdict != "ok") {

@@ -38,6 +38,7 @@ class Database {
     };
 
     Database() = default;
+    [[nodiscard]] Status connect(const std::string& path, const char* locking_mode);
     [[nodiscard]] Status migrate();
 
     std::unique_ptr<sqlite3, Close> handle_;

@@ -70,16 +70,15 @@ void check_magic(Kind kind, int file) {
 /// A scene of nothing, to read a sky with.
 void write_empty_scene(const std::string& path) {
     const std::string scene = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{}]})";
-    const auto status = write_file(path, std::as_bytes(std::span(scene)));
-    if (!status) throw Problem{500, "storage", status.error().message};
+    require_stored(write_file(path, std::as_bytes(std::span(scene))));
 }
 
 /// Reads an upload as the command would, and says what it holds. Throws when it would not.
-Json find_facts(Service& service, Kind kind, const WorkFolder& folder) {
+Json find_facts(Service& service, Kind kind, const Request& request, const WorkFolder& folder) {
     switch (kind) {
         case Kind::Scenes: {
-            Json facts =
-                run_tool(service, folder.path(), {"bake", "upload.glb", "--explain", "--json"});
+            Json facts = run_tool(service, request, folder.path(),
+                                  {"bake", "upload.glb", "--explain", "--json"});
             if (facts.value("triangles", uint64_t{0}) <= service.settings.max_triangles) {
                 return facts;
             }
@@ -90,19 +89,19 @@ Json find_facts(Service& service, Kind kind, const WorkFolder& folder) {
         case Kind::Skies: {
             write_empty_scene(folder.file("empty.gltf"));
             Json facts =
-                run_tool(service, folder.path(),
+                run_tool(service, request, folder.path(),
                          {"bake", "empty.gltf", "--sky=upload.hdr", "--explain", "--json"});
             return {{"warnings", facts.value("warnings", Json::array())}};
         }
         case Kind::Groups: {
             Json facts =
-                run_tool(service, folder.path(),
+                run_tool(service, request, folder.path(),
                          {"tetrahedralize", "upload.json", "--output=check.probes", "--json"});
             facts.erase("backend");
             return facts;
         }
         case Kind::Volumes:
-            return run_tool(service, folder.path(), {"info", "upload.probes", "--json"});
+            return run_tool(service, request, folder.path(), {"info", "upload.probes", "--json"});
     }
     return Json::object();
 }
@@ -117,9 +116,7 @@ void prepare_upload(Service& service, Kind kind, Request& request) {
     WorkFolder folder = service.store.make_work_folder();
     request.body_file = Descriptor(::open(folder.file(upload_name(kind)).c_str(),
                                           O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
-    if (!request.body_file) {
-        throw Problem{500, "storage", system_error(folder.path(), "write").message};
-    }
+    if (!request.body_file) require_stored(system_error(folder.path(), "write"));
     request.work = std::make_shared<WorkFolder>(std::move(folder));
 }
 
@@ -130,7 +127,7 @@ Response upload(Service& service, Kind kind, Request& request) {
     check_name(name == nullptr ? "" : *name);
     service.store.check_quota(request.body_size);
     check_magic(kind, request.body_file.value());
-    const Json facts = find_facts(service, kind, *folder);
+    const Json facts = find_facts(service, kind, request, *folder);
     const auto added = service.store.add(kind, folder->file(upload_name(kind)),
                                          name == nullptr ? "" : *name, facts);
     Response response = json_response(to_json_with_facts(added.file), added.is_new ? 201 : 200);
@@ -155,7 +152,7 @@ Response list(Service& service, Kind kind, const Request& request) {
     Json next = nullptr;
     for (const StoredFile& file : service.store.list(kind)) {
         if (after != nullptr && file.id <= *after) continue;
-        if (name != nullptr && file.name != *name) continue;
+        if (name != nullptr && !file.names.contains(*name)) continue;
         if (files.size() == limit) {
             next = files.back()["id"];
             break;
@@ -202,12 +199,12 @@ Response download(Service& service, Kind kind, const Request& request) {
 
 /// One array of a volume's file as it lies there (docs/file_format.md), for viewers.
 Response section(Service& service, const Request& request) {
-    const auto file = service.volumes.open(request.captures[0]);
+    const StoredFile stored = service.store.get(Kind::Volumes, request.captures[0]);
+    const auto file = service.volumes.open(stored.id);
     for (const ProbeFile::Section& section : file->sections()) {
         if (section.name != request.captures[1]) continue;
         const auto bytes = file->section_bytes(section.name, section.element_size);
         if (!bytes) break;
-        const StoredFile stored = service.store.get(Kind::Volumes, request.captures[0]);
         return bytes_response(request, {*bytes, file}, "application/octet-stream",
                               stored.id + "-" + section.name);
     }
@@ -226,13 +223,15 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
                       .pattern = all,
                       .access = Access::Writes,
                       .handle = [&, kind](Request& r) { return upload(service, kind, r); },
+                      .parameters = {"name"},
                       .body_limit = service.settings.max_upload_bytes,
                       .body_to = Plan::BodyTo::File,
                       .run_on = kWorkers,
                       .prepare = [&, kind](Request& r) { prepare_upload(service, kind, r); }});
-    routes.push_back({.method = "GET", .pattern = all, .handle = [&, kind](Request& r) {
-                          return list(service, kind, r);
-                      }});
+    routes.push_back({.method = "GET",
+                      .pattern = all,
+                      .handle = [&, kind](Request& r) { return list(service, kind, r); },
+                      .parameters = {"after", "limit", "name"}});
     routes.push_back({.method = "GET", .pattern = one, .handle = [&, kind](Request& r) {
                           return describe(service, kind, r);
                       }});
@@ -257,11 +256,15 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
 Response bytes_response(const Request& request, const Body& body, const std::string& content_type,
                         const std::string& tag) {
     const std::string quoted = "\"" + tag + "\"";
-    Response response{.content_type = content_type,
-                      .headers = {{"ETag", quoted},
-                                  {"Accept-Ranges", "bytes"},
-                                  {"Cache-Control", "private, max-age=31536000, immutable"}},
-                      .body = body};
+    // Bytes of an id stay for ever; a name may lead to others the next time.
+    const bool is_by_id = is_id(request.captures[0]);
+    Response response{
+        .content_type = content_type,
+        .headers = {{"ETag", quoted},
+                    {"Accept-Ranges", "bytes"},
+                    {"Cache-Control",
+                     is_by_id ? "private, max-age=31536000, immutable" : "private, no-cache"}},
+        .body = body};
     if (request.header("if-none-match").find(quoted) != std::string_view::npos) {
         response.status = 304;
         response.body = {};
@@ -272,8 +275,12 @@ Response bytes_response(const Request& request, const Body& body, const std::str
     const auto range = parse_range(request.header("range"), size);
     if (!range || (!condition.empty() && condition != quoted)) return response;
     if (range->begin >= size || range->begin >= range->end) {
-        throw Problem{416, "invalid_range", text("there are ", size, " bytes"), "range",
-                      std::string(request.header("range"))};
+        throw Problem{416,
+                      "invalid_range",
+                      text("there are ", size, " bytes"),
+                      "range",
+                      std::string(request.header("range")),
+                      {{"Content-Range", text("bytes */", size)}}};
     }
     response.status = 206;
     response.headers.emplace_back("Content-Range",

@@ -20,6 +20,18 @@ std::string_view host_name(std::string_view host) {
     return host.substr(0, host.find(':'));
 }
 
+bool is_same_name(std::string_view a, std::string_view b) {
+    return std::ranges::equal(a, b, {}, to_lower, to_lower);
+}
+
+bool is_own_host(const Settings& settings, std::string_view host) {
+    const std::string name(host_name(host));
+    return is_loopback(name) || is_same_name(name, "localhost") ||
+           std::ranges::any_of(settings.allowed_hosts, [&](const std::string& allowed) {
+               return is_same_name(allowed, name);
+           });
+}
+
 }  // namespace
 
 bool is_loopback(const std::string& address) {
@@ -49,18 +61,17 @@ void check_gate(const Settings& settings, const Request& request, Access access)
     if (access == Access::Writes && settings.is_read_only) {
         throw Problem{403, "read_only", "this server only reads"};
     }
+    if (access == Access::Open) return;
     if (settings.token.empty()) {
         // Without a token, a name that leads here by DNS alone is somebody's trick.
-        if (is_loopback(settings.address) && !is_loopback(std::string(host_name(host)))) {
-            throw Problem{403, "wrong_host", "this server is called localhost", "host",
-                          std::string(host.substr(0, 200))};
-        }
-        return;
+        if (is_own_host(settings, host)) return;
+        throw Problem{403, "wrong_host",
+                      "this server is called localhost, or as --allowed-host says", "host",
+                      std::string(host.substr(0, 200))};
     }
-    if (access == Access::Open) return;
     constexpr std::string_view kScheme = "Bearer ";
     const std::string_view credentials = request.header("authorization");
-    if (credentials.starts_with(kScheme) &&
+    if (is_same_name(credentials.substr(0, kScheme.size()), kScheme) &&
         is_same_secret(credentials.substr(kScheme.size()), settings.token)) {
         return;
     }

@@ -40,6 +40,13 @@ std::string_view Request::header(std::string_view name) const {
     return found == headers.end() ? std::string_view() : found->second;
 }
 
+bool Request::has_type(std::string_view type) const {
+    std::string_view own = header("content-type");
+    own = own.substr(0, own.find(';'));
+    own = own.substr(0, own.find_last_not_of(" \t") + 1);
+    return std::ranges::equal(own, type, {}, to_lower, to_lower);
+}
+
 const std::string* Request::parameter(std::string_view name) const {
     const auto found =
         std::ranges::find(parameters, name, &std::pair<std::string, std::string>::first);
@@ -102,6 +109,8 @@ std::string_view reason_phrase(unsigned status) {
             return "Too Many Requests";
         case 431:
             return "Request Header Fields Too Large";
+        case 499:
+            return "Client Closed Request";  // as nginx calls it; for logs alone
         case 500:
             return "Internal Server Error";
         case 503:

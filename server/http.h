@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -38,9 +39,14 @@ struct Request {
     std::string remote;
     /// What a route keeps from the head of the request until its end.
     std::shared_ptr<void> work;
+    /// Nobody waits for the answer any more. Set while a worker makes it.
+    std::atomic<bool> is_abandoned = false;
 
     /// Empty: it was not sent.
     [[nodiscard]] std::string_view header(std::string_view name) const;
+
+    /// Whether the body says that it is of a type, whatever parameters follow it.
+    [[nodiscard]] bool has_type(std::string_view type) const;
 
     /// Null: it is not there.
     [[nodiscard]] const std::string* parameter(std::string_view name) const;
@@ -94,7 +100,14 @@ struct Exchange {
     unsigned status = 0;
     uint64_t sent_bytes = 0;
     double seconds = 0.0;
+    /// The client went away, or was too slow, before all was sent.
+    bool is_aborted = false;
 };
+
+/// ASCII alone, whatever the locale.
+[[nodiscard]] constexpr char to_lower(char c) noexcept {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 /// "Not Found" for 404.
 [[nodiscard]] std::string_view reason_phrase(unsigned status);

@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "server/http.h"
+#include "server/problem.h"
 #include "server/settings.h"
 
 namespace tetralight::server {
@@ -17,8 +18,7 @@ struct Application {
     std::function<Plan(Request&)> plan;
     std::function<void(const Exchange&)> answered;
     /// A response for what is no request, or for one that comes too early or too late.
-    std::function<Response(unsigned status, const std::string& code, const std::string& detail)>
-        refusal;
+    std::function<Response(const Problem&, const Request&)> refusal;
 };
 
 /// Speaks HTTP/1.1 on one address: connections that stay open, limits on heads, bodies, time and
@@ -40,7 +40,8 @@ class HttpServer {
     /// Serves until `stop`, and then until what was begun is answered, or time is up.
     virtual void run() = 0;
 
-    /// Takes no more connections; idle ones are closed. May be called from any thread.
+    /// Closes connections after their next answer, and after the notice of the settings takes no
+    /// more of them; idle ones are closed then. May be called from any thread.
     virtual void stop() = 0;
 
   protected:

@@ -27,10 +27,14 @@ Json parse_object(std::string_view body) {
     }
 }
 
-void refuse(const std::string& key, const Json& value, const std::string& expected) {
+std::string shown(const Json& value) {
     constexpr size_t kLongest = 80;
-    throw Problem{400, "invalid_value", key + ": is not " + expected, key,
-                  dump(value).substr(0, kLongest)};
+    const std::string all = value.is_string() ? value.get<std::string>() : dump(value);
+    return all.substr(0, kLongest);
+}
+
+void refuse(const std::string& key, const Json& value, const std::string& expected) {
+    throw Problem{400, "invalid_value", key + ": is not " + expected, key, shown(value)};
 }
 
 const Json* Fields::find(const std::string& key) {
@@ -80,7 +84,8 @@ std::vector<std::string> Fields::texts(const std::string& key) {
 void Fields::finish() const {
     for (const auto& [key, value] : object_.items()) {
         if (!asked_.contains(key)) {
-            throw Problem{400, "unknown_member", "\"" + key + "\" is not known here", key};
+            throw Problem{400, "unknown_member", "\"" + key + "\" is not known here", key,
+                          shown(value)};
         }
     }
 }

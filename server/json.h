@@ -45,6 +45,9 @@ class Fields {
     std::set<std::string> asked_;
 };
 
+/// A value as a `Problem` shows it: strings as they are, all else as JSON, 80 bytes of it.
+[[nodiscard]] std::string shown(const Json& value);
+
 /// Throws: member `key` is not what it should be.
 [[noreturn]] void refuse(const std::string& key, const Json& value, const std::string& expected);
 

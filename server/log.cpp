@@ -67,16 +67,17 @@ void Log::write(Level level, std::string_view message, const Json& members) {
 }
 
 void Log::request(const Exchange& exchange) {
-    const auto& [request, route, status, sent_bytes, seconds] = exchange;
+    const auto& [request, route, status, sent_bytes, seconds, is_aborted] = exchange;
     const Level level = status >= 500 ? Level::Warning : Level::Info;
     if (!is_shown(level)) return;
     // Written by hand: it is on the way of every request. The path alone holds what clients chose.
-    append(level, text(R"({"time":")", now_text(), R"(","level":")", name_of(level),
-                       R"(","message":"request","request_id":")", request.id, R"(","method":")",
-                       request.method, R"(","path":)", dump(Json(request.path)), R"(,"status":)",
-                       status, R"(,"received":)", request.body_size, R"(,"sent":)", sent_bytes,
-                       R"(,"ms":)", static_cast<double>(static_cast<int64_t>(seconds * 1e6)) / 1e3,
-                       R"(,"remote":")", request.remote, "\"}\n"));
+    append(level,
+           text(R"({"time":")", now_text(), R"(","level":")", name_of(level),
+                R"(","message":"request","request_id":")", request.id, R"(","method":")",
+                request.method, R"(","path":)", dump(Json(request.path)), R"(,"status":)", status,
+                R"(,"received":)", request.body_size, R"(,"sent":)", sent_bytes, R"(,"ms":)",
+                static_cast<double>(static_cast<int64_t>(seconds * 1e6)) / 1e3, R"(,"remote":")",
+                request.remote, '"', is_aborted ? R"(,"aborted":true)" : "", "}\n"));
 }
 
 void Log::append(Level level, std::string line) {

@@ -50,6 +50,8 @@ std::string Metrics::text(const std::map<std::string, double>& gauges) const {
     counter("sent_bytes_total", "Bodies of answers.", sent_bytes_);
     counter("positions_total", "Positions that were answered.", positions);
     counter("quarantined_total", "Files that turned out to be damaged.", quarantined);
+    counter("damaged_indexes_total", "Times that index.json was damaged, for a reader.",
+            damaged_indexes);
     for (const auto& [name, value] : gauges) {
         all += head(name, "gauge", "Now.") + line(name, "", value);
     }

@@ -19,6 +19,7 @@ class Metrics {
 
     std::atomic<uint64_t> positions = 0;
     std::atomic<uint64_t> quarantined = 0;
+    std::atomic<uint64_t> damaged_indexes = 0;
 
     /// `gauges`: what is measured when it is asked for, by the name that it gets.
     [[nodiscard]] std::string text(const std::map<std::string, double>& gauges) const;

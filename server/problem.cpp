@@ -16,6 +16,7 @@ Response problem_response(const Problem& problem, const std::string& request_id)
     if (!request_id.empty()) json["request_id"] = request_id;
     Response response{.status = problem.status,
                       .content_type = "application/problem+json",
+                      .headers = problem.headers,
                       .body = dump(json) + "\n"};
     if (problem.status == 401) response.headers.emplace_back("WWW-Authenticate", "Bearer");
     if (problem.status == 503) response.headers.emplace_back("Retry-After", "2");

@@ -18,6 +18,8 @@ struct Problem {
     /// The part of the request that is at fault, and its value; may be empty.
     std::string field = {};
     std::string value = {};
+    /// Of the response.
+    std::vector<std::pair<std::string, std::string>> headers = {};
 };
 
 /// `application/problem+json`.

@@ -24,6 +24,13 @@ struct Query {
     bool is_half_precision = false;
 };
 
+constexpr const char* kFadeRange = "0 or in the range from 1e-06 to 1e+09";
+
+/// 0 = as it is by default.
+bool is_fade(float metres) {
+    return metres == 0.0f || (metres >= 1e-6f && metres <= 1e9f);
+}
+
 void check_positions(const Service& service, std::span<const glm::vec3> positions) {
     if (positions.size() > service.settings.max_positions) {
         throw Problem{413, "too_large",
@@ -45,7 +52,8 @@ ProbeVolumeView view_for(const ProbeFile& file, const Query& query) {
     const ProbeVolumeView& view = file.view();
     if (!query.is_half_precision) return view.without_compact();
     if (!view.compact.empty()) return view;
-    throw Problem{422, "bad_data", "the volume holds no half-precision probes", "precision"};
+    throw Problem{422, "bad_data", "the volume holds no half-precision probes", "precision",
+                  "half"};
 }
 
 // JSON
@@ -72,9 +80,9 @@ Query read_query(Fields& fields, std::vector<glm::vec3>& positions) {
     } else if (outside != "extrapolate") {
         refuse("outside", outside, "\"extrapolate\", \"clamp\" or \"ambient\"");
     }
-    const double fade = fields.number("fade", static_cast<double>(query.outside.fade_distance));
-    if (!(fade >= 1e-6 && fade <= 1e9)) refuse("fade", fade, "in the range from 1e-06 to 1e+09");
-    query.outside.fade_distance = static_cast<float>(fade);
+    const auto fade = static_cast<float>(fields.number("fade", 0.0));
+    if (!is_fade(fade)) refuse("fade", *fields.find("fade"), kFadeRange);
+    if (fade > 0.0f) query.outside.fade_distance = fade;
     const std::string precision = fields.text("precision", "full");
     if (precision != "full" && precision != "half") {
         refuse("precision", precision, "\"full\" or \"half\"");
@@ -138,7 +146,8 @@ Response answer_json(Service& service, const ProbeFile& file, const Request& req
     if (request.body.size() > kMostJson) {
         throw Problem{
             413, "too_large",
-            text("a query in JSON may have ", kMostJson, " bytes; the binary form takes more")};
+            text("a query in JSON may have ", kMostJson, " bytes; the binary form takes more"),
+            "body", text(request.body.size(), " bytes")};
     }
     const Json json = parse_object(request.body);
     Fields fields(json);
@@ -165,24 +174,32 @@ QueryHeader read_header(const Request& request) {
     if (request.body.size() < sizeof header) {
         throw Problem{400, "invalid_header",
                       text("the body is shorter than the header's ", sizeof header, " bytes"),
-                      "body"};
+                      "body", text(request.body.size(), " bytes")};
     }
     std::memcpy(&header, request.body.data(), sizeof header);
-    const auto check = [](bool is_right, const char* field, uint64_t value) {
+    const auto check = [](bool is_right, const char* field, auto value) {
         if (is_right) return;
         throw Problem{400, "invalid_header", text(field, " is not one of its values"), field,
-                      std::to_string(value)};
+                      text(value)};
     };
     check(header.magic == QueryHeader::kRequest, "magic", header.magic);
+    const uint64_t expected = sizeof header + uint64_t{header.count} * sizeof(glm::vec3);
+    if (request.body.size() != expected) {
+        throw Problem{400, "invalid_header",
+                      text("the body has ", request.body.size(), " bytes where ", expected,
+                           " are expected for this count"),
+                      "count", text(header.count)};
+    }
     check(header.sh <= kShHalf, "sh", header.sh);
     check(header.wants <= (QueryHeader::kOcclusion | QueryHeader::kCells), "wants", header.wants);
     check(header.sh != 0 || header.wants != 0, "wants", header.wants);
     check(header.outside <= static_cast<uint8_t>(OutsidePolicy::Ambient), "outside",
           header.outside);
     check(header.precision <= 1, "precision", header.precision);
-    check(header.fade_distance >= 0.0f && std::isfinite(header.fade_distance), "fade_distance", 0);
-    const uint64_t bytes = request.body.size() - sizeof header;
-    check(bytes == uint64_t{header.count} * sizeof(glm::vec3), "count", header.count);
+    if (!is_fade(header.fade_distance)) {
+        throw Problem{400, "invalid_header", text("fade is not ", kFadeRange), "fade",
+                      text(header.fade_distance)};
+    }
     return header;
 }
 
@@ -268,8 +285,8 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
 
 Response query(Service& service, Request& request) {
     const auto file = service.volumes.open(request.captures[0]);
-    return request.header("content-type") == kBinary ? answer_binary(service, *file, request)
-                                                     : answer_json(service, *file, request);
+    return request.has_type(kBinary) ? answer_binary(service, *file, request)
+                                     : answer_json(service, *file, request);
 }
 
 }  // namespace

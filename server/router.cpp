@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "server/router.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "server/problem.h"
@@ -37,6 +38,19 @@ std::optional<std::vector<std::string>> match(const std::vector<std::string>& pa
 
 }  // namespace
 
+void check_parameters(const Route& route, const Request& request) {
+    for (const auto& [name, value] : request.parameters) {
+        if (std::ranges::find(route.parameters, name) == route.parameters.end()) {
+            throw Problem{400, "unknown_parameter", "\"" + name + "\" is not known here", name,
+                          value};
+        }
+        if (request.parameter(name) != &value) {
+            throw Problem{400, "repeated_parameter", "\"" + name + "\" is given twice", name,
+                          value};
+        }
+    }
+}
+
 Router::Router(std::vector<Route> routes) : routes_(std::move(routes)) {
     for (const Route& route : routes_) parts_.push_back(split(route.pattern));
 }
@@ -52,12 +66,13 @@ const Route& Router::find(Request& request) const {
             request.captures = std::move(*captures);
             return routes_[i];
         }
-        methods += (methods.empty() ? "" : ", ") + method;
+        methods += (methods.empty() ? "" : ", ") + method + (method == "GET" ? ", HEAD" : "");
     }
     if (methods.empty()) {
         throw Problem{404, "no_such_path", "there is nothing at this path", "path", request.path};
     }
-    throw Problem{405, "wrong_method", "this path takes " + methods, "method", request.method};
+    throw Problem{405,      "wrong_method", "this path takes " + methods,
+                  "method", request.method, {{"Allow", methods}}};
 }
 
 }  // namespace tetralight::server

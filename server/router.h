@@ -23,12 +23,17 @@ struct Route {
     Access access = Access::Reads;
     /// May throw a `Problem`.
     std::function<Response(Request&)> handle;
+    /// What may follow `?`, each once.
+    std::vector<std::string> parameters = {};
     uint64_t body_limit = 0;
     Plan::BodyTo body_to = Plan::BodyTo::Memory;
     Plan::RunOn run_on = Plan::RunOn::Network;
     /// Called before a body goes to a file: opens it. May throw a `Problem`.
     std::function<void(Request&)> prepare = {};
 };
+
+/// Throws a `Problem` for parameters that a route does not know, and for those given twice.
+void check_parameters(const Route& route, const Request& request);
 
 /// Finds the route of a request by its path and method.
 class Router {

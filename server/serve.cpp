@@ -43,6 +43,14 @@ Result<Descriptor> lock_folder(const std::string& folder) {
     return Error{folder + ": another server has this folder; --read-only serves it too"};
 }
 
+/// Bodies are taken as they are.
+void check_encoding(const Request& request) {
+    const std::string_view encoding = request.header("content-encoding");
+    if (encoding.empty() || encoding == "identity") return;
+    throw Problem{415, "wrong_encoding", "bodies are taken without a Content-Encoding",
+                  "content-encoding", std::string(encoding.substr(0, 200))};
+}
+
 std::vector<Route> all_routes(Service& service) {
     std::vector<Route> all;
     for (auto* make : {system_routes, file_routes, query_routes, bake_routes, tool_routes}) {
@@ -68,16 +76,19 @@ class Dispatcher {
         } catch (const Problem& problem) {
             plan.ignores_body = true;
             plan.run_on = Plan::RunOn::Network;
-            plan.handle = [this, problem](Request& r) {
-                return finish(r, problem_response(problem, r.id));
-            };
+            plan.handle = [this, problem](Request& r) { return refuse(problem, r); };
         }
         return plan;
     }
 
+    Response refuse(const Problem& problem, const Request& request) const {
+        return finish(request, problem_response(problem, request.id));
+    }
+
   private:
     void plan_route(Request& request, Plan& plan) const {
-        const bool is_page = !service_.settings.viewer.empty() && request.method == "GET" &&
+        const bool can_be_page = !service_.settings.viewer.empty() || request.path == "/";
+        const bool is_page = can_be_page && request.method == "GET" &&
                              !request.path.starts_with("/v1/") && !is_known(request);
         if (is_page) {
             check_gate(service_.settings, request, Access::Open);
@@ -89,6 +100,8 @@ class Dispatcher {
         }
         const Route& route = find(request);
         check_gate(service_.settings, request, route.access);
+        check_parameters(route, request);
+        check_encoding(request);
         if (route.prepare) route.prepare(request);
         plan.ignores_body = false;
         plan.route = route.pattern;
@@ -125,15 +138,13 @@ class Dispatcher {
         try {
             return finish(request, handle());
         } catch (const Problem& problem) {
-            return finish(request, problem_response(problem, request.id));
+            return refuse(problem, request);
         } catch (const std::bad_alloc&) {
-            return finish(request,
-                          problem_response({503, "no_memory", "not enough memory"}, request.id));
+            return refuse({503, "no_memory", "not enough memory"}, request);
         } catch (const std::exception& exception) {
             service_.log.write(Log::Level::Error, "a handler failed",
                                {{"request_id", request.id}, {"what", exception.what()}});
-            return finish(request, problem_response({500, "internal", "something went wrong here"},
-                                                    request.id));
+            return refuse({500, "internal", "something went wrong here"}, request);
         }
     }
 
@@ -188,6 +199,7 @@ Json start_facts(const Settings& settings, const Store& store, uint16_t port) {
             {"port", port},
             {"token", settings.token.empty() ? "none" : "needed"},
             {"read_only", settings.is_read_only},
+            {"viewer", settings.viewer},
             {"findings", store.findings()}};
 }
 
@@ -217,16 +229,15 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
     Service service{settings, log, metrics, **store, volumes, bakes};
     const Dispatcher dispatcher(service);
     auto http = HttpServer::bind(
-        settings, {.plan = [&](Request& request) { return dispatcher.plan(request); },
-                   .answered =
-                       [&](const Exchange& exchange) {
-                           metrics.add(exchange);
-                           log.request(exchange);
-                       },
-                   .refusal =
-                       [](unsigned status, const std::string& code, const std::string& detail) {
-                           return problem_response({status, code, detail}, "");
-                       }});
+        settings,
+        {.plan = [&](Request& request) { return dispatcher.plan(request); },
+         .answered =
+             [&](const Exchange& exchange) {
+                 metrics.add(exchange);
+                 log.request(exchange);
+             },
+         .refusal = [&](const Problem& problem,
+                        const Request& request) { return dispatcher.refuse(problem, request); }});
     if (!http) return http.error();
     service.connection_count = [&] { return (*http)->connection_count(); };
     log.write(Log::Level::Info, "serving", start_facts(settings, **store, (*http)->port()));

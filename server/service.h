@@ -35,11 +35,17 @@ struct Service {
 [[nodiscard]] std::vector<Route> tool_routes(Service& service);
 [[nodiscard]] std::vector<Route> system_routes(Service& service);
 
-/// A file of the folder of the settings, for the web page that a server may have.
+/// A file of the viewer's folder; without one, at `/`, how to get it.
 [[nodiscard]] Response viewer_response(const Service& service, const std::string& path);
 
-/// Runs a command for a request, for as long as the settings and the server's life allow.
-Json run_tool(Service& service, const std::string& folder, std::vector<std::string> arguments);
+/// Runs a command for a request, for as long as the settings allow, the server lives and the client
+/// waits. Throws a `Problem` in the words of the request.
+Json run_tool(Service& service, const Request& request, const std::string& folder,
+              std::vector<std::string> arguments);
+
+/// The file that a member of a request refers to. Throws a `Problem` that names the member.
+[[nodiscard]] StoredFile file_for(Service& service, Kind kind, const std::string& member,
+                                  const std::string& reference);
 
 /// Bytes of a file as a response, whole or by the ranges that the request asks for.
 [[nodiscard]] Response bytes_response(const Request& request, const Body& body,

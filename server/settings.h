@@ -16,11 +16,13 @@ struct Settings {
     uint16_t port = 8080;
     /// What clients send as `Authorization: Bearer`. Empty: everyone may, who reaches the address.
     std::string token;
+    /// Names beside localhost by which a proxy may call a server without a token.
+    std::vector<std::string> allowed_hosts;
     /// Serves what another server's folder holds, and changes nothing.
     bool is_read_only = false;
     /// Pages of other origins that may call; "*" = all.
     std::vector<std::string> cors_origins;
-    /// Static files at `/`; empty: none.
+    /// Static files at `/`; empty: none (`find_viewer`).
     std::string viewer;
     /// The `tetralight` program that bakes and writes files; empty: this one.
     std::string program;
@@ -50,7 +52,9 @@ struct Settings {
     double transfer_seconds = 30.0;
     /// After this a program that works for a waiting request is ended.
     double tool_seconds = 300.0;
-    /// Requests that are being answered have this long when the server is to end.
+    /// When the server is to end, it takes connections for so long, and says that it is not ready.
+    double drain_notice_seconds = 0.0;
+    /// Requests that are being answered have this long after that.
     double drain_seconds = 30.0;
 };
 

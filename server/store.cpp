@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "base/utf8.h"
 #include "server/problem.h"
+#include "server/reserve.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -46,10 +47,54 @@ MappedFile map(const std::string& path) {
     return std::move(*file);
 }
 
-void require(const Status& status) {
-    if (status) return;
-    const bool is_full = status.error().message.find("No space left") != std::string::npos;
-    throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "storage", status.error().message};
+std::optional<Kind> kind_of(const std::string& name) {
+    const auto found = std::ranges::find(kKindNames, name);
+    if (found == std::end(kKindNames)) return std::nullopt;
+    return static_cast<Kind>(found - std::begin(kKindNames));
+}
+
+/// Of an entry of the index. Before files had several names, there was "name" alone.
+std::set<std::string> names_of(const Json& entry) {
+    if (entry.contains("names")) return entry["names"];
+    const std::string name = entry.at("name");
+    return name.empty() ? std::set<std::string>() : std::set{name};
+}
+
+/// Files by "kind/id".
+struct Index {
+    std::map<std::string, StoredFile> files;
+    bool is_whole = false;
+};
+
+StoredFile read_entry(Kind kind, const Json& entry) {
+    return {.kind = kind,
+            .id = entry.at("id"),
+            .names = names_of(entry),
+            .bytes = entry.at("bytes"),
+            .created = entry.at("created"),
+            .facts = dump(entry.at("facts")),
+            .damage = entry.value("damage", "")};
+}
+
+/// What is whole of an index.
+Index parse_index(std::span<const std::byte> bytes) {
+    const auto* begin = reinterpret_cast<const char*>(bytes.data());
+    const Json json = Json::parse(begin, begin + bytes.size(), nullptr, false);
+    Index index;
+    if (!json.is_object() || !json.contains("files")) return index;
+    index.is_whole = true;
+    for (const Json& entry : json["files"]) {
+        try {
+            const auto kind = kind_of(entry.at("kind"));
+            if (!kind) continue;  // of a later version
+            StoredFile file = read_entry(*kind, entry);
+            index.is_whole &= is_id(file.id);
+            if (is_id(file.id)) index.files[text(name_of(*kind), "/", file.id)] = std::move(file);
+        } catch (const Json::exception&) {
+            index.is_whole = false;
+        }
+    }
+    return index;
 }
 
 Json parse_or_empty(const std::string& text) {
@@ -77,6 +122,12 @@ bool is_id(const std::string& text) {
            });
 }
 
+void require_stored(const Status& status) {
+    if (status) return;
+    const bool is_full = status.error().message.find("No space left") != std::string::npos;
+    throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "storage", status.error().message};
+}
+
 double now() {
     const auto since = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration<double>(since).count();
@@ -87,7 +138,8 @@ void check_name(const std::string& name) {
     const bool is_plain = std::ranges::none_of(name, [](char c) {
         return static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '/' || c == '\\';
     });
-    if (is_plain && name.size() <= kLongest && is_utf8(name) && !is_id(name)) return;
+    const bool is_dots = name == "." || name == "..";
+    if (is_plain && !is_dots && name.size() <= kLongest && is_utf8(name) && !is_id(name)) return;
     throw Problem{400, "invalid_value",
                   "name: is not a name: at most 200 bytes without slashes and control characters, "
                   "and no id",
@@ -95,11 +147,9 @@ void check_name(const std::string& name) {
 }
 
 Json to_json(const StoredFile& file) {
-    Json json{{"id", file.id},
-              {"name", file.name},
-              {"bytes", file.bytes},
-              {"created", file.created},
-              {"state", file.damage.empty() ? "ready" : "quarantined"}};
+    Json json{{"id", file.id},           {"name", file.names.empty() ? "" : *file.names.begin()},
+              {"names", file.names},     {"bytes", file.bytes},
+              {"created", file.created}, {"state", file.damage.empty() ? "ready" : "quarantined"}};
     if (!file.damage.empty()) json["damage"] = file.damage;
     return json;
 }
@@ -120,6 +170,7 @@ Result<std::unique_ptr<Store>> Store::open(const Settings& settings, Log& log, M
             return Error{settings.data + ": is no folder"};
         }
         store->read_index_now_and_then();
+        if (metrics.damaged_indexes > 0) return Error{store->index_path() + ": is damaged"};
         return store;
     }
     remove_all(settings.data + "/work");
@@ -128,13 +179,14 @@ Result<std::unique_ptr<Store>> Store::open(const Settings& settings, Log& log, M
         auto status = make_folder(settings.data + "/" + folder);
         if (!status) return status.error();
     }
+    drop_reserve(store->reserve_path());
     if (auto status = store->open_database(); !status) return status.error();
     try {
         store->adopt_or_drop_unknown_files();
-        store->write_index();
     } catch (const Problem& problem) {
         return Error{settings.data + ": " + problem.detail};
     }
+    store->write_index();
     return store;
 }
 
@@ -158,14 +210,13 @@ Status Store::open_database() {
             } catch (const Problem& problem) {
                 reason = problem.detail;
             } catch (const std::exception& exception) {
-                reason = exception.what();
+                reason = text("is damaged (", exception.what(), ")");
             }
         }
         database_.reset();
         const bool is_damaged = reason.find("damaged") != std::string::npos ||
                                 reason.find("malformed") != std::string::npos ||
-                                reason.find("not a database") != std::string::npos ||
-                                reason.find("bad_variant") != std::string::npos;
+                                reason.find("not a database") != std::string::npos;
         if (!is_damaged || attempt > 0) return Error{reason};
         const std::string stamp = std::to_string(static_cast<int64_t>(now()));
         for (const char* suffix : {"", "-wal", "-shm"}) {
@@ -186,18 +237,20 @@ Status Store::open_database() {
 
 void Store::load() {
     for (Files& all : files_) all.clear();
-    for (const auto& row : database_->run(
-             "SELECT id, kind, name, bytes, created, facts, damage FROM files ORDER BY rowid")) {
+    for (const auto& row :
+         database_->run("SELECT id, kind, bytes, created, facts, damage FROM files")) {
         StoredFile file;
         file.id = std::get<std::string>(row[0]);
-        const auto kind = std::ranges::find(kKindNames, std::get<std::string>(row[1]));
-        file.kind = static_cast<Kind>(kind - std::begin(kKindNames));
-        file.name = std::get<std::string>(row[2]);
-        file.bytes = static_cast<uint64_t>(std::get<int64_t>(row[3]));
-        file.created = std::get<double>(row[4]);
-        file.facts = std::get<std::string>(row[5]);
-        file.damage = std::get<std::string>(row[6]);
+        file.kind = kind_of(std::get<std::string>(row[1])).value();
+        file.bytes = static_cast<uint64_t>(std::get<int64_t>(row[2]));
+        file.created = std::get<double>(row[3]);
+        file.facts = std::get<std::string>(row[4]);
+        file.damage = std::get<std::string>(row[5]);
         files(file.kind)[file.id] = std::move(file);
+    }
+    for (const auto& row : database_->run("SELECT kind, name, file FROM names")) {
+        const Kind kind = kind_of(std::get<std::string>(row[0])).value();
+        files(kind).at(std::get<std::string>(row[2])).names.insert(std::get<std::string>(row[1]));
     }
     index_names_locked();
 }
@@ -207,14 +260,15 @@ void Store::index_names_locked() {
         auto& names = id_of_name_[static_cast<size_t>(kind)];
         names.clear();
         for (const auto& [id, file] : files(kind)) {
-            if (!file.name.empty()) names[file.name] = id;
+            for (const std::string& name : file.names) names[name] = id;
         }
     }
 }
 
 /// Files without a row: what was never acknowledged, or, of a new database, all.
 void Store::adopt_or_drop_unknown_files() {
-    const auto index = is_database_new_ ? read_index() : std::map<std::string, StoredFile>();
+    const auto bytes = read_file(index_path());
+    const Index index = is_database_new_ && bytes ? parse_index(*bytes) : Index();
     for (const Kind kind : kKinds) {
         std::map<std::string, fs::path> present;
         for (const auto& entry : fs::directory_iterator(settings_.data + "/" + name_of(kind))) {
@@ -232,8 +286,8 @@ void Store::adopt_or_drop_unknown_files() {
                 continue;
             }
             StoredFile file;
-            const auto known = index.find(std::string(name_of(kind)) + "/" + id);
-            if (known != index.end()) file = known->second;
+            const auto known = index.files.find(text(name_of(kind), "/", id));
+            if (known != index.files.end()) file = known->second;
             file.kind = kind;
             file.id = id;
             file.bytes = fs::file_size(path);
@@ -261,8 +315,10 @@ std::optional<StoredFile> Store::find(Kind kind, const std::string& reference) {
 StoredFile Store::get(Kind kind, const std::string& reference) {
     auto file = find(kind, reference);
     if (!file) {
-        throw Problem{404, "not_found", text("there is no such ", noun_of(kind)), noun_of(kind),
-                      reference.substr(0, 200)};
+        throw Problem{
+            404, "not_found",
+            text(kind == Kind::Groups ? "there are no such " : "there is no such ", noun_of(kind)),
+            noun_of(kind), reference.substr(0, 200)};
     }
     if (!file->damage.empty()) {
         throw Problem{410, "quarantined",
@@ -280,22 +336,24 @@ std::vector<StoredFile> Store::list(Kind kind) {
     return all;
 }
 
-/// Row and memory; a name leaves the file that had it.
+/// Rows and memory; names leave the files that had them.
 void Store::insert(const StoredFile& file) {
+    const std::string kind = name_of(file.kind);
     database_->transaction([&] {
-        if (!file.name.empty()) {
-            database_->run("UPDATE files SET name = '' WHERE kind = ? AND name = ?",
-                           {std::string(name_of(file.kind)), file.name});
-        }
         database_->run(
-            "INSERT OR REPLACE INTO files (id, kind, name, bytes, created, facts, damage) "
-            "VALUES (?, ?, ?, ?, ?, ?, ?)",
-            {file.id, std::string(name_of(file.kind)), file.name, static_cast<int64_t>(file.bytes),
-             file.created, file.facts, file.damage});
+            "INSERT OR REPLACE INTO files (id, kind, bytes, created, facts, damage) "
+            "VALUES (?, ?, ?, ?, ?, ?)",
+            {file.id, kind, static_cast<int64_t>(file.bytes), file.created, file.facts,
+             file.damage});
+        database_->run("DELETE FROM names WHERE kind = ? AND file = ?", {kind, file.id});
+        for (const std::string& name : file.names) {
+            database_->run("INSERT OR REPLACE INTO names (kind, name, file) VALUES (?, ?, ?)",
+                           {kind, name, file.id});
+        }
     });
     const std::unique_lock lock(mutex_);
     for (auto& [id, other] : files(file.kind)) {
-        if (!file.name.empty() && other.name == file.name) other.name.clear();
+        for (const std::string& name : file.names) other.names.erase(name);
     }
     files(file.kind)[file.id] = file;
     index_names_locked();
@@ -311,20 +369,27 @@ Store::Added Store::add(Kind kind, const std::string& from, const std::string& n
         file.id = id_of(mapping.bytes());
         file.bytes = mapping.bytes().size();
     }
-    auto known = find(kind, file.id);
+    const auto known = find(kind, file.id);
     const bool is_new = !known || !known->damage.empty();
     if (is_new) {
         check_quota(file.bytes);
-        require(move_synced(from, path(kind, file.id)));
+        require_stored(move_synced(from, path(kind, file.id)));
         file.kind = kind;
         file.created = now();
         file.facts = dump(facts);
+        if (known) file.names = known->names;
     } else {
         file = *known;
     }
-    if (!name.empty()) file.name = name;
-    if (is_new || file.name != known->name) {
-        insert(file);
+    const bool has_new_name = !name.empty() && file.names.insert(name).second;
+    if (is_new || has_new_name) {
+        try {
+            insert(file);
+        } catch (const Problem&) {
+            std::error_code ignored;
+            if (is_new) fs::rename(path(kind, file.id), from, ignored);
+            throw;
+        }
         write_index();
     }
     return {file, is_new};
@@ -334,7 +399,9 @@ StoredFile Store::rename(Kind kind, const std::string& reference, const std::str
     check_name(name);
     const std::lock_guard change(change_mutex_);
     StoredFile file = get(kind, reference);
-    file.name = name;
+    if (!is_id(reference)) file.names.erase(reference);
+    if (is_id(reference) && name.empty()) file.names.clear();
+    if (!name.empty()) file.names.insert(name);
     insert(file);
     write_index();
     return file;
@@ -342,17 +409,27 @@ StoredFile Store::rename(Kind kind, const std::string& reference, const std::str
 
 void Store::remove(Kind kind, const std::string& reference) {
     const std::lock_guard change(change_mutex_);
-    const auto file = find(kind, reference);
+    auto file = find(kind, reference);
     if (!file) (void)get(kind, reference);  // throws
-    database_->run("DELETE FROM files WHERE kind = ? AND id = ?",
-                   {std::string(name_of(kind)), file->id});
+    if (!is_id(reference) && file->names.size() > 1) {
+        file->names.erase(reference);
+        with_reserve([&] { insert(*file); });
+        write_index();
+        return;
+    }
+    with_reserve([&] {
+        database_->run("DELETE FROM files WHERE kind = ? AND id = ?",
+                       {std::string(name_of(kind)), file->id});
+    });
     {
         const std::unique_lock lock(mutex_);
         files(kind).erase(file->id);
         index_names_locked();
     }
-    write_index();
+    const bool is_index_written = write_index();
     remove_all(path(kind, file->id));
+    if (!is_index_written) write_index();
+    keep_reserve();
 }
 
 void Store::quarantine(Kind kind, const std::string& id, const std::string& damage) {
@@ -366,8 +443,14 @@ void Store::quarantine(Kind kind, const std::string& id, const std::string& dama
         found->second.damage = damage;
     }
     if (is_read_only()) return;
-    database_->run("UPDATE files SET damage = ? WHERE kind = ? AND id = ?",
-                   {damage, std::string(name_of(kind)), id});
+    try {
+        with_reserve([&] {
+            database_->run("UPDATE files SET damage = ? WHERE kind = ? AND id = ?",
+                           {damage, std::string(name_of(kind)), id});
+        });
+    } catch (const Problem& problem) {
+        log_.write(Log::Level::Error, "damage could not be stored", {{"error", problem.detail}});
+    }
     std::error_code ignored;
     fs::rename(path(kind, id),
                settings_.data + "/quarantine/" + name_of(kind) + "-" + id + extension_of(kind),
@@ -380,7 +463,7 @@ void Store::link(const StoredFile& file, const std::string& to) {
         quarantine(file.kind, file.id, "its bytes are not those that came in");
         (void)get(file.kind, file.id);  // throws
     }
-    if (::link(from.c_str(), to.c_str()) != 0) require(system_error(to, "link"));
+    if (::link(from.c_str(), to.c_str()) != 0) require_stored(system_error(to, "link"));
 }
 
 std::string Store::path(Kind kind, const std::string& id) const {
@@ -393,7 +476,7 @@ std::string Store::bake_folder(const std::string& id) const {
 
 WorkFolder Store::make_work_folder() {
     const std::string folder = text(settings_.data, "/work/", ++work_count_);
-    require(make_folder(folder));
+    require_stored(make_folder(folder));
     return WorkFolder(folder);
 }
 
@@ -408,12 +491,28 @@ uint64_t Store::total_bytes() const {
 
 void Store::check_quota(uint64_t more) const {
     if (settings_.quota_bytes == 0 || total_bytes() + more <= settings_.quota_bytes) return;
-    throw Problem{507, "quota", text("the store may hold ", settings_.quota_bytes, " bytes"), "",
-                  std::to_string(more)};
+    throw Problem{507, "quota", text("the store may hold ", settings_.quota_bytes, " bytes"),
+                  "quota", std::to_string(more)};
 }
 
-/// For servers that only read, and for the day on which the database is damaged.
-void Store::write_index() {
+void Store::with_reserve(const std::function<void()>& work) {
+    try {
+        work();
+    } catch (const Problem& problem) {
+        if (problem.code != "disk_full") throw;
+        drop_reserve(reserve_path());
+        work();
+        keep_reserve();
+    }
+}
+
+void Store::keep_reserve() const {
+    server::keep_reserve(reserve_path());
+}
+
+/// For servers that only read, and for the day on which the database is damaged. What is stored is
+/// stored without it: when it cannot be written, the next change brings it up to date.
+bool Store::write_index() {
     Json json = Json::array();
     {
         const std::shared_lock lock(mutex_);
@@ -427,56 +526,45 @@ void Store::write_index() {
         }
     }
     const std::string bytes = dump({{"files", json}});
-    require(write_file(settings_.data + "/index.json", std::as_bytes(std::span(bytes))));
-}
-
-std::map<std::string, StoredFile> Store::read_index() const {
-    std::map<std::string, StoredFile> index;
-    const auto bytes = read_file(settings_.data + "/index.json");
-    if (!bytes) return index;
-    const Json json =
-        Json::parse(reinterpret_cast<const char*>(bytes->data()),
-                    reinterpret_cast<const char*>(bytes->data() + bytes->size()), nullptr, false);
-    if (!json.is_object() || !json.contains("files")) return index;
-    for (const Json& entry : json["files"]) {
-        try {
-            StoredFile file;
-            const auto kind = std::ranges::find(kKindNames, entry.at("kind").get<std::string>());
-            if (kind == std::end(kKindNames)) continue;
-            file.kind = static_cast<Kind>(kind - std::begin(kKindNames));
-            file.id = entry.at("id");
-            file.name = entry.at("name");
-            file.bytes = entry.at("bytes");
-            file.created = entry.at("created");
-            file.damage = entry.value("damage", "");
-            file.facts = dump(entry.at("facts"));
-            if (!is_id(file.id)) continue;
-            index[std::string(*kind) + "/" + file.id] = std::move(file);
-        } catch (const Json::exception&) {
-            continue;  // the rest may be whole
-        }
+    const auto write = [&] {
+        require_stored(write_file(index_path(), std::as_bytes(std::span(bytes))));
+    };
+    try {
+        with_reserve(write);
+        keep_reserve();
+        return true;
+    } catch (const Problem& problem) {
+        log_.write(Log::Level::Error, "readers do not see the last changes",
+                   {{"error", problem.detail}});
+        return false;
     }
-    return index;
 }
 
-/// Once a second at most, and only when it changed.
+/// Once a second at most, and only when it changed. A damaged one changes nothing.
 void Store::read_index_now_and_then() {
     const auto ticks = std::chrono::steady_clock::now().time_since_epoch().count();
     int64_t next = next_index_check_;
     constexpr int64_t kSecond = 1'000'000'000;
     if (ticks < next || !next_index_check_.compare_exchange_strong(next, ticks + kSecond)) return;
     struct stat status = {};
-    if (::stat((settings_.data + "/index.json").c_str(), &status) != 0) return;
+    if (::stat((index_path()).c_str(), &status) != 0) return;
     std::string stamp = text(status.st_ino, " ", status.st_mtim.tv_sec, " ", status.st_mtim.tv_nsec,
                              " ", status.st_size);
     const std::lock_guard change(change_mutex_);
     if (stamp == index_stamp_) return;
-    const auto index = read_index();
+    const auto bytes = read_file(index_path());
+    if (!bytes) return;  // it may be there in a second
+    index_stamp_ = std::move(stamp);
+    const Index index = parse_index(*bytes);
+    if (!index.is_whole) {
+        ++metrics_.damaged_indexes;
+        log_.write(Log::Level::Error, "index.json is damaged; what it said before is served");
+        return;
+    }
     const std::unique_lock lock(mutex_);
     for (Files& all : files_) all.clear();
-    for (const auto& [key, file] : index) files(file.kind)[file.id] = file;
+    for (const auto& [key, file] : index.files) files(file.kind)[file.id] = file;
     index_names_locked();
-    index_stamp_ = std::move(stamp);
 }
 
 }  // namespace tetralight::server

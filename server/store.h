@@ -3,10 +3,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <shared_mutex>
 #include <string>
 #include <vector>
@@ -32,13 +34,13 @@ inline constexpr Kind kKinds[] = {Kind::Scenes, Kind::Skies, Kind::Groups, Kind:
 /// ".glb".
 [[nodiscard]] const char* extension_of(Kind kind);
 
-/// One file of the store. It never changes; its name can.
+/// One file of the store. It never changes; its names can.
 struct StoredFile {
     Kind kind = Kind::Scenes;
     /// The hash of its bytes (XXH128), 32 hexadecimal digits.
     std::string id;
-    /// Of one file of its kind at most; may be empty.
-    std::string name;
+    /// Each leads to one file of its kind; the same bytes may have come in under several.
+    std::set<std::string> names;
     uint64_t bytes = 0;
     /// Seconds since 1970.
     double created = 0.0;
@@ -60,6 +62,7 @@ struct StoredFile {
 ///     DIR/bakes/ID/                    a bake that is not over
 ///     DIR/work/                        what requests work in; emptied at the start
 ///     DIR/quarantine/                  what turned out to be damaged
+///     DIR/reserve                      space to delete with when the disk is full
 ///
 /// A file is on the disk before its row, and a row is gone before its file, so that whatever the
 /// database names is there. Thread-safe. Functions without a `Result` throw a `Problem`.
@@ -78,9 +81,13 @@ class Store {
         bool is_new = false;
     };
 
-    /// Takes a file of the store's disk over. A name moves to it from the file that had it.
+    /// Takes a file of the store's disk over. A name moves to it from the file that had it, and
+    /// stands beside those that it has.
     Added add(Kind kind, const std::string& path, const std::string& name, const Json& facts);
+    /// By name: the name becomes the new one. By id: the file gets the name beside those it has.
+    /// No name: that name goes; by id, all of them.
     StoredFile rename(Kind kind, const std::string& reference, const std::string& name);
+    /// By name: the name goes, and the file with its last name. By id: all of it.
     void remove(Kind kind, const std::string& reference);
 
     /// Puts a damaged file aside.
@@ -100,6 +107,12 @@ class Store {
 
     [[nodiscard]] Database& database() { return *database_; }
 
+    /// Does what frees space or ends something: when the disk is full, once more with the space
+    /// that is kept for that.
+    void with_reserve(const std::function<void()>& work);
+    /// To be called after something was freed.
+    void keep_reserve() const;
+
     [[nodiscard]] bool is_read_only() const { return settings_.is_read_only; }
 
     /// What was wrong at the start.
@@ -107,6 +120,10 @@ class Store {
 
   private:
     using Files = std::map<std::string, StoredFile>;  ///< by id
+
+    [[nodiscard]] std::string index_path() const { return settings_.data + "/index.json"; }
+
+    [[nodiscard]] std::string reserve_path() const { return settings_.data + "/reserve"; }
 
     Store(const Settings& settings, Log& log, Metrics& metrics);
 
@@ -119,9 +136,8 @@ class Store {
     [[nodiscard]] const StoredFile* find_locked(Kind kind, const std::string& reference);
     void insert(const StoredFile& file);
     void index_names_locked();
-    void write_index();
+    bool write_index();
     void read_index_now_and_then();
-    [[nodiscard]] std::map<std::string, StoredFile> read_index() const;
     void report(const std::string& finding);
 
     const Settings settings_;
@@ -138,6 +154,9 @@ class Store {
     std::atomic<int64_t> next_index_check_ = 0;
     std::string index_stamp_;
 };
+
+/// Throws a `Problem` when the disk did not do it: 507 when it is full.
+void require_stored(const Status& status);
 
 /// Throws a `Problem` unless it can be a name: at most 200 bytes of UTF-8 without control
 /// characters and slashes, that is no id.

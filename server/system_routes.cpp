@@ -89,6 +89,13 @@ const char* content_type_of(const std::string& extension) {
 
 Response viewer_response(const Service& service, const std::string& path) {
     namespace fs = std::filesystem;
+    if (service.settings.viewer.empty()) {
+        return plain(
+            200,
+            "This is tetralight serve. It answers requests (/openapi.json has all of them), "
+            "but its viewer is not here:\nbuild it with `./run build viewer` and start the "
+            "server again, or name its folder with --viewer DIR.");
+    }
     std::error_code error;
     const fs::path root = fs::canonical(service.settings.viewer, error);
     const std::string relative = path == "/" ? "index.html" : path.substr(1);

@@ -7,6 +7,7 @@
 #include "server/command.h"
 #include "server/problem.h"
 #include "server/service.h"
+#include "server/tool_problem.h"
 
 namespace tetralight::server {
 namespace {
@@ -45,8 +46,9 @@ std::string threads(const Service& service) {
 }
 
 /// Links a file that a member refers to.
-void link(Service& service, Kind kind, const std::string& reference, const std::string& path) {
-    service.store.link(service.store.get(kind, reference), path);
+void link(Service& service, Kind kind, const std::string& member, const std::string& reference,
+          const std::string& path) {
+    service.store.link(file_for(service, kind, member, reference), path);
 }
 
 void link_all(Service& service, const SceneInputs& inputs, const WorkFolder& folder) {
@@ -67,13 +69,13 @@ Response store_result(Service& service, Kind kind, const std::string& path, cons
     const auto added = service.store.add(kind, path, name, facts);
     Json json = to_json(added.file);
     json["report"] = report;
-    Response response = json_response(json, 201);
+    Response response = json_response(json, added.is_new ? 201 : 200);
     response.headers.emplace_back("Location", text("/v1/", name_of(kind), "/", added.file.id));
     return response;
 }
 
-Json volume_facts(Service& service, const WorkFolder& folder) {
-    return run_tool(service, folder.path(), {"info", "out.probes", "--json"});
+Json volume_facts(Service& service, const Request& request, const WorkFolder& folder) {
+    return run_tool(service, request, folder.path(), {"info", "out.probes", "--json"});
 }
 
 Response grid(Service& service, const Request& request) {
@@ -99,7 +101,7 @@ Response grid(Service& service, const Request& request) {
     fields.finish();
     const WorkFolder folder = service.store.make_work_folder();
     link_all(service, scene, folder);
-    const Json report = run_tool(service, folder.path(), arguments);
+    const Json report = run_tool(service, request, folder.path(), arguments);
     return store_result(service, Kind::Groups, folder.file("out.json"), name,
                         {{"probes", report.value("probes", 0u)}}, report);
 }
@@ -113,33 +115,39 @@ Response tetrahedralize(Service& service, const Request& request) {
     if (groups.empty()) throw Problem{400, "missing_value", "groups: is not given", "groups"};
     for (size_t i = 0; i < groups.size(); ++i) {
         const std::string name = text("groups_", i, ".json");
-        link(service, Kind::Groups, groups[i], folder.file(name));
+        link(service, Kind::Groups, text("groups[", i, "]"), groups[i], folder.file(name));
         arguments.push_back(name);
     }
     constexpr OptionRule kRules[] = {{"weld", Number}, {"backend", Text}};
     append(arguments, make_arguments(fields, kRules));
     const std::string name = fields.text("name");
     fields.finish();
-    const Json report = run_tool(service, folder.path(), arguments);
+    const Json report = run_tool(service, request, folder.path(), arguments);
     return store_result(service, Kind::Volumes, folder.file("out.probes"), name,
-                        volume_facts(service, folder), report);
+                        volume_facts(service, request, folder), report);
+}
+
+CommandResult run_for(Service& service, const Request& request, const std::string& folder,
+                      std::vector<std::string> arguments) {
+    return run_command(service.settings,
+                       {.arguments = std::move(arguments),
+                        .folder = folder,
+                        .limit_seconds = service.settings.tool_seconds,
+                        .goes_on = [&] { return !service.is_over && !request.is_abandoned; }});
 }
 
 /// A volume that fails is an answer, not an error.
 Response validate(Service& service, const Request& request) {
     const WorkFolder folder = service.store.make_work_folder();
-    link(service, Kind::Volumes, request.captures[0], folder.file("volume.probes"));
+    link(service, Kind::Volumes, "volume", request.captures[0], folder.file("volume.probes"));
     const CommandResult result =
-        run_command(service.settings, {.arguments = {"validate", "volume.probes", "--json"},
-                                       .folder = folder.path(),
-                                       .limit_seconds = service.settings.tool_seconds,
-                                       .goes_on = [&] { return !service.is_over; }});
-    if (result.report.contains("is_valid")) {
-        Json report = result.report;
-        report.erase("file");
-        return json_response(report);
+        run_for(service, request, folder.path(), {"validate", "volume.probes", "--json"});
+    if (!result.report.contains("is_valid")) {
+        throw tool_problem(service.settings, result, request);
     }
-    throw Problem{500, "tool_failed", result.message};
+    Json report = result.report;
+    report.erase("file");
+    return json_response(report);
 }
 
 std::vector<std::string> weights_arguments(Fields& fields) {
@@ -161,7 +169,8 @@ std::vector<std::string> sky_arguments(Service& service, Fields& fields,
     const Json* sky = fields.find("sky");
     if (sky == nullptr) return {};
     if (sky->is_string()) {
-        files.emplace_back(service.store.get(Kind::Skies, sky->get<std::string>()), "sky.hdr");
+        files.emplace_back(file_for(service, Kind::Skies, "sky", sky->get<std::string>()),
+                           "sky.hdr");
         return {"--sky=sky.hdr"};
     }
     const Json one{{"sky", *sky}};
@@ -174,7 +183,8 @@ Response relight(Service& service, const Request& request) {
     const Json json = parse_object(request.body);
     Fields fields(json);
     const WorkFolder folder = service.store.make_work_folder();
-    link(service, Kind::Volumes, fields.required_text("volume"), folder.file("volume.probes"));
+    link(service, Kind::Volumes, "volume", fields.required_text("volume"),
+         folder.file("volume.probes"));
     std::vector<std::string> arguments{"relight", "volume.probes", "--output=out.probes", "--json",
                                        threads(service)};
     append(arguments, weights_arguments(fields));
@@ -183,15 +193,15 @@ Response relight(Service& service, const Request& request) {
     append(arguments, make_arguments(fields, kRelightRules));
     const std::string other = fields.text("blend");
     if (!other.empty()) {
-        inputs.files.emplace_back(service.store.get(Kind::Volumes, other), "other.probes");
+        inputs.files.emplace_back(file_for(service, Kind::Volumes, "blend", other), "other.probes");
         arguments.push_back("--blend=other.probes");
     }
     const std::string name = fields.text("name");
     fields.finish();
     link_all(service, inputs, folder);
-    const Json report = run_tool(service, folder.path(), arguments);
+    const Json report = run_tool(service, request, folder.path(), arguments);
     return store_result(service, Kind::Volumes, folder.file("out.probes"), name,
-                        volume_facts(service, folder), report);
+                        volume_facts(service, request, folder), report);
 }
 
 Response lppv(Service& service, const Request& request) {
@@ -203,17 +213,18 @@ Response lppv(Service& service, const Request& request) {
         refuse("format", format, "vdb, nvdb, exr, dds or ktx2");
     }
     const WorkFolder folder = service.store.make_work_folder();
-    link(service, Kind::Volumes, fields.required_text("volume"), folder.file("volume.probes"));
+    link(service, Kind::Volumes, "volume", fields.required_text("volume"),
+         folder.file("volume.probes"));
     std::vector<std::string> arguments{"lppv", "volume.probes", "--output=out." + format, "--json",
                                        threads(service)};
     const std::string scene = fields.text("scene");
     if (!scene.empty()) {
-        link(service, Kind::Scenes, scene, folder.file("scene.glb"));
+        link(service, Kind::Scenes, "scene", scene, folder.file("scene.glb"));
         arguments.push_back("--scene=scene.glb");
     }
     append(arguments, make_arguments(fields, kLppvRules));
     fields.finish();
-    Json report = run_tool(service, folder.path(), arguments);
+    Json report = run_tool(service, request, folder.path(), arguments);
     report.erase("warnings");
     return {.content_type = "application/octet-stream",
             .headers = {{"X-Tetralight-Report", dump(report)}},
@@ -224,23 +235,37 @@ Response render(Service& service, const Request& request) {
     const Json json = parse_object(request.body);
     Fields fields(json);
     const WorkFolder folder = service.store.make_work_folder();
-    link(service, Kind::Scenes, fields.required_text("scene"), folder.file("scene.glb"));
-    link(service, Kind::Volumes, fields.required_text("volume"), folder.file("volume.probes"));
+    link(service, Kind::Scenes, "scene", fields.required_text("scene"), folder.file("scene.glb"));
+    link(service, Kind::Volumes, "volume", fields.required_text("volume"),
+         folder.file("volume.probes"));
     std::vector<std::string> arguments{"render",           "scene.glb", "volume.probes",
                                        "--output=out.png", "--json",    threads(service)};
     append(arguments, make_arguments(fields, kRenderRules));
     fields.finish();
-    (void)run_tool(service, folder.path(), arguments);
+    (void)run_tool(service, request, folder.path(), arguments);
     return {.content_type = "image/png", .body = file_body(folder.file("out.png"))};
 }
 
 }  // namespace
 
-Json run_tool(Service& service, const std::string& folder, std::vector<std::string> arguments) {
-    return run_or_throw(service.settings, {.arguments = std::move(arguments),
-                                           .folder = folder,
-                                           .limit_seconds = service.settings.tool_seconds,
-                                           .goes_on = [&] { return !service.is_over; }});
+Json run_tool(Service& service, const Request& request, const std::string& folder,
+              std::vector<std::string> arguments) {
+    CommandResult result = run_for(service, request, folder, std::move(arguments));
+    if (result.end != CommandResult::End::Fine) {
+        throw tool_problem(service.settings, result, request);
+    }
+    for (std::string& warning : result.warnings) warning = in_words_of(request, warning);
+    return report_of(std::move(result));
+}
+
+StoredFile file_for(Service& service, Kind kind, const std::string& member,
+                    const std::string& reference) {
+    try {
+        return service.store.get(kind, reference);
+    } catch (Problem& problem) {
+        problem.field = member;
+        throw;
+    }
 }
 
 SceneInputs read_scene(Service& service, Fields& fields) {
@@ -248,8 +273,8 @@ SceneInputs read_scene(Service& service, Fields& fields) {
                                      {"sun_direction", Vector}, {"sun_irradiance", Vector},
                                      {"sun_angle", Number},     {"sun_mode", Text}};
     SceneInputs inputs;
-    inputs.files.emplace_back(service.store.get(Kind::Scenes, fields.required_text("scene")),
-                              "scene.glb");
+    inputs.files.emplace_back(
+        file_for(service, Kind::Scenes, "scene", fields.required_text("scene")), "scene.glb");
     inputs.arguments = sky_arguments(service, fields, inputs.files);
     append(inputs.arguments, make_arguments(fields, kRules));
     return inputs;

@@ -29,13 +29,13 @@ class Answer:
 class Server:
     """`tetralight serve` on a folder; `kill` is what a power cut leaves of it."""
 
-    def __init__(self, data, *options, env=None):
+    def __init__(self, data, *options, env=None, program=COMMAND):
         self.data = data
         self.log_path = data + ".log"
         self.log = open(self.log_path, "a")
         listen = () if "--listen" in options else ("--listen", "127.0.0.1:0")
         self.process = subprocess.Popen(
-            [COMMAND, "serve", "--data", data, *listen, *options],
+            [program, "serve", "--data", data, *listen, *options],
             stdout=subprocess.PIPE, stderr=self.log, text=True, env={**os.environ, **(env or {})})
         line = self.process.stdout.readline()
         if not line:
@@ -82,6 +82,19 @@ class Server:
             except ConnectionResetError:
                 pass
             return answer
+
+    def children(self):
+        """Programs that it runs."""
+        found = []
+        for task in os.listdir(f"/proc/{self.process.pid}/task"):
+            with open(f"/proc/{self.process.pid}/task/{task}/children") as file:
+                found += file.read().split()
+        return found
+
+    def logged(self):
+        """Lines of the log so far; requests are gathered for a tenth of a second."""
+        with open(self.log_path) as file:
+            return [json.loads(line) for line in file.read().splitlines()]
 
     def wait_for(self, bake, seconds=120):
         """A bake that is over."""
@@ -136,8 +149,8 @@ class ServiceTest(unittest.TestCase):
                 server.kill()
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def start(self, *options, data=None, env=None):
-        server = Server(data or self.data, *options, env=env)
+    def start(self, *options, data=None, **more):
+        server = Server(data or self.data, *options, **more)
         self.servers.append(server)
         return server
 
@@ -150,6 +163,16 @@ class ServiceTest(unittest.TestCase):
             answer = server.post(f"/v1/{kind}?name={name}", file.read(), BINARY)
         self.assertIn(answer.status, (200, 201), answer.body)
         return answer.json()["id"]
+
+    def order_of_hours(self, server):
+        """A picture that takes longer than any test."""
+        self.upload(server, "scenes", COURTYARD, "court")
+        groups = os.path.join(self.folder, "groups.json")
+        write_groups(groups, lattice(2))
+        with open(groups, "rb") as file:
+            server.post("/v1/groups?name=few", file.read())
+        server.post("/v1/tetrahedralize", {"groups": ["few"], "name": "few"})
+        return {"scene": "court", "volume": "few", "width": 16384, "height": 16384, "antialias": 16}
 
     def assert_problem(self, answer, status, code):
         self.assertEqual(answer.status, status, answer.body[:500])

@@ -17,7 +17,7 @@ SLOW = {"samples": 2048, "bounces": 4}
 QUICK = {"samples": 16, "bounces": 1}
 
 
-class Bakes(ServiceTest):
+class BakeTest(ServiceTest):
     def begin(self, server, **members):
         members.setdefault("scene", self.scene)
         answer = server.post("/v1/bakes", members)
@@ -60,6 +60,8 @@ class Bakes(ServiceTest):
             time.sleep(0.02)
         self.fail("a bake left its folder behind")
 
+
+class Bakes(BakeTest):
     def test_the_bytes_are_those_of_the_command(self):
         server = self.start()
         bake = self.begin(server, **QUICK, name="court")
@@ -70,6 +72,9 @@ class Bakes(ServiceTest):
         self.assertEqual(answer["probes_done"], answer["probe_count"])
         self.assertEqual(answer["report"]["probes"], answer["probe_count"])
         self.wait_for_no_folders()
+        self.assertEqual(answer["probe_count"], 255)
+        server.kill()
+        self.assertEqual(self.start().get("/v1/bakes/" + bake).json(), answer)
 
     def test_groups_sky_and_sun(self):
         server = self.start()
@@ -127,6 +132,35 @@ class Bakes(ServiceTest):
                 server = self.start()
             with self.subTest(kills=kills):
                 self.assertEqual(self.file_of(server, bake), expected)
+
+    def test_only_what_changed_is_baked_and_killing_it_changes_no_byte(self):
+        paths = [os.path.join(self.folder, name) for name in ("old.json", "new.json")]
+        positions = [[x, y + 4.5, z] for x, y, z in lattice(6, 0.8)]
+        write_groups(paths[0], positions[:40])
+        write_groups(paths[1], positions)
+        server = self.start()
+        old, new = (self.upload(server, "groups", path) for path in paths)
+        settings = {"samples": 4096, "bounces": 4, "only_given_groups": True}
+        volume = server.wait_for(self.begin(server, **settings, groups=[old]))["volume"]
+        bake = self.begin(server, **settings, groups=[new], reuse=volume)
+        self.assertEqual(server.request("DELETE", "/v1/volumes/" + volume).status, 204)
+        self.wait_for_chunks(bake, 2)
+        server.kill()
+        server = self.start()
+        self.assertEqual(self.file_of(server, bake), self.baked_by_command(
+            "--samples", "4096", "-b", "4", "-g", paths[1], "--only-given-groups"))
+        report = server.get("/v1/bakes/" + bake).json()["report"]
+        self.assertEqual((report["reused"], report["probes"]), (40, 216))
+
+    def test_what_cannot_be_reused_is_baked_and_said(self):
+        server = self.start()
+        volume = server.wait_for(self.begin(server, **QUICK))["volume"]
+        answer = server.wait_for(self.begin(server, **QUICK, reuse=volume, seed=5))
+        self.assertEqual((answer["state"], answer["report"]["reused"]), ("done", 0))
+        self.assertIn("reuse.probes: nothing is re-used: its seed is 0, that of this bake is 5",
+                      answer["report"]["warnings"])
+        self.assert_problem(server.post("/v1/bakes", {"scene": self.scene, "reuse": "none"}), 404,
+                            "not_found")
 
     def test_torn_and_foreign_chunks_are_baked_anew(self):
         expected = self.baked_by_command("--samples", "2048", "-b", "4")
@@ -222,6 +256,29 @@ class Bakes(ServiceTest):
         self.assertEqual(done, sorted(done))
         self.assertGreater(len(set(done)), 3)
         self.assertEqual(bakes[-1]["state"], "done")
+        running = [bake for bake in bakes if bake["state"] == "running"]
+        for member in ("rays_per_second", "seconds_left"):
+            self.assertTrue(all(bake[member] is None or bake[member] >= 0 for bake in running))
+            self.assertTrue(any(bake[member] for bake in running), member)
+            self.assertNotIn(member, bakes[-1])
+
+    def test_the_pace_after_a_restart_is_that_of_the_new_run(self):
+        server = self.start()
+        bake = self.begin(server, **SLOW)
+        self.wait_for_chunks(bake, 3)
+        server.kill()
+        # A claim of the run before, which no run could keep.
+        with open(os.path.join(self.data, "bakes", bake, "progress.json"), "w") as file:
+            json.dump({"probe_count": 1, "rays_per_second": 1e30, "seconds_left": 1e30}, file)
+        server = self.start()
+        seen = []
+        while (answer := server.get("/v1/bakes/" + bake).json())["state"] in ("queued", "running"):
+            seen.append(answer)
+        self.assertEqual(answer["state"], "done", answer)
+        self.assertTrue(any(answer["rays_per_second"] for answer in seen))
+        for answer in seen:
+            self.assertTrue((answer["rays_per_second"] or 0) < 1e30, answer)
+            self.assertTrue((answer["seconds_left"] or 0) < 1e30, answer)
 
     def test_queries_are_answered_while_a_bake_runs(self):
         server = self.start()
@@ -232,6 +289,16 @@ class Bakes(ServiceTest):
             answer = server.post(f"/v1/volumes/{volume}/query", {"positions": [[0, 1, 0]]})
             self.assertEqual(answer.status, 200)
         server.post(f"/v1/bakes/{slow}/cancel")
+
+    def test_bakes_and_relights_of_the_same_bytes_take_no_name_away(self):
+        server = self.start()
+        bakes = [self.begin(server, **QUICK, layers=["sun", "sky"], name=name)
+                 for name in ("release", "nightly")]
+        volumes = {server.wait_for(bake)["volume"] for bake in bakes}
+        self.assertEqual(len(volumes), 1)
+        same = server.post("/v1/relight", {"volume": "nightly", "name": "as baked"}).json()
+        self.assertEqual({same["id"]}, volumes)
+        self.assertEqual(same["names"], ["as baked", "nightly", "release"])
 
     def test_a_name_always_leads_to_a_whole_volume(self):
         server = self.start()

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files come in, go out, get names and survive."""
+import contextlib
 import json
 import os
 import random
+import shutil
+import sqlite3
 import threading
+import time
 import unittest
 
 from service import BINARY, COURTYARD, ServiceTest, lattice, write_groups, read
@@ -11,6 +15,42 @@ from service import BINARY, COURTYARD, ServiceTest, lattice, write_groups, read
 
 # Uploads with some bytes changed, of each kind.
 MUTATIONS = int(os.environ.get("TETRALIGHT_MUTATIONS", "25"))
+
+# What the first servers kept.
+FIRST_SCHEMA = """
+    PRAGMA user_version = 1;
+    CREATE TABLE files (
+        id TEXT NOT NULL,
+        kind TEXT NOT NULL CHECK (kind IN ('scenes', 'skies', 'groups', 'volumes')),
+        name TEXT NOT NULL,
+        bytes INTEGER NOT NULL,
+        created REAL NOT NULL,
+        facts TEXT NOT NULL,
+        damage TEXT NOT NULL DEFAULT '',
+        PRIMARY KEY (kind, id)
+    ) STRICT;
+    CREATE UNIQUE INDEX file_names ON files (kind, name) WHERE name <> '';
+    CREATE TABLE bakes (
+        number INTEGER PRIMARY KEY AUTOINCREMENT,
+        id TEXT NOT NULL UNIQUE,
+        request TEXT NOT NULL,
+        arguments TEXT NOT NULL,
+        name TEXT NOT NULL,
+        priority INTEGER NOT NULL,
+        state TEXT NOT NULL
+            CHECK (state IN ('queued', 'running', 'done', 'failed', 'cancelled')),
+        volume TEXT NOT NULL DEFAULT '',
+        error TEXT NOT NULL DEFAULT '',
+        report TEXT NOT NULL DEFAULT '',
+        created REAL NOT NULL,
+        ended REAL NOT NULL DEFAULT 0
+    ) STRICT;
+    CREATE TABLE bake_inputs (
+        bake TEXT NOT NULL REFERENCES bakes (id) ON DELETE CASCADE,
+        kind TEXT NOT NULL,
+        file TEXT NOT NULL
+    ) STRICT;
+"""
 
 
 class VolumeTest(ServiceTest):
@@ -112,10 +152,31 @@ class Files(VolumeTest):
             self.assertEqual(part.headers["Content-Range"], f"bytes {begin}-{end - 1}/{size}")
         for ignored in ("bytes=5-2", "lines=1-2", "bytes=0-1,4-5", "bytes=a-b"):
             self.assertEqual(server.get(file, Range=ignored).status, 200)
-        self.assert_problem(server.get(file, Range=f"bytes={size}-"), 416, "invalid_range")
+        beyond = server.get(file, Range=f"bytes={size}-")
+        self.assert_problem(beyond, 416, "invalid_range")
+        self.assertEqual(beyond.headers["Content-Range"], f"bytes */{size}")
         self.assertEqual(server.get(file, If_None_Match=tag).status, 304)
         self.assertEqual(server.get(file, Range="bytes=0-9", If_Range='"other"').status, 200)
         self.assertEqual(server.get(file, Range="bytes=0-9", If_Range=tag).status, 206)
+
+    def test_bytes_of_an_id_are_kept_for_ever_and_those_of_a_name_are_asked_for_again(self):
+        server = self.start()
+        path = self.volume_file(2)
+        volume = self.upload(server, "volumes", path, "level")
+        for part in ("file", "sections/positions"):
+            by_id = server.get(f"/v1/volumes/{volume}/{part}")
+            self.assertIn("immutable", by_id.headers["Cache-Control"])
+            by_name = server.get(f"/v1/volumes/level/{part}")
+            self.assertEqual(by_name.headers["Cache-Control"], "private, no-cache")
+            tag = by_name.headers["ETag"]
+            self.assertEqual(by_id.headers["ETag"], tag)
+            same = server.get(f"/v1/volumes/level/{part}", If_None_Match=tag)
+            self.assertEqual((same.status, same.headers["Cache-Control"]), (304, "private, no-cache"))
+            self.upload(server, "volumes", self.volume_file(3), "level")
+            other = server.get(f"/v1/volumes/level/{part}", If_None_Match=tag)
+            self.assertEqual(other.status, 200)
+            self.assertNotEqual(other.body, by_name.body)
+            self.upload(server, "volumes", path, "level")
 
     def test_sections_are_what_the_file_holds(self):
         server = self.start()
@@ -123,6 +184,97 @@ class Files(VolumeTest):
         positions = server.get(f"/v1/volumes/{volume}/sections/positions")
         self.assertEqual(len(positions.body), 27 * 12)
         self.assertEqual(server.get(f"/v1/volumes/{volume}/sections/nothing").status, 404)
+
+    def names(self, server, volume):
+        return server.get("/v1/volumes/" + volume).json()["names"]
+
+    def test_the_same_bytes_have_each_name_they_came_in_under(self):
+        server = self.start()
+        path = self.volume_file(2)
+        volume = self.upload(server, "volumes", path, "release")
+        for name in ("nightly", "release", ""):
+            self.assertEqual(self.upload(server, "volumes", path, name), volume)
+        for name in ("nightly", "release"):
+            file = server.get("/v1/volumes/" + name).json()
+            self.assertEqual(file["id"], volume)
+            self.assertEqual(file["names"], ["nightly", "release"])
+            self.assertEqual(file["name"], "nightly")
+            listed = server.get("/v1/volumes?name=" + name).json()["volumes"]
+            self.assertEqual([file["id"] for file in listed], [volume])
+        server.kill()
+        self.assertEqual(self.names(self.start(), volume), ["nightly", "release"])
+
+    def test_a_name_alone_moves(self):
+        server = self.start()
+        first = self.upload(server, "volumes", self.volume_file(2), "level")
+        self.upload(server, "volumes", self.volume_file(2), "nightly")
+        second = self.upload(server, "volumes", self.volume_file(3), "level")
+        self.assertEqual(self.names(server, first), ["nightly"])
+        self.assertEqual(self.names(server, second), ["level"])
+
+    def test_renaming_by_name_and_by_id(self):
+        server = self.start()
+        volume = self.upload(server, "volumes", self.volume_file(2), "a")
+        for reference, name, names in (("a", "b", ["b"]), (volume, "c", ["b", "c"]),
+                                       (volume, "c", ["b", "c"]), ("b", "b", ["b", "c"]),
+                                       ("b", "c", ["c"]), (volume, "d", ["c", "d"]),
+                                       ("c", "", ["d"]), (volume, "e", ["d", "e"]), (volume, "", [])):
+            answer = server.request("PATCH", "/v1/volumes/" + reference, {"name": name})
+            self.assertEqual(answer.json()["names"], names, (reference, name))
+            self.assertEqual(self.names(server, volume), names)
+        self.assert_problem(server.get("/v1/volumes/d"), 404, "not_found")
+
+    def test_deleting_by_name_takes_the_name_and_the_file_with_its_last(self):
+        server = self.start()
+        path = self.volume_file(2)
+        volume = self.upload(server, "volumes", path, "a")
+        for name in ("b", "c"):
+            self.upload(server, "volumes", path, name)
+        self.assertEqual(server.request("DELETE", "/v1/volumes/a").status, 204)
+        self.assert_problem(server.get("/v1/volumes/a"), 404, "not_found")
+        self.assertEqual(self.names(server, volume), ["b", "c"])
+        for name in ("b", "c"):
+            self.assertEqual(server.request("DELETE", "/v1/volumes/" + name).status, 204)
+        self.assert_problem(server.get("/v1/volumes/" + volume), 404, "not_found")
+        self.assertEqual(os.listdir(os.path.join(self.data, "volumes")), [])
+
+    def test_deleting_by_id_takes_all_names(self):
+        server = self.start()
+        path = self.volume_file(2)
+        volume = self.upload(server, "volumes", path, "a")
+        self.upload(server, "volumes", path, "b")
+        self.assertEqual(server.request("DELETE", "/v1/volumes/" + volume).status, 204)
+        for reference in ("a", "b", volume):
+            self.assert_problem(server.get("/v1/volumes/" + reference), 404, "not_found")
+        # Nor do they come back with the file.
+        self.assertEqual(self.upload(server, "volumes", path), volume)
+        self.assertEqual(self.names(server, volume), [])
+
+    def test_a_database_of_the_first_version(self):
+        server = self.start()
+        named = self.upload(server, "volumes", self.volume_file(2), "level")
+        plain = self.upload(server, "volumes", self.volume_file(3))
+        server.stop()
+        path = os.path.join(self.data, "tetralight.db")
+        with contextlib.closing(sqlite3.connect(path)) as database:
+            files = database.execute("SELECT id, kind, bytes, created, facts FROM files").fetchall()
+        os.remove(path)
+        with contextlib.closing(sqlite3.connect(path)) as database:
+            database.executescript(FIRST_SCHEMA)
+            for file in files:
+                database.execute(
+                    "INSERT INTO files (id, kind, bytes, created, facts, name) VALUES (?,?,?,?,?,?)",
+                    (*file, "level" if file[0] == named else ""))
+            database.execute(
+                "INSERT INTO bakes (id, request, arguments, name, priority, state, report, created) "
+                "VALUES ('0123', '{}', '[]', '', 0, 'done', '{\"probes\": 7}', 1)")
+            database.commit()
+        again = self.start()
+        bake = again.get("/v1/bakes/0123").json()
+        self.assertEqual((bake["probes_done"], bake["probe_count"]), (7, 7))
+        self.assertEqual(again.get("/v1/volumes/level").json()["id"], named)
+        self.assertEqual(self.names(again, named), ["level"])
+        self.assertEqual(self.names(again, plain), [])
 
     def test_names_move(self):
         server = self.start()
@@ -187,7 +339,7 @@ class Damage(VolumeTest):
     def test_a_damaged_volume(self):
         server = self.start()
         good = self.upload(server, "volumes", self.volume_file(2))
-        bad = self.upload(server, "volumes", self.volume_file(3))
+        bad = self.upload(server, "volumes", self.volume_file(3), "bad")
         server.stop()
         path = os.path.join(self.data, "volumes", bad + ".probes")
         size = os.path.getsize(path)
@@ -203,8 +355,9 @@ class Damage(VolumeTest):
         self.assertEqual(again.get(f"/v1/volumes/{bad}").json()["state"], "quarantined")
         self.assertEqual(os.listdir(os.path.join(self.data, "quarantine")), [f"volumes-{bad}.probes"])
         self.assertIn("tetralight_quarantined_total 1", again.get("/metrics").body.decode())
-        # It can come in again.
+        # It can come in again, and has its name still.
         self.assertEqual(self.upload(again, "volumes", self.volume_file(3)), bad)
+        self.assertEqual(again.get("/v1/volumes/bad").json()["id"], bad)
         self.assertEqual(again.post(f"/v1/volumes/{bad}/query", query).status, 200)
 
     def test_a_missing_file(self):
@@ -226,6 +379,7 @@ class Damage(VolumeTest):
     def test_a_damaged_database(self):
         server = self.start()
         volume = self.upload(server, "volumes", self.volume_file(), "level")
+        self.upload(server, "volumes", self.volume_file(), "nightly")
         server.stop()
         database = os.path.join(self.data, "tetralight.db")
         for damage in (lambda f: f.write(b"\0" * 100), lambda f: (f.seek(4096), f.write(b"\xff" * 4096)),
@@ -233,7 +387,8 @@ class Damage(VolumeTest):
             with open(database, "r+b") as file:
                 damage(file)
             again = self.start()
-            self.assertEqual(again.get("/v1/volumes/level").json()["id"], volume)
+            self.assertEqual(again.get("/v1/volumes/" + volume).json()["names"],
+                             ["level", "nightly"])
             self.assertEqual(again.post("/v1/volumes/level/query", {"positions": [[0, 0, 0]]}).status,
                              200)
             self.assertIn("the database was damaged", read(again.log_path).decode())
@@ -252,11 +407,36 @@ class ReadOnly(VolumeTest):
                          writer.post("/v1/volumes/level/query", query).body)
         self.assert_problem(reader.request("DELETE", f"/v1/volumes/{first}"), 403, "read_only")
         second = self.upload(writer, "volumes", self.volume_file(3), "level")
-        for _ in range(100):
-            if reader.get("/v1/volumes/level").json()["id"] == second:
-                break
-            threading.Event().wait(0.1)
+        self.upload(writer, "volumes", self.volume_file(3), "nightly")
+        self.assertTrue(self.eventually(
+            lambda: reader.get("/v1/volumes/nightly").status == 200))
+        self.assertEqual(reader.get(f"/v1/volumes/{second}").json()["names"], ["level", "nightly"])
         self.assertEqual(reader.get("/v1/volumes/level").json()["id"], second)
+
+    def test_a_damaged_index_changes_nothing(self):
+        writer = self.start()
+        volume = self.upload(writer, "volumes", self.volume_file(2), "level")
+        reader = self.start("--read-only")
+        index = os.path.join(self.data, "index.json")
+        whole = read(index)
+        damages = (whole[:-20], b"", b"{}", whole.replace(b'"id":"', b'"id":"/'))
+        for count, damage in enumerate(damages, 1):
+            with open(index, "wb") as file:
+                file.write(damage)
+            metric = f"tetralight_damaged_indexes_total {count}\n"
+            # The list is read anew when it is asked for.
+            self.assertTrue(self.eventually(
+                lambda: reader.get("/v1/volumes/level").json()["id"] == volume
+                and metric in reader.get("/metrics").body.decode()))
+        for _ in range(3):
+            time.sleep(1.1)
+            self.assertEqual(reader.get("/v1/volumes/level").json()["id"], volume)
+        self.assertEqual(read(reader.log_path).decode().count("index.json is damaged"), len(damages))
+        with self.assertRaisesRegex(RuntimeError, "index.json: is damaged"):
+            self.start("--read-only", data=shutil.copytree(self.data, self.data + "2"))
+        second = self.upload(writer, "volumes", self.volume_file(3), "level")
+        self.assertTrue(self.eventually(
+            lambda: reader.get("/v1/volumes/level").json()["id"] == second))
 
 
 if __name__ == "__main__":

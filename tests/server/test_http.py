@@ -4,12 +4,16 @@ import http.client
 import json
 import os
 import re
+import shutil
+import signal
 import socket
+import subprocess
 import threading
 import time
 import unittest
 
-from service import ServiceTest, read
+from service import COMMAND, ServiceTest, lattice, read, write_groups
+from test_query import binary_query
 
 
 class Malformed(ServiceTest):
@@ -68,6 +72,30 @@ class Malformed(ServiceTest):
             [b"POST /v1/grid HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"] +
             [piece] * 10), 413)
 
+    def test_a_huge_chunk_is_refused_before_it_comes(self):
+        for path in (b"/v1/grid", b"/v1/scenes"):
+            answer = self.server.raw(b"POST " + path + b" HTTP/1.1\r\nHost: localhost\r\n"
+                                     b"Transfer-Encoding: chunked\r\n\r\nFFFFFFFFFFFFFFF\r\nabc")
+            self.assertTrue(answer.startswith(b"HTTP/1.1 413"), answer)
+
+    def test_refusals_of_the_protocol_say_what_is_at_fault(self):
+        head = b"POST /v1/grid HTTP/1.1\r\nHost: localhost\r\n"
+        for data, code, field, value in (
+                (b"nonsense\r\n\r\n", "malformed_request", "head", None),
+                (b"GET http HTTP/1.1\r\nHost: a\r\n\r\n", "malformed_request", "target", "http"),
+                (b"GET / HTTP/1.1\r\nX: " + b"a" * 20000, "header_too_large", "head",
+                 "more than 16384 bytes"),
+                (head + b"Content-Length: 5000000000\r\n\r\n", "too_large", "body",
+                 "5000000000 bytes"),
+                (head + b"Transfer-Encoding: chunked\r\n\r\nzz\r\n", "malformed_request", "body",
+                 "0 bytes")):
+            with self.subTest(data=data[:60]):
+                problem = json.loads(self.server.raw(data).split(b"\r\n\r\n", 1)[1])
+                self.assertEqual((problem["code"], problem["field"]), (code, field))
+                if value is not None:
+                    self.assertEqual(problem["value"], value)
+                self.assertTrue(problem["request_id"])
+
     def test_torn_chunks_are_refused(self):
         self.assertEqual(self.status_of(
             b"POST /v1/grid HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
@@ -116,6 +144,75 @@ class Malformed(ServiceTest):
                 connection.sendall(data)
 
 
+class Slow(ServiceTest):
+    """Clients that stop in the middle."""
+
+    def setUp(self):
+        super().setUp()
+        self.server = self.start("--transfer-seconds", "1", "--header-seconds", "1")
+
+    def aborted(self, status):
+        return [line for line in self.server.logged()
+                if line.get("aborted") and line.get("status") == status]
+
+    def test_a_body_that_stops_is_answered_with_408(self):
+        for path in ("/v1/scenes", "/v1/bakes", "/v1/volumes/none/query"):
+            with self.subTest(path=path):
+                answer = self.server.raw(f"POST {path} HTTP/1.1\r\nHost: localhost\r\n"
+                                         "Content-Length: 1000\r\n\r\n12345".encode())
+                self.assertTrue(answer.startswith(b"HTTP/1.1 408"), answer)
+                problem = json.loads(answer.split(b"\r\n\r\n", 1)[1])
+                self.assertEqual((problem["code"], problem["field"], problem["value"]),
+                                 ("too_slow", "body", "5 bytes"))
+        self.assertTrue(self.eventually(
+            lambda: [line["status"] for line in self.server.logged()
+                     if line.get("message") == "request"] == [408] * 3))
+
+    def test_a_head_that_stops_is_answered_with_408(self):
+        answer = self.server.raw(b"GET /healthz HTTP/1.1\r\nHost: loc")
+        self.assertTrue(answer.startswith(b"HTTP/1.1 408"), answer)
+
+    def ask_for_much(self):
+        """A connection on which eleven megabytes are to come."""
+        groups = os.path.join(self.folder, "groups.json")
+        write_groups(groups, lattice(2))
+        self.command("tetrahedralize", groups, "-o", groups + ".probes")
+        self.upload(self.server, "volumes", groups + ".probes", "much")
+        body = binary_query([[0, 0, 0]] * 100000)
+        connection = socket.socket()
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
+        connection.settimeout(30)
+        connection.connect(("127.0.0.1", self.server.port))
+        connection.sendall(b"POST /v1/volumes/much/query HTTP/1.1\r\nHost: localhost\r\n"
+                           b"Connection: close\r\nContent-Type: application/octet-stream\r\n"
+                           b"Content-Length: %d\r\n\r\n" % len(body) + body)
+        return connection, 16 + 108 * 100000
+
+    def test_who_stops_reading_is_cut_off_and_logged_so(self):
+        connection, size = self.ask_for_much()
+        with connection:
+            self.assertTrue(self.eventually(lambda: self.aborted(200)))
+        self.assertLess(self.aborted(200)[0]["sent"], size)
+
+    def test_who_reads_slowly_gets_all(self):
+        connection, size = self.ask_for_much()
+        received = 0
+        with connection:
+            # Longer than the seconds for 64 KiB, and always faster than those.
+            while piece := connection.recv(1 << 20):
+                received += len(piece)
+                time.sleep(0.02)
+        self.assertGreater(received, size)
+        self.assertEqual(self.aborted(200), [])
+
+    def test_an_upload_that_is_left_is_logged_as_such(self):
+        with socket.create_connection(("127.0.0.1", self.server.port)) as connection:
+            connection.sendall(b"POST /v1/scenes HTTP/1.1\r\nHost: localhost\r\n"
+                               b"Content-Length: 1000\r\n\r\nhalf")
+        self.assertTrue(self.eventually(lambda: self.aborted(499)))
+        self.assertEqual(os.listdir(os.path.join(self.data, "work")), [])
+
+
 class Protocol(ServiceTest):
     def test_connections_stay_open_for_more(self):
         server = self.start()
@@ -153,7 +250,9 @@ class Protocol(ServiceTest):
     def test_paths_and_methods_that_are_not_there(self):
         server = self.start()
         self.assert_problem(server.get("/nothing"), 404, "no_such_path")
-        self.assert_problem(server.request("PUT", "/v1/scenes"), 405, "wrong_method")
+        answer = server.request("PUT", "/v1/scenes")
+        self.assert_problem(answer, 405, "wrong_method")
+        self.assertEqual(answer.headers["Allow"], "POST, GET, HEAD")
         self.assert_problem(server.get("/v1/volumes/none"), 404, "not_found")
 
     def test_head_has_the_length_and_no_body(self):
@@ -179,9 +278,44 @@ class Protocol(ServiceTest):
         for connection in kept:
             connection.request("GET", "/healthz")
             connection.getresponse().read()
-        self.assertTrue(server.raw(b"").startswith(b"HTTP/1.1 503"))
+        answer = server.get("/healthz")
+        problem = self.assert_problem(answer, 503, "too_many_connections")
+        self.assertEqual(problem["value"], "5")
+        self.assertTrue(self.eventually(lambda: problem["request_id"] in [
+            line.get("request_id") for line in server.logged()]))
         kept[0].close()
         self.assertTrue(self.eventually(lambda: server.get("/healthz").status == 200))
+
+    def test_http_1_1_needs_one_host(self):
+        server = self.start()
+        for hosts, status in ((b"", 400), (b"Host: a\r\nHost: b\r\n", 400), (b"Host: a\r\n", 200)):
+            answer = server.raw(b"GET /healthz HTTP/1.1\r\n" + hosts + b"Connection: close\r\n\r\n")
+            self.assertTrue(answer.startswith(b"HTTP/1.1 %d" % status), answer)
+        self.assertTrue(server.raw(b"GET /readyz HTTP/1.0\r\n\r\n").startswith(b"HTTP/1.1 200"))
+
+    def test_parameters_that_nobody_knows_are_refused(self):
+        server = self.start()
+        for path, code, field, value in (
+                ("/v1/scenes?nam=x", "unknown_parameter", "nam", "x"),
+                ("/v1/scenes?name=a&name=b", "repeated_parameter", "name", "b"),
+                ("/healthz?x", "unknown_parameter", "x", None)):
+            problem = self.assert_problem(server.get(path), 400, code)
+            self.assertEqual((problem["field"], problem.get("value")), (field, value))
+        self.assertEqual(server.get("/v1/scenes?name=a&limit=3").status, 200)
+
+    def test_encoded_bodies_are_refused(self):
+        server = self.start()
+        for encoding, status in (("gzip", 415), ("identity", 404)):
+            answer = server.request("POST", "/v1/volumes/x/query", b"{}",
+                                    {"Content-Encoding": encoding})
+            self.assertEqual(answer.status, status, answer.body)
+
+    def test_names_of_dots_are_refused(self):
+        server = self.start()
+        for name in (".", ".."):
+            problem = self.assert_problem(server.post("/v1/groups?name=" + name, b"{}"), 400,
+                                          "invalid_value")
+            self.assertEqual((problem["field"], problem["value"]), ("name", name))
 
     def test_metrics_count(self):
         server = self.start()
@@ -199,12 +333,13 @@ class Access(ServiceTest):
         self.assertEqual(server.get("/healthz").status, 200)
         for wrong in ({}, {"Authorization": "Bearer wrong"}, {"Authorization": "Bearer secret-word"},
                       {"Authorization": "Basic secret-words"}, {"Authorization": "Bearer "}):
-            for path in ("/v1/scenes", "/metrics", "/nothing"):
+            for path in ("/v1/scenes", "/metrics", "/v1/nothing"):
                 answer = server.request("GET", path, headers=wrong)
                 self.assert_problem(answer, 401, "unauthorized")
                 self.assertEqual(answer.headers["WWW-Authenticate"], "Bearer")
-        right = {"Authorization": "Bearer secret-words"}
-        self.assertEqual(server.request("GET", "/v1/scenes", headers=right).status, 200)
+        for scheme in ("Bearer", "bearer"):
+            right = {"Authorization": scheme + " secret-words"}
+            self.assertEqual(server.request("GET", "/v1/scenes", headers=right).status, 200)
         server.stop()
         self.assertNotIn("secret-word", read(server.log_path).decode())
 
@@ -229,6 +364,40 @@ class Access(ServiceTest):
         self.assert_problem(server.get("/v1/scenes", Host="evil.example"), 403, "wrong_host")
         for host in ("localhost:80", "127.0.0.1", "[::1]:8080"):
             self.assertEqual(server.get("/v1/scenes", Host=host).status, 200)
+
+    def test_whether_it_lives_is_told_whatever_the_host(self):
+        server = self.start()
+        for path in ("/healthz", "/readyz", "/version"):
+            self.assertEqual(server.get(path, Host="10.0.0.1").status, 200)
+
+    def test_a_proxy_may_call_by_a_name_that_is_allowed(self):
+        server = self.start("--allowed-host", "light.example.com", "--allowed-host", "b.example")
+        for host in ("light.example.com", "Light.Example.com:443", "b.example", "localhost"):
+            self.assertEqual(server.get("/v1/scenes", Host=host).status, 200)
+        self.assert_problem(server.get("/v1/scenes", Host="example.com"), 403, "wrong_host")
+
+    def test_tokens_that_no_header_could_hold_are_refused(self):
+        path = os.path.join(self.folder, "token")
+        for token in ("two words", "two\nlines", "\x01", "m\u00fc"):
+            with open(path, "w") as file:
+                file.write(token)
+            with self.assertRaisesRegex(RuntimeError, "token: a token is letters") as caught:
+                self.start("--token-file", path)
+            self.assertNotIn(token, str(caught.exception))
+
+    def test_options_that_make_no_sense_are_refused(self):
+        for option, value in (("--threads", "1000000"), ("--threads", "-1"), ("--drain-seconds", "nan"),
+                              ("--header-seconds", "0"), ("--transfer-seconds", "nan"),
+                              ("--max-connections", "0"), ("--max-body", "0"), ("--workers", "0"),
+                              ("--idle-seconds", "1e300"), ("--viewer", "/nonexist"),
+                              ("--cors-origin", "good.example"), ("--allowed-host", "a:80"),
+                              ("--cors-origin", "https://good.example/")):
+            with self.subTest(option=option, value=value):
+                done = subprocess.run([COMMAND, "serve", "--data", self.data, option, value],
+                                      capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(option, done.stderr)
+                self.assertLess(len(done.stderr), 300)
 
     def test_pages_of_other_origins_have_to_be_let_in(self):
         server = self.start("--cors-origin", "https://good.example")
@@ -273,6 +442,27 @@ class Paths(ServiceTest):
             self.assert_problem(server.get(path), 404, "no_such_path")
         self.assert_problem(server.get("/v1/nothing"), 404, "no_such_path")
 
+    def test_a_program_finds_the_viewer_beside_it_or_says_how_to_get_it(self):
+        program = os.path.join(self.folder, "prefix", "bin", "tetralight")
+        os.makedirs(os.path.dirname(program))
+        shutil.copy(COMMAND, program)
+        server = self.start(program=program)
+        answer = server.get("/")
+        self.assertEqual((answer.status, answer.headers["Content-Type"]),
+                         (200, "text/plain; charset=utf-8"))
+        self.assertIn(b"--viewer", answer.body)
+        self.assert_problem(server.get("/missing.js"), 404, "no_such_path")
+        server.stop()
+        # A built one comes before an installed one.
+        for folder, page in (("share/tetralight/viewer", "installed"), ("viewer", "built")):
+            folder = os.path.join(self.folder, "prefix", folder)
+            os.makedirs(folder)
+            with open(os.path.join(folder, "index.html"), "w") as file:
+                file.write(page)
+            server = self.start(program=program)
+            self.assertEqual(server.get("/").body.decode(), page)
+            server.stop()
+
 
 class Ending(ServiceTest):
     def test_sigterm_answers_what_was_begun_and_exits_0(self):
@@ -289,6 +479,38 @@ class Ending(ServiceTest):
             self.assertTrue(connection.recv(65536).startswith(b"HTTP/1.1 404"))
         waiting.join()
         self.assertEqual(codes, [0])
+
+    def test_the_end_is_announced_while_connections_are_still_taken(self):
+        server = self.start("--drain-notice-seconds", "3")
+        kept = server.connect()
+        kept.request("GET", "/healthz")
+        kept.getresponse().read()
+        server.process.send_signal(signal.SIGTERM)
+        self.assertTrue(self.eventually(lambda: server.get("/readyz").status == 503))
+        self.assertEqual(server.get("/v1/scenes").status, 200)
+        kept.request("GET", "/healthz")
+        self.assertEqual(kept.getresponse().headers["Connection"], "close")
+        self.assertEqual(server.process.wait(timeout=60), 0)
+        with self.assertRaises(ConnectionRefusedError):
+            server.get("/healthz")
+
+    def test_what_takes_too_long_is_ended_with_the_server(self):
+        server = self.start("--drain-seconds", "1", "--workers", "1")
+        order = self.order_of_hours(server)
+        askers = [threading.Thread(target=self.ask_and_lose, args=(server, order))
+                  for _ in range(4)]
+        for asker in askers:
+            asker.start()
+        self.assertTrue(self.eventually(server.children))
+        self.assertEqual(server.stop(60), 0)
+        for asker in askers:
+            asker.join()
+
+    def ask_and_lose(self, server, order):
+        try:
+            server.post("/v1/render", order)
+        except (ConnectionError, http.client.HTTPException):
+            pass
 
     def test_idle_connections_do_not_hold_it_up(self):
         server = self.start()

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import subprocess
 import unittest
 
 from service import ServiceTest
@@ -25,6 +26,21 @@ class OpenApi(ServiceTest):
     def test_it_is_openapi_3_1(self):
         self.assertEqual(self.document["openapi"], "3.1.0")
         self.assertLessEqual({"title", "version"}, self.document["info"].keys())
+
+    def test_a_validator_of_others_takes_it(self):
+        validator = os.path.join(os.environ.get("TETRALIGHT_NODE_MODULES", ""), "@seriousme",
+                                 "openapi-schema-validator", "bin", "validate-api-cli.js")
+        if not os.path.exists(validator):
+            self.skipTest("npm has not installed openapi-schema-validator")
+        def verdict(document):
+            path = os.path.join(self.folder, "openapi.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(document, file)
+            done = subprocess.run(["node", validator, path], capture_output=True, text=True)
+            return json.loads(done.stdout)
+        self.assertEqual(verdict(self.document), {"valid": True})
+        broken = dict(self.document, paths={"/": {"get": {"responses": 7}}})
+        self.assertFalse(verdict(broken)["valid"])
 
     def test_operations_are_whole(self):
         ids = []

@@ -135,6 +135,35 @@ class Query(ServiceTest):
             answer = self.server.post("/v1/volumes/court/query", body, BINARY)
             self.assert_problem(answer, 400, "invalid_header")
 
+    def test_headers_name_what_is_at_fault(self):
+        for body, field, value, detail in (
+                (binary_query([], fade=-1.0), "fade", "-1", ""),
+                (binary_query([], fade=math.nan), "fade", "nan", ""),
+                (binary_query([], fade=1e10), "fade", "1e+10", ""),
+                (binary_query([], sh=7), "sh", "7", ""),
+                (binary_query([], wants=9), "wants", "9", ""),
+                (binary_query([[0, 0, 0]], count=2), "count", "2", "28 bytes where 40 are expected"),
+                (b"TLQ1", "body", "4 bytes", "16 bytes")):
+            answer = self.server.post("/v1/volumes/court/query", body, BINARY)
+            problem = self.assert_problem(answer, 400, "invalid_header")
+            self.assertEqual((problem["field"], problem["value"]), (field, value))
+            self.assertIn(detail, problem["detail"])
+
+    def test_fade_0_is_the_default_in_both_forms(self):
+        far = [[100, 0, 0]]
+        json_0, json_10 = (self.query(positions=far, outside="ambient", fade=fade)[0]["ambient"]
+                           for fade in (0, 10))
+        self.assertEqual(json_0, json_10)
+        self.assertEqual(self.binary(far, outside=2).body[16:],
+                         self.binary(far, outside=2, fade=10.0).body[16:])
+
+    def test_parameters_of_the_type_do_not_matter(self):
+        body = binary_query([[0, 0, 0]])
+        plain = self.server.post("/v1/volumes/court/query", body, BINARY)
+        for type in ("Application/Octet-Stream", "application/octet-stream; charset=x"):
+            answer = self.server.post("/v1/volumes/court/query", body, type)
+            self.assertEqual((answer.status, answer.body), (200, plain.body))
+
     def test_too_many_positions(self):
         self.server.stop()
         self.server = self.start("--max-positions", "10")

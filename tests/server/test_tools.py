@@ -2,9 +2,11 @@
 """What the command makes of a volume, over HTTP."""
 import json
 import os
+import shutil
+import socket
 import unittest
 
-from service import COURTYARD, ServiceTest, read
+from service import COMMAND, COURTYARD, ServiceTest, read
 
 
 class Tools(ServiceTest):
@@ -24,6 +26,17 @@ class Tools(ServiceTest):
         self.command(*arguments, "-o", path)
         return read(path)
 
+    def test_they_run_although_another_program_was_installed_meanwhile(self):
+        program = os.path.join(self.folder, "tetralight")
+        shutil.copy(COMMAND, program)
+        server = self.start(program=program, data=os.path.join(self.folder, "other"))
+        os.remove(program)
+        with open(program, "w", encoding="utf-8") as file:
+            file.write("of another version")
+        scene = self.upload(server, "scenes", COURTYARD)
+        answer = server.post("/v1/grid", {"scene": scene, "spacing": 8})
+        self.assertEqual(answer.status, 201, answer.body)
+
     def test_grid_and_tetrahedralize(self):
         answer = self.server.post("/v1/grid", {"scene": "court", "spacing": 4, "name": "grid"})
         self.assertEqual(answer.status, 201, answer.body)
@@ -35,14 +48,39 @@ class Tools(ServiceTest):
         bare = self.written("bare.probes", "tetrahedralize", os.path.join(self.folder, "grid.json"))
         self.assertEqual(self.server.get("/v1/volumes/bare/file").body, bare)
 
-    def test_grid_errors_name_their_member(self):
-        for members, status, field in (({"scene": "court"}, 400, "spacing"),
-                                       ({"scene": "court", "spacing": -1}, 400, "spacing"),
-                                       ({"scene": "court", "spacing": 1, "mode": "x"}, 400, "mode"),
-                                       ({"scene": "court", "spacing": [1, 2]}, 400, "spacing")):
-            answer = self.server.post("/v1/grid", members)
-            self.assertEqual(answer.status, status, answer.body)
-            self.assertIn(field, answer.json()["detail"])
+    def test_errors_name_their_member(self):
+        volume = self.bake()
+        for path, members, status, field, value in (
+                ("grid", {"scene": "court"}, 400, "spacing", None),
+                ("grid", {"scene": "court", "spacing": -1}, 400, "spacing", "-1"),
+                ("grid", {"scene": "court", "spacing": 1, "mode": "x"}, 400, "mode", "x"),
+                ("grid", {"scene": "court", "spacing": [1, 2]}, 400, "spacing", "[1,2]"),
+                ("grid", {"scene": "court", "spacing": 1, "min": [0, 0, 0]}, 400, "min", "[0,0,0]"),
+                ("grid", {"scene": "none", "spacing": 1}, 404, "scene", "none"),
+                ("bakes", {"scene": "court", "samples": 0}, 400, "samples", "0"),
+                ("bakes", {"scene": "court", "sky": "none"}, 404, "sky", "none"),
+                ("bakes", {"scene": "court", "groups": ["none"]}, 404, "groups[0]", "none"),
+                ("bakes", {"scene": "court", "priority": 101}, 400, "priority", "101"),
+                ("bakes", {"scene": "court", "priority": 1.5}, 400, "priority", "1.5"),
+                ("lppv", {"volume": volume, "object": "beam_long"}, 400, "object", "beam_long"),
+                ("lppv", {"volume": volume, "scene": "court", "object": "x"}, 422, "object", "x"),
+                ("render", {"volume": volume, "scene": "court", "camera": "x"}, 422, "camera", "x"),
+                ("relight", {"volume": volume, "weights": {"x": 1}}, 422, "weights.x", "1"),
+                ("relight", {"volume": volume, "blend": "none"}, 404, "blend", "none"),
+                ("relight", {"volume": volume, "sky": [1, 1, 1]}, 422, "volume", volume)):
+            with self.subTest(path=path, members=members):
+                answer = self.server.post("/v1/" + path, members)
+                self.assertEqual(answer.status, status, answer.body)
+                problem = answer.json()
+                self.assertEqual((problem["field"], problem.get("value")), (field, value), problem)
+                self.assertTrue(problem["request_id"])
+                self.assertNotRegex(problem["detail"], r"--|\.glb|\.probes|\.hdr|\.json")
+
+    def test_errors_in_an_upload_are_of_its_body(self):
+        bad = {"groups": [{"name": "g", "positions": [[0, 0, "x"]]}]}
+        problem = self.assert_problem(self.server.post("/v1/groups", bad), 422, "bad_data")
+        self.assertEqual(problem["field"], "body")
+        self.assertTrue(problem["detail"].startswith('body: group "g": '), problem)
 
     def test_validate(self):
         volume = self.bake()
@@ -88,6 +126,17 @@ class Tools(ServiceTest):
         wrong = self.server.post("/v1/render", {"scene": "court", "volume": volume, "camera": "none"})
         problem = self.assert_problem(wrong, 422, "bad_data")
         self.assertNotIn(self.folder, problem["detail"])
+
+    def test_a_tool_that_nobody_waits_for_is_ended(self):
+        order = json.dumps(self.order_of_hours(self.server)).encode()
+        with socket.create_connection(("127.0.0.1", self.server.port)) as client:
+            client.sendall(b"POST /v1/render HTTP/1.1\r\nHost: localhost\r\n"
+                           b"Content-Length: %d\r\n\r\n" % len(order) + order)
+            self.assertTrue(self.eventually(self.server.children))
+        self.assertTrue(self.eventually(lambda: not self.server.children()))
+        self.assertTrue(self.eventually(
+            lambda: 499 in [line.get("status") for line in self.server.logged()]))
+        self.assertEqual(os.listdir(os.path.join(self.data, "work")), [])
 
     def test_a_tool_that_takes_too_long_is_ended(self):
         volume = self.bake()

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace tetralight::server {
+
+/// The folder of the viewer's page that belongs to a program: `../viewer` of the program's folder
+/// in a build tree, `../share/tetralight/viewer` where it is installed. Empty: neither is there.
+[[nodiscard]] std::string find_viewer(const std::string& program);
+
+}  // namespace tetralight::server
