@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Debian's Chromium with software rendering.
+import {Browser, BrowserContext, chromium, Page} from 'playwright-core';
+
+let browser: Browser | null = null;
+
+async function launch(): Promise<Browser> {
+    browser ??= await chromium.launch({
+        executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+        args: ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader',
+               '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+    });
+    return browser;
+}
+
+export async function close(): Promise<void> {
+    await browser?.close();
+    browser = null;
+}
+
+export interface Options {
+    width?: number;
+    height?: number;
+    colorScheme?: 'light' | 'dark';
+    /** What the browser says of requests that the test makes fail. */
+    refusal?: RegExp;
+}
+
+/** A context of its own, so that pages share no storage. */
+export async function newContext(options: Options = {}): Promise<BrowserContext> {
+    const {width = 960, height = 540, colorScheme = 'light'} = options;
+    const context = await (await launch()).newContext({viewport: {width, height}, colorScheme});
+    context.setDefaultTimeout(120_000);
+    return context;
+}
+
+/** A page that shows what it opens. */
+export async function open(url: string, options: Options = {}): Promise<Page> {
+    const page = await (await newContext(options)).newPage();
+    await page.goto(url);
+    await ready(page);
+    return page;
+}
+
+/** Waits until all that the address names is shown, or the page says why it is not. */
+export async function ready(page: Page): Promise<void> {
+    await page.waitForFunction(() => document.body.dataset.state === 'ready');
+}
+
+export interface Place {
+    x: number;
+    y: number;
+}
+
+type Shown = {tetralight: {viewer: {stage: {drawNow(): void; canvas: HTMLCanvasElement;
+    pageFrom(v: unknown): Place}}; query: {object: {ball: {position: unknown}}}}};
+
+/** Where the ball is in the page. */
+export function ballPlace(page: Page): Promise<Place> {
+    return page.evaluate(() => {
+        const {viewer, query} = (window as unknown as Shown).tetralight;
+        return viewer.stage.pageFrom(query.object.ball.position);
+    });
+}
+
+export async function canvasMiddle(page: Page): Promise<Place> {
+    const {x, y, width, height} = (await page.locator('canvas').boundingBox())!;
+    return {x: x + width / 2, y: y + height / 2};
+}
+
+/** The median colour, 0 to 255, of 7 × 7 pixels of the canvas around a place of the page: no thin line. */
+export function colorAt(page: Page, place: Place): Promise<number[]> {
+    return page.evaluate(({x, y}) => {
+        const {stage} = (window as unknown as Shown).tetralight.viewer;
+        stage.drawNow();  // in this task the canvas still has its picture
+        const box = stage.canvas.getBoundingClientRect();
+        const scale = stage.canvas.width / box.width;
+        const copy = document.createElement('canvas');
+        copy.width = copy.height = 7;
+        const context = copy.getContext('2d')!;
+        context.drawImage(stage.canvas, (x - box.left) * scale - 3, (y - box.top) * scale - 3, 7, 7, 0, 0, 7, 7);
+        const {data} = context.getImageData(0, 0, 7, 7);
+        return [0, 1, 2].map(c => [...data].filter((_, i) => i % 4 === c).sort((a, b) => a - b)[24]);
+    }, place);
+}

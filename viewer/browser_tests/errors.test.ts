@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes wrong is said in words, and the page goes on.
+import {writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+
+import {afterAll, beforeAll, expect, test} from 'vitest';
+
+import {close, ready} from './browser';
+import {kCourtyard, Server} from './server';
+import {visit} from './visit';
+
+let server: Server;
+let volume: string;
+
+beforeAll(async () => {
+    server = await new Server().start();
+    volume = await server.bake({scene: await server.uploadCourtyard(), samples: 32, name: 'court'});
+});
+afterAll(async () => {
+    await close();
+    await server?.end();
+});
+
+test('a killed server is noticed, and the page recovers when it is back', () => visit(server.url, async page => {
+    await ready(page);
+    const height = page.getByLabel('Position of the ball, metres y');
+    await page.click('#tab-query');
+    await server.kill();
+    await height.fill('3');
+    await height.press('Tab');
+    await page.getByText('The server does not answer').waitFor();
+    await page.locator('.answer h2').evaluate(heading => { heading.textContent = 'of before'; });
+    await server.start();
+    await page.locator('#banner').waitFor({state: 'hidden'});
+    // What was asked in vain is asked again.
+    await page.locator('.answer h2', {hasText: /^(Hull c|C)ell \d+$/}).waitFor();
+    expect(await page.textContent('#status')).toBe('courtyard · court: 255 probes');
+}, {refusal: /ERR_CONNECTION_REFUSED|ERR_CONNECTION_RESET|ERR_EMPTY_RESPONSE/}));
+
+test('a server that dies while nobody asks it is noticed, and an edit of meanwhile is joined', () => visit(
+    server.url + '/#tab=groups', async page => {
+        await ready(page);
+        const facts = page.locator('#panel-groups .facts').first();
+        await page.getByText(/^255 probes .+ joined by/).waitFor();
+        await server.kill();
+        await page.getByText('The server does not answer').waitFor();
+        await page.getByRole('button', {name: 'Add probe'}).click();
+        expect(await facts.textContent()).toBe('256 probes in 5 groups');
+        await server.start();
+        await page.locator('#banner').waitFor({state: 'hidden'});
+        await page.getByText(/^256 probes .+ joined by/).waitFor();
+    }, {refusal: /ERR_CONNECTION_REFUSED|ERR_CONNECTION_RESET|ERR_EMPTY_RESPONSE/}));
+
+test('what was missing is forgiven when one goes on', () => visit(server.url + '/#tab=bakes', async page => {
+    await ready(page);
+    await page.locator('#choose').getByLabel('Scene').selectOption('');
+    await page.getByRole('button', {name: 'Bake', exact: true}).click();
+    await page.locator('#banner', {hasText: 'Open a scene first'}).waitFor();
+    await page.getByRole('tab', {name: 'View'}).click();
+    expect(await page.locator('#banner').isHidden()).toBe(true);
+}));
+
+test('a corrupt volume is refused in words, and the shown one stays', () => visit(server.url, async page => {
+    await ready(page);
+    const answer = await fetch(`${server.url}/v1/volumes/${volume}/file`);
+    const bytes = new Uint8Array(await answer.arrayBuffer());
+    bytes[bytes.length >> 1] ^= 0xff;
+    const path = join(server.folder, 'broken.probes');
+    writeFileSync(path, bytes);
+    await page.locator('header input[type=file]').setInputFiles(path);
+    await page.locator('#banner', {hasText: 'broken.probes'}).waitFor();
+    expect(await page.textContent('#banner')).toMatch(/checksum|corrupt|damaged/);
+    await page.locator('#status', {hasText: 'court: 255 probes'}).waitFor();
+}, {refusal: /status of 422/}));
+
+test('wrong settings are refused in the server’s words', () => visit(server.url + '/#tab=bakes', async page => {
+    await ready(page);
+    await page.getByLabel('Bounces', {exact: true}).fill('-1');
+    await page.getByRole('button', {name: 'Bake', exact: true}).click();
+    await page.locator('#banner', {hasText: 'bounces'}).waitFor();
+    const bounces = page.getByLabel('Bounces', {exact: true});
+    expect(await bounces.getAttribute('aria-invalid')).toBe('true');
+    expect(await bounces.evaluate(field => field === document.activeElement)).toBe(true);
+    expect(await page.getByLabel('Name of the volume').inputValue()).toBe('courtyard');
+    await bounces.fill('0');
+    await page.getByLabel('Samples', {exact: true}).fill('32');
+    await page.getByRole('button', {name: 'Bake', exact: true}).click();
+    await page.locator('#banner').waitFor({state: 'hidden'});
+}, {refusal: /status of 400/}));
+
+test('an empty server says what to do', async () => {
+    const other = await new Server().start();
+    await visit(other.url, async page => {
+        await ready(page);
+        expect(await page.textContent('.empty')).toContain('Upload a scene');
+        expect(await page.locator('#panel-query input[type=checkbox]:disabled').count()).toBe(2);
+        await page.getByRole('tab', {name: 'Probes'}).click();
+        for (const name of ['Take those of the volume', 'Open', 'Select all', 'Duplicate', 'Delete']) {
+            expect(await page.getByRole('button', {name, exact: true}).isDisabled(), name).toBe(true);
+        }
+        await page.locator('header input[type=file]').setInputFiles(kCourtyard);
+        await page.getByText('No volume yet').waitFor();
+        await page.getByRole('button', {name: 'bake one'}).click();
+        expect(await page.getByRole('tab', {name: 'Bakes'}).getAttribute('aria-selected')).toBe('true');
+    });
+    await other.end();
+});
+
+test('a server with a token asks for it, and says that a wrong one is wrong', async () => {
+    const other = await new Server('secret').start();
+    await visit(other.url, async page => {
+        await page.getByLabel('Token', {exact: true}).fill('wrong');
+        await page.getByRole('button', {name: 'Enter'}).click();
+        await page.getByText('The token is wrong.').waitFor();
+        await page.getByLabel('Token', {exact: true}).fill('secret');
+        await page.getByRole('button', {name: 'Enter'}).click();
+        await page.locator('.empty').waitFor();
+        expect(await page.locator('dialog[open]').count()).toBe(0);
+    }, {refusal: /status of 401/});
+    await other.end();
+});

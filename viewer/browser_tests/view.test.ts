@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page shows, and how it is told to.
+import type {Page} from 'playwright-core';
+import {afterAll, beforeAll, expect, test} from 'vitest';
+
+import {close, colorAt, open, ready} from './browser';
+import {Server} from './server';
+import {visit} from './visit';
+
+let server: Server;
+let volume: string;
+
+beforeAll(async () => {
+    server = await new Server().start();
+    const scene = await server.uploadCourtyard();
+    volume = await server.bake({scene, samples: 32, name: 'court', layers: ['sun', 'sky', 'emission']});
+});
+afterAll(async () => {
+    await close();
+    await server?.end();
+});
+
+test('the page shows the newest volume with the scene of its bake', () => visit(server.url, async page => {
+    await ready(page);
+    expect(await page.textContent('#status')).toBe('courtyard · court: 255 probes');
+    expect(await page.textContent('#panel-view .facts')).toBe('255 probes, 1 367 tetrahedra');
+}));
+
+test('a link holds the view', () => visit(server.url, async page => {
+    await ready(page);
+    await page.click('#tab-query');
+    const place = page.getByLabel('Position of the ball, metres x');
+    await place.fill('4.5');
+    await place.press('Tab');
+    await page.focus('canvas');
+    await page.keyboard.press('ArrowLeft');
+    await page.getByRole('button', {name: 'Copy link'}).click();
+    expect(page.url()).toContain(volume);
+    const second = await open(page.url());
+    expect(await second.getByRole('tab', {name: 'Query'}).getAttribute('aria-selected')).toBe('true');
+    expect(await second.getByLabel('Position of the ball, metres x').inputValue()).toBe('4.5');
+    const eye = (of: Page) => new URLSearchParams(new URL(of.url()).hash.slice(1)).get('eye');
+    await second.getByRole('button', {name: 'Copy link'}).click();
+    expect(eye(second)).toBe(eye(page));
+    await second.context().close();
+}));
+
+test('the weight of a layer changes the light of probes at once', () => visit(server.url, async page => {
+    await ready(page);
+    const light = () => page.evaluate(() => {
+        const {viewer} = (window as unknown as {tetralight: {viewer: {light: {irradiance: Float32Array}}}}).tetralight;
+        return viewer.light.irradiance.reduce((sum, x) => sum + Math.abs(x), 0);
+    });
+    const before = await light();
+    for (const layer of ['sun', 'sky', 'emission']) await page.getByLabel(layer, {exact: true}).fill('0');
+    const rest = await light();
+    await page.getByLabel('sky', {exact: true}).fill('2');
+    expect(rest).toBeLessThan(0.1 * before);
+    expect(await light()).toBeGreaterThan(2 * rest);
+    await page.getByRole('button', {name: 'Copy link'}).click();
+    expect(page.url()).toContain('w.sun=0');
+}));
+
+test('light that is kept is what the page names', () => visit(server.url, async page => {
+    await ready(page);
+    await page.getByLabel('sun', {exact: true}).fill('0.5');
+    await page.getByRole('button', {name: 'Keep as a volume'}).click();
+    await page.locator('#status', {hasText: 'The light is kept'}).waitFor();
+    const {volumes} = await server.request<{volumes: {id: string}[]}>('GET', '/v1/volumes');
+    const made = volumes.find(({id}) => id !== volume)!.id;
+    expect(await page.getByLabel('Probe volume').inputValue()).toBe(made);
+    expect(page.url()).toContain(made);
+    await page.locator('#status', {hasText: ': 255 probes'}).waitFor();  // news do not stay
+    await server.request('DELETE', `/v1/volumes/${made}`);
+}));
+
+test('a click in the table of health selects the probe in 3D', () => visit(server.url + '/#tab=health', async page => {
+    await ready(page);
+    const first = page.getByRole('button', {name: /^Show probe/}).first();
+    const name = await first.getAttribute('aria-label');
+    await first.click();
+    const selected = await page.evaluate(
+        () => (window as unknown as {tetralight: {viewer: {selectedProbe: number}}}).tetralight.viewer.selectedProbe);
+    expect(name).toBe(`Show probe ${selected}`);
+    expect(await page.locator('tr[aria-current=true] button').getAttribute('aria-label')).toBe(name);
+    const place = await page.evaluate(() => {
+        const {viewer} = (window as any).tetralight;  // eslint-disable-line
+        const {stage, marker} = viewer;
+        const right = marker.position.clone().set(1, 0, 0).applyQuaternion(stage.camera.quaternion);
+        return stage.pageFrom(marker.position.clone().addScaledVector(right, 1.6 * marker.scale.x)) as {x: number; y: number};
+    });
+    const [red, green, blue] = await colorAt(page, place);
+    expect(red).toBeGreaterThan(200);
+    expect(green).toBeGreaterThan(140);
+    expect(blue).toBeLessThan(90);
+}));

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bakes: a form with every setting, what runs and how far it is.
+import {Missing} from './alerts';
+import {ApiError, Bake} from './api';
+import {BakeField, kBakeSections, settingsOf, valueOf} from './bake_fields';
+import {counted, formatCount, formatPercent, formatSeconds} from './colors';
+import {button, element, labelled} from './dom';
+import type {Viewer} from './viewer';
+
+const kOnlyChangedHint = 'Probes that stayed where they were keep the light of the open volume. ' +
+    'Settings that are left empty are those of its bake; where others differ, all are baked.';
+
+type Control = HTMLInputElement | HTMLSelectElement;
+
+export class BakesPanel {
+    readonly element: HTMLElement;
+    private readonly fields = new Map<BakeField, Control>();
+    private readonly name = element('input', {type: 'text', maxlength: 200});
+    private readonly groups = element('select', {multiple: true, size: 4});
+    private readonly onlyGiven = element('input', {type: 'checkbox'});
+    private readonly onlyChanged = element('input', {type: 'checkbox'});
+    private readonly list = element('ul', {class: 'bakes', 'aria-label': 'Bakes'});
+    private reusable = '';
+    private offeredName = '';
+    private readonly watched = new Set<string>();
+
+    constructor(private readonly viewer: Viewer, private readonly finished: () => void) {
+        const sections = kBakeSections.map(({title, fields}, i) => element(
+            'details', {open: i === 0}, element('summary', {}, title),
+            ...fields.map(field => labelled(field.label, this.control(field),
+                                               `${field.hint} Default: ${field.default}.`))));
+        const form = element(
+            'form', {submit: (event: Event) => {
+                event.preventDefault();
+                void viewer.alerts.attempt('bake', () => this.submit());
+            }},
+            labelled('Name of the volume', this.name), labelled('Stored groups to add', this.groups),
+            element('label', {class: 'check'}, this.onlyGiven, "Leave the scene's own groups out"),
+            element('label', {class: 'check', title: kOnlyChangedHint}, this.onlyChanged, 'Bake only what changed'),
+            ...sections, element('div', {class: 'buttons'},
+                                 element('button', {type: 'submit', class: 'main'}, 'Bake')));
+        this.element = element('section', {'aria-label': 'Bakes'}, element('h2', {}, 'New bake'), form,
+                               element('h2', {}, 'Bakes'), this.list);
+        viewer.onChange(() => {
+            this.offerReuse();
+            this.offerName();
+        });
+        this.offerReuse();
+    }
+
+    /** The bake that made the open volume, if it is of the open scene. */
+    private get earlier(): Bake | null {
+        const {bake, volume, sceneFile} = this.viewer;
+        const scene = bake?.request?.scene;
+        const isOfScene = sceneFile !== null && (scene === sceneFile.id || scene === sceneFile.name);
+        return volume !== null && isOfScene ? bake : null;
+    }
+
+    /** Possible where there is something to re-use; on where probes were edited since. */
+    private offerReuse(): void {
+        const volume = this.earlier === null ? '' : this.viewer.volume!.file.id;
+        if (volume !== this.reusable) this.onlyChanged.checked = false;
+        this.onlyChanged.disabled = volume === '';
+        this.reusable = volume;
+    }
+
+    /** The scene's, unless someone gave another. */
+    private offerName(): void {
+        if (this.name.value !== this.offeredName) return;
+        this.offeredName = this.viewer.sceneFile?.name ?? '';
+        this.name.value = this.offeredName;
+    }
+
+    /** What another panel saved is to be baked instead of the scene's own groups. */
+    useGroups(id: string): void {
+        void this.viewer.alerts.attempt('list', async () => {
+            await this.refresh();
+            for (const option of this.groups.options) option.selected = option.value === id;
+            this.onlyGiven.checked = true;
+            this.onlyChanged.checked = this.earlier !== null;
+        });
+    }
+
+    async refresh(): Promise<void> {
+        const chosen = new Set([...this.groups.selectedOptions].map(option => option.value));
+        const files = await this.viewer.api.list('groups');
+        this.groups.replaceChildren(...files.map(file => {
+            const option = element('option', {value: file.id}, file.name || file.id.slice(0, 8));
+            option.selected = chosen.has(file.id);
+            return option;
+        }));
+        const {bakes} = await this.viewer.api.get<{bakes: Bake[]}>('/v1/bakes');
+        this.list.replaceChildren(...bakes.slice(0, 30).map(bake => this.row(bake)));
+        if (bakes.length === 0) this.list.append(element('li', {class: 'hint'}, 'None yet.'));
+        for (const bake of bakes) {
+            if (bake.state === 'queued' || bake.state === 'running') void this.watch(bake.id);
+        }
+    }
+
+    private control(field: BakeField): Control {
+        let made: Control;
+        if (field.kind === 'choice' || field.kind === 'flag') {
+            const options = field.kind === 'flag' ? ['true'] : field.options!;
+            made = element('select', {}, element('option', {value: ''}, `default (${field.default})`),
+                           ...options.map(option => element('option', {value: option}, option === 'true' ? 'yes' : option)));
+        } else {
+            made = element('input', {type: 'text', placeholder: field.default, autocomplete: 'off',
+                                     inputmode: field.kind === 'number' || field.kind === 'integer' ? 'decimal' : 'text'});
+        }
+        made.name = field.key;
+        this.fields.set(field, made);
+        return made;
+    }
+
+    private async submit(): Promise<void> {
+        const {viewer} = this;
+        if (viewer.sceneFile === null) throw new Missing('Open a scene first: a bake needs one.');
+        const order: Record<string, unknown> = {scene: viewer.sceneFile.id};
+        if (this.onlyChanged.checked && this.earlier !== null) {
+            Object.assign(order, settingsOf(this.earlier.request!), {reuse: this.viewer.volume!.file.id});
+        }
+        if (this.name.value.trim() !== '') order.name = this.name.value.trim();
+        const chosen = [...this.groups.selectedOptions].map(option => option.value);
+        if (chosen.length > 0) order.groups = chosen;
+        if (chosen.length > 0 && this.onlyGiven.checked) order.only_given_groups = true;
+        for (const [field, control] of this.fields) {
+            const value = this.marked(field, () => valueOf(field, control.value));
+            if (value !== undefined) order[field.key] = value;
+        }
+        const bake = await this.ordered(order);
+        viewer.say('The bake is accepted.');
+        await this.refresh();
+        void this.watch(bake.id);
+    }
+
+    private async ordered(order: Record<string, unknown>): Promise<Bake> {
+        try {
+            return await this.viewer.api.post<Bake>('/v1/bakes', order);
+        } catch (error) {
+            const wrong = [...this.fields.keys()].find(({key}) => error instanceof ApiError && error.field === key);
+            if (wrong !== undefined) this.mark(wrong);
+            throw error;
+        }
+    }
+
+    private marked(field: BakeField, read: () => unknown): unknown {
+        this.fields.get(field)!.removeAttribute('aria-invalid');
+        try {
+            return read();
+        } catch (error) {
+            this.mark(field);
+            throw error;
+        }
+    }
+
+    private mark(field: BakeField): void {
+        const control = this.fields.get(field)!;
+        control.setAttribute('aria-invalid', 'true');
+        control.closest('details')!.open = true;
+        control.focus();
+    }
+
+    private async watch(id: string): Promise<void> {
+        if (this.watched.has(id)) return;
+        this.watched.add(id);
+        const abort = new AbortController();
+        try {
+            await this.viewer.api.watch(id, bake => this.update({...bake, id}), abort.signal);
+        } catch (error) {
+            this.viewer.alerts.report('watch', error);
+        } finally {
+            this.watched.delete(id);
+        }
+    }
+
+    private update(bake: Bake): void {
+        const old = this.list.querySelector(`[data-bake="${bake.id}"]`);
+        if (bake.state === 'deleted') old?.remove();
+        else if (old !== null) old.replaceWith(this.row(bake));
+        if (bake.state === 'done' && old?.getAttribute('data-state') !== 'done') {
+            this.viewer.say(`The bake ${bake.name || bake.id} is done.`);
+            if (old !== null) void this.viewer.alerts.attempt('open', () => this.viewer.openVolume(bake.volume!));
+            this.finished();
+        }
+    }
+
+    private row(bake: Bake): HTMLElement {
+        const row = element('li', {'data-bake': bake.id, 'data-state': bake.state},
+                            element('strong', {}, bake.name || bake.id.slice(0, 8)), ` ${bake.state} `);
+        const act = (text: string, work: () => Promise<unknown>) =>
+            button(text, () => void this.viewer.alerts.attempt(text, () => work().then(() => this.refresh())));
+        if (bake.state === 'queued' || bake.state === 'running') {
+            const bar = element('progress', {'aria-label': 'Progress', max: Math.max(1, bake.probe_count)});
+            bar.value = bake.probes_done;
+            row.append(bar, element('span', {class: 'facts'}, this.progress(bake)),
+                       act('Cancel', () => this.viewer.api.request('POST', `/v1/bakes/${bake.id}/cancel`)));
+        } else {
+            if (bake.volume !== undefined) row.append(act('Open', () => this.viewer.openVolume(bake.volume!)));
+            row.append(act('Forget', () => this.viewer.api.remove(`/v1/bakes/${bake.id}`)));
+        }
+        if (bake.error) row.append(element('p', {class: 'error'}, bake.error));
+        if (bake.report !== undefined) row.append(element('p', {class: 'facts'}, reportLine(bake.report)));
+        return row;
+    }
+
+    /** "120 of 255 probes, 1.4 million rays/s, 3 s left". */
+    private progress(bake: Bake): string {
+        if (bake.probe_count === 0) return bake.state === 'queued' ? 'waits' : 'prepares';
+        const words = [`${formatCount(bake.probes_done)} of ${formatCount(bake.probe_count)} probes`];
+        if (typeof bake.rays_per_second === 'number') words.push(formatRate(bake.rays_per_second));
+        if (typeof bake.seconds_left === 'number') words.push(`${formatSeconds(bake.seconds_left)} left`);
+        return words.join(', ');
+    }
+}
+
+function formatRate(raysPerSecond: number): string {
+    return `${(raysPerSecond / 1e6).toFixed(1)} million rays/s`;
+}
+
+function reportLine(report: Record<string, unknown>): string {
+    const words: string[] = [];
+    if (typeof report.probes === 'number') words.push(counted(report.probes, 'probe'));
+    if (typeof report.reused === 'number' && report.reused > 0) words.push(`${formatCount(report.reused)} re-used`);
+    if (typeof report.rays === 'number') words.push(`${formatCount(report.rays)} rays`);
+    if (typeof report.rays_per_second === 'number') words.push(formatRate(report.rays_per_second));
+    const error = report.standard_error as {median?: number; p99?: number} | null;
+    if (error?.median !== undefined) words.push(`error ${formatPercent(error.median)} (median)`);
+    for (const warning of (report.warnings ?? []) as string[]) words.push(warning.replace(/^reuse\.probes: /, ''));
+    return words.join(', ');
+}

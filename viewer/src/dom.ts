@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Elements without a framework.
+
+type Child = Node | string;
+type Attributes = Record<string, string | number | boolean | ((event: never) => void)>;
+
+/** An element; functions are listeners, `true` is an attribute without a value, `false` none. */
+export function element<K extends keyof HTMLElementTagNameMap>(
+    tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+    const made = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) {
+        if (typeof value === 'function') {
+            made.addEventListener(name, value as unknown as EventListener);
+        } else if (value !== false) {
+            made.setAttribute(name, value === true ? '' : String(value));
+        }
+    }
+    made.append(...children);
+    return made;
+}
+
+let idCount = 0;
+
+/** A control with its label, and what it means as a hint that screen readers read too. */
+export function labelled<T extends HTMLElement>(text: string, control: T, hint = ''): HTMLElement {
+    control.id ||= `control-${++idCount}`;
+    const label = element('label', {for: control.id}, text);
+    const row = element('div', {class: 'row'}, label, control);
+    if (hint !== '') {
+        const note = element('small', {id: control.id + '-hint'}, hint);
+        control.setAttribute('aria-describedby', note.id);
+        row.append(note);
+    }
+    return row;
+}
+
+export function button(text: string, act: () => void, attributes: Attributes = {}): HTMLButtonElement {
+    return element('button', {type: 'button', click: act, ...attributes}, text);
+}
+
+export function checkbox(text: string, isOn: boolean, change: (isOn: boolean) => void): HTMLElement {
+    const input = element('input', {type: 'checkbox', change: () => change(input.checked)});
+    input.checked = isOn;
+    return element('label', {class: 'check'}, input, text);
+}
+
+/** A slider that says its number. */
+export function slider(text: string, range: {min: number; max: number; step: number; value: number},
+                       change: (value: number) => void): HTMLElement {
+    const {min, max, step, value} = range;
+    const output = element('output', {}, String(value));
+    const input = element('input', {
+        type: 'range', min, max, step,
+        input: () => {
+            output.textContent = input.value;
+            change(Number(input.value));
+        },
+    });
+    input.value = String(value);
+    const row = labelled(text, input);
+    output.setAttribute('for', input.id);
+    row.append(output);
+    return row;
+}
+
+export function select(options: [value: string, text: string][], value: string,
+                       change: (value: string) => void): HTMLSelectElement {
+    const made = element('select', {change: () => change(made.value)});
+    for (const [key, text] of options) made.append(element('option', {value: key}, text));
+    made.value = value;
+    return made;
+}
+
+/** Three numbers side by side. */
+export function vectorInput(text: string, values: readonly number[], step: number,
+                            change: (values: number[]) => void): HTMLElement {
+    const inputs = values.map((value, axis) => {
+        const input = element('input', {
+            type: 'number', step, 'aria-label': `${text} ${'xyz'[axis]}`,
+            change: () => {
+                const numbers = inputs.map(other => Number(other.value));
+                if (numbers.every(Number.isFinite)) change(numbers);
+            },
+        });
+        input.value = String(Number(value.toFixed(3)));
+        return input;
+    });
+    return element('fieldset', {class: 'vector'}, element('legend', {}, text), ...inputs);
+}
+
+/** Sets the numbers of a `vectorInput`, but not while someone types. */
+export function setVector(fieldset: HTMLElement, values: readonly number[]): void {
+    fieldset.querySelectorAll('input').forEach((input, axis) => {
+        if (document.activeElement !== input) input.value = String(Number(values[axis].toFixed(3)));
+    });
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Probe groups as values: every edit gives new ones and leaves the old for undo.
+import type {Volume} from './volume';
+
+export type Position = readonly [number, number, number];
+
+export interface Group {
+    readonly name: string;
+    readonly dering?: boolean;
+    readonly positions: readonly Position[];
+}
+
+export type Groups = readonly Group[];
+
+/** A probe: which group, and which of its positions. */
+export interface Ref {
+    group: number;
+    index: number;
+}
+
+export const keyOf = ({group, index}: Ref) => `${group}/${index}`;
+
+interface GroupsFile {
+    groups: {name: string; dering?: boolean; transform?: number[]; positions: number[][]}[];
+}
+
+/** A file of probe groups; its transforms are applied. */
+export function parseGroups(text: string): Groups {
+    const file = JSON.parse(text) as GroupsFile;
+    return file.groups.map(({name, dering, transform: m, positions}) => ({
+        name,
+        ...(dering === undefined ? {} : {dering}),
+        positions: positions.map(([x, y, z]): Position => m === undefined ? [x, y, z] : [
+            m[0] * x + m[4] * y + m[8] * z + m[12],
+            m[1] * x + m[5] * y + m[9] * z + m[13],
+            m[2] * x + m[6] * y + m[10] * z + m[14],
+        ]),
+    }));
+}
+
+export function formatGroups(groups: Groups): string {
+    return JSON.stringify({groups: groups.filter(group => group.positions.length > 0)});
+}
+
+/** The groups that a volume was made from. Probes that were left out are not in it. */
+export function groupsOfVolume(volume: Volume): Groups {
+    const lists: Position[][] = volume.groupNames.map(() => []);
+    for (let i = 0; i + 2 < volume.sources.length; i += 3) {
+        const [group, , probe] = volume.sources.subarray(i, i + 3);
+        if (probe >= volume.probeCount) continue;
+        lists[group].push([...volume.exactPositions.subarray(3 * probe, 3 * probe + 3)] as unknown as Position);
+    }
+    return volume.groupNames.map((name, i) => ({name, positions: lists[i]}));
+}
+
+export const countOf = (groups: Groups) => groups.reduce((sum, group) => sum + group.positions.length, 0);
+
+export function allRefs(groups: Groups): Ref[] {
+    return groups.flatMap(({positions}, group) => positions.map((_, index) => ({group, index})));
+}
+
+export function positionsOf(groups: Groups): Float32Array {
+    return new Float32Array(groups.flatMap(group => group.positions.flatMap(p => [...p])));
+}
+
+export function add(groups: Groups, group: number, positions: readonly Position[]): Groups {
+    return groups.map((g, i) => i === group ? {...g, positions: [...g.positions, ...positions]} : g);
+}
+
+export function addGroup(groups: Groups, name: string): Groups {
+    const names = new Set(groups.map(group => group.name));
+    let free = name;
+    for (let i = 2; names.has(free); ++i) free = `${name} ${i}`;
+    return [...groups, {name: free, positions: []}];
+}
+
+export function move(groups: Groups, refs: readonly Ref[], by: Position): Groups {
+    const keys = new Set(refs.map(keyOf));
+    return groups.map((g, group) => ({
+        ...g,
+        positions: g.positions.map((p, index): Position => keys.has(keyOf({group, index}))
+            ? [p[0] + by[0], p[1] + by[1], p[2] + by[2]] : p),
+    }));
+}
+
+export function remove(groups: Groups, refs: readonly Ref[]): Groups {
+    const keys = new Set(refs.map(keyOf));
+    return groups.map((g, group) => ({
+        ...g, positions: g.positions.filter((_, index) => !keys.has(keyOf({group, index}))),
+    }));
+}
+
+/** Copies beside the old ones, and where they are. */
+export function duplicate(groups: Groups, refs: readonly Ref[], by: Position): [Groups, Ref[]] {
+    const made: Ref[] = [];
+    const copied = groups.map((g, group) => {
+        const copies = refs.filter(ref => ref.group === group).map(({index}): Position => {
+            const p = g.positions[index];
+            return [p[0] + by[0], p[1] + by[1], p[2] + by[2]];
+        });
+        copies.forEach((_, i) => made.push({group, index: g.positions.length + i}));
+        return {...g, positions: [...g.positions, ...copies]};
+    });
+    return [copied, made];
+}
+
+/** What was, what is, and what was undone. */
+export class History<State> {
+    private readonly past: State[] = [];
+    private future: State[] = [];
+
+    constructor(private present: State) {}
+
+    get now(): State {
+        return this.present;
+    }
+
+    get canUndo(): boolean {
+        return this.past.length > 0;
+    }
+
+    get canRedo(): boolean {
+        return this.future.length > 0;
+    }
+
+    become(state: State): void {
+        this.past.push(this.present);
+        this.present = state;
+        this.future = [];
+    }
+
+    undo(): void {
+        const state = this.past.pop();
+        if (state === undefined) return;
+        this.future.push(this.present);
+        this.present = state;
+    }
+
+    redo(): void {
+        const state = this.future.pop();
+        if (state === undefined) return;
+        this.past.push(this.present);
+        this.present = state;
+    }
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1023 instances that turn about a place, all lit by one query a frame.
+import * as three from 'three';
+
+import {decodeAnswer, encodeQuery, WantedSh} from './query_binary';
+import {kCoefficients, kPacked, packSh} from './sh';
+import {lightInstances, setInstanceSh} from './shaders';
+import {blend, Light, Volume} from './volume';
+
+const kCount = 1023;
+
+export class MeshBall {
+    readonly mesh: three.InstancedMesh;
+    private readonly packed: three.InstancedInterleavedBuffer;
+    private readonly directions: three.Vector3[];
+    private readonly distances: number[];
+
+    constructor() {
+        const geometry = new three.IcosahedronGeometry(1, 2);
+        const material = new three.MeshLambertMaterial({color: 0xffffff});
+        this.packed = setInstanceSh(geometry, new Float32Array(kCount * kPacked));
+        lightInstances(material);
+        this.mesh = new three.InstancedMesh(geometry, material, kCount);
+        this.mesh.frustumCulled = false;
+        this.mesh.castShadow = true;
+        this.mesh.receiveShadow = true;
+        // Even over the sphere (a Fibonacci lattice), from its middle to its edge.
+        this.directions = Array.from({length: kCount}, (_, i) => {
+            const y = 1 - 2 * (i + 0.5) / kCount;
+            const turn = i * Math.PI * (3 - Math.sqrt(5));
+            const r = Math.sqrt(1 - y * y);
+            return new three.Vector3(r * Math.cos(turn), y, r * Math.sin(turn));
+        });
+        this.distances = this.directions.map((_, i) => Math.cbrt(((i * 0.618034) % 1) * 0.98 + 0.02));
+    }
+
+    /** Moves all instances, and gives the question for their light. */
+    turn(center: three.Vector3, radius: number, seconds: number): ArrayBuffer {
+        const positions = new Float32Array(kCount * 3);
+        const axis = new three.Vector3(0, 1, 0);
+        const matrix = new three.Matrix4();
+        const size = 0.04 * radius;
+        this.directions.forEach((direction, i) => {
+            const place = direction.clone().applyAxisAngle(axis, 0.3 * seconds)
+                              .multiplyScalar(radius * this.distances[i]).add(center);
+            place.toArray(positions, 3 * i);
+            this.mesh.setMatrixAt(i, matrix.makeScale(size, size, size).setPosition(place));
+        });
+        this.mesh.instanceMatrix.needsUpdate = true;
+        return encodeQuery(positions, WantedSh.Packed);
+    }
+
+    show(body: ArrayBuffer, volume: Volume, light: Light | null): void {
+        const answer = decodeAnswer(body);
+        const packed = this.packed.array as Float32Array;
+        if (light === null) {
+            packed.set(answer.sh);
+        } else {
+            const sh = new Float32Array(kCoefficients);
+            for (let i = 0; i < kCount; ++i) {
+                blend(volume, light, answer.locations, i, sh, 0);
+                packSh(sh, 0, packed, i * kPacked);
+            }
+        }
+        this.packed.needsUpdate = true;
+    }
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// A glTF scene, lit by its own lights and by a field of light from the probes.
+import * as three from 'three';
+import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+
+import {lightByLppv, LppvUniforms} from './shaders';
+
+const kShadowTexels = 2048;
+
+export interface SceneModel {
+    root: three.Group;
+    box: three.Box3;
+    /** Where the file's first camera is and looks, or nothing. */
+    view: {eye: number[]; target: number[]} | null;
+    /** Radiance of a constant sky that the file says, or nothing. */
+    sky: number[] | null;
+}
+
+export async function loadScene(bytes: ArrayBuffer, field: LppvUniforms): Promise<SceneModel> {
+    const gltf = await new GLTFLoader().parseAsync(bytes, '');
+    const root = gltf.scene;
+    const points: three.Object3D[] = [];
+    root.traverse(node => {
+        if (node instanceof three.Points || node instanceof three.Line) points.push(node);
+        if (node instanceof three.Mesh) prepareMesh(node, field);
+        if (node instanceof three.Light) prepareLight(node);
+    });
+    for (const node of points) node.removeFromParent();  // groups of probes have balls of their own
+    root.updateMatrixWorld(true);
+    const box = new three.Box3().setFromObject(root);
+    aimShadows(root, box);
+    const sky = (root.userData.sky as {radiance?: number[]} | undefined)?.radiance ?? null;
+    return {root, box, sky, view: viewOf(gltf.cameras[0], box)};
+}
+
+function viewOf(camera: three.Camera | undefined, box: three.Box3): SceneModel['view'] {
+    if (camera === undefined) return null;
+    const eye = camera.getWorldPosition(new three.Vector3());
+    const direction = camera.getWorldDirection(new three.Vector3());
+    const distance = box.getCenter(new three.Vector3()).sub(eye).dot(direction);
+    const target = eye.clone().addScaledVector(direction, Math.max(1, distance));
+    return {eye: eye.toArray(), target: target.toArray()};
+}
+
+function prepareMesh(mesh: three.Mesh, field: LppvUniforms): void {
+    mesh.castShadow = true;
+    mesh.receiveShadow = true;
+    const made = (Array.isArray(mesh.material) ? mesh.material : [mesh.material]).map(material => {
+        const lambert = material instanceof three.MeshStandardMaterial ? lambertOf(material) : material;
+        lambert.shadowSide = three.DoubleSide;  // three's default, back faces, lets light under what stands
+        lightByLppv(lambert, field);
+        return lambert;
+    });
+    mesh.material = made.length === 1 ? made[0] : made;
+}
+
+/** A bake takes surfaces for Lambert's. */
+function lambertOf(material: three.MeshStandardMaterial): three.MeshLambertMaterial {
+    const {color, map, emissive, emissiveMap, emissiveIntensity, alphaMap, alphaTest, transparent, opacity,
+           side, vertexColors, depthWrite, name} = material;
+    return new three.MeshLambertMaterial({
+        color, map, emissive, emissiveMap, emissiveIntensity, alphaMap, alphaTest, transparent, opacity,
+        side, vertexColors, depthWrite, name,
+    });
+}
+
+/** What probes hold of a light already is not shone again. */
+function prepareLight(light: three.Light): void {
+    const words = {...light.userData, ...light.parent?.userData} as {mode?: string};
+    if (words.mode === 'baked') light.visible = false;
+    light.castShadow = light instanceof three.DirectionalLight;
+}
+
+export function makeSun(direction: number[], irradiance: number[], box: three.Box3): three.Object3D {
+    const strength = Math.max(...irradiance, 1e-6);
+    const sun = new three.DirectionalLight(
+        new three.Color(...irradiance.map(x => x / strength) as [number, number, number]), strength);
+    sun.castShadow = true;
+    sun.target.position.fromArray(direction);
+    sun.add(sun.target);
+    const holder = new three.Group();
+    holder.add(sun);
+    aimShadows(holder, box);
+    return holder;
+}
+
+/** Shadow maps of suns hold the whole box. */
+export function aimShadows(root: three.Object3D, box: three.Box3): void {
+    const sphere = box.getBoundingSphere(new three.Sphere());
+    root.traverse(node => {
+        if (!(node instanceof three.DirectionalLight)) return;
+        const from = node.getWorldPosition(new three.Vector3());
+        const direction = node.target.getWorldPosition(new three.Vector3()).sub(from).normalize();
+        const place = sphere.center.clone().addScaledVector(direction, -2 * sphere.radius);
+        node.position.copy(node.parent!.worldToLocal(place));
+        const {shadow} = node;
+        const texel = 2 * sphere.radius / kShadowTexels;
+        shadow.mapSize.set(kShadowTexels, kShadowTexels);
+        shadow.normalBias = texel;
+        shadow.bias = -texel / (4 * sphere.radius);
+        shadow.radius = 0;  // three's wider filter is noisy
+        const {camera} = shadow;
+        camera.left = camera.bottom = -sphere.radius;
+        camera.right = camera.top = sphere.radius;
+        camera.near = 0.5 * sphere.radius;
+        camera.far = 4 * sphere.radius;
+        camera.updateProjectionMatrix();
+    });
+}
+
+export function disposeScene(root: three.Object3D): void {
+    root.traverse(node => {
+        if (!(node instanceof three.Mesh)) return;
+        node.geometry.dispose();
+        const materials = Array.isArray(node.material) ? node.material : [node.material];
+        for (const material of materials as three.MeshStandardMaterial[]) {
+            material.map?.dispose();
+            material.dispose();
+        }
+    });
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is shown, how bright, and the weights of layers.
+import type {StoredFile} from './api';
+import {counted, countedTetrahedra} from './colors';
+import {button, checkbox, element, labelled, select, slider} from './dom';
+import type {Stage} from './stage';
+import type {Part, ProbeColor, Viewer} from './viewer';
+
+const kParts: [Part, string][] = [['scene', 'Scene'], ['probes', 'Probes'], ['cells', 'Cells and hull']];
+
+export function scenePanel(viewer: Viewer): HTMLElement {
+    const facts = element('p', {class: 'facts'});
+    const parts = element('div', {class: 'checks'});
+    const light = element('div');
+    const size = element('div');
+    const color = select([['light', 'Their light'], ['error', 'Error bars'], ['validity', 'Validity']],
+                         viewer.color, value => viewer.setColor(value as ProbeColor));
+
+    const show = () => {
+        parts.replaceChildren(...kParts.map(([part, text]) =>
+            checkbox(text, !viewer.hidden.has(part), isOn => viewer.show(part, isOn))));
+        color.value = viewer.color;
+        const {volume} = viewer;
+        facts.textContent = volume === null ? 'No volume is open.' :
+            counted(volume.probeCount, 'probe') +
+            (volume.probeCount < 4 ? '' : `, ${countedTetrahedra(volume.innerCellCount)}`) +
+            (volume.isBaked ? '' : '; not baked: bake it in the tab Bakes');
+        size.replaceChildren();
+        if (viewer.balls !== null) {
+            const {balls} = viewer;
+            const usual = balls.radius;
+            size.append(slider('Size of probes', {min: 0.2, max: 4, step: 0.1, value: 1}, factor => {
+                balls.radius = usual * factor;
+                viewer.stage.draw();
+            }));
+        }
+        light.replaceChildren(...layerSliders(viewer));
+    };
+    viewer.onChange(show);
+    show();
+
+    return element('section', {'aria-label': 'View'}, facts, parts, exposureSlider(viewer.stage),
+                   labelled('Probes show', color, 'Error bars: green 0.1 %, red 10 % and more.'), size,
+                   element('h2', {}, 'Light'), light);
+}
+
+function exposureSlider(stage: Stage): HTMLElement {
+    const made = element('div');
+    const show = () => {
+        const value = Number(Math.log2(stage.exposure).toFixed(1));
+        made.replaceChildren(
+            slider('Exposure, stops', {min: -12, max: 12, step: 0.1, value}, stops => { stage.exposure = 2 ** stops; }),
+            element('div', {class: 'buttons'}, button('Expose for this view', () => stage.exposeItself())));
+    };
+    stage.exposed = show;
+    show();
+    return made;
+}
+
+function layerSliders(viewer: Viewer): HTMLElement[] {
+    const {volume} = viewer;
+    if (volume === null || volume.layers.length === 0) {
+        return [element('p', {class: 'hint'}, 'Bake with layers (sun, sky, emission, …) to dim them here, ' +
+                        'without another bake.')];
+    }
+    const weights = [...viewer.weights];
+    if (weights.length === 0) weights.push(...volume.layers.map(layer => layer.weight));
+    const rows = volume.layers.map((layer, i) => slider(
+        layer.name, {min: 0, max: 4, step: 0.05, value: weights[i]}, weight => {
+            weights[i] = weight;
+            viewer.relight([...weights]);
+        }));
+    const keep = button('Keep as a volume', () => void viewer.alerts.attempt('relight', () => keepLight(viewer)));
+    rows.push(element('div', {class: 'buttons'}, keep));
+    if (volume.file.facts?.has_transfer === true) rows.push(skyForm(viewer));
+    return rows;
+}
+
+async function keepLight(viewer: Viewer): Promise<void> {
+    const volume = viewer.volume!;
+    const weights = Object.fromEntries(volume.layers.map((layer, i) => [layer.name, viewer.weights[i]]));
+    const made = await viewer.api.post<StoredFile>('/v1/relight', {volume: volume.file.id, weights});
+    await viewer.openVolume(made.id);
+    viewer.say('The light is kept as another volume.');
+}
+
+/** Another sun and sky for volumes with transfer. */
+function skyForm(viewer: Viewer): HTMLElement {
+    const azimuth = element('input', {type: 'number', step: 5, value: 30});
+    const height = element('input', {type: 'number', step: 5, min: -90, max: 90, value: 45});
+    const rotation = element('input', {type: 'number', step: 5, value: 0});
+    const relight = async () => {
+        const [a, h] = [azimuth, height].map(input => Number(input.value) * Math.PI / 180);
+        const made = await viewer.api.post<StoredFile>('/v1/relight', {
+            volume: viewer.volume!.file.id,
+            sky_rotation: Number(rotation.value),
+            sun_direction: [-Math.cos(h) * Math.sin(a), -Math.sin(h), -Math.cos(h) * Math.cos(a)],
+        });
+        await viewer.openVolume(made.id);
+    };
+    return element('fieldset', {}, element('legend', {}, 'Another sun and sky'),
+                   labelled('Sun from, degrees about +Y', azimuth), labelled('Height of the sun, degrees', height),
+                   labelled('Turn of the sky, degrees', rotation),
+                   element('div', {class: 'buttons'},
+                           button('Relight', () => void viewer.alerts.attempt('relight', relight))));
+}

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the page shows: one scene, one volume, and the light that the volume has at these weights.
+import * as three from 'three';
+
+import type {Alerts} from './alerts';
+import {Api, ApiError, Bake, StoredFile} from './api';
+import {CellLines} from './cell_lines';
+import {badnessColor, errorBadness} from './colors';
+import {Gizmo} from './gizmo';
+import {LightField} from './light_field';
+import {ProbeBalls} from './probe_balls';
+import {disposeScene, loadScene, makeSun, SceneModel} from './scene_model';
+import type {Stage} from './stage';
+import {edgesOf, Light, readVolume, sumAmbient, sumLayers, Volume} from './volume';
+
+export type ProbeColor = 'light' | 'validity' | 'error';
+export type Part = 'scene' | 'probes' | 'cells';
+
+const kManyEdges = 30000;  // probes; drawing all their edges is slow
+
+export class Viewer {
+    volume: Volume | null = null;
+    model: SceneModel | null = null;
+    sceneFile: StoredFile | null = null;
+    bake: Bake | null = null;
+    weights: number[] = [];
+    light: Light = {irradiance: new Float32Array(), ambient: new Float32Array(27)};
+    balls: ProbeBalls | null = null;
+    color: ProbeColor = 'light';
+    selectedProbe = -1;
+    readonly hidden = new Set<Part>();
+    readonly field = new LightField();
+    readonly lines = new CellLines();
+    readonly gizmo: Gizmo;
+    private readonly added = new three.Group();  // sun that the bake was given
+    private readonly marker = new three.Mesh(  // seen through walls
+        new three.TorusGeometry(1.6, 0.16, 8, 48),
+        new three.MeshBasicMaterial({color: 0xffc000, depthTest: false, transparent: true, toneMapped: false}));
+    private readonly selectionListeners: (() => void)[] = [];
+    private readonly listeners: (() => void)[] = [];
+    private readonly lightListeners: (() => void)[] = [];
+    private hasEdges = false;
+    private isHandedOver = false;
+
+    constructor(readonly api: Api, readonly stage: Stage,
+                readonly alerts: Alerts, readonly say: (news: string) => void) {
+        this.gizmo = new Gizmo(stage);
+        this.marker.renderOrder = 10;
+        this.marker.onBeforeRender = (_, __, camera) => {
+            this.marker.quaternion.copy(camera.quaternion);
+            this.marker.updateMatrixWorld();
+            this.marker.modelViewMatrix.multiplyMatrices(camera.matrixWorldInverse, this.marker.matrixWorld);
+        };
+        stage.scene.add(this.lines.group, this.added, this.marker);
+    }
+
+    /** Called when there is another volume or scene. */
+    onChange(listener: () => void): void {
+        this.listeners.push(listener);
+    }
+
+    /** Called when another probe is selected. */
+    onSelect(listener: () => void): void {
+        this.selectionListeners.push(listener);
+    }
+
+    /** Called when the light of probes is another. */
+    onLight(listener: () => void): void {
+        this.lightListeners.push(listener);
+    }
+
+    /** Opens a volume with the scene of its bake, when that is known. */
+    async openVolume(reference: string, weights: Record<string, number> = {}): Promise<void> {
+        const [file, {bakes}] = await Promise.all([
+            this.api.get<StoredFile>(`/v1/volumes/${encodeURIComponent(reference)}`),
+            this.api.get<{bakes: Bake[]}>('/v1/bakes')]);
+        if (file.state === 'quarantined') {
+            throw new ApiError(422, 'damaged', `the volume ${file.name || file.id} is damaged: ${file.damage}`);
+        }
+        this.bake = bakes.find(bake => bake.volume === file.id) ?? null;
+        const scene = this.bake?.request?.scene as string | undefined;
+        const [volume] = await Promise.all([
+            readVolume(this.api, file), scene === undefined ? null : this.alerts.attempt('open', () => this.openScene(scene))]);
+        this.showVolume(volume, weights);
+        await this.placeField();
+    }
+
+    closeVolume(): void {
+        this.volume = null;
+        this.balls?.mesh.removeFromParent();
+        this.balls = null;
+        this.lines.clear();
+        this.field.clear();
+        this.changed();
+    }
+
+    async openScene(reference: string): Promise<void> {
+        const file = await this.api.get<StoredFile>(`/v1/scenes/${encodeURIComponent(reference)}`);
+        if (this.sceneFile?.id !== file.id) {
+            const bytes = await this.api.bytes(`/v1/scenes/${file.id}/file`);
+            const model = await loadScene(bytes, this.field.uniforms);
+            this.dropScene();
+            this.model = model;
+            this.sceneFile = file;
+            this.stage.scene.add(model.root);
+            this.stage.lookAtAll(model.box);
+            if (model.view !== null) this.stage.look(model.view.eye, model.view.target);
+            await this.placeField();
+        }
+        this.addSun();
+        this.changed();
+    }
+
+    closeScene(): void {
+        this.dropScene();
+        this.changed();
+    }
+
+    private dropScene(): void {
+        if (this.model !== null) {
+            this.model.root.removeFromParent();
+            disposeScene(this.model.root);
+        }
+        this.model = null;
+        this.sceneFile = null;
+    }
+
+    /** The box of what is shown. */
+    get box(): three.Box3 {
+        const box = this.model?.box.clone() ?? new three.Box3();
+        if (this.volume !== null) box.union(new three.Box3().setFromArray(this.volume.positions));
+        return box.isEmpty() ? new three.Box3(new three.Vector3(-1, -1, -1), new three.Vector3(1, 1, 1)) : box;
+    }
+
+    /** The light that layers give at these weights; probes, scene and all that asks follow. */
+    relight(weights: number[]): void {
+        if (this.volume === null) return;
+        this.weights = weights;
+        this.light = {irradiance: sumLayers(this.volume, weights), ambient: sumAmbient(this.volume, weights)};
+        this.balls?.setLight(this.light.irradiance);
+        this.field.relight(this.light);
+        this.stage.draw();
+        for (const listener of this.lightListeners) listener();
+    }
+
+    /** Whether layers have the weights that the stored volume has. */
+    get isAsStored(): boolean {
+        return this.volume?.layers.every((layer, i) => layer.weight === this.weights[i]) ?? true;
+    }
+
+    show(part: Part, isShown: boolean): void {
+        if (isShown) this.hidden.delete(part);
+        else this.hidden.add(part);
+        this.applyParts();
+    }
+
+    /** While groups are edited, their probes and cells are shown in place of the volume's. */
+    set isEditing(isEditing: boolean) {
+        this.isHandedOver = isEditing;
+        this.applyParts();
+    }
+
+    setColor(color: ProbeColor): void {
+        this.color = color;
+        this.tint();
+    }
+
+    /** Marks a probe, and looks at it. */
+    selectProbe(probe: number, isLooked = true): void {
+        this.selectedProbe = probe;
+        this.tint();
+        this.applyParts();
+        for (const listener of this.selectionListeners) listener();
+        if (this.volume === null || probe < 0 || !isLooked) return;
+        const at = new three.Vector3().fromArray(this.volume.positions, 3 * probe);
+        const {camera, controls} = this.stage;
+        const away = camera.position.clone().sub(controls.target);
+        away.setLength(Math.min(away.length(), 30 * this.balls!.radius));
+        this.stage.look(at.clone().add(away).toArray(), at.toArray());
+    }
+
+    private showVolume(volume: Volume, weights: Record<string, number>): void {
+        const hadNothing = this.volume === null && this.model === null;
+        this.balls?.mesh.removeFromParent();
+        this.balls?.dispose();
+        this.volume = volume;
+        this.selectedProbe = -1;
+        this.balls = new ProbeBalls(volume.positions, ballRadius(volume));
+        this.stage.scene.add(this.balls.mesh);
+        this.hasEdges = false;
+        this.lines.clear();
+        if (volume.probeCount > kManyEdges) this.hidden.add('cells');
+        this.applyParts();
+        this.tint();
+        this.addSun();
+        if (hadNothing) this.stage.lookAtAll(this.box);
+        this.weights = volume.layers.map(layer => weights[layer.name] ?? layer.weight);
+        this.changed();
+        this.relight(this.weights);
+    }
+
+    private async placeField(): Promise<void> {
+        if (this.volume === null || this.volume.probeCount === 0) return;
+        await this.field.place(this.api, this.volume, this.model?.box ?? this.box);
+        this.field.relight(this.light);
+        this.stage.draw();
+    }
+
+    private applyParts(): void {
+        if (this.model !== null) this.model.root.visible = !this.hidden.has('scene');
+        if (this.balls !== null) this.balls.mesh.visible = !this.isHandedOver && !this.hidden.has('probes');
+        const hasLines = !this.isHandedOver && !this.hidden.has('cells');
+        if (hasLines && !this.hasEdges && this.volume !== null) {
+            this.lines.show(this.volume.positions, edgesOf(this.volume.cells, this.volume.innerCellCount));
+            this.hasEdges = true;
+        }
+        this.lines.group.visible = hasLines;
+        this.placeMarker();
+        this.stage.draw();
+    }
+
+    private placeMarker(): void {
+        this.marker.visible = !this.isHandedOver && this.volume !== null && this.selectedProbe >= 0;
+        if (!this.marker.visible) return;
+        this.marker.position.fromArray(this.volume!.positions, 3 * this.selectedProbe);
+        this.marker.scale.setScalar(this.balls!.radius);
+    }
+
+    private tint(): void {
+        const {volume, selectedProbe} = this;
+        if (volume === null) return;
+        this.balls?.setTint(probe => {
+            if (probe === selectedProbe) return [1, 0.75, 0, 0.85];
+            if (this.color === 'validity' && volume.validity.length > 0) {
+                return [...badnessColor(1 - volume.validity[probe]), 1];
+            }
+            if (this.color === 'error' && volume.health.length > 0) {
+                return [...badnessColor(errorBadness(volume.health[probe].error)), 1];
+            }
+            return [0, 0, 0, 0];
+        });
+        this.stage.draw();
+    }
+
+    /** The sun and the sky that the order of the bake had. */
+    private addSun(): void {
+        this.added.clear();
+        const request = this.bake?.request ?? {};
+        const direction = request.sun_direction as number[] | undefined;
+        if (direction !== undefined && request.sun_mode !== 'baked') {
+            this.added.add(makeSun(direction, request.sun_irradiance as number[], this.box));
+        }
+        const sky = request.sky ?? this.model?.sky;
+        const radiance = typeof sky === 'number' ? [sky, sky, sky] : Array.isArray(sky) ? sky as number[] : null;
+        if (radiance === null) this.stage.sky.radiance.set(0x11151c);
+        else this.stage.sky.radiance.fromArray(radiance);
+    }
+
+    private changed(): void {
+        for (const listener of this.listeners) listener();
+        this.applyParts();
+    }
+}
+
+/** A fourteenth of the usual distance between neighbors. */
+export function ballRadius(volume: {positions: Float32Array; cells: Uint32Array}): number {
+    const {positions, cells} = volume;
+    const lengths: number[] = [];
+    const step = Math.max(8, Math.floor(cells.length / 8 / 500) * 8);
+    for (let at = 0; at + 8 <= cells.length; at += step) {
+        const [a, b] = [cells[at] * 3, cells[at + 1] * 3];
+        if (a + 2 >= positions.length || b + 2 >= positions.length) continue;
+        lengths.push(Math.hypot(positions[a] - positions[b], positions[a + 1] - positions[b + 1],
+                                positions[a + 2] - positions[b + 2]));
+    }
+    lengths.sort((x, y) => x - y);
+    return lengths.length === 0 ? 0.1 : 0.07 * lengths[Math.floor(lengths.length / 2)];
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/** Numbers from 0 to 1 that a seed decides (mulberry32). */
+export function random(seed: number): () => number {
+    return () => {
+        seed = (seed + 0x6d2b79f5) | 0;
+        let t = Math.imul(seed ^ (seed >>> 15), 1 | seed);
+        t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+        return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+    };
+}
+
+export function randomNormal(draw: () => number): number[] {
+    const z = 2 * draw() - 1;
+    const turn = 2 * Math.PI * draw();
+    const r = Math.sqrt(1 - z * z);
+    return [r * Math.cos(turn), r * Math.sin(turn), z];
+}
