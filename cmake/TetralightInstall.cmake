@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the ship set: libraries, headers, the shader library, and what CMake and pkg-config need
-# to find them. CPack makes a Debian package of it (docs/embed.md).
+# to find them. CPack makes a Debian package of it (docs/embed.md). Beside it the command.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -21,6 +21,13 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/shaders/ DESTINATION ${shader_fo
         COMPONENT dev FILES_MATCHING PATTERN "*.glsl")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE COMPONENT dev
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libtetralight-dev RENAME copyright)
+
+# The command, and the page of `tetralight serve` when it was built.
+if(TARGET tetralight_cli)
+  install(TARGETS tetralight_cli RUNTIME COMPONENT program)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/ OPTIONAL COMPONENT program
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/tetralight/viewer)
+endif()
 
 # find_package(tetralight COMPONENTS ...)
 find_package(hwy CONFIG QUIET)
