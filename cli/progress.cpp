@@ -105,14 +105,17 @@ void BakeProgressDisplay::print_line(const BakeProgress& progress, double second
 /// Readers see the old facts or the new ones. A file that cannot be written stops no bake.
 void BakeProgressDisplay::write_file(const BakeProgress& progress, double seconds) {
     const bool is_last = progress.probes_done == progress.probe_count;
-    if (seconds < next_write_seconds_ && !is_last) return;
+    const auto left = seconds_left(progress, seconds);
+    const bool is_news = is_last || (left && !has_told_time_left_);
+    if (seconds < next_write_seconds_ && !is_news) return;
+    has_told_time_left_ = left.has_value();
     next_write_seconds_ = seconds + kSecondsBetweenWrites;
     Json json{{"probes_done", progress.probes_done},
               {"probe_count", progress.probe_count},
               {"rays", progress.ray_count},
               {"rays_per_second", ray_rate(progress, seconds)},
               {"seconds_left", nullptr}};
-    if (const auto left = seconds_left(progress, seconds)) json["seconds_left"] = *left;
+    if (left) json["seconds_left"] = *left;
     const std::string beside = file_ + ".new";
     std::ofstream(beside) << dump(json) << '\n';
     std::error_code error;

@@ -42,6 +42,7 @@ class BakeProgressDisplay {
     double time_budget_seconds_;
     std::string file_;
     double next_write_seconds_ = 0.0;
+    bool has_told_time_left_ = false;
     double first_share_ = -1.0;  ///< what an earlier run left done; negative: not known yet
     bool is_terminal_;
     bool is_bar_drawn_ = false;

@@ -13,7 +13,7 @@ from service import COURTYARD, ServiceTest, lattice, write_groups, read
 KILLS = int(os.environ.get("TETRALIGHT_KILLS", "5"))
 
 # Some seconds of work, in 16 chunks.
-SLOW = {"samples": 2048, "bounces": 4}
+SLOW = {"samples": 8192, "bounces": 4}
 QUICK = {"samples": 16, "bounces": 1}
 
 
@@ -163,7 +163,7 @@ class Bakes(BakeTest):
                             "not_found")
 
     def test_torn_and_foreign_chunks_are_baked_anew(self):
-        expected = self.baked_by_command("--samples", "2048", "-b", "4")
+        expected = self.baked_by_command("--samples", str(SLOW["samples"]), "-b", "4")
         server = self.start()
         bake = self.begin(server, **SLOW)
         chunks = sorted(self.wait_for_chunks(bake, 3))
@@ -173,7 +173,8 @@ class Bakes(BakeTest):
         with open(paths[1], "r+b") as file:
             file.seek(500)
             file.write(b"\xff")
-        open(os.path.join(self.chunk_folder(bake), "0-99-of-99.chunk"), "w").write("mine")
+        with open(os.path.join(self.chunk_folder(bake), "0-99-of-99.chunk"), "w") as file:
+            file.write("mine")
         server = self.start()
         self.assertEqual(self.file_of(server, bake), expected)
 

@@ -128,7 +128,7 @@ class BakesOnAFullDisk(SmallDisk, test_bakes.BakeTest):
         self.assertEqual(again.wait_for(self.begin(again, **test_bakes.QUICK))["state"], "done")
 
     def test_a_bake_whose_end_cannot_be_stored_goes_on_the_next_time(self):
-        expected = self.baked_by_command("--samples", "2048", "-b", "4")
+        expected = self.baked_by_command("--samples", str(test_bakes.SLOW["samples"]), "-b", "4")
         server = self.start()
         os.remove(self.reserve)
         bake, _ = self.bake_until_it_is_full(server)
