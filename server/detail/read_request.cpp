@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/detail/read_request.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/read.hpp>
+#include <limits>
+#include <utility>
+
+#include "base/text.h"
+
+namespace tetralight::server {
+namespace {
+
+namespace http = beast::http;
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(), to_lower);
+    return result;
+}
+
+bool is_request_id(std::string_view id) {
+    constexpr size_t kLongest = 64;
+    const auto is_plain = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               c == '-' || c == '_' || c == '.';
+    };
+    return !id.empty() && id.size() <= kLongest && std::ranges::all_of(id, is_plain);
+}
+
+bool is_http_error(const error_code& error) {
+    return error.category() == http::make_error_code(http::error::bad_method).category();
+}
+
+/// What the client sent, as far as it can be shown.
+std::string beginning(const beast::flat_buffer& buffer) {
+    constexpr size_t kMost = 40;
+    const auto bytes = buffer.data();
+    const std::string_view all(static_cast<const char*>(bytes.data()), bytes.size());
+    return std::string(all.substr(0, std::min(all.find('\r'), kMost)));
+}
+
+/// Why a head could not be read; nothing: there is nobody to tell.
+std::optional<Problem> problem_of_head(const Settings& settings, const Session& session,
+                                       const error_code& error) {
+    if (error == http::error::header_limit) {
+        return Problem{431, "header_too_large", "the request's head is too large", "head",
+                       text("more than ", settings.max_header_bytes, " bytes")};
+    }
+    if (session.is_late) {
+        return Problem{408, "too_slow",
+                       text("the request's head did not come in ", settings.header_seconds, " s"),
+                       "head", beginning(session.buffer)};
+    }
+    if (error == http::error::end_of_stream || error == http::error::partial_message ||
+        !is_http_error(error)) {
+        return std::nullopt;
+    }
+    return Problem{400, "malformed_request", "is no HTTP/1.1: " + error.message(), "head",
+                   beginning(session.buffer)};
+}
+
+/// The head as a plain value, and what is wrong with it.
+std::optional<Problem> take_head(const Parser& parser, Request& request) {
+    constexpr size_t kLongest = 200;
+    constexpr unsigned kHttp11 = 11;
+    const auto& message = parser.get();
+    request.method = std::string(message.method_string());
+    for (const auto& field : message) {
+        request.headers.emplace_back(
+            lower({field.name_string().data(), field.name_string().size()}),
+            std::string(field.value()));
+    }
+    const std::string_view id = request.header("x-request-id");
+    if (is_request_id(id)) request.id = id;
+    const auto host_count = message.count(http::field::host);
+    if (host_count > 1 || (host_count == 0 && message.version() >= kHttp11)) {
+        return Problem{400, "malformed_request", "HTTP/1.1 needs one Host header", "host",
+                       std::string(request.header("host").substr(0, kLongest))};
+    }
+    const auto target = message.target();
+    if (parse_target({target.data(), target.size()}, request)) return std::nullopt;
+    return Problem{400, "malformed_request", "the target is no path", "target",
+                   std::string(target.substr(0, kLongest))};
+}
+
+Reading refusal(Problem problem) {
+    return {.is_whole = false, .refused = std::move(problem)};
+}
+
+}  // namespace
+
+net::awaitable<Reading> read_head(Session& session, Parser& parser, const Settings& settings,
+                                  Request& request) {
+    parser.header_limit(settings.max_header_bytes);
+    parser.body_limit(std::numeric_limits<uint64_t>::max());  // each route has its own
+    error_code error;
+    session.arm(settings.header_seconds);
+    co_await http::async_read_header(session.stream, session.buffer, parser,
+                                     net::redirect_error(net::use_awaitable, error));
+    session.disarm();
+    Reading reading;
+    reading.refused =
+        error ? problem_of_head(settings, session, error) : take_head(parser, request);
+    reading.is_whole = !error && !reading.refused;
+    co_return reading;
+}
+
+net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settings& settings,
+                                  const Plan& plan, Request& request) {
+    Reading reading;
+    if (plan.ignores_body) {
+        reading.is_whole = true;
+        co_return reading;
+    }
+    const auto too_large = [&](const std::string& size) {
+        return refusal({413, "too_large",
+                        text("the body is larger than ", plan.body_limit, " bytes"), "body", size});
+    };
+    const auto length = parser.content_length();
+    if (length && *length > plan.body_limit) co_return too_large(text(*length, " bytes"));
+    parser.body_limit(plan.body_limit);  // for chunks
+    beast::tcp_stream& stream = session.stream;
+    error_code error;
+    if (lower(request.header("expect")) == "100-continue") {
+        constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+        co_await net::async_write(stream, net::buffer(kContinue.data(), kContinue.size()),
+                                  net::redirect_error(net::use_awaitable, error));
+    }
+    const bool is_to_file = plan.body_to == Plan::BodyTo::File;
+    std::string& body = request.body;
+    while (!error && !parser.is_done()) {
+        // Memory for what came, not for what was announced.
+        const size_t begin = is_to_file ? 0 : body.size();
+        const size_t room =
+            length ? std::min<uint64_t>(kSliceSize, *length - request.body_size) : kSliceSize;
+        body.resize(begin + room);
+        auto& target = parser.get().body();
+        target.data = body.data() + begin;
+        target.size = room;
+        session.arm(settings.transfer_seconds);
+        co_await http::async_read(stream, session.buffer, parser,
+                                  net::redirect_error(net::use_awaitable, error));
+        session.disarm();
+        if (error == http::error::need_buffer) error = {};
+        const size_t count = room - parser.get().body().size;
+        request.body_size += count;
+        body.resize(begin + count);
+        if (is_to_file &&
+            ::write(request.body_file.value(), body.data(), count) != static_cast<ssize_t>(count)) {
+            co_return refusal({507, "disk_full", "the body could not be stored", "body",
+                               text(request.body_size, " bytes")});
+        }
+    }
+    if (is_to_file) body.clear();
+    const std::string came = text(request.body_size, " bytes");
+    if (error == http::error::body_limit) co_return too_large("more than " + came);
+    reading.is_whole = !error;
+    if (session.is_late) {
+        reading.refused = Problem{
+            408, "too_slow",
+            text("no 64 KiB of the body came in ", settings.transfer_seconds, " s"), "body", came};
+    } else if (is_http_error(error) && error != http::error::partial_message &&
+               error != http::error::end_of_stream) {
+        reading.refused =
+            Problem{400, "malformed_request", "the body: " + error.message(), "body", came};
+    }
+    co_return reading;
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/beast/http/buffer_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <optional>
+
+#include "server/detail/session.h"
+#include "server/http.h"
+#include "server/problem.h"
+#include "server/settings.h"
+
+namespace tetralight::server {
+
+using Parser = beast::http::request_parser<beast::http::buffer_body>;
+
+/// What came of a request.
+struct Reading {
+    bool is_whole = false;
+    /// Why it is not whole, unless there is nobody to tell.
+    std::optional<Problem> refused;
+};
+
+/// Reads the head of a request, as a plain value. Precondition: the request has an id, which one
+/// of the client replaces.
+net::awaitable<Reading> read_head(Session& session, Parser& parser, const Settings& settings,
+                                  Request& request);
+
+/// Reads the body to where the plan says.
+net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settings& settings,
+                                  const Plan& plan, Request& request);
+
+}  // namespace tetralight::server

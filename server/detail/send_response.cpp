@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "server/detail/send_response.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/write.hpp>
+#include <cstdio>
+#include <span>
+
+#include "base/text.h"
+
+namespace tetralight::server {
+namespace {
+
+void append_header(std::string& head, std::string_view name, std::string_view value) {
+    head.append(name).append(": ");
+    for (const char c : value) head += c == '\r' || c == '\n' ? ' ' : c;
+    head += "\r\n";
+}
+
+/// The text before the body.
+std::string head_of(const Request& request, const Response& response, bool keeps_open) {
+    std::string head =
+        text("HTTP/1.1 ", response.status, " ", reason_phrase(response.status), "\r\n");
+    if (!response.content_type.empty()) append_header(head, "Content-Type", response.content_type);
+    append_header(head, "X-Request-Id", request.id);
+    for (const auto& [name, value] : response.headers) append_header(head, name, value);
+    if (response.events) {
+        head += "Transfer-Encoding: chunked\r\n";
+    } else if (response.status != 204 && response.status != 304) {
+        append_header(head, "Content-Length", std::to_string(response.body.bytes.size()));
+    }
+    append_header(head, "Connection", keeps_open ? "keep-alive" : "close");
+    return head + "\r\n";
+}
+
+net::awaitable<bool> send_events(Session& session, const Response& response, SendRule rule) {
+    constexpr auto kPause = std::chrono::milliseconds(100);
+    constexpr auto kLongestSilence = std::chrono::seconds(15);
+    const auto executor = co_await net::this_coro::executor;
+    net::steady_timer timer(executor);
+    auto last = Clock::now();
+    error_code error;
+    bool goes_on = true;
+    while (goes_on && !error && !rule.is_ending) {
+        std::string said;
+        goes_on = response.events(said);
+        if (said.empty() && Clock::now() - last > kLongestSilence) said = ":\n\n";
+        if (!said.empty()) {
+            std::array<char, 20> length{};
+            std::snprintf(length.data(), length.size(), "%zx\r\n", said.size());
+            said = length.data() + said + "\r\n";
+            session.stream.expires_after(to_duration(rule.seconds));
+            co_await net::async_write(session.stream, net::buffer(said),
+                                      net::redirect_error(net::use_awaitable, error));
+            last = Clock::now();
+        }
+        if (!goes_on || error) break;
+        timer.expires_after(kPause);
+        error_code ignored;
+        co_await timer.async_wait(net::redirect_error(net::use_awaitable, ignored));
+    }
+    constexpr std::string_view kEnd = "0\r\n\r\n";
+    if (!error) {
+        co_await net::async_write(session.stream, net::buffer(kEnd.data(), kEnd.size()),
+                                  net::redirect_error(net::use_awaitable, error));
+    }
+    co_return !error;
+}
+
+}  // namespace
+
+net::awaitable<Sent> send_response(Session& session, const Request& request,
+                                   const Response& response, SendRule rule) {
+    const std::string head = head_of(request, response, rule.keeps_open);
+    const bool has_body = request.method != "HEAD" && !response.events;
+    auto rest = has_body ? response.body.bytes : std::span<const std::byte>();
+    size_t head_size = head.size();
+    Sent sent;
+    error_code error;
+    do {
+        const auto slice = rest.first(std::min(rest.size(), kSliceSize));
+        const std::array<net::const_buffer, 2> parts{net::buffer(head.data(), head_size),
+                                                     net::buffer(slice.data(), slice.size())};
+        session.stream.expires_after(to_duration(rule.seconds));
+        const size_t count = co_await net::async_write(
+            session.stream, parts, net::redirect_error(net::use_awaitable, error));
+        sent.bytes += count - std::min(count, head_size);
+        rest = rest.subspan(slice.size());
+        head_size = 0;
+    } while (!error && !rest.empty());
+    sent.is_whole = !error;
+    if (sent.is_whole && response.events && request.method != "HEAD") {
+        sent.is_whole = co_await send_events(session, response, rule);
+    }
+    co_return sent;
+}
+
+}  // namespace tetralight::server

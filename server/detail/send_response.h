@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "server/detail/session.h"
+#include "server/http.h"
+
+namespace tetralight::server {
+
+/// What became of an answer.
+struct Sent {
+    uint64_t bytes = 0;  ///< of its body
+    bool is_whole = false;
+};
+
+struct SendRule {
+    /// For each slice of the body.
+    double seconds = 0.0;
+    /// Whether the connection takes another request.
+    bool keeps_open = false;
+    /// Events end when it becomes true.
+    const std::atomic<bool>& is_ending;
+};
+
+net::awaitable<Sent> send_response(Session& session, const Request& request,
+                                   const Response& response, SendRule rule);
+
+}  // namespace tetralight::server
