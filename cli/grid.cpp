@@ -46,6 +46,7 @@ struct Grid {
         common.add_to(command);
         command.parse_complete_callback([this] {
             options.check_usage();
+            preview.view.check_usage();
             if (output == "-" && preview.path == "-") {
                 throw CLI::ValidationError("--preview", "stdout takes the probes already");
             }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/grid_options.h"
 
-#include <cmath>
-
 #include "base/text.h"
 #include "base/utf8.h"
 #include "cli/amounts.h"
 #include "cli/choice.h"
 #include "cli/common.h"
 #include "cli/validators.h"
+#include "probes/is_finite.h"
 
 namespace tetralight::cli {
 namespace {
@@ -18,7 +17,6 @@ constexpr double kLongest = 1e9;
 /// The names that `merge` takes.
 CLI::Validator name_check() {
     const auto check = [](const std::string& name) -> std::string {
-        if (name.empty()) return "the name is empty";
         const auto status = check_characters(name);
         return status ? "" : status.error().message;
     };
@@ -37,9 +35,7 @@ CLI::Validator position_check() {
     const auto check = [](const std::string& position) -> std::string {
         const auto parsed = parse_vec3(position);
         if (!parsed) return "\"" + position + "\" is not of the form x,y,z";
-        const glm::dvec3& p = *parsed;
-        const bool is_finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-        return is_finite ? "" : "\"" + position + "\" is not finite";
+        return is_finite(*parsed) ? "" : "\"" + position + "\" is not finite";
     };
     return {check, ""};
 }
@@ -64,6 +60,7 @@ void GridOptions::add_to(CLI::App& command) {
     add_reach(command);
     add_adaptive(command);
     command.add_option("--name", settings.group_name, "Name of the probe groups")
+        ->check(not_empty("name"))
         ->check(name_check())
         ->capture_default_str();
     command

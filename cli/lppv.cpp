@@ -18,6 +18,7 @@
 #include "pipeline/lppv_validity.h"
 #include "pipeline/sparse_blocks.h"
 #include "pipeline/write_lppv.h"
+#include "probes/compact_probes.h"
 #include "probes/probe_file.h"
 #ifdef TETRALIGHT_HAS_OPENVDB
 #include "lppv/vdb/write_vdb.h"
@@ -238,7 +239,7 @@ struct LppvCommand {
                      ? write_nvdb(output, lppv, common.thread_count)
                      : write_vdb(output, lppv, precision, common.thread_count);
         if (!status) return status;
-        common.warn(half_warnings(largest_value(lppv.irradiance), file));
+        common.warn(half_warnings(largest_coefficient(lppv.irradiance), file));
         const PointBox box = box_of(lppv);
         common.report(output,
                       {{"output", output},

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "base/assert.h"
+#include "probes/compact_probes.h"
 #include "probes/recombine.h"
-#include "probes/relight.h"
 
 namespace tetralight {
 namespace {

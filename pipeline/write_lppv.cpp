@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/write_lppv.h"
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <vector>
@@ -11,6 +9,7 @@
 #include "bake/image/texture_3d.h"
 #include "bake/image/write_layered_exr.h"
 #include "base/text.h"
+#include "probes/compact_probes.h"
 #ifdef TETRALIGHT_HAS_OPENVDB
 #include "lppv/vdb/write_vdb.h"
 #endif
@@ -129,19 +128,9 @@ Status write_lppv(const std::string& path, const Lppv& lppv, const LppvFileSetti
     }
 }
 
-float largest_value(std::span<const IrradianceSh> irradiance) {
-    float largest = 0.0f;
-    for (const IrradianceSh& sh : irradiance) {
-        for (const glm::vec3& c : sh.coefficients) {
-            largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-        }
-    }
-    return largest;
-}
-
 float largest_value(const Lppv& lppv, const LppvFileSettings& settings) {
     return is_texture(settings.kind) ? largest_texel_value(lppv, settings.layout)
-                                     : largest_value(lppv.irradiance);
+                                     : largest_coefficient(lppv.irradiance);
 }
 
 std::string lppv_constants_json(const Lppv& lppv, LppvLayout layout) {

@@ -45,7 +45,6 @@ struct LppvFileSettings {
 /// The largest magnitude of what such a file holds of the light, before it is cut to the largest
 /// half.
 [[nodiscard]] float largest_value(const Lppv& lppv, const LppvFileSettings& settings);
-[[nodiscard]] float largest_value(std::span<const IrradianceSh> irradiance);
 
 /// The constants of a texture's shader as JSON, what `LppvConstants` has.
 [[nodiscard]] std::string lppv_constants_json(const Lppv& lppv, LppvLayout layout);

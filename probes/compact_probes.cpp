@@ -8,16 +8,6 @@
 namespace tetralight {
 namespace {
 
-float largest_coefficient(const std::vector<IrradianceSh>& irradiance) {
-    float largest = 0.0f;
-    for (const IrradianceSh& sh : irradiance) {
-        for (const glm::vec3& c : sh.coefficients) {
-            largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-        }
-    }
-    return largest;
-}
-
 /// Halves have 11 bits, and below 2^-14 a step of 2^-24.
 bool is_rounded(uint16_t half, float value) {
     const float step = std::max(std::abs(value) * 0x1p-10f, 0x1p-24f);
@@ -39,6 +29,16 @@ bool is_rounded(const CompactProbe& compact, const ProbeVolumeView& volume, size
 }
 
 }  // namespace
+
+float largest_coefficient(std::span<const IrradianceSh> irradiance) noexcept {
+    float largest = 0.0f;
+    for (const IrradianceSh& sh : irradiance) {
+        for (const glm::vec3& c : sh.coefficients) {
+            largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+        }
+    }
+    return largest;
+}
 
 float compact_scale(float largest) noexcept {
     constexpr int kLargestExponent = 12;

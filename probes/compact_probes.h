@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "probes/probe_volume.h"
 
 namespace tetralight {
@@ -10,6 +12,9 @@ namespace tetralight {
 /// bits: the error is at most 2^-11 of each, or 2^-37 of the largest one for those near zero.
 /// Without irradiance there are no compact probes.
 void make_compact_probes(ProbeVolume& volume);
+
+/// The largest |coefficient|; what `Layer::largest` is of a layer.
+[[nodiscard]] float largest_coefficient(std::span<const IrradianceSh> irradiance) noexcept;
 
 /// The smallest power of two that brings a coefficient of this size to at most 2^12.
 [[nodiscard]] float compact_scale(float largest) noexcept;

@@ -2,10 +2,10 @@
 #include "probes/relight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 
 #include "base/text.h"
+#include "probes/compact_probes.h"
 #include "probes/dering.h"
 #include "probes/is_finite.h"
 #include "probes/recombine.h"
@@ -98,16 +98,6 @@ Status relight_sun(ProbeVolume& volume, glm::vec3 direction, glm::vec3 irradianc
         if (has_direct) sum += transfer_direct(probe, direct);
         return sum;
     });
-}
-
-float largest_coefficient(std::span<const IrradianceSh> irradiance) noexcept {
-    float largest = 0.0f;
-    for (const IrradianceSh& sh : irradiance) {
-        for (const glm::vec3& c : sh.coefficients) {
-            largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-        }
-    }
-    return largest;
 }
 
 }  // namespace tetralight

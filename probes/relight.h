@@ -32,7 +32,4 @@ namespace tetralight {
 /// The light that `relight_sun` would move. Errors as there.
 [[nodiscard]] Result<uint32_t> movable_sun(const ProbeVolumeView& volume);
 
-/// The largest |coefficient| of a layer; what `Layer::largest` is.
-[[nodiscard]] float largest_coefficient(std::span<const IrradianceSh> irradiance) noexcept;
-
 }  // namespace tetralight

@@ -53,10 +53,7 @@ ChunkCounts count_chunks(const std::string& folder) {
 /// What the running command says of its pace, or an empty object.
 Json read_pace(const std::string& path) {
     const auto bytes = read_file(path);
-    if (!bytes) return Json::object();
-    const auto* text = reinterpret_cast<const char*>(bytes->data());
-    Json pace = Json::parse(text, text + bytes->size(), nullptr, false);
-    return pace.is_object() ? pace : Json::object();
+    return bytes ? object_in(*bytes) : Json::object();
 }
 
 bool is_final(const std::string& state) {

@@ -219,8 +219,7 @@ CommandResult run_command(const Settings& settings, const Command& command) {
     read_errors(child->error_text, result);
     judge(status, result);
     if (forced) result.end = *forced;
-    result.report = Json::parse(child->output_text, nullptr, false);
-    if (result.report.is_discarded()) result.report = Json::object();
+    result.report = object_in(child->output_text);
     return result;
 }
 

@@ -27,6 +27,15 @@ Json parse_object(std::string_view body) {
     }
 }
 
+Json object_in(std::string_view text) {
+    Json json = Json::parse(text, nullptr, false);
+    return json.is_object() ? json : Json::object();
+}
+
+Json object_in(std::span<const std::byte> text) {
+    return object_in({reinterpret_cast<const char*>(text.data()), text.size()});
+}
+
 std::string shown(const Json& value) {
     constexpr size_t kLongest = 80;
     const std::string all = value.is_string() ? value.get<std::string>() : dump(value);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,10 @@ using Json = nlohmann::ordered_json;
 
 /// The JSON object of a body. Throws a `Problem`: it is nested too deep, no JSON, no object.
 [[nodiscard]] Json parse_object(std::string_view body);
+
+/// The JSON object of a text that may be damaged; an empty one when it holds none.
+[[nodiscard]] Json object_in(std::string_view text);
+[[nodiscard]] Json object_in(std::span<const std::byte> text);
 
 /// Reads an object member by member, and knows which ones nobody asked for. All throw a `Problem`
 /// that names the member and its value.

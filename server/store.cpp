@@ -78,10 +78,9 @@ StoredFile read_entry(Kind kind, const Json& entry) {
 
 /// What is whole of an index.
 Index parse_index(std::span<const std::byte> bytes) {
-    const auto* begin = reinterpret_cast<const char*>(bytes.data());
-    const Json json = Json::parse(begin, begin + bytes.size(), nullptr, false);
+    const Json json = object_in(bytes);
     Index index;
-    if (!json.is_object() || !json.contains("files")) return index;
+    if (!json.contains("files")) return index;
     index.is_whole = true;
     for (const Json& entry : json["files"]) {
         try {
@@ -95,11 +94,6 @@ Index parse_index(std::span<const std::byte> bytes) {
         }
     }
     return index;
-}
-
-Json parse_or_empty(const std::string& text) {
-    Json json = Json::parse(text, nullptr, false);
-    return json.is_discarded() ? Json::object() : json;
 }
 
 }  // namespace
@@ -156,7 +150,7 @@ Json to_json(const StoredFile& file) {
 
 Json to_json_with_facts(const StoredFile& file) {
     Json json = to_json(file);
-    json["facts"] = parse_or_empty(file.facts);
+    json["facts"] = object_in(file.facts);
     return json;
 }
 
@@ -520,7 +514,7 @@ bool Store::write_index() {
             for (const auto& [id, file] : all) {
                 Json entry = to_json(file);
                 entry["kind"] = name_of(file.kind);
-                entry["facts"] = parse_or_empty(file.facts);
+                entry["facts"] = object_in(file.facts);
                 json.push_back(std::move(entry));
             }
         }
@@ -547,7 +541,7 @@ void Store::read_index_now_and_then() {
     constexpr int64_t kSecond = 1'000'000'000;
     if (ticks < next || !next_index_check_.compare_exchange_strong(next, ticks + kSecond)) return;
     struct stat status = {};
-    if (::stat((index_path()).c_str(), &status) != 0) return;
+    if (::stat(index_path().c_str(), &status) != 0) return;
     std::string stamp = text(status.st_ino, " ", status.st_mtim.tv_sec, " ", status.st_mtim.tv_nsec,
                              " ", status.st_size);
     const std::lock_guard change(change_mutex_);

@@ -120,14 +120,8 @@ void blame(const std::string& message, const Json& order, Problem& problem) {
     }
 }
 
-/// An empty one when the body is a file.
-Json order_of(const Request& request) {
-    Json order = Json::parse(request.body, nullptr, false);
-    return order.is_object() ? order : Json::object();
-}
-
-Problem data_problem(const CommandResult& result, const Request& request) {
-    Problem problem{422, "bad_data", in_words_of(request, result.message)};
+Problem data_problem(const CommandResult& result, const Json& order) {
+    Problem problem{422, "bad_data", in_words_of(order, result.message)};
     if (result.message.find("No space left") != std::string::npos) {
         problem.status = 507;
         problem.code = "disk_full";
@@ -135,7 +129,7 @@ Problem data_problem(const CommandResult& result, const Request& request) {
         problem.status = 400;
         problem.code = "invalid_value";
     }
-    blame(result.message, order_of(request), problem);
+    blame(result.message, order, problem);
     return problem;
 }
 
@@ -147,10 +141,6 @@ std::string in_words_of(const Json& order, const std::string& message) {
         replace_all(words, meaning.word, meaning.member);
     }
     return words;
-}
-
-std::string in_words_of(const Request& request, const std::string& message) {
-    return in_words_of(order_of(request), message);
 }
 
 Problem tool_problem(const Settings& settings, const CommandResult& result,
@@ -169,7 +159,7 @@ Problem tool_problem(const Settings& settings, const CommandResult& result,
         case End::Crashed:
             return {500, "tool_failed", result.message};
     }
-    return data_problem(result, request);
+    return data_problem(result, object_in(request.body));
 }
 
 }  // namespace tetralight::server

@@ -12,8 +12,7 @@ namespace tetralight::server {
 [[nodiscard]] Problem tool_problem(const Settings& settings, const CommandResult& result,
                                    const Request& request);
 
-/// What a command says, in the words of a request or of the JSON that it was.
-[[nodiscard]] std::string in_words_of(const Request& request, const std::string& message);
+/// What a command says, in the words of what it was asked with.
 [[nodiscard]] std::string in_words_of(const Json& order, const std::string& message);
 
 }  // namespace tetralight::server

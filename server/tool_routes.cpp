@@ -254,7 +254,8 @@ Json run_tool(Service& service, const Request& request, const std::string& folde
     if (result.end != CommandResult::End::Fine) {
         throw tool_problem(service.settings, result, request);
     }
-    for (std::string& warning : result.warnings) warning = in_words_of(request, warning);
+    const Json order = object_in(request.body);
+    for (std::string& warning : result.warnings) warning = in_words_of(order, warning);
     return report_of(std::move(result));
 }
 

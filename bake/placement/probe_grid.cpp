@@ -67,6 +67,9 @@ std::vector<double> heights_apart(const std::vector<double>& heights, double cle
     return apart;
 }
 
+/// Positions of those in each space.
+using ProbesOfSpaces = std::map<uint32_t, std::vector<glm::dvec3>>;
+
 /// The stages of one grid.
 class GridMaker {
   public:
@@ -124,14 +127,16 @@ class GridMaker {
         const bool is_adaptive = settings_.mode == PlacementMode::Adaptive;
         const PlaceRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMostPlaces : 1,
                              rule_.thread_count};
-        const std::vector<uint32_t> done = is_adaptive ? well_filled(filled) : filled;
+        ProbesOfSpaces probes;
+        if (is_adaptive) probes = probes_by_space();
+        const std::vector<uint32_t> done = is_adaptive ? well_filled(filled, probes) : filled;
         std::vector<SpacePlaces> spaces = find_places(traced_, map_, done, rule);
         if (wanted_.empty() && !spaces.empty()) {  // the largest, where nothing stands anywhere
             wanted_ = {std::ranges::max_element(spaces, {}, &SpacePlaces::post_count)->space};
         }
         for (SpacePlaces& space : spaces) {
             if (is_adaptive && is_wanted(space.space)) {
-                start_in(space);
+                start_in(space, probes[space.space]);
                 continue;
             }
             const bool is_seeded = !settings_.seeds.empty() && is_wanted(space.space);
@@ -141,8 +146,8 @@ class GridMaker {
     }
 
     /// Those of the filled spaces whose probes enclose a volume, or are not wanted.
-    [[nodiscard]] std::vector<uint32_t> well_filled(const std::vector<uint32_t>& filled) const {
-        std::map<uint32_t, std::vector<glm::dvec3>> probes = probes_by_space();
+    [[nodiscard]] std::vector<uint32_t> well_filled(const std::vector<uint32_t>& filled,
+                                                    ProbesOfSpaces& probes) const {
         std::vector<uint32_t> done;
         for (const uint32_t space : filled) {
             if (!is_wanted(space) || affine_dimension(probes[space]) == 3) done.push_back(space);
@@ -150,20 +155,17 @@ class GridMaker {
         return done;
     }
 
-    [[nodiscard]] std::map<uint32_t, std::vector<glm::dvec3>> probes_by_space() const {
+    [[nodiscard]] ProbesOfSpaces probes_by_space() const {
         const std::vector<glm::dvec3> positions = kept_positions(probes_);
         const std::vector<uint32_t> spaces = map_.spaces_of(positions, rule_.thread_count);
-        std::map<uint32_t, std::vector<glm::dvec3>> result;
+        ProbesOfSpaces result;
         for (size_t i = 0; i < spaces.size(); ++i) result[spaces[i]].push_back(positions[i]);
         return result;
     }
 
-    /// Puts probes to the ends of a space that the lattice missed, and sensors between them.
-    void start_in(SpacePlaces& space) {
-        const auto probes = probes_by_space();
-        const auto there = probes.find(space.space);
-        std::vector<glm::dvec3> taken;
-        if (there != probes.end()) taken = there->second;
+    /// Puts probes to the ends of a space that the lattice missed, and sensors between them, away
+    /// from the places that are taken there.
+    void start_in(SpacePlaces& space, const std::vector<glm::dvec3>& taken) {
         std::erase_if(space.places, [&](const glm::dvec3& place) {
             return adjustment_at(scene_.probe_adjustments, place).forbids_probes ||
                    std::ranges::any_of(taken, [&](const glm::dvec3& probe) {

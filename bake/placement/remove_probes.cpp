@@ -70,21 +70,27 @@ class ProbesOfSpaces {
         : spaces_(spaces) {
         for (size_t i = 0; i < probes.size(); ++i) {
             positions_.push_back(pool.position(probes[i]));
-            left_[spaces[i]].push_back(static_cast<uint32_t>(i));
+            left_[spaces[i]].probes.push_back(static_cast<uint32_t>(i));
         }
+        for (auto& [space, left] : left_) left.dimension = dimension(left.probes);
     }
 
     /// Takes one away, unless the others of its space span less without it.
     bool remove(uint32_t i) {
-        std::vector<uint32_t>& all = left_[spaces_[i]];
-        std::vector<uint32_t> others = all;
+        Left& left = left_[spaces_[i]];
+        std::vector<uint32_t> others = left.probes;
         std::erase(others, i);
-        if (dimension(others) < dimension(all)) return false;
-        all = std::move(others);
+        if (dimension(others) < left.dimension) return false;
+        left.probes = std::move(others);
         return true;
     }
 
   private:
+    struct Left {
+        std::vector<uint32_t> probes;
+        int dimension = 0;  ///< what they span, before any removal and after it
+    };
+
     [[nodiscard]] int dimension(const std::vector<uint32_t>& probes) const {
         std::vector<glm::dvec3> positions;
         for (const uint32_t probe : probes) positions.push_back(positions_[probe]);
@@ -93,7 +99,7 @@ class ProbesOfSpaces {
 
     std::span<const uint32_t> spaces_;
     std::vector<glm::dvec3> positions_;
-    std::map<uint32_t, std::vector<uint32_t>> left_;
+    std::map<uint32_t, Left> left_;
 };
 
 }  // namespace

@@ -65,6 +65,14 @@ bool contains(const ProbeAdjustment& adjustment, const glm::dvec3& position) {
     return std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) <= 0.5;
 }
 
+Status check_size(AdjustmentShape shape, const glm::dvec3& size) {
+    const char* what = shape == AdjustmentShape::Box ? "size " : "radius ";
+    for (int i = 0; i < 3; ++i) {
+        if (!(size[i] > 0.0)) return Error{text(what, size[i], " is not a positive length")};
+    }
+    return Ok{};
+}
+
 double volume_of(const ProbeAdjustment& adjustment) {
     constexpr double kSphere = 4.0 / 3.0 * std::numbers::pi;
     const double unit = adjustment.shape == AdjustmentShape::Sphere ? kSphere : 1.0;

@@ -54,6 +54,9 @@ struct AdjustmentAt {
 
 [[nodiscard]] bool contains(const ProbeAdjustment& adjustment, const glm::dvec3& position);
 
+/// Error: a side of a box or the radius of a sphere, which is three times there, is not positive.
+[[nodiscard]] Status check_size(AdjustmentShape shape, const glm::dvec3& size);
+
 /// Cubic metres.
 [[nodiscard]] double volume_of(const ProbeAdjustment& adjustment);
 

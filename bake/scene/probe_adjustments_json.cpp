@@ -70,10 +70,7 @@ Status read_place(const json& object, ProbeAdjustment& adjustment) {
     if (auto status = read_number(object, "radius", radius); !status) return status;
     adjustment.shape = is_box ? AdjustmentShape::Box : AdjustmentShape::Sphere;
     if (!is_box) size = glm::dvec3(radius.value_or(1.0));
-    for (int i = 0; i < 3; ++i) {
-        if (size[i] > 0.0) continue;
-        return Error{text(is_box ? "size " : "radius ", size[i], " is not a positive length")};
-    }
+    if (auto status = check_size(adjustment.shape, size); !status) return status;
     adjustment.world_from_volume = glm::scale(glm::translate(glm::dmat4(1.0), center), size);
     return Ok{};
 }

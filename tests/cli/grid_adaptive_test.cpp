@@ -16,6 +16,18 @@ class GridAdaptive : public CommandFixture {
         for (const Json& group : json["groups"]) count += group["positions"].size();
         return count;
     }
+
+    /// A long run to g.json that gets Ctrl-C after two seconds.
+    [[nodiscard]] CommandResult interrupted() const {
+        RunningCommand grid(folder(),
+                            {"grid", kCourtyard, "-o", "g.json", "--mode", "adaptive",
+                             "--target-error", "0.01%", "--max-probes", "50000"},
+                            "");
+        while (!grid.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::this_thread::sleep_for(std::chrono::seconds(2));
+        grid.send(SIGINT);
+        return grid.wait();
+    }
 };
 
 TEST_F(GridAdaptive, ReportsTheErrorThatItReached) {
@@ -36,14 +48,7 @@ TEST_F(GridAdaptive, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(GridAdaptive, CtrlCLeavesTheLastWholeResult) {
-    RunningCommand grid(folder(),
-                        {"grid", kCourtyard, "-o", "g.json", "--mode", "adaptive", "--target-error",
-                         "0.01%", "--max-probes", "50000"},
-                        "");
-    while (!grid.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    std::this_thread::sleep_for(std::chrono::seconds(2));
-    grid.send(SIGINT);
-    const CommandResult result = grid.wait();
+    const CommandResult result = interrupted();
     EXPECT_EQ(result.exit_code, 130);
     if (contains(result.err, "g.json holds the last whole result")) {
         EXPECT_GT(count_in("g.json"), 4u);
@@ -55,14 +60,7 @@ TEST_F(GridAdaptive, CtrlCLeavesTheLastWholeResult) {
 
 TEST_F(GridAdaptive, CtrlCPutsTheLastWholeResultBesideAnOlderFile) {
     write("g.json", "old");
-    RunningCommand grid(folder(),
-                        {"grid", kCourtyard, "-o", "g.json", "--mode", "adaptive", "--target-error",
-                         "0.01%", "--max-probes", "50000"},
-                        "");
-    while (!grid.handles(SIGINT)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    std::this_thread::sleep_for(std::chrono::seconds(2));
-    grid.send(SIGINT);
-    const CommandResult result = grid.wait();
+    const CommandResult result = interrupted();
     EXPECT_EQ(result.exit_code, 130);
     EXPECT_TRUE(contains(result.err, "interrupted; g.json is as it was")) << result.err;
     EXPECT_EQ(read("g.json"), "old");
@@ -99,6 +97,9 @@ TEST_F(GridAdaptive, PreviewIsAPicture) {
     EXPECT_TRUE(
         contains(misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--width", "64"}),
                  "--preview"));
+    EXPECT_TRUE(contains(misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview",
+                                 "g.png", "--eye", "1,2,3", "--target", "1,2,3"}),
+                         "--target: is the same point as --eye"));
     const std::string message =
         fail({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "no/g.png"});
     EXPECT_TRUE(contains(message, "no/g.png")) << message;

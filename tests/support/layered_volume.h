@@ -4,8 +4,8 @@
 #include <random>
 #include <string>
 
+#include "probes/compact_probes.h"
 #include "probes/recombine.h"
-#include "probes/relight.h"
 #include "tests/support/random_light.h"
 #include "tests/support/random_probes.h"
 

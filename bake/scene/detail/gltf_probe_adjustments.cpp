@@ -27,10 +27,8 @@ Result<ProbeAdjustment> converted(const GltfAdjustment& extras, const glm::dmat4
     adjustment.shape = is_box ? AdjustmentShape::Box : AdjustmentShape::Sphere;
     const glm::dvec3 size =
         is_box ? extras.size.value_or(glm::dvec3(1.0)) : glm::dvec3(extras.radius.value_or(1.0));
-    for (int i = 0; i < 3; ++i) {
-        if (size[i] > 0.0) continue;
-        return Error{text("extras.probe_adjustment: ", is_box ? "size " : "radius ", size[i],
-                          " is not a positive length")};
+    if (auto status = check_size(adjustment.shape, size); !status) {
+        return status.error().in("extras.probe_adjustment");
     }
     adjustment.world_from_volume = glm::scale(placed, size);
     adjustment.forbids_probes = extras.forbid;
