@@ -3,6 +3,7 @@
 import type {Page} from 'playwright-core';
 import {afterAll, beforeAll, expect, test} from 'vitest';
 
+import {middleGreyExposure} from '../src/exposure';
 import {close, colorAt, open, ready} from './browser';
 import {Server} from './server';
 import {visit} from './visit';
@@ -43,6 +44,36 @@ test('a link holds the view', () => visit(server.url, async page => {
     await second.getByRole('button', {name: 'Copy link'}).click();
     expect(eye(second)).toBe(eye(page));
     await second.context().close();
+}));
+
+test('the exposure is that of the light itself, and needs no shader of its own', () => visit(server.url, async page => {
+    await ready(page);
+    const {found, light, programs} = await page.evaluate(() => {
+        const {stage, lines} = (window as any).tetralight.viewer;  // eslint-disable-line
+        const {renderer} = stage;
+        const setTarget = renderer.setRenderTarget;
+        let Target: any;  // eslint-disable-line
+        renderer.setRenderTarget = (target: object | null) => {
+            if (target !== null) Target ??= target.constructor;
+            setTarget(target);
+        };
+        stage.drawNow();
+        const programs = [renderer.info.programs.length];
+        stage.exposeItself();
+        programs.push(renderer.info.programs.length);
+        lines.group.visible = false;  // no light of the scene
+        const size = 64;
+        const kFloat = 1015;
+        setTarget(new Target(size, size, {type: kFloat}));  // linear, not tone-mapped
+        stage.drawNow();
+        const pixels = new Float32Array(4 * size * size);
+        renderer.readRenderTargetPixels(renderer.getRenderTarget(), 0, 0, size, size, pixels);
+        setTarget(null);
+        return {found: stage.exposure, light: [...pixels], programs};
+    });
+    expect(programs[1]).toBe(programs[0]);
+    // Panes are blended after the tone mapping.
+    expect(Math.abs(found / middleGreyExposure(light) - 1)).toBeLessThan(0.02);
 }));
 
 test('the weight of a layer changes the light of probes at once', () => visit(server.url, async page => {

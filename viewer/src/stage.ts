@@ -3,7 +3,7 @@
 import * as three from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
-import {middleGreyExposure} from './exposure';
+import {middleGreyExposure, takeToneMappingBack} from './exposure';
 import {Sky} from './sky';
 
 export class Stage {
@@ -61,16 +61,42 @@ export class Stage {
 
     /** The exposure that brings the log-average luminance of the view to middle grey, as `render` does. */
     exposeItself(): void {
-        const size = 64;
-        const target = new three.WebGLRenderTarget(size, size, {type: three.FloatType});
-        const pixels = new Float32Array(4 * size * size);
-        this.renderer.setRenderTarget(target);  // targets are linear and not tone-mapped
-        this.drawNow();
-        this.renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
-        this.renderer.setRenderTarget(null);
-        target.dispose();
-        this.exposure = middleGreyExposure(pixels);
+        this.exposure = middleGreyExposure(this.light(64));
         this.exposed();
+    }
+
+    /** The light of the view, RGBA of size² pixels. */
+    private light(size: number): Float32Array {
+        const kFaint = 2 ** -12;
+        const {exposure, renderer} = this;
+        const target = new three.WebGLRenderTarget(size, size, {type: three.FloatType});
+        // Targets are linear and not tone-mapped, unless they are of headsets: then the shaders are those of the
+        // canvas, which takes seconds off the first picture of software that compiles them.
+        target.texture.colorSpace = renderer.outputColorSpace;
+        Object.assign(target, {isXRRenderTarget: true});
+        const pixels = new Float32Array(4 * size * size);
+        const showMarks = this.hideMarks();
+        renderer.toneMappingExposure = kFaint;
+        renderer.setRenderTarget(target);
+        this.drawNow();
+        renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
+        renderer.setRenderTarget(null);
+        renderer.toneMappingExposure = exposure;
+        showMarks();
+        target.dispose();
+        takeToneMappingBack(pixels, kFaint);
+        return pixels;
+    }
+
+    /** Hides what has colours of its own whatever the exposure; returns what undoes it. */
+    private hideMarks(): () => void {
+        const marks: three.Object3D[] = [];
+        this.scene.traverseVisible(object => {
+            const {material} = object as Partial<three.Mesh>;
+            if ([material ?? []].flat().some(({toneMapped}) => !toneMapped)) marks.push(object);
+        });
+        for (const mark of marks) mark.visible = false;
+        return () => { for (const mark of marks) mark.visible = true; };
     }
 
     look(from: readonly number[], at: readonly number[]): void {
