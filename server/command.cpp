@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -30,8 +29,10 @@ using Clock = std::chrono::steady_clock;
 constexpr size_t kMostOutput = size_t{16} << 20;
 /// How much less than queries a command counts that somebody waits for.
 constexpr int kNiceness = 5;
-/// With SCHED_IDLE: no query that wakes up waits for a bake.
-constexpr int kLeastPriority = 19;
+/// Of bakes: no query that wakes up shall wait for one. Linux weighs sessions, not processes, where
+/// it makes a group of each (sched(7), autogroup); a session of little weight gives way at once,
+/// SCHED_IDLE within a session after a slice.
+constexpr int kMostNiceness = 19;
 
 struct Pipe {
     Descriptor read;
@@ -50,6 +51,14 @@ uint64_t memory_limit(const Settings& settings) {
     return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
 }
 
+/// Tells the kernel, where it has such a file.
+void say_to(const char* path, const char* words) {
+    const int file = ::open(path, O_WRONLY | O_CLOEXEC);
+    if (file < 0) return;
+    [[maybe_unused]] const ssize_t ignored = ::write(file, words, std::strlen(words));
+    ::close(file);
+}
+
 /// The new process, before it becomes the command. Calls only what is allowed after a fork of a
 /// process with threads.
 [[noreturn]] void become(const char* program, char* const* arguments, const char* folder,
@@ -58,19 +67,18 @@ uint64_t memory_limit(const Settings& settings) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(127);  // it was too late for that
     // A group of its own: Ctrl-C is for the server, which then ends its commands.
-    ::setpgid(0, 0);
-    ::setpriority(PRIO_PROCESS, 0, is_background ? kLeastPriority : kNiceness);
-    const sched_param no_priority{};
-    if (is_background) ::sched_setscheduler(0, SCHED_IDLE, &no_priority);
+    if (is_background) {
+        ::setsid();
+        say_to("/proc/self/autogroup", "19");
+    } else {
+        ::setpgid(0, 0);
+    }
+    ::setpriority(PRIO_PROCESS, 0, is_background ? kMostNiceness : kNiceness);
     const rlimit limit{memory, memory};
     ::setrlimit(RLIMIT_DATA, &limit);
     const rlimit no_core{0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
-    const int score = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
-    if (score >= 0) {
-        [[maybe_unused]] const ssize_t ignored = ::write(score, "800", 3);
-        ::close(score);
-    }
+    say_to("/proc/self/oom_score_adj", "800");
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);

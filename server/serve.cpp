@@ -249,9 +249,9 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
         });
         is_listening((*http)->port());
         (*http)->run();
-        service.is_over = true;
-        http->reset();  // its workers end
     }
+    service.is_over = true;
+    http->reset();  // its workers end; nobody is left who may stop it
     log.write(Log::Level::Info, "ended");
     return Ok{};
 }

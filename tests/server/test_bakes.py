@@ -52,6 +52,16 @@ class BakeTest(ServiceTest):
             time.sleep(0.02)
         self.fail("no chunk was written")
 
+    def processes_of(self, bake):
+        found = []
+        for name in os.listdir("/proc"):
+            try:
+                if name.isdigit() and bake in os.readlink(f"/proc/{name}/cwd"):
+                    found.append(int(name))
+            except OSError:
+                pass
+        return found
+
     def wait_for_no_folders(self):
         """Folders go after the bake is said to be over, never before."""
         for _ in range(500):
@@ -198,12 +208,8 @@ class Bakes(BakeTest):
         server = self.start()
         bake = self.begin(server, **SLOW)
         self.wait_for_chunks(bake, 1)
-        for name in os.listdir("/proc"):
-            try:
-                if name.isdigit() and bake in os.readlink(f"/proc/{name}/cwd"):
-                    os.kill(int(name), 9)
-            except OSError:
-                pass
+        for process in self.processes_of(bake):
+            os.kill(process, 9)
         answer = server.wait_for(bake)
         self.assertEqual(answer["state"], "failed")
         self.assertIn("signal 9", answer["error"])
@@ -290,6 +296,21 @@ class Bakes(BakeTest):
             answer = server.post(f"/v1/volumes/{volume}/query", {"positions": [[0, 1, 0]]})
             self.assertEqual(answer.status, 200)
         server.post(f"/v1/bakes/{slow}/cancel")
+
+    def test_bakes_give_way_to_queries(self):
+        server = self.start()
+        bake = self.begin(server, **SLOW)
+        self.wait_for_chunks(bake, 1)
+        processes = self.processes_of(bake)
+        self.assertTrue(processes)
+        for process in processes:
+            self.assertEqual(os.getpriority(os.PRIO_PROCESS, process), 19)
+            self.assertNotEqual(os.getsid(process), os.getsid(server.process.pid))
+            groups = f"/proc/{process}/autogroup"
+            if os.path.exists(groups):
+                with open(groups, encoding="ascii") as file:
+                    self.assertTrue(file.read().endswith(" nice 19\n"))
+        server.post(f"/v1/bakes/{bake}/cancel")
 
     def test_bakes_and_relights_of_the_same_bytes_take_no_name_away(self):
         server = self.start()
