@@ -438,6 +438,8 @@ class Paths(ServiceTest):
         answer = server.get("/")
         self.assertEqual((answer.status, answer.body), (200, b"<p>hello"))
         self.assertIn("default-src 'self'", answer.headers["Content-Security-Policy"])
+        head = server.request("HEAD", "/index.html")
+        self.assertEqual((head.status, head.headers["Content-Length"], head.body), (200, "8", b""))
         for path in ("/link", "/../secret", "/%2e%2e/secret", "/missing.js"):
             self.assert_problem(server.get(path), 404, "no_such_path")
         self.assert_problem(server.get("/v1/nothing"), 404, "no_such_path")

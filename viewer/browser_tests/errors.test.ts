@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What goes wrong is said in words, and the page goes on.
-import {writeFileSync} from 'node:fs';
+import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 
 import {afterAll, beforeAll, expect, test} from 'vitest';
@@ -72,6 +72,29 @@ test('a corrupt volume is refused in words, and the shown one stays', () => visi
     expect(await page.textContent('#banner')).toMatch(/checksum|corrupt|damaged/);
     await page.locator('#status', {hasText: 'court: 255 probes'}).waitFor();
 }, {refusal: /status of 422/}));
+
+test('a volume that is damaged on the disk is told of when it is chosen, and the shown one stays', () => visit(
+    server.url, async page => {
+        await ready(page);
+        const groups = await server.request<{id: string}>('POST', '/v1/groups', JSON.stringify(
+            {groups: [{name: 'few', positions: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}]}));
+        const {id} = await server.request<{id: string}>(
+            'POST', '/v1/tetrahedralize', JSON.stringify({groups: [groups.id], name: 'torn'}));
+        await page.reload();
+        await ready(page);
+        await page.getByLabel('Probe volume').selectOption(volume);
+        await page.locator('#status', {hasText: 'court: 255 probes'}).waitFor();
+        const path = join(server.folder, 'data', 'volumes', `${id}.probes`);
+        const bytes = readFileSync(path);
+        bytes[bytes.length >> 1] ^= 0xff;
+        writeFileSync(path, bytes);
+        await page.getByLabel('Probe volume').selectOption(id);
+        await page.locator('#banner', {hasText: /damaged|corrupt/}).waitFor();
+        await page.waitForTimeout(1000);
+        expect(await page.locator('#banner').isVisible()).toBe(true);
+        await page.locator('#status', {hasText: 'court: 255 probes'}).waitFor();
+        await server.request('DELETE', `/v1/volumes/${id}`);
+    }, {refusal: /status of 4\d\d/}));
 
 test('wrong settings are refused in the server’s words', () => visit(server.url + '/#tab=bakes', async page => {
     await ready(page);

@@ -43,6 +43,10 @@ test('a link holds the view', () => visit(server.url, async page => {
     const eye = (of: Page) => new URLSearchParams(new URL(of.url()).hash.slice(1)).get('eye');
     await second.getByRole('button', {name: 'Copy link'}).click();
     expect(eye(second)).toBe(eye(page));
+    const before = eye(second);
+    await second.focus('canvas');
+    await second.keyboard.press('ArrowUp');
+    expect(eye(second)).not.toBe(before);  // without being asked
     await second.context().close();
 }));
 
@@ -90,6 +94,20 @@ test('the weight of a layer changes the light of probes at once', () => visit(se
     expect(await light()).toBeGreaterThan(2 * rest);
     await page.getByRole('button', {name: 'Copy link'}).click();
     expect(page.url()).toContain('w.sun=0');
+}));
+
+test('without a weight left, scene and sky are black', () => visit(server.url, async page => {
+    await ready(page);
+    const brightest = () => page.evaluate(() => {
+        const {stage} = (window as any).tetralight.viewer;  // eslint-disable-line
+        return Math.max(...stage.light(64).filter((_: number, i: number) => i % 4 < 3));
+    });
+    const before = await brightest();
+    for (const name of await page.locator('#panel-view input[type=range]').all()) {
+        if (await name.getAttribute('max') === '4' && await name.getAttribute('min') === '0') await name.fill('0');
+    }
+    expect(before).toBeGreaterThan(0.5);
+    expect(await brightest()).toBeLessThan(1e-3);
 }));
 
 test('light that is kept is what the page names', () => visit(server.url, async page => {

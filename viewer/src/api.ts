@@ -5,7 +5,8 @@ export type Kind = 'scenes' | 'skies' | 'groups' | 'volumes';
 
 export interface StoredFile {
     id: string;
-    name: string;
+    name: string;  // the first of them
+    names: string[];
     bytes: number;
     created: number;
     state: 'ready' | 'quarantined';
@@ -165,9 +166,10 @@ export class Api {
     private async refusal(response: Response): Promise<ApiError> {
         const problem = await response.json().catch(() => ({})) as Record<string, string>;
         if (response.status === 401) this.connection.unauthorized();
+        const {detail = `the server answered ${response.status}`, field, value = ''} = problem;
+        const isNamed = value === '' || detail.includes(value);
         return new ApiError(response.status, problem.code ?? 'unknown',
-                            problem.detail ?? `the server answered ${response.status}`,
-                            problem.field);
+                            isNamed ? detail : `${detail} (${field}: ${value})`, field);
     }
 
     /** Notices a server that dies while the page asks nothing. */

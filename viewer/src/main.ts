@@ -104,6 +104,7 @@ class Page {
             const [scenes, volumes] = await this.list();
             if (!this.isLoaded) await this.openLinked(scenes, volumes);
             this.isLoaded = true;
+            this.keepLink();
             if (this.tabs.current === 'bakes') await this.bakes.refresh();
             this.status.sayState();
         });
@@ -256,7 +257,7 @@ class Page {
     }
 }
 
-const nameOf = (file: StoredFile) => file.name || file.id.slice(0, 8);
+const nameOf = (file: StoredFile) => file.names.join(', ') || file.id.slice(0, 8);
 
 function fill(choice: HTMLSelectElement, title: string, files: StoredFile[]): void {
     choice.replaceChildren(element('option', {value: ''}, title), ...files.map(option));

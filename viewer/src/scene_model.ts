@@ -14,23 +14,29 @@ export interface SceneModel {
     view: {eye: number[]; target: number[]} | null;
     /** Radiance of a constant sky that the file says, or nothing. */
     sky: number[] | null;
+    /** Of the file, those that are not baked as a whole. */
+    lights: three.Light[];
+    /** Materials whose emission a bake sees. */
+    emitters: three.MeshLambertMaterial[];
 }
 
 export async function loadScene(bytes: ArrayBuffer, field: LppvUniforms): Promise<SceneModel> {
     const gltf = await new GLTFLoader().parseAsync(bytes, '');
     const root = gltf.scene;
     const points: three.Object3D[] = [];
+    const lights: three.Light[] = [];
+    const emitters: three.MeshLambertMaterial[] = [];
     root.traverse(node => {
         if (node instanceof three.Points || node instanceof three.Line) points.push(node);
-        if (node instanceof three.Mesh) prepareMesh(node, field);
-        if (node instanceof three.Light) prepareLight(node);
+        if (node instanceof three.Mesh) emitters.push(...prepareMesh(node, field));
+        if (node instanceof three.Light && prepareLight(node)) lights.push(node);
     });
     for (const node of points) node.removeFromParent();  // groups of probes have balls of their own
     root.updateMatrixWorld(true);
     const box = new three.Box3().setFromObject(root);
     aimShadows(root, box);
     const sky = (root.userData.sky as {radiance?: number[]} | undefined)?.radiance ?? null;
-    return {root, box, sky, view: viewOf(gltf.cameras[0], box)};
+    return {root, box, sky, lights, emitters, view: viewOf(gltf.cameras[0], box)};
 }
 
 function viewOf(camera: three.Camera | undefined, box: three.Box3): SceneModel['view'] {
@@ -42,7 +48,8 @@ function viewOf(camera: three.Camera | undefined, box: three.Box3): SceneModel['
     return {eye: eye.toArray(), target: target.toArray()};
 }
 
-function prepareMesh(mesh: three.Mesh, field: LppvUniforms): void {
+/** Returns its materials whose emission a bake sees. */
+function prepareMesh(mesh: three.Mesh, field: LppvUniforms): three.MeshLambertMaterial[] {
     mesh.castShadow = true;
     mesh.receiveShadow = true;
     const made = (Array.isArray(mesh.material) ? mesh.material : [mesh.material]).map(material => {
@@ -52,36 +59,28 @@ function prepareMesh(mesh: three.Mesh, field: LppvUniforms): void {
         return lambert;
     });
     mesh.material = made.length === 1 ? made[0] : made;
+    return made.filter((material): material is three.MeshLambertMaterial =>
+        material instanceof three.MeshLambertMaterial && bakesEmission(material.userData.bake_emission));
 }
+
+const bakesEmission = (word: unknown) => word !== 'none' && word !== false;
 
 /** A bake takes surfaces for Lambert's. */
 function lambertOf(material: three.MeshStandardMaterial): three.MeshLambertMaterial {
     const {color, map, emissive, emissiveMap, emissiveIntensity, alphaMap, alphaTest, transparent, opacity,
-           side, vertexColors, depthWrite, name} = material;
+           side, vertexColors, depthWrite, name, userData} = material;
     return new three.MeshLambertMaterial({
         color, map, emissive, emissiveMap, emissiveIntensity, alphaMap, alphaTest, transparent, opacity,
-        side, vertexColors, depthWrite, name,
+        side, vertexColors, depthWrite, name, userData,
     });
 }
 
-/** What probes hold of a light already is not shone again. */
-function prepareLight(light: three.Light): void {
+/** What probes hold of a light already is not shone again. False: they hold all of it. */
+function prepareLight(light: three.Light): boolean {
     const words = {...light.userData, ...light.parent?.userData} as {mode?: string};
-    if (words.mode === 'baked') light.visible = false;
+    light.visible = words.mode !== 'baked';
     light.castShadow = light instanceof three.DirectionalLight;
-}
-
-export function makeSun(direction: number[], irradiance: number[], box: three.Box3): three.Object3D {
-    const strength = Math.max(...irradiance, 1e-6);
-    const sun = new three.DirectionalLight(
-        new three.Color(...irradiance.map(x => x / strength) as [number, number, number]), strength);
-    sun.castShadow = true;
-    sun.target.position.fromArray(direction);
-    sun.add(sun.target);
-    const holder = new three.Group();
-    holder.add(sun);
-    aimShadows(holder, box);
-    return holder;
+    return light.visible;
 }
 
 /** Shadow maps of suns hold the whole box. */

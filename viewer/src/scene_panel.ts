@@ -66,7 +66,7 @@ function layerSliders(viewer: Viewer): HTMLElement[] {
     const weights = [...viewer.weights];
     if (weights.length === 0) weights.push(...volume.layers.map(layer => layer.weight));
     const rows = volume.layers.map((layer, i) => slider(
-        layer.name, {min: 0, max: 4, step: 0.05, value: weights[i]}, weight => {
+        layer.name, {min: 0, max: 4, step: 0.05, value: Number(weights[i].toPrecision(4))}, weight => {
             weights[i] = weight;
             viewer.relight([...weights]);
         }));

@@ -173,6 +173,7 @@ export class Stage {
         event.preventDefault();
         this.camera.position.setFromSpherical(spherical).add(this.controls.target);
         this.controls.update();
+        this.controls.dispatchEvent({type: 'end'});  // as after a drag
         this.draw();
     }
 }

@@ -9,9 +9,10 @@ import {badnessColor, errorBadness} from './colors';
 import {Gizmo} from './gizmo';
 import {LightField} from './light_field';
 import {ProbeBalls} from './probe_balls';
-import {disposeScene, loadScene, makeSun, SceneModel} from './scene_model';
+import {disposeScene, loadScene, SceneModel} from './scene_model';
 import type {Stage} from './stage';
 import {edgesOf, Light, readVolume, sumAmbient, sumLayers, Volume} from './volume';
+import {dimLights, makeLights} from './volume_lights';
 
 export type ProbeColor = 'light' | 'validity' | 'error';
 export type Part = 'scene' | 'probes' | 'cells';
@@ -32,7 +33,7 @@ export class Viewer {
     readonly field = new LightField();
     readonly lines = new CellLines();
     readonly gizmo: Gizmo;
-    private readonly added = new three.Group();  // sun that the bake was given
+    private lights = new three.Group();  // of the volume
     private readonly marker = new three.Mesh(  // seen through walls
         new three.TorusGeometry(1.6, 0.16, 8, 48),
         new three.MeshBasicMaterial({color: 0xffc000, depthTest: false, transparent: true, toneMapped: false}));
@@ -51,7 +52,7 @@ export class Viewer {
             this.marker.updateMatrixWorld();
             this.marker.modelViewMatrix.multiplyMatrices(camera.matrixWorldInverse, this.marker.matrixWorld);
         };
-        stage.scene.add(this.lines.group, this.added, this.marker);
+        stage.scene.add(this.lines.group, this.marker);
     }
 
     /** Called when there is another volume or scene. */
@@ -77,10 +78,13 @@ export class Viewer {
         if (file.state === 'quarantined') {
             throw new ApiError(422, 'damaged', `the volume ${file.name || file.id} is damaged: ${file.damage}`);
         }
-        this.bake = bakes.find(bake => bake.volume === file.id) ?? null;
-        const scene = this.bake?.request?.scene as string | undefined;
+        const bake = bakes.find(each => each.volume === file.id) ?? null;
+        const scene = bake?.request?.scene as string | undefined;
+        this.alerts.succeed('scene');
         const [volume] = await Promise.all([
-            readVolume(this.api, file), scene === undefined ? null : this.alerts.attempt('open', () => this.openScene(scene))]);
+            readVolume(this.api, file),
+            scene === undefined ? null : this.alerts.attempt('scene', () => this.openScene(scene))]);
+        this.bake = bake;
         this.showVolume(volume, weights);
         await this.placeField();
     }
@@ -91,6 +95,8 @@ export class Viewer {
         this.balls = null;
         this.lines.clear();
         this.field.clear();
+        this.bake = null;
+        this.lightScene();
         this.changed();
     }
 
@@ -105,9 +111,9 @@ export class Viewer {
             this.stage.scene.add(model.root);
             this.stage.lookAtAll(model.box);
             if (model.view !== null) this.stage.look(model.view.eye, model.view.target);
+            this.lightScene();
             await this.placeField();
         }
-        this.addSun();
         this.changed();
     }
 
@@ -139,6 +145,9 @@ export class Viewer {
         this.light = {irradiance: sumLayers(this.volume, weights), ambient: sumAmbient(this.volume, weights)};
         this.balls?.setLight(this.light.irradiance);
         this.field.relight(this.light);
+        dimLights(this.lights, weights);
+        this.dimEmission();
+        this.setSky();
         this.stage.draw();
         for (const listener of this.lightListeners) listener();
     }
@@ -192,9 +201,9 @@ export class Viewer {
         if (volume.probeCount > kManyEdges) this.hidden.add('cells');
         this.applyParts();
         this.tint();
-        this.addSun();
         if (hadNothing) this.stage.lookAtAll(this.box);
         this.weights = volume.layers.map(layer => weights[layer.name] ?? layer.weight);
+        this.lightScene();
         this.changed();
         this.relight(this.weights);
     }
@@ -242,18 +251,39 @@ export class Viewer {
         this.stage.draw();
     }
 
-    /** The sun and the sky that the order of the bake had. */
-    private addSun(): void {
-        this.added.clear();
-        const request = this.bake?.request ?? {};
-        const direction = request.sun_direction as number[] | undefined;
-        if (direction !== undefined && request.sun_mode !== 'baked') {
-            this.added.add(makeSun(direction, request.sun_irradiance as number[], this.box));
+    /** A volume that was baked knows its lights; else those of the scene shine. */
+    private lightScene(): void {
+        const lights = this.volume?.isBaked ? this.volume.lights : null;
+        this.lights.removeFromParent();
+        this.lights = makeLights(lights ?? [], this.weights, this.box);
+        this.stage.scene.add(this.lights);
+        for (const light of this.model?.lights ?? []) light.visible = lights === null;
+        this.dimEmission();
+        this.setSky();
+    }
+
+    /** Surfaces shine as much as the layers do that their light is in. */
+    private dimEmission(): void {
+        for (const material of this.model?.emitters ?? []) {
+            material.userData.strength ??= material.emissiveIntensity;
+            material.emissiveIntensity = material.userData.strength *
+                this.weightOf(`material:${material.name}`, 'emission', 'rest');
         }
-        const sky = request.sky ?? this.model?.sky;
+    }
+
+    /** The weight of the first of these layers that there is. */
+    private weightOf(...names: string[]): number {
+        const layers = this.volume?.layers ?? [];
+        const found = names.map(name => layers.findIndex(layer => layer.name === name)).find(i => i >= 0);
+        return found === undefined ? 1 : this.weights[found] ?? layers[found].weight;
+    }
+
+    /** The volume's, or that of the order of its bake, or the scene's. */
+    private setSky(): void {
+        const sky = this.volume?.sky ?? this.bake?.request?.sky ?? this.model?.sky;
         const radiance = typeof sky === 'number' ? [sky, sky, sky] : Array.isArray(sky) ? sky as number[] : null;
         if (radiance === null) this.stage.sky.radiance.set(0x11151c);
-        else this.stage.sky.radiance.fromArray(radiance);
+        else this.stage.sky.radiance.fromArray(radiance).multiplyScalar(this.weightOf('sky', 'rest'));
     }
 
     private changed(): void {

@@ -3,8 +3,10 @@
 import type {Api, StoredFile} from './api';
 import type {Locations} from './query_binary';
 import {kCoefficients} from './sh';
+import {readLights, VolumeLight} from './volume_lights';
 
 export const kNone = 0xffffffff;
+const kY0 = 0.5 / Math.sqrt(Math.PI);  // the constant basis function
 
 export interface Layer {
     name: string;
@@ -32,6 +34,8 @@ export interface Volume {
     health: Health[];          // none: not known
     layers: Layer[];
     layerAmbients: Float32Array[];
+    lights: VolumeLight[];
+    sky: number[] | null;      // mean radiance of layer "sky"; none: not known
     sources: Uint32Array;      // 3 each: group, index in the group, probe
     groupNames: string[];
     exactPositions: Float64Array;
@@ -82,7 +86,8 @@ const lines = (bytes: ArrayBuffer) => new TextDecoder().decode(bytes).split('\n'
 export async function readVolume(api: Api, file: StoredFile): Promise<Volume> {
     const section = (name: string) => api.bytes(`/v1/volumes/${file.id}/sections/${name}`);
     const names = ['info', 'positions', 'irradiance', 'cells', 'validity', 'health', 'layers',
-                   'layer_names', 'layer_irradiance', 'sources', 'group_names', 'exact_positions'];
+                   'layer_names', 'layer_irradiance', 'sources', 'group_names', 'exact_positions', 'lights',
+                   'light_states', 'sky'];
     const present = sectionNames(file);
     const read = await Promise.all(
         names.map(name => present.has(name) ? section(name) : new ArrayBuffer(0)));
@@ -105,6 +110,8 @@ export async function readVolume(api: Api, file: StoredFile): Promise<Volume> {
         validity: new Float32Array(get('validity')),
         health: readHealth(get('health')),
         layerAmbients: ambients,
+        lights: readLights(get('lights'), get('light_states')),
+        sky: present.has('sky') ? [...new Float32Array(get('sky'), 0, 3)].map(value => kY0 * value) : null,
         sources: new Uint32Array(get('sources')),
         groupNames: lines(get('group_names')),
         exactPositions: new Float64Array(get('exact_positions')),
