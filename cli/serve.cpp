@@ -70,6 +70,10 @@ CLI::Validator only(bool (*is_right)(std::string_view), const char* what) {
     return {check, ""};
 }
 
+bool has_page(std::string_view folder) {
+    return std::filesystem::is_regular_file(std::filesystem::path(folder) / "index.html");
+}
+
 struct Serve {
     server::Settings settings;
     std::string listen = "127.0.0.1:8080";
@@ -107,7 +111,8 @@ struct Serve {
         add_path(command, "--viewer", settings.viewer,
                  "Folder of the web page to serve at / (default: the viewer that was built or "
                  "installed with this program)")
-            ->check(CLI::ExistingDirectory);
+            ->check(CLI::ExistingDirectory)
+            ->check(only(has_page, "a folder with an index.html"));
         add_choice(command, "--log", settings.log_level,
                    {{"debug", server::Log::Level::Debug},
                     {"info", server::Log::Level::Info},

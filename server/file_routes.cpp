@@ -265,7 +265,8 @@ Response bytes_response(const Request& request, const Body& body, const std::str
                     {"Cache-Control",
                      is_by_id ? "private, max-age=31536000, immutable" : "private, no-cache"}},
         .body = body};
-    if (request.header("if-none-match").find(quoted) != std::string_view::npos) {
+    const std::string_view known = request.header("if-none-match");
+    if (known == "*" || known.find(quoted) != std::string_view::npos) {
         response.status = 304;
         response.body = {};
         return response;

@@ -84,7 +84,9 @@ std::vector<std::string> Fields::texts(const std::string& key) {
     if (!value->is_array()) refuse(key, *value, "an array of strings");
     std::vector<std::string> texts;
     for (const Json& element : *value) {
-        if (!element.is_string()) refuse(key, element, "a string");
+        if (!element.is_string()) {
+            refuse(key + "[" + std::to_string(texts.size()) + "]", element, "a string");
+        }
         texts.push_back(element.get<std::string>());
     }
     return texts;

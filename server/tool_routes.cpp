@@ -156,7 +156,7 @@ std::vector<std::string> weights_arguments(Fields& fields) {
     if (!weights->is_object()) refuse("weights", *weights, "an object of numbers");
     std::vector<std::string> arguments;
     for (const auto& [layer, weight] : weights->items()) {
-        if (!weight.is_number()) refuse("weights", weight, "a number");
+        if (!weight.is_number()) refuse("weights." + layer, weight, "a number");
         if (layer.find(',') != std::string::npos) refuse("weights", layer, "without commas");
         arguments.push_back(text("--weights=", layer, "=", weight.get<double>()));
     }

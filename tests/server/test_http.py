@@ -389,7 +389,7 @@ class Access(ServiceTest):
         for option, value in (("--threads", "1000000"), ("--threads", "-1"), ("--drain-seconds", "nan"),
                               ("--header-seconds", "0"), ("--transfer-seconds", "nan"),
                               ("--max-connections", "0"), ("--max-body", "0"), ("--workers", "0"),
-                              ("--idle-seconds", "1e300"), ("--viewer", "/nonexist"),
+                              ("--idle-seconds", "1e300"), ("--viewer", "/nonexist"), ("--viewer", "/proc"),
                               ("--cors-origin", "good.example"), ("--allowed-host", "a:80"),
                               ("--cors-origin", "https://good.example/")):
             with self.subTest(option=option, value=value):

@@ -66,6 +66,7 @@ class Tools(ServiceTest):
                 ("lppv", {"volume": volume, "scene": "court", "object": "x"}, 422, "object", "x"),
                 ("render", {"volume": volume, "scene": "court", "camera": "x"}, 422, "camera", "x"),
                 ("relight", {"volume": volume, "weights": {"x": 1}}, 422, "weights.x", "1"),
+                ("relight", {"volume": volume, "weights": {"x": "y"}}, 400, "weights.x", "y"),
                 ("relight", {"volume": volume, "blend": "none"}, 404, "blend", "none"),
                 ("relight", {"volume": volume, "sky": [1, 1, 1]}, 422, "volume", volume)):
             with self.subTest(path=path, members=members):
