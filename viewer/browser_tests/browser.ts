@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Debian's Chromium with software rendering.
-import {Browser, BrowserContext, chromium, Page} from 'playwright-core';
+import {Browser, BrowserContext, chromium, Locator, Page} from 'playwright-core';
 
 let browser: Browser | null = null;
 
@@ -66,6 +66,13 @@ export function ballPlace(page: Page): Promise<Place> {
 export async function canvasMiddle(page: Page): Promise<Place> {
     const {x, y, width, height} = (await page.locator('canvas').boundingBox())!;
     return {x: x + width / 2, y: y + height / 2};
+}
+
+/** As by hand: text that is no number, too, and then away. */
+export async function typeInto(field: Locator, text: string): Promise<void> {
+    await field.fill('');
+    await field.pressSequentially(text);
+    await field.press('Tab');
 }
 
 /** The median colour, 0 to 255, of 7 × 7 pixels of the canvas around a place of the page: no thin line. */

@@ -3,7 +3,7 @@
 import type {Page} from 'playwright-core';
 import {afterAll, beforeAll, expect, test} from 'vitest';
 
-import {canvasMiddle, close, colorAt, ready} from './browser';
+import {canvasMiddle, close, colorAt, ready, typeInto} from './browser';
 import {Server} from './server';
 import {visit} from './visit';
 
@@ -136,13 +136,93 @@ test('a generated grid is a preview until it is saved', () => visit(server.url +
     expect(groups.filter(({name}) => name !== '').map(({name}) => name)).toEqual(['edited']);
 }));
 
+test('no edit is lost in silence', () => visit(
+    server.url + '/#tab=groups&volume=court', async page => {
+        await ready(page);
+        const isAskedToStay = () => page.evaluate(() => !dispatchEvent(new Event('beforeunload', {cancelable: true})));
+        const preview = page.getByText('This is a preview');
+        await edited(page, /^255 probes/);
+        expect(await isAskedToStay()).toBe(false);
+        await button(page, 'Add probe').click();
+        const x = page.getByLabel(/^Position of probe \d+ of .+ x$/);
+        await x.fill('2.5');
+        await x.press('Tab');
+        for (const text of ['', '-', '1e400', 'abc']) {
+            await typeInto(x, text);
+            expect(await x.inputValue(), text).toBe('2.5');
+        }
+        await button(page, 'Undo').click();
+        await button(page, 'Redo').click();
+        expect(await button(page, 'Redo').isDisabled()).toBe(true);
+
+        await button(page, 'Take those of the volume').click();
+        await edited(page, /^255 probes/);
+        await button(page, 'Undo').click();
+        await edited(page, /^256 probes/);
+        await page.getByLabel('Spacing, metres').fill('');
+        await button(page, 'Preview').click();
+        await page.locator('#banner', {hasText: 'Spacing, metres: the field is empty'}).waitFor();
+        await page.getByLabel('Spacing, metres').fill('6');
+        await button(page, 'Preview').click();
+        await preview.waitFor();
+        await button(page, 'Take those of the volume').click();
+        await preview.waitFor({state: 'detached'});
+        expect(await isAskedToStay()).toBe(false);
+        await button(page, 'Undo').click();
+        await preview.waitFor();
+        await button(page, 'Undo').click();
+        await edited(page, /^256 probes .+ joined by/);
+        expect(await preview.count()).toBe(0);
+        expect(await isAskedToStay()).toBe(true);
+
+        const status = (words: string) => page.locator('#status', {hasText: words}).waitFor();
+        for (const name of ['first', 'second']) {
+            await page.getByLabel('Name', {exact: true}).fill(name);
+            await button(page, 'Save').click();
+            await status(`Saved as ${name}.`);
+        }
+        expect(await isAskedToStay()).toBe(false);
+        await page.route('**/v1/groups?name=*', route => route.fulfill({status: 507, json: {detail: 'the disk is full'}}));
+        await button(page, 'Save').click();
+        await page.locator('#banner', {hasText: 'the disk is full'}).waitFor();
+        expect(await page.textContent('#status')).toBe('The groups are not saved.');
+    }, {refusal: /status of 507/}));
+
+test('groups that are saved while they are joined stay on the server', () => visit(
+    server.url + '/#tab=groups&volume=court', async page => {
+        await ready(page);
+        await edited(page, /^255 probes .+ joined by/);
+        let isSaved = () => {};
+        const saved = new Promise<void>(done => { isSaved = done; });
+        await page.route('**/v1/tetrahedralize', route => saved.then(() => route.continue()));
+        const asked = page.waitForRequest('**/v1/tetrahedralize');
+        await button(page, 'Add probe').click();
+        await asked;
+        await page.getByLabel('Name', {exact: true}).fill('early');
+        await button(page, 'Save').click();
+        await page.locator('#status', {hasText: 'Saved as early.'}).waitFor();
+        const removed = page.waitForResponse(response => response.request().method() === 'DELETE');
+        isSaved();
+        await removed;
+        await edited(page, /^256 probes .+ joined by/);
+        const {groups} = await server.request<{groups: {name: string}[]}>('GET', '/v1/groups');
+        expect(groups.map(({name}) => name)).toContain('early');
+    }));
+
 test('a bake shows its progress and is cancelled', () => visit(server.url + '/#tab=bakes', async page => {
     await ready(page);
     await page.getByLabel('Name of the volume').fill('long');
     await page.getByLabel('Samples', {exact: true}).fill('1000000');
     await button(page, 'Bake').click();
     const row = page.locator('.bakes li', {hasText: 'long'});
-    await row.locator('progress').waitFor();
-    await row.getByRole('button', {name: 'Cancel'}).click();
+    const cancel = row.getByRole('button', {name: 'Cancel'});
+    await row.locator('.facts', {hasText: / of /}).waitFor();
+    await cancel.focus();
+    const before = await row.locator('.facts').textContent();
+    await expect.poll(() => row.locator('.facts').textContent(), {timeout: 60_000}).not.toBe(before);
+    const hasFocus = (name: string) => row.getByRole('button', {name}).evaluate(one => one === document.activeElement);
+    expect(await hasFocus('Cancel')).toBe(true);
+    await page.keyboard.press('Enter');
     await row.getByText('cancelled').waitFor();
+    await expect.poll(() => hasFocus('Forget')).toBe(true);
 }));

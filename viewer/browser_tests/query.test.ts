@@ -2,7 +2,7 @@
 import type {Page} from 'playwright-core';
 import {afterAll, beforeAll, expect, test} from 'vitest';
 
-import {ballPlace, close, colorAt, Place, ready} from './browser';
+import {ballPlace, close, colorAt, Place, ready, typeInto} from './browser';
 import {Server} from './server';
 import {visit} from './visit';
 
@@ -50,6 +50,7 @@ test('dragged from the dark room into the lit court, the ball turns from warm to
     await page.mouse.down();
     await page.mouse.move(end.x, end.y, {steps: 10});
     await page.mouse.up();
+    await expect.poll(async () => (await positionOf(page))[2], {timeout: 20_000}).toBeCloseTo(kOutside[2], 0);
     await answered(page);
     const position = await positionOf(page);
     position.forEach((value, axis) => expect(value).toBeCloseTo(kOutside[axis], 0));
@@ -65,6 +66,30 @@ test('the panel says the cell, its probes and weights that add up to 1', () => v
     const weights = await page.locator('.answer td.number').allTextContents();
     expect(weights).toHaveLength(4);
     expect(weights.reduce((sum, text) => sum + Number(text), 0)).toBeCloseTo(1, 2);
+}));
+
+test('what is no number moves neither the ball nor the box', () => visit(link(kOutside), async page => {
+    await ready(page);
+    await answered(page);
+    const orders: string[] = [];
+    page.on('request', request => {
+        if (request.url().endsWith('/v1/lppv')) orders.push(request.postData()!);
+    });
+    const height = page.getByLabel('Position of the ball, metres y');
+    const length = page.getByLabel('Size of the box, metres x');
+    await page.getByLabel('A box of light for a large object').check();
+    for (const text of ['', '-', '1e400', 'abc']) {
+        await typeInto(height, text);
+        expect(await height.inputValue(), text).toBe('1.5');
+        expect(await positionOf(page), text).toEqual(kOutside);
+    }
+    for (const text of ['', '0', '-3']) {
+        await typeInto(length, text);
+        expect(await length.inputValue(), text).toBe('6');
+    }
+    await typeInto(length, '4');
+    await expect.poll(() => orders.at(-1)).toContain('"bounds":[-2,');
+    expect(orders).toHaveLength(2);
 }));
 
 test('light blended in the page is the light that the server interpolates', () => visit(link(kOutside), async page => {

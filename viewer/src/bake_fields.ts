@@ -74,19 +74,27 @@ export const kBakeSections: {title: string; fields: BakeField[]}[] = [
     },
 ];
 
+const kLargest = Number.MAX_SAFE_INTEGER;
+
+/** Nothing is no number, either. */
+const numberOf = (word: string) => word.trim() === '' ? NaN : Number(word);
+
 /** What a field's text means in JSON; nothing: the default. */
 export function valueOf(field: BakeField, text: string): unknown {
     const words = text.trim();
     if (words === '') return undefined;
-    const numbers = words.split(',').map(word => Number(word));
+    const numbers = words.split(',').map(numberOf);
     const isNumeric = numbers.every(Number.isFinite);
     switch (field.kind) {
         case 'number':
         case 'integer':
             if (numbers.length !== 1 || !isNumeric) throw new Error(`${field.label}: "${words}" is no number`);
+            if (field.kind === 'integer' && Math.abs(numbers[0]) > kLargest) {
+                throw new Error(`${field.label}: ${words} is beyond ${kLargest}`);
+            }
             return numbers[0];
         case 'share': {
-            const share = Number(words.replace(/\s*%$/, '')) / (words.endsWith('%') ? 100 : 1);
+            const share = numberOf(words.replace(/\s*%$/, '')) / (words.endsWith('%') ? 100 : 1);
             if (!Number.isFinite(share)) throw new Error(`${field.label}: "${words}" is no number`);
             return share;
         }

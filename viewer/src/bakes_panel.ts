@@ -52,7 +52,7 @@ export class BakesPanel {
     private get earlier(): Bake | null {
         const {bake, volume, sceneFile} = this.viewer;
         const scene = bake?.request?.scene;
-        const isOfScene = sceneFile !== null && (scene === sceneFile.id || scene === sceneFile.name);
+        const isOfScene = sceneFile !== null && (scene === sceneFile.id || sceneFile.names.includes(scene as string));
         return volume !== null && isOfScene ? bake : null;
     }
 
@@ -90,10 +90,10 @@ export class BakesPanel {
             return option;
         }));
         const {bakes} = await this.viewer.api.get<{bakes: Bake[]}>('/v1/bakes');
-        this.list.replaceChildren(...bakes.slice(0, 30).map(bake => this.row(bake)));
+        this.keepFocus(() => this.list.replaceChildren(...bakes.slice(0, 30).map(bake => this.row(bake))));
         if (bakes.length === 0) this.list.append(element('li', {class: 'hint'}, 'None yet.'));
         for (const bake of bakes) {
-            if (bake.state === 'queued' || bake.state === 'running') void this.watch(bake.id);
+            if (isUnderWay(bake)) void this.watch(bake.id);
         }
     }
 
@@ -174,14 +174,24 @@ export class BakesPanel {
     }
 
     private update(bake: Bake): void {
-        const old = this.list.querySelector(`[data-bake="${bake.id}"]`);
+        const old = this.list.querySelector<HTMLElement>(`[data-bake="${bake.id}"]`);
         if (bake.state === 'deleted') old?.remove();
-        else if (old !== null) old.replaceWith(this.row(bake));
-        if (bake.state === 'done' && old?.getAttribute('data-state') !== 'done') {
+        else if (old?.dataset.state === bake.state && isUnderWay(bake)) this.showProgress(old, bake);
+        else if (old !== null) this.keepFocus(() => old.replaceWith(this.row(bake)));
+        if (bake.state === 'done' && old?.dataset.state !== 'done') {
             this.viewer.say(`The bake ${bake.name || bake.id} is done.`);
             if (old !== null) void this.viewer.alerts.attempt('open', () => this.viewer.openVolume(bake.volume!));
             this.finished();
         }
+    }
+
+    /** Makes rows anew; the focus stays with the bake that has it. */
+    private keepFocus(change: () => void): void {
+        const focused = document.activeElement;
+        const id = this.list.contains(focused) ? focused!.closest('li')!.dataset.bake : undefined;
+        change();
+        const buttons = [...this.list.querySelectorAll<HTMLElement>(`[data-bake="${id}"] button`)];
+        (buttons.find(({textContent}) => textContent === focused!.textContent) ?? buttons[0])?.focus();
     }
 
     private row(bake: Bake): HTMLElement {
@@ -189,11 +199,10 @@ export class BakesPanel {
                             element('strong', {}, bake.name || bake.id.slice(0, 8)), ` ${bake.state} `);
         const act = (text: string, work: () => Promise<unknown>) =>
             button(text, () => void this.viewer.alerts.attempt(text, () => work().then(() => this.refresh())));
-        if (bake.state === 'queued' || bake.state === 'running') {
-            const bar = element('progress', {'aria-label': 'Progress', max: Math.max(1, bake.probe_count)});
-            bar.value = bake.probes_done;
-            row.append(bar, element('span', {class: 'facts'}, this.progress(bake)),
+        if (isUnderWay(bake)) {
+            row.append(element('progress', {'aria-label': 'Progress'}), element('span', {class: 'facts'}),
                        act('Cancel', () => this.viewer.api.request('POST', `/v1/bakes/${bake.id}/cancel`)));
+            this.showProgress(row, bake);
         } else {
             if (bake.volume !== undefined) row.append(act('Open', () => this.viewer.openVolume(bake.volume!)));
             row.append(act('Forget', () => this.viewer.api.remove(`/v1/bakes/${bake.id}`)));
@@ -201,6 +210,13 @@ export class BakesPanel {
         if (bake.error) row.append(element('p', {class: 'error'}, bake.error));
         if (bake.report !== undefined) row.append(element('p', {class: 'facts'}, reportLine(bake.report)));
         return row;
+    }
+
+    private showProgress(row: HTMLElement, bake: Bake): void {
+        const bar = row.querySelector('progress')!;
+        bar.max = Math.max(1, bake.probe_count);
+        bar.value = bake.probes_done;
+        row.querySelector('.facts')!.textContent = this.progress(bake);
     }
 
     /** "120 of 255 probes, 1.4 million rays/s, 3 s left". */
@@ -212,6 +228,8 @@ export class BakesPanel {
         return words.join(', ');
     }
 }
+
+const isUnderWay = ({state}: Bake) => state === 'queued' || state === 'running';
 
 function formatRate(raysPerSecond: number): string {
     return `${(raysPerSecond / 1e6).toFixed(1)} million rays/s`;

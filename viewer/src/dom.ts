@@ -71,26 +71,54 @@ export function select(options: [value: string, text: string][], value: string,
     return made;
 }
 
-/** Three numbers side by side. */
-export function vectorInput(text: string, values: readonly number[], step: number,
-                            change: (values: number[]) => void): HTMLElement {
-    const inputs = values.map((value, axis) => {
-        const input = element('input', {
-            type: 'number', step, 'aria-label': `${text} ${'xyz'[axis]}`,
-            change: () => {
-                const numbers = inputs.map(other => Number(other.value));
-                if (numbers.every(Number.isFinite)) change(numbers);
-            },
-        });
-        input.value = String(Number(value.toFixed(3)));
-        return input;
-    });
-    return element('fieldset', {class: 'vector'}, element('legend', {}, text), ...inputs);
+/** Why a number field cannot be taken; nothing where it can. */
+function faultOf(input: HTMLInputElement): string {
+    const {badInput, rangeUnderflow, rangeOverflow} = input.validity;
+    if (badInput) return 'this is no number';
+    if (input.value === '') return 'the field is empty';
+    if (rangeUnderflow) return `${input.value} is less than ${input.min}`;
+    return rangeOverflow ? `${input.value} is more than ${input.max}` : '';
 }
 
-/** Sets the numbers of a `vectorInput`, but not while someone types. */
+/** The number of a field that is sent with a button; the error where there is none names the field. */
+export function numberToSend(input: HTMLInputElement): number {
+    const fault = faultOf(input);
+    input.setAttribute('aria-invalid', String(fault !== ''));
+    if (fault === '') return input.valueAsNumber;
+    input.focus();
+    throw new Error(`${input.labels![0].textContent}: ${fault}`);
+}
+
+function showHeld(input: HTMLInputElement): void {
+    input.value = String(Number(Number(input.dataset.held).toFixed(3)));
+}
+
+/** Three numbers side by side. What is no number of their range changes nothing: the one that holds returns. */
+export function vectorInput(text: string, values: readonly number[], range: Attributes,
+                            change: (values: number[]) => void): HTMLElement {
+    const inputs = values.map((_, axis) => {
+        const input = element('input', {
+            type: 'number', ...range, 'aria-label': `${text} ${'xyz'[axis]}`,
+            change: () => {
+                if (faultOf(input) === '') {
+                    input.dataset.held = input.value;
+                    change(inputs.map(other => Number(other.dataset.held)));
+                }
+                showHeld(input);
+            },
+            blur: () => showHeld(input),
+        });
+        return input;
+    });
+    const made = element('fieldset', {class: 'vector'}, element('legend', {}, text), ...inputs);
+    setVector(made, values);
+    return made;
+}
+
+/** Sets the numbers of a `vectorInput`, but shows none where someone types. */
 export function setVector(fieldset: HTMLElement, values: readonly number[]): void {
     fieldset.querySelectorAll('input').forEach((input, axis) => {
-        if (document.activeElement !== input) input.value = String(Number(values[axis].toFixed(3)));
+        input.dataset.held = String(values[axis]);
+        if (document.activeElement !== input) showHeld(input);
     });
 }

@@ -3,7 +3,7 @@
 import * as three from 'three';
 
 import type {Alerts} from './alerts';
-import type {Api} from './api';
+import type {Api, StoredFile} from './api';
 import {CellLines} from './cell_lines';
 import * as groups from './groups';
 import type {Gizmo} from './gizmo';
@@ -29,6 +29,8 @@ export class GroupsEditor {
     tetrahedra: number | null = null;
     group = 0;
     private history = new groups.History<Edit>({groups: [], selection: []});
+    private readonly kept = new WeakSet<groups.Groups>();
+    private readonly saved = new Set<string>();
     private balls: ProbeBalls | null = null;
     private refs: groups.Ref[] = [];
     private positions: Float32Array = new Float32Array();
@@ -66,6 +68,11 @@ export class GroupsEditor {
         return this.history.canRedo;
     }
 
+    /** Whether the groups are neither stored nor those of a volume. */
+    get isUnsaved(): boolean {
+        return this.now.length > 0 && !this.kept.has(this.now);
+    }
+
     set isActive(isActive: boolean) {
         this.root.visible = isActive;
         this.showGizmo();
@@ -77,11 +84,26 @@ export class GroupsEditor {
         if (this.balls !== null) this.balls.radius = radius;
     }
 
-    /** Begins anew; there is nothing to undo then. */
+    /** Others instead of those that are open; undo brings these back. */
     open(opened: groups.Groups): void {
-        this.history = new groups.History<Edit>({groups: opened, selection: []});
+        if (this.now.length === 0) this.history = new groups.History<Edit>({groups: opened, selection: []});
+        else this.history.become({groups: opened, selection: []});
         this.group = 0;
         this.refresh(true);
+    }
+
+    /** These are to be found elsewhere, too. */
+    keep(found: groups.Groups): void {
+        this.kept.add(found);
+    }
+
+    async save(name: string): Promise<StoredFile> {
+        const {now} = this;
+        const text = groups.formatGroups(now);
+        this.saved.add(text);  // at once: who joins them meanwhile leaves them
+        const {file} = await this.api.upload('groups', text, name);
+        this.keep(now);
+        return file;
     }
 
     undo(): void {
@@ -224,10 +246,11 @@ export class GroupsEditor {
         this.newest.ask(now);
     }
 
-    /** What the server makes of the probes; it keeps nothing of it. */
+    /** What the server makes of the probes; it keeps nothing of it but what was saved. */
     private async join(now: groups.Groups): Promise<Joined | null> {
         if (groups.countOf(now) === 0) return null;
-        const kept = [await this.api.upload('groups', groups.formatGroups(now))];
+        const text = groups.formatGroups(now);
+        const kept = [await this.api.upload('groups', text)];
         const paths = [`/v1/groups/${kept[0].file.id}`];
         try {
             kept.push(await this.api.keep('/v1/tetrahedralize', {groups: [kept[0].file.id]}));
@@ -240,7 +263,7 @@ export class GroupsEditor {
                 innerCellCount: kept[1].file.report!.inner_cells as number,
             };
         } finally {
-            const made = paths.filter((_, i) => kept[i].isNew);
+            const made = paths.filter((_, i) => kept[i].isNew && (i > 0 || !this.saved.has(text)));
             await Promise.all(made.map(path => this.api.remove(path).catch(() => {})));
         }
     }

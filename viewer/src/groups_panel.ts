@@ -2,7 +2,7 @@
 // Probe groups by hand.
 import {Missing} from './alerts';
 import type {StoredFile} from './api';
-import {button, element, labelled, select, setVector, vectorInput} from './dom';
+import {button, element, labelled, numberToSend, select, setVector, vectorInput} from './dom';
 import {counted, countedTetrahedra} from './colors';
 import * as groups from './groups';
 import {GroupsEditor} from './groups_editor';
@@ -25,6 +25,9 @@ export class GroupsPanel {
     private readonly selected = element('div');
     private readonly stored = element('select', {'aria-label': 'Stored probe groups'});
     private readonly name = element('input', {type: 'text', maxlength: 200, value: 'groups'});
+    private readonly previewState = element('p', {class: 'facts', role: 'status'});
+    private preview: groups.Groups | null = null;
+    private isGenerating = false;
     private readonly frame = element('div', {class: 'frame', hidden: true});
 
     constructor(private readonly viewer: Viewer, private readonly saved: (file: StoredFile) => void) {
@@ -55,6 +58,9 @@ export class GroupsPanel {
         viewer.stage.canvas.addEventListener('keydown', event => {
             if (this.editor.root.visible) this.key(event);
         });
+        addEventListener('beforeunload', event => {
+            if (this.editor.isUnsaved) event.preventDefault();
+        });
         this.pointer = this.makePointer();
         viewer.onChange(() => this.show());
         this.show();
@@ -69,7 +75,7 @@ export class GroupsPanel {
 
     async open(reference: string): Promise<void> {
         if (reference === '') return;
-        this.editor.open(await this.read(reference));
+        this.openKept(await this.read(reference));
         const file = await this.viewer.api.get<StoredFile>(`/v1/groups/${encodeURIComponent(reference)}`);
         if (file.name !== '') this.name.value = file.name;
     }
@@ -80,7 +86,12 @@ export class GroupsPanel {
     }
 
     private take(): void {
-        if (this.viewer.volume !== null) this.editor.open(groups.groupsOfVolume(this.viewer.volume));
+        if (this.viewer.volume !== null) this.openKept(groups.groupsOfVolume(this.viewer.volume));
+    }
+
+    private openKept(found: groups.Groups): void {
+        this.editor.keep(found);
+        this.editor.open(found);
     }
 
     private async listStored(): Promise<void> {
@@ -91,8 +102,12 @@ export class GroupsPanel {
     }
 
     async save(): Promise<StoredFile> {
-        const {file} = await this.viewer.api.upload('groups', groups.formatGroups(this.editor.now), this.name.value);
-        this.viewer.say(`Saved as ${file.name || file.id}.`);
+        const name = this.name.value;
+        const file = await this.editor.save(name).catch(error => {
+            this.viewer.say('The groups are not saved.');
+            throw error;
+        });
+        this.viewer.say(`Saved as ${name || file.name || file.id}.`);
         await this.listStored();
         this.stored.value = file.id;
         this.show();
@@ -126,7 +141,14 @@ export class GroupsPanel {
         this.openStored.disabled = this.stored.value === '';
         this.selectAll.disabled = probeCount === 0;
         this.duplicate.disabled = this.remove.disabled = selection.length === 0;
+        this.showPreviewState();
         this.showSelection(selection);
+    }
+
+    private showPreviewState(): void {
+        const isPreview = this.editor.now === this.preview && this.editor.isUnsaved;
+        this.previewState.textContent = this.isGenerating ? 'The generator works…' :
+            isPreview ? 'This is a preview: give it a name and save it, or open other groups.' : '';
     }
 
     private showSelection(selection: readonly groups.Ref[]): void {
@@ -143,7 +165,7 @@ export class GroupsPanel {
             setVector(old, p);
             return;
         }
-        this.selected.replaceChildren(vectorInput(legend, p, 0.25, to => {
+        this.selected.replaceChildren(vectorInput(legend, p, {step: 0.25}, to => {
             const now = this.editor.now[group].positions[index];
             this.editor.moveBy([to[0] - now[0], to[1] - now[1], to[2] - now[2]]);
         }));
@@ -212,28 +234,28 @@ export class GroupsPanel {
                              ['adaptive', 'adaptive: where light changes']], 'regular', () => {});
         const spacing = element('input', {type: 'number', min: 0.05, step: 0.25, value: 2});
         const most = element('input', {type: 'number', min: 1, step: 100, value: 5000});
-        const status = element('p', {class: 'facts', role: 'status'});
         const generate = async () => {
             if (this.viewer.sceneFile === null) throw new Missing('Open a scene first: probes are to fill it.');
-            status.textContent = 'The generator works…';
+            const order = {
+                scene: this.viewer.sceneFile.id, mode: mode.value, spacing: numberToSend(spacing),
+                max_probes: numberToSend(most),
+            };
+            this.isGenerating = true;
+            this.showPreviewState();
             try {
-                const {file, isNew} = await this.viewer.api.keep('/v1/grid', {
-                    scene: this.viewer.sceneFile.id, mode: mode.value, spacing: Number(spacing.value),
-                    max_probes: Number(most.value),
-                });
-                const made = await this.read(file.id);
+                const {file, isNew} = await this.viewer.api.keep('/v1/grid', order);
+                this.preview = await this.read(file.id);
                 if (isNew) await this.viewer.api.remove(`/v1/groups/${file.id}`);
-                this.editor.open(made);
-                this.name.value = `grid ${mode.value} ${spacing.value}`;
-                status.textContent = 'This is a preview: give it a name and save it, or open other groups.';
-            } catch (error) {
-                status.textContent = '';
-                throw error;
+                this.editor.open(this.preview);
+                this.name.value = `grid ${order.mode} ${order.spacing}`;
+            } finally {
+                this.isGenerating = false;
+                this.showPreviewState();
             }
         };
         return element('div', {}, labelled('Mode', mode), labelled('Spacing, metres', spacing),
                        labelled('Most probes', most),
                        element('div', {class: 'buttons'},
-                               button('Preview', () => void this.viewer.alerts.attempt('generate', generate))), status);
+                               button('Preview', () => void this.viewer.alerts.attempt('generate', generate))), this.previewState);
     }
 }

@@ -5,6 +5,9 @@ import * as three from 'three';
 import {parseLppv} from './ktx2';
 import {emptyConstants, lightByLppv, LppvUniforms} from './shaders';
 
+/** Of each edge, in metres. */
+export const kLeastSize = 0.05;
+
 export class LppvBox {
     /** Its position and scale are the box's middle and size. */
     readonly group = new three.Group();

@@ -3,7 +3,7 @@
 import * as three from 'three';
 
 import {button, checkbox, element, select, setVector, slider, vectorInput, labelled} from './dom';
-import {LppvBox} from './lppv_box';
+import {kLeastSize, LppvBox} from './lppv_box';
 import {MeshBall} from './mesh_ball';
 import {Newest} from './newest';
 import type {PointerUse} from './pointer';
@@ -45,13 +45,13 @@ export class QueryPanel {
         stage.scene.add(this.object.group);
         this.object.group.visible = false;
 
-        this.place = vectorInput('Position of the ball, metres', [0, 0, 0], 0.25,
+        this.place = vectorInput('Position of the ball, metres', [0, 0, 0], {step: 0.25},
                                  ([x, y, z]) => this.moveTo(new three.Vector3(x, y, z)));
         this.boxInputs = [
-            vectorInput('Middle of the box, metres', [0, 0, 0], 0.25,
+            vectorInput('Middle of the box, metres', [0, 0, 0], {step: 0.25},
                         p => this.moveBox(() => this.box.group.position.fromArray(p))),
-            vectorInput('Size of the box, metres', [6, 1, 1], 0.25,
-                        s => this.moveBox(() => this.box.group.scale.fromArray(s.map(x => Math.max(0.05, x))))),
+            vectorInput('Size of the box, metres', [6, 1, 1], {step: kLeastSize, min: kLeastSize},
+                        s => this.moveBox(() => this.box.group.scale.fromArray(s))),
         ];
         this.element = element(
             'section', {'aria-label': 'Query'},
@@ -229,6 +229,7 @@ export class QueryPanel {
     private moveBox(move: () => void): void {
         move();
         const {position, scale} = this.box.group;
+        scale.clampScalar(kLeastSize, Infinity);  // handles go below 0
         setVector(this.boxInputs[0], position.toArray());
         setVector(this.boxInputs[1], scale.toArray());
         const {volume, stage} = this.viewer;

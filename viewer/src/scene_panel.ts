@@ -2,7 +2,7 @@
 // What is shown, how bright, and the weights of layers.
 import type {StoredFile} from './api';
 import {counted, countedTetrahedra} from './colors';
-import {button, checkbox, element, labelled, select, slider} from './dom';
+import {button, checkbox, element, labelled, numberToSend, select, slider} from './dom';
 import type {Stage} from './stage';
 import type {Part, ProbeColor, Viewer} from './viewer';
 
@@ -90,10 +90,10 @@ function skyForm(viewer: Viewer): HTMLElement {
     const height = element('input', {type: 'number', step: 5, min: -90, max: 90, value: 45});
     const rotation = element('input', {type: 'number', step: 5, value: 0});
     const relight = async () => {
-        const [a, h] = [azimuth, height].map(input => Number(input.value) * Math.PI / 180);
+        const [a, h] = [azimuth, height].map(input => numberToSend(input) * Math.PI / 180);
         const made = await viewer.api.post<StoredFile>('/v1/relight', {
             volume: viewer.volume!.file.id,
-            sky_rotation: Number(rotation.value),
+            sky_rotation: numberToSend(rotation),
             sun_direction: [-Math.cos(h) * Math.sin(a), -Math.sin(h), -Math.cos(h) * Math.cos(a)],
         });
         await viewer.openVolume(made.id);

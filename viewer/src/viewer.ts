@@ -216,7 +216,9 @@ export class Viewer {
     }
 
     private applyParts(): void {
-        if (this.model !== null) this.model.root.visible = !this.hidden.has('scene');
+        const hasScene = this.model !== null && !this.hidden.has('scene');
+        if (this.model !== null) this.model.root.visible = hasScene;
+        this.lights.visible = hasScene;  // without it there is no shadow
         if (this.balls !== null) this.balls.mesh.visible = !this.isHandedOver && !this.hidden.has('probes');
         const hasLines = !this.isHandedOver && !this.hidden.has('cells');
         if (hasLines && !this.hasEdges && this.volume !== null) {
@@ -256,6 +258,7 @@ export class Viewer {
         const lights = this.volume?.isBaked ? this.volume.lights : null;
         this.lights.removeFromParent();
         this.lights = makeLights(lights ?? [], this.weights, this.box);
+        this.lights.visible = this.model?.root.visible ?? false;
         this.stage.scene.add(this.lights);
         for (const light of this.model?.lights ?? []) light.visible = lights === null;
         this.dimEmission();

@@ -34,6 +34,14 @@ test('texts mean numbers, vectors, lists and words', () => {
 test('what is no number is refused with its label', () => {
     expect(() => valueOf(field('samples'), 'many')).toThrow('Samples: "many" is no number');
     expect(() => valueOf(field('sun_direction'), '1,2')).toThrow('Sun direction');
+    expect(() => valueOf(field('sun_direction'), '1,,2')).toThrow('Sun direction');
+    expect(() => valueOf(field('target_error'), '%')).toThrow('Target error');
+});
+
+test('whole numbers that doubles do not hold are refused', () => {
+    expect(valueOf(field('seed'), '9007199254740991')).toBe(9007199254740991);
+    expect(() => valueOf(field('seed'), '9007199254740993')).toThrow('Seed: 9007199254740993 is beyond 9007199254740991');
+    expect(() => valueOf(field('seed'), '-9007199254740992')).toThrow('Seed');
 });
 
 test('the settings of an earlier bake are its order without what was baked', () => {
