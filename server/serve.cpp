@@ -89,8 +89,8 @@ class Dispatcher {
     void plan_route(Request& request, Plan& plan) const {
         const bool can_be_page = !service_.settings.viewer.empty() || request.path == "/";
         const bool is_reading = request.method == "GET" || request.method == "HEAD";
-        const bool is_page = can_be_page && is_reading &&
-                             !request.path.starts_with("/v1/") && !is_known(request);
+        const bool is_page =
+            can_be_page && is_reading && !request.path.starts_with("/v1/") && !is_known(request);
         if (is_page) {
             check_gate(service_.settings, request, Access::Open);
             plan.route = std::string("/");
