@@ -71,7 +71,7 @@ export class Stage {
         const {exposure, renderer} = this;
         const target = new three.WebGLRenderTarget(size, size, {type: three.FloatType});
         // Targets are linear and not tone-mapped, unless they are of headsets: then the shaders are those of the
-        // canvas, which takes seconds off the first picture of software that compiles them.
+        // canvas, and half as many are to compile.
         target.texture.colorSpace = renderer.outputColorSpace;
         Object.assign(target, {isXRRenderTarget: true});
         const pixels = new Float32Array(4 * size * size);
