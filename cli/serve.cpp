@@ -70,10 +70,6 @@ CLI::Validator only(bool (*is_right)(std::string_view), const char* what) {
     return {check, ""};
 }
 
-bool has_page(std::string_view folder) {
-    return std::filesystem::is_regular_file(std::filesystem::path(folder) / "index.html");
-}
-
 struct Serve {
     server::Settings settings;
     std::string listen = "127.0.0.1:8080";
@@ -112,7 +108,7 @@ struct Serve {
                  "Folder of the web page to serve at / (default: the viewer that was built or "
                  "installed with this program)")
             ->check(CLI::ExistingDirectory)
-            ->check(only(has_page, "a folder with an index.html"));
+            ->check(only(server::has_page, "a folder with an index.html"));
         add_choice(command, "--log", settings.log_level,
                    {{"debug", server::Log::Level::Debug},
                     {"info", server::Log::Level::Info},

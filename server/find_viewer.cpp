@@ -5,12 +5,16 @@
 
 namespace tetralight::server {
 
+bool has_page(std::string_view folder) {
+    std::error_code error;
+    return std::filesystem::is_regular_file(std::filesystem::path(folder) / "index.html", error);
+}
+
 std::string find_viewer(const std::string& program) {
     namespace fs = std::filesystem;
     const fs::path above = fs::path(program).parent_path().parent_path();
     for (const fs::path& folder : {above / "viewer", above / "share/tetralight/viewer"}) {
-        std::error_code error;
-        if (fs::is_regular_file(folder / "index.html", error)) return folder.string();
+        if (has_page(folder.string())) return folder.string();
     }
     return "";
 }

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace tetralight::server {
+
+/// Whether a folder has a page to serve.
+[[nodiscard]] bool has_page(std::string_view folder);
 
 /// The folder of the viewer's page that belongs to a program: `../viewer` of the program's folder
 /// in a build tree, `../share/tetralight/viewer` where it is installed. Empty: neither is there.

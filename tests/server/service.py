@@ -88,7 +88,7 @@ class Server:
         found = []
         for task in os.listdir(f"/proc/{self.process.pid}/task"):
             with open(f"/proc/{self.process.pid}/task/{task}/children") as file:
-                found += file.read().split()
+                found += map(int, file.read().split())
         return found
 
     def logged(self):

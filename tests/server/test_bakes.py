@@ -52,16 +52,6 @@ class BakeTest(ServiceTest):
             time.sleep(0.02)
         self.fail("no chunk was written")
 
-    def processes_of(self, bake):
-        found = []
-        for name in os.listdir("/proc"):
-            try:
-                if name.isdigit() and bake in os.readlink(f"/proc/{name}/cwd"):
-                    found.append(int(name))
-            except OSError:
-                pass
-        return found
-
     def wait_for_no_folders(self):
         """Folders go after the bake is said to be over, never before."""
         for _ in range(500):
@@ -208,7 +198,7 @@ class Bakes(BakeTest):
         server = self.start()
         bake = self.begin(server, **SLOW)
         self.wait_for_chunks(bake, 1)
-        for process in self.processes_of(bake):
+        for process in server.children():
             os.kill(process, 9)
         answer = server.wait_for(bake)
         self.assertEqual(answer["state"], "failed")
@@ -301,7 +291,7 @@ class Bakes(BakeTest):
         server = self.start()
         bake = self.begin(server, **SLOW)
         self.wait_for_chunks(bake, 1)
-        processes = self.processes_of(bake)
+        processes = server.children()
         self.assertTrue(processes)
         for process in processes:
             self.assertEqual(os.getpriority(os.PRIO_PROCESS, process), 19)

@@ -206,6 +206,11 @@ async function kept(answer: Response): Promise<Kept> {
     return {file: await answer.json() as StoredFile, isNew: answer.status === 201};
 }
 
+/** What to call what may have no name. */
+export function titleOf({name, id}: {name: string; id: string}): string {
+    return name || id.slice(0, 8);
+}
+
 export function messageOf(error: unknown): string {
     return error instanceof Error ? error.message : String(error);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bakes: a form with every setting, what runs and how far it is.
 import {Missing} from './alerts';
-import {ApiError, Bake} from './api';
+import {ApiError, Bake, titleOf} from './api';
 import {BakeField, kBakeSections, settingsOf, valueOf} from './bake_fields';
 import {counted, formatCount, formatPercent, formatSeconds} from './colors';
 import {button, element, labelled} from './dom';
@@ -85,7 +85,7 @@ export class BakesPanel {
         const chosen = new Set([...this.groups.selectedOptions].map(option => option.value));
         const files = await this.viewer.api.list('groups');
         this.groups.replaceChildren(...files.map(file => {
-            const option = element('option', {value: file.id}, file.name || file.id.slice(0, 8));
+            const option = element('option', {value: file.id}, titleOf(file));
             option.selected = chosen.has(file.id);
             return option;
         }));
@@ -196,7 +196,7 @@ export class BakesPanel {
 
     private row(bake: Bake): HTMLElement {
         const row = element('li', {'data-bake': bake.id, 'data-state': bake.state},
-                            element('strong', {}, bake.name || bake.id.slice(0, 8)), ` ${bake.state} `);
+                            element('strong', {}, titleOf(bake)), ` ${bake.state} `);
         const act = (text: string, work: () => Promise<unknown>) =>
             button(text, () => void this.viewer.alerts.attempt(text, () => work().then(() => this.refresh())));
         if (isUnderWay(bake)) {

@@ -185,7 +185,6 @@ export class GroupsEditor {
     }
 
     private showBalls(positions: Float32Array): void {
-        this.balls?.mesh.removeFromParent();
         this.balls?.dispose();
         this.balls = new ProbeBalls(positions, this.radius);
         const selected = new Set(this.selection.map(groups.keyOf));

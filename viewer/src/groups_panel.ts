@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Probe groups by hand.
 import {Missing} from './alerts';
-import type {StoredFile} from './api';
+import {StoredFile, titleOf} from './api';
 import {button, element, labelled, numberToSend, select, setVector, vectorInput} from './dom';
 import {counted, countedTetrahedra} from './colors';
 import * as groups from './groups';
@@ -97,7 +97,7 @@ export class GroupsPanel {
     private async listStored(): Promise<void> {
         const files = await this.viewer.api.list('groups');
         this.stored.replaceChildren(element('option', {value: ''}, 'Stored groups…'), ...files.map(
-            file => element('option', {value: file.id}, file.name || file.id.slice(0, 8))));
+            file => element('option', {value: file.id}, titleOf(file))));
         this.show();
     }
 

@@ -4,10 +4,11 @@
 import * as three from 'three';
 
 import type {Api} from './api';
+import {packedLight} from './packed_light';
 import {decodeAnswer, encodeQuery, Locations, WantedSh} from './query_binary';
-import {kCoefficients, kPacked, packSh} from './sh';
+import {kPacked} from './sh';
 import {emptyConstants, LppvUniforms} from './shaders';
-import {blend, Light, Volume} from './volume';
+import type {Light, Volume} from './volume';
 
 const kMostPoints = 12000;
 
@@ -70,15 +71,12 @@ export class LightField {
         if (this.places === null || this.volume === null) return;
         const [nx] = this.resolution;
         const texels = new Uint16Array(this.places.count * kPacked);
-        const sh = new Float32Array(kCoefficients);
-        const packed = new Float32Array(kPacked);
+        const packed = packedLight(this.volume, light, this.places);
         for (let i = 0; i < this.places.count; ++i) {
-            blend(this.volume, light, this.places, i, sh, 0);
-            packSh(sh, 0, packed, 0);
             const row = Math.floor(i / nx) * 7 * nx + i % nx;
             for (let k = 0; k < kPacked; ++k) {
                 const texel = row + Math.floor(k / 4) * nx;
-                texels[4 * texel + k % 4] = three.DataUtils.toHalfFloat(packed[k]);
+                texels[4 * texel + k % 4] = three.DataUtils.toHalfFloat(packed[i * kPacked + k]);
             }
         }
         this.show(texels, this.resolution);

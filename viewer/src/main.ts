@@ -3,7 +3,7 @@
 import * as three from 'three';
 
 import {Alerts} from './alerts';
-import {Api, Kind, messageOf, StoredFile, Unreachable} from './api';
+import {Api, Kind, messageOf, StoredFile, titleOf, Unreachable} from './api';
 import {BakesPanel} from './bakes_panel';
 import {counted} from './colors';
 import {button, element} from './dom';
@@ -257,7 +257,7 @@ class Page {
     }
 }
 
-const nameOf = (file: StoredFile) => file.names.join(', ') || file.id.slice(0, 8);
+const nameOf = (file: StoredFile) => titleOf({name: file.names.join(', '), id: file.id});
 
 function fill(choice: HTMLSelectElement, title: string, files: StoredFile[]): void {
     choice.replaceChildren(element('option', {value: ''}, title), ...files.map(option));

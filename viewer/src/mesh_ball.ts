@@ -2,10 +2,11 @@
 // 1023 instances that turn about a place, all lit by one query a frame.
 import * as three from 'three';
 
+import {packedLight} from './packed_light';
 import {decodeAnswer, encodeQuery, WantedSh} from './query_binary';
-import {kCoefficients, kPacked, packSh} from './sh';
+import {kPacked} from './sh';
 import {lightInstances, setInstanceSh} from './shaders';
-import {blend, Light, Volume} from './volume';
+import type {Light, Volume} from './volume';
 
 const kCount = 1023;
 
@@ -52,16 +53,7 @@ export class MeshBall {
 
     show(body: ArrayBuffer, volume: Volume, light: Light | null): void {
         const answer = decodeAnswer(body);
-        const packed = this.packed.array as Float32Array;
-        if (light === null) {
-            packed.set(answer.sh);
-        } else {
-            const sh = new Float32Array(kCoefficients);
-            for (let i = 0; i < kCount; ++i) {
-                blend(volume, light, answer.locations, i, sh, 0);
-                packSh(sh, 0, packed, i * kPacked);
-            }
-        }
+        this.packed.array.set(light === null ? answer.sh : packedLight(volume, light, answer.locations));
         this.packed.needsUpdate = true;
     }
 }

@@ -93,7 +93,9 @@ export class ProbeBalls {
         return pickBall(this.positions, this.radius, ray);
     }
 
+    /** Takes them out of the picture, too. */
     dispose(): void {
+        this.mesh.removeFromParent();
         this.mesh.geometry.dispose();
         this.mesh.material.dispose();
     }

@@ -2,10 +2,10 @@
 // A ball that is dragged about: its cell, the probes around it, their weights, and the light they give.
 import * as three from 'three';
 
+import {packedLight} from './packed_light';
 import {decodeAnswer, encodeQuery, Locations, WantedSh} from './query_binary';
-import {kCoefficients, kPacked, packSh} from './sh';
 import {lightBySh} from './shaders';
-import {blend, cornersOf, Light, Volume} from './volume';
+import {cornersOf, Light, Volume} from './volume';
 
 export interface QueryAnswer {
     places: Locations;
@@ -38,12 +38,7 @@ export class QueryObject {
     /** Shows an answer; the light is the server's, or blended here when layers have other weights. */
     show(body: ArrayBuffer, volume: Volume, light: Light | null): QueryAnswer {
         const answer = decodeAnswer(body);
-        const packed = light === null ? answer.sh.slice() : new Float32Array(kPacked);
-        if (light !== null) {
-            const sh = new Float32Array(kCoefficients);
-            blend(volume, light, answer.locations, 0, sh, 0);
-            packSh(sh, 0, packed, 0);
-        }
+        const packed = light === null ? answer.sh.slice() : packedLight(volume, light, answer.locations);
         this.sh.value.forEach((vector, i) => vector.fromArray(packed, 4 * i));
         this.outline(volume, answer.locations.cells[0]);
         return {places: answer.locations, packed};

@@ -12,7 +12,7 @@ import {ProbeBalls} from './probe_balls';
 import {disposeScene, loadScene, SceneModel} from './scene_model';
 import type {Stage} from './stage';
 import {edgesOf, Light, readVolume, sumAmbient, sumLayers, Volume} from './volume';
-import {dimLights, makeLights} from './volume_lights';
+import {dimLights, dropLights, makeLights} from './volume_lights';
 
 export type ProbeColor = 'light' | 'validity' | 'error';
 export type Part = 'scene' | 'probes' | 'cells';
@@ -91,7 +91,7 @@ export class Viewer {
 
     closeVolume(): void {
         this.volume = null;
-        this.balls?.mesh.removeFromParent();
+        this.balls?.dispose();
         this.balls = null;
         this.lines.clear();
         this.field.clear();
@@ -145,9 +145,7 @@ export class Viewer {
         this.light = {irradiance: sumLayers(this.volume, weights), ambient: sumAmbient(this.volume, weights)};
         this.balls?.setLight(this.light.irradiance);
         this.field.relight(this.light);
-        dimLights(this.lights, weights);
-        this.dimEmission();
-        this.setSky();
+        this.dim();
         this.stage.draw();
         for (const listener of this.lightListeners) listener();
     }
@@ -190,7 +188,6 @@ export class Viewer {
 
     private showVolume(volume: Volume, weights: Record<string, number>): void {
         const hadNothing = this.volume === null && this.model === null;
-        this.balls?.mesh.removeFromParent();
         this.balls?.dispose();
         this.volume = volume;
         this.selectedProbe = -1;
@@ -256,22 +253,23 @@ export class Viewer {
     /** A volume that was baked knows its lights; else those of the scene shine. */
     private lightScene(): void {
         const lights = this.volume?.isBaked ? this.volume.lights : null;
-        this.lights.removeFromParent();
-        this.lights = makeLights(lights ?? [], this.weights, this.box);
+        dropLights(this.lights);
+        this.lights = makeLights(lights ?? [], this.box);
         this.lights.visible = this.model?.root.visible ?? false;
         this.stage.scene.add(this.lights);
         for (const light of this.model?.lights ?? []) light.visible = lights === null;
-        this.dimEmission();
-        this.setSky();
+        this.dim();
     }
 
-    /** Surfaces shine as much as the layers do that their light is in. */
-    private dimEmission(): void {
+    /** Lights, surfaces and sky shine as much as the layers do that their light is in. */
+    private dim(): void {
+        dimLights(this.lights, this.weights);
         for (const material of this.model?.emitters ?? []) {
             material.userData.strength ??= material.emissiveIntensity;
             material.emissiveIntensity = material.userData.strength *
                 this.weightOf(`material:${material.name}`, 'emission', 'rest');
         }
+        this.setSky();
     }
 
     /** The weight of the first of these layers that there is. */

@@ -42,8 +42,8 @@ export function readLights(lights: ArrayBuffer, states: ArrayBuffer): VolumeLigh
     return found;
 }
 
-/** The lights for a scene in a box, at the weights of the volume's layers. */
-export function makeLights(lights: readonly VolumeLight[], weights: readonly number[], box: three.Box3): three.Group {
+/** The lights for a scene in a box, dark until `dimLights`. */
+export function makeLights(lights: readonly VolumeLight[], box: three.Box3): three.Group {
     const group = new three.Group();
     for (const light of lights) {
         const strength = Math.max(...light.intensity, 1e-6);
@@ -59,14 +59,19 @@ export function makeLights(lights: readonly VolumeLight[], weights: readonly num
     }
     group.updateMatrixWorld(true);
     aimShadows(group, box);
-    dimLights(group, weights);
     return group;
 }
 
+/** Takes lights out of the picture, and frees their shadow maps. */
+export function dropLights(group: three.Group): void {
+    group.removeFromParent();
+    for (const light of group.children as three.Light[]) light.dispose();
+}
+
 function makeLight({type, range, innerCone, outerCone}: VolumeLight) {
-    if (type === LightType.Point) return new three.PointLight(undefined, 1, range);
-    if (type === LightType.Spot) return new three.SpotLight(undefined, 1, range, outerCone, 1 - innerCone / outerCone);
-    const sun = new three.DirectionalLight();
+    if (type === LightType.Point) return new three.PointLight(undefined, 0, range);
+    if (type === LightType.Spot) return new three.SpotLight(undefined, 0, range, outerCone, 1 - innerCone / outerCone);
+    const sun = new three.DirectionalLight(undefined, 0);
     sun.castShadow = true;
     return sun;
 }

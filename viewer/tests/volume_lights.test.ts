@@ -38,7 +38,8 @@ test('lights shine along their direction, as much as their layer does', () => {
     const lights = readLights(...sections([{type: 0, mode: kMixed, layer: 1, values: kSun},
                                            {type: 2, mode: kMixed, layer: kNone, values: kSpot}]));
     const box = new three.Box3(new three.Vector3(-3, -3, -3), new three.Vector3(3, 3, 3));
-    const group = makeLights(lights, [1, 0.5], box);
+    const group = makeLights(lights, box);
+    dimLights(group, [1, 0.5]);
     const [sun, spot] = group.children as [three.DirectionalLight, three.SpotLight];
     const light = (of: three.Light) => of.color.toArray().map(value => value * of.intensity);
     expect(light(sun)).toEqual([4, 2, 1]);
