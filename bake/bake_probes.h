@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "bake/bake_progress.h"
-#include "bake/bake_settings.h"
-#include "bake/probe_tally.h"
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "probes/sh.h"
+#include <tetralight/bake/bake_progress.h>
+#include <tetralight/bake/bake_settings.h>
+#include <tetralight/bake/probe_accumulator.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 
@@ -20,7 +20,7 @@ struct BakedProbes {
     std::vector<RadianceSh> radiance;
     /// Share of directions that see a front face or the sky: 1 = free, 0 = inside something.
     std::vector<float> validity;
-    /// Of irradiance, as a share of it (`ProbeTally::standard_error`).
+    /// Of irradiance, as a share of it (`ProbeAccumulator::standard_error`).
     std::vector<float> standard_error;
     /// Directions taken.
     std::vector<uint64_t> direction_count;
@@ -31,8 +31,8 @@ struct BakedProbes {
 };
 
 /// Bakes the light that arrives at each world position: sky, emission, the bounces of all lights,
-/// and the direct light of those whose mode is `Baked`. The same as `bake_tallies`, from the start
-/// to the end.
+/// and the direct light of those whose mode is `Baked`. The same as `bake_accumulators`, from the
+/// start to the end.
 ///
 /// Precondition: the plan of the settings splits no light. A pure function of (scene, positions,
 /// settings), time budgets aside: the same bits for any
@@ -43,7 +43,7 @@ struct BakedProbes {
                                               const BakeSettings& settings,
                                               const BakeCallback& callback = {});
 
-/// What tallies amount to; `ambient` is left black.
-[[nodiscard]] BakedProbes baked_probes(std::span<const ProbeTally> tallies);
+/// What accumulators amount to; `ambient` is left black.
+[[nodiscard]] BakedProbes baked_probes(std::span<const ProbeAccumulator> accumulators);
 
 }  // namespace tetralight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/bake_progress.h"
+#include <tetralight/bake/bake_progress.h>
 
 #include <algorithm>
 

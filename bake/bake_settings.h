@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "bake/light_plan.h"
-#include "bake/scene/surface_color.h"
+#include <tetralight/bake/light_plan.h>
+#include <tetralight/bake/scene/surface_color.h>
 
 namespace tetralight {
 
@@ -12,8 +12,8 @@ struct BakeSettings {
     /// Directions a probe in the first round, and without a target the only one. 128 and more are
     /// eight independent estimates, fewer are one for each 16, with error bars from two on.
     uint32_t sample_count = 1024;
-    /// Relative standard error of irradiance (`ProbeTally::standard_error`) below which a probe is
-    /// done: rounds double what it has until it is there. 0 = one round.
+    /// Relative standard error of irradiance (`ProbeAccumulator::standard_error`) below which a
+    /// probe is done: rounds double what it has until it is there. 0 = one round.
     double target_error = 0.0;
     /// Directions a probe at most when there are rounds; 0 = 64 times `sample_count`.
     uint64_t max_sample_count = 0;

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "bake/bake_probes.h"
+#include <tetralight/bake/bake_probes.h>
 
 namespace tetralight {
 

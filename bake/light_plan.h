@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "probes/distant_light.h"
-#include "probes/no_index.h"
-#include "probes/sh.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/probes/distant_light.h>
+#include <tetralight/probes/no_index.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 
@@ -43,14 +43,14 @@ struct LightPlan {
 
 /// What a probe's light is split into, as one row of numbers: radiance of each layer, transfer of
 /// radiance (what arrives straight away, then what was reflected), occlusion.
-struct SplitLayout {
+struct LightGroupLayout {
     static constexpr size_t kLayer = 3 * size_t{kShCoefficientCount};
     static constexpr size_t kDirect = size_t{kShCoefficientCount} * kDistantCoefficientCount;
     static constexpr size_t kBounced = 3 * kDirect;
 
-    SplitLayout() = default;
+    LightGroupLayout() = default;
 
-    explicit SplitLayout(const LightPlan& plan)
+    explicit LightGroupLayout(const LightPlan& plan)
         : layer_count(plan.layer_count),
           has_transfer(plan.has_transfer),
           has_occlusion(plan.has_occlusion) {}
@@ -70,7 +70,7 @@ struct SplitLayout {
     /// Numbers of a row.
     [[nodiscard]] size_t size() const { return occlusion_begin() + (has_occlusion ? 4 : 0); }
 
-    bool operator==(const SplitLayout&) const = default;
+    bool operator==(const LightGroupLayout&) const = default;
 };
 
 }  // namespace tetralight

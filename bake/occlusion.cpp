@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/occlusion.h"
+#include <tetralight/bake/occlusion.h>
 
-#include "bake/detail/mix.h"
-#include "bake/sample_light.h"
+#include <tetralight/bake/lights/sample_light.h>
+#include <tetralight/bake/sampling/mix.h>
 
 namespace tetralight {
 namespace {
@@ -26,9 +26,9 @@ float light_visibility(const PathTracer& tracer, const Light& light, glm::vec3 o
     const uint32_t count = is_hard ? 1 : kOcclusionRays;
     uint32_t visible = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        PathNumbers numbers(key, i);
+        Sampler numbers(key, i);
         const LightSample sample = sample_light(shape, origin, numbers.next2());
-        visible += !tracer.is_blocked(origin, sample, numbers.next());
+        visible += !tracer.occluded(origin, sample, numbers.next());
     }
     return static_cast<float>(visible) / static_cast<float>(count);
 }

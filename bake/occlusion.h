@@ -6,8 +6,8 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-#include "bake/path_tracer.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/path_tracer.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 
@@ -15,7 +15,7 @@ namespace tetralight {
 /// that let a part of the rays through.
 inline constexpr uint32_t kOcclusionRays = 256;
 
-/// Share of a point, spot or directional light (traced space) that is visible from `origin`:
+/// Share of a point, spot or directional light (render space) that is visible from `origin`:
 /// 1 = all of it. Soft with its radius or angle; what surfaces let through counts. Range and cone
 /// have no say: where they end, the direct term does. 0 for area lights. A pure function.
 [[nodiscard]] float light_visibility(const PathTracer& tracer, const Light& light, glm::vec3 origin,

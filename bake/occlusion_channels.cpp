@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/occlusion_channels.h"
+#include <tetralight/bake/occlusion_channels.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <tuple>
 
-#include "bake/emitter_bounds.h"
-#include "bake/light_volume.h"
-#include "base/assert.h"
+#include <tetralight/bake/lights/light_bounds.h>
+#include <tetralight/bake/lights/light_volume.h>
+#include <tetralight/base/contract.h>
 
 namespace tetralight {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "probes/light.h"
-#include "probes/mixed_lighting.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/light.h>
+#include <tetralight/probes/mixed_lighting.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/path_tracer.h"
+#include <tetralight/bake/path_tracer.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "bake/sampling.h"
-#include "bake/scene/environment.h"
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bake/scene/environment.h>
 
 namespace tetralight {
 namespace {
@@ -43,28 +43,30 @@ PathTracer::PathTracer(const Scene& scene, const TraceScene& traced, const PathS
     : scene_(scene), traced_(traced), settings_(settings), plan_(plan), emitters_(scene, traced) {
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         if (plan.mode_of(scene, i) != LightMode::Baked) continue;
-        baked_lights_.push_back(traced.traced_from_world(scene.lights[i]));
+        baked_lights_.push_back(traced.render_from_world(scene.lights[i]));
         layer_of_baked_light_.push_back(plan.layer_of(plan.layer_of_light, i));
     }
 }
 
-PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers, PathSplit* split) const {
+PathSample PathTracer::trace(const PathStart& start, Sampler numbers,
+                             PathLightGroups* split) const {
     PathSample sample;
     glm::vec3 reflected(0.0f);
     Path path{numbers, glm::vec3(1.0f), 0, split};
     glm::vec3& throughput = path.throughput;
     Ray ray{start.origin, start.direction};
-    Receiver receiver{start.origin};
+    ShadingPoint shading_point{start.origin};
     float pdf = start.pdf;
     for (uint32_t bounce = 0;; ++bounce) {
-        const auto way = bounce == 0 ? PathSplit::Way::Seen : PathSplit::Way::Reflected;
+        const auto way = bounce == 0 ? PathLightGroups::Way::Seen : PathLightGroups::Way::Reflected;
         glm::vec3& sum = bounce == 0 ? sample.radiance : reflected;
         ++path.ray_count;
-        const std::optional<Surface> surface = traced_.cast(ray, TraceScene::Detail::LightOnly);
+        const std::optional<Surface> surface =
+            traced_.intersect(ray, TraceScene::Detail::LightOnly);
         if (!surface) {
             const glm::vec3 sky = environment_radiance(scene_.environment, ray.direction);
             const glm::vec3 light =
-                throughput * sky * weight_of_met(pdf, emitters_.pdf(ray.direction));
+                throughput * sky * mis_weight_bsdf(pdf, emitters_.pdf(ray.direction));
             sum += light;
             path.add(plan_.layer_of_sky, light, way);
             if (split != nullptr) split->leave({ray.direction, throughput, bounce == 0});
@@ -75,7 +77,7 @@ PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers, PathSp
             break;
         }
         if (surface->emission != glm::vec3(0.0f)) {
-            const float weight = weight_of_met(pdf, emitters_.pdf(receiver, *surface));
+            const float weight = mis_weight_bsdf(pdf, emitters_.pdf(shading_point, *surface));
             const glm::vec3 light = throughput * surface->emission * weight;
             sum += light;
             path.add(layer_of_geometry(surface->geometry), light, way);
@@ -92,10 +94,10 @@ PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers, PathSp
         }
         reflected += throughput * reflected_light(*surface, path);
 
-        receiver = {surface->position, surface->geometric_normal};
-        ray = {TraceScene::ray_origin(*surface, receiver.normal),
-               sample_cosine_hemisphere(receiver.normal, path.numbers.next2())};
-        pdf = sample_cosine_hemisphere_pdf(receiver.normal, ray.direction);
+        shading_point = {surface->position, surface->geometric_normal};
+        ray = {TraceScene::ray_origin(*surface, shading_point.normal),
+               sample_cosine_hemisphere(shading_point.normal, path.numbers.next2())};
+        pdf = sample_cosine_hemisphere_pdf(shading_point.normal, ray.direction);
     }
     const float brightness = brightest(reflected);
     if (settings_.clamp > 0.0f && brightness > settings_.clamp) {
@@ -108,43 +110,43 @@ PathSample PathTracer::trace(const PathStart& start, PathNumbers numbers, PathSp
 }
 
 bool PathTracer::can_sample_emission() const {
-    return settings_.strategy != LightStrategy::Directions &&
+    return settings_.strategy != LightStrategy::BsdfOnly &&
            (emitters_.has(EmitterKind::Triangle) || emitters_.has(EmitterKind::Sky));
 }
 
-LightSample PathTracer::sample_emission(EmitterKind kind, const Receiver& receiver, float other_pdf,
-                                        PathNumbers& numbers) const {
-    LightSample sample = emitters_.sample(kind, receiver, numbers);
-    sample.irradiance *= weight_of_drawn(sample.pdf, other_pdf);
-    if (!is_light(sample.irradiance) || is_blocked(receiver.position, sample)) return {};
+LightSample PathTracer::sample_emission(EmitterKind kind, const ShadingPoint& shading_point,
+                                        float other_pdf, Sampler& numbers) const {
+    LightSample sample = emitters_.sample(kind, shading_point, numbers);
+    sample.irradiance *= mis_weight_light(sample.pdf, other_pdf);
+    if (!is_light(sample.irradiance) || occluded(shading_point.position, sample)) return {};
     return sample;
 }
 
-bool PathTracer::is_blocked(glm::vec3 origin, const LightSample& sample, float blend) const {
+bool PathTracer::occluded(glm::vec3 origin, const LightSample& sample, float blend) const {
     // What is transparent is drawn by the bits of the ray: another length is another draw.
     const float scale = 1.0f + blend;
-    if (sample.is_distant) return traced_.is_blocked({origin, sample.to_light * scale});
-    return traced_.is_blocked({origin, (sample.target - origin) * scale, 1.0f / scale});
+    if (sample.is_distant) return traced_.occluded({origin, sample.to_light * scale});
+    return traced_.occluded({origin, (sample.target - origin) * scale, 1.0f / scale});
 }
 
 glm::vec3 PathTracer::reflected_light(const Surface& surface, Path& path) const {
-    const Receiver receiver{surface.position, surface.geometric_normal};
-    const glm::vec3 ray_origin = TraceScene::ray_origin(surface, receiver.normal);
+    const ShadingPoint shading_point{surface.position, surface.geometric_normal};
+    const glm::vec3 ray_origin = TraceScene::ray_origin(surface, shading_point.normal);
     glm::vec3 irradiance(0.0f);
     for (const EmitterKind kind :
-         {EmitterKind::Sun, EmitterKind::Lamp, EmitterKind::Triangle, EmitterKind::Sky}) {
+         {EmitterKind::Sun, EmitterKind::PunctualLight, EmitterKind::Triangle, EmitterKind::Sky}) {
         if (!emitters_.has(kind)) continue;
-        const LightSample sample = emitters_.sample(kind, receiver, path.numbers);
-        const float cosine = glm::dot(receiver.normal, sample.to_light);
+        const LightSample sample = emitters_.sample(kind, shading_point, path.numbers);
+        const float cosine = glm::dot(shading_point.normal, sample.to_light);
         if (cosine <= 0.0f || !is_light(sample.irradiance)) continue;
-        const float weight = weight_of_drawn(sample.pdf, cosine * std::numbers::inv_pi_v<float>);
+        const float weight = mis_weight_light(sample.pdf, cosine * std::numbers::inv_pi_v<float>);
         if (weight <= 0.0f) continue;
         ++path.ray_count;
-        if (is_blocked(ray_origin, sample)) continue;
+        if (occluded(ray_origin, sample)) continue;
         const glm::vec3 light = sample.irradiance * (cosine * weight);
         irradiance += light;
         path.add(layer_of(kind, sample), path.throughput * light * std::numbers::inv_pi_v<float>,
-                 PathSplit::Way::Reflected);
+                 PathLightGroups::Way::Reflected);
     }
     return irradiance * std::numbers::inv_pi_v<float>;
 }
@@ -157,7 +159,7 @@ uint32_t PathTracer::layer_of_geometry(uint32_t geometry) const {
 uint32_t PathTracer::layer_of(EmitterKind kind, const LightSample& sample) const {
     switch (kind) {
         case EmitterKind::Sun:
-        case EmitterKind::Lamp:
+        case EmitterKind::PunctualLight:
             return plan_.layer_of(plan_.layer_of_light, sample.source);
         case EmitterKind::Triangle:
             return layer_of_geometry(sample.source);
@@ -167,16 +169,16 @@ uint32_t PathTracer::layer_of(EmitterKind kind, const LightSample& sample) const
     return plan_.layer_of_sky;
 }
 
-float PathTracer::weight_of_drawn(float pdf, float other_pdf) const {
+float PathTracer::mis_weight_light(float pdf, float other_pdf) const {
     if (pdf == 0.0f) return 1.0f;  // no ray meets it
-    if (settings_.strategy == LightStrategy::Both) return power_heuristic(pdf, other_pdf);
-    return settings_.strategy == LightStrategy::Emitters ? 1.0f : 0.0f;
+    if (settings_.strategy == LightStrategy::Mis) return power_heuristic(pdf, other_pdf);
+    return settings_.strategy == LightStrategy::LightOnly ? 1.0f : 0.0f;
 }
 
-float PathTracer::weight_of_met(float pdf, float emitter_pdf) const {
+float PathTracer::mis_weight_bsdf(float pdf, float emitter_pdf) const {
     if (emitter_pdf == 0.0f || std::isinf(pdf)) return 1.0f;
-    if (settings_.strategy == LightStrategy::Both) return power_heuristic(pdf, emitter_pdf);
-    return settings_.strategy == LightStrategy::Emitters ? 0.0f : 1.0f;
+    if (settings_.strategy == LightStrategy::Mis) return power_heuristic(pdf, emitter_pdf);
+    return settings_.strategy == LightStrategy::LightOnly ? 0.0f : 1.0f;
 }
 
 }  // namespace tetralight

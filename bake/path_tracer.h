@@ -6,21 +6,21 @@
 #include <limits>
 #include <vector>
 
-#include "bake/emitters.h"
-#include "bake/light_plan.h"
-#include "bake/path_split.h"
-#include "bake/scene/scene.h"
-#include "bake/sobol.h"
-#include "bake/trace_scene.h"
+#include <tetralight/bake/light_plan.h>
+#include <tetralight/bake/lights/emitters.h>
+#include <tetralight/bake/path_light_groups.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/sampling/sobol.h>
+#include <tetralight/bake/scene/scene.h>
 
 namespace tetralight {
 
 /// How the light of emissive triangles and environment images is found. All three have the same
 /// mean.
 enum class LightStrategy {
-    Both,        ///< weighted by multiple importance sampling: what to use
-    Emitters,    ///< by drawing points of emitters alone
-    Directions,  ///< by rays that meet them alone
+    Mis,        ///< light and BSDF sampling, weighted by multiple importance sampling: the default
+    LightOnly,  ///< light sampling only
+    BsdfOnly,   ///< BSDF sampling only
 };
 
 struct PathSettings {
@@ -29,14 +29,14 @@ struct PathSettings {
     /// Largest radiance (of the brightest channel) that reflected light along one path may have;
     /// what is brighter is darkened to it, which loses light. 0 = nothing is.
     float clamp = 0.0f;
-    LightStrategy strategy = LightStrategy::Both;
+    LightStrategy strategy = LightStrategy::Mis;
 
     bool operator==(const PathSettings&) const = default;
 };
 
 /// Where a path begins.
 struct PathStart {
-    glm::vec3 origin{0.0f};     ///< traced space
+    glm::vec3 origin{0.0f};     ///< render space
     glm::vec3 direction{0.0f};  ///< unit vector
     /// Density of the direction, per steradian, for each emitter that is drawn at the origin too
     /// (`sample_emission`); infinite = none is.
@@ -63,23 +63,23 @@ class PathTracer {
 
     /// Radiance that arrives along a path. The direct light of punctual and area lights is no part
     /// of it: no ray meets them. `split`: where it came from; the sum has the same bits with it.
-    [[nodiscard]] PathSample trace(const PathStart& start, PathNumbers numbers,
-                                   PathSplit* split = nullptr) const;
+    [[nodiscard]] PathSample trace(const PathStart& start, Sampler numbers,
+                                   PathLightGroups* split = nullptr) const;
 
     /// Whether anything that rays meet by chance can be drawn as well.
     [[nodiscard]] bool can_sample_emission() const;
 
     /// Light straight from one emissive triangle or direction of the sky (`kind`), weighted against
     /// meeting it by chance with density `other_pdf`. Zero irradiance when blocked.
-    [[nodiscard]] LightSample sample_emission(EmitterKind kind, const Receiver& receiver,
-                                              float other_pdf, PathNumbers& numbers) const;
+    [[nodiscard]] LightSample sample_emission(EmitterKind kind, const ShadingPoint& shading_point,
+                                              float other_pdf, Sampler& numbers) const;
 
     /// Whether something stands between a position and the light of a sample. `blend` in [0, 1)
     /// draws anew what lets a part of the rays through.
-    [[nodiscard]] bool is_blocked(glm::vec3 origin, const LightSample& sample,
-                                  float blend = 0.0f) const;
+    [[nodiscard]] bool occluded(glm::vec3 origin, const LightSample& sample,
+                                float blend = 0.0f) const;
 
-    /// The lights whose direct light belongs into probes, in the scene's order, in traced space.
+    /// The lights whose direct light belongs into probes, in the scene's order, in render space.
     [[nodiscard]] const std::vector<Light>& baked_lights() const { return baked_lights_; }
 
     /// The layer of one of them.
@@ -99,12 +99,12 @@ class PathTracer {
   private:
     /// What is known of a path while it is followed.
     struct Path {
-        PathNumbers numbers;
+        Sampler numbers;
         glm::vec3 throughput{1.0f};
         uint32_t ray_count = 0;
-        PathSplit* split = nullptr;
+        PathLightGroups* split = nullptr;
 
-        void add(uint32_t layer, glm::vec3 light, PathSplit::Way way) const {
+        void add(uint32_t layer, glm::vec3 light, PathLightGroups::Way way) const {
             if (split != nullptr) split->add(layer, light, way);
         }
     };
@@ -112,8 +112,8 @@ class PathTracer {
     /// Light that a surface reflects straight from emitters, over its albedo.
     [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, Path& path) const;
     [[nodiscard]] uint32_t layer_of_geometry(uint32_t geometry) const;
-    [[nodiscard]] float weight_of_drawn(float pdf, float other_pdf) const;
-    [[nodiscard]] float weight_of_met(float pdf, float emitter_pdf) const;
+    [[nodiscard]] float mis_weight_light(float pdf, float other_pdf) const;
+    [[nodiscard]] float mis_weight_bsdf(float pdf, float emitter_pdf) const;
 
     const Scene& scene_;
     const TraceScene& traced_;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/probe_estimator.h"
+#include <tetralight/bake/probe_estimator.h>
 
 #include <algorithm>
 #include <glm/mat3x3.hpp>
 #include <numbers>
 #include <utility>
 
-#include "bake/detail/mix.h"
-#include "bake/sampling.h"
-#include "bake/split_sum.h"
+#include <tetralight/bake/light_group_sum.h>
+#include <tetralight/bake/sampling/mix.h>
+#include <tetralight/bake/sampling/sampling.h>
 
 namespace tetralight {
 namespace {
@@ -31,7 +31,7 @@ uint64_t key_of(uint64_t key, Purpose purpose) {
 /// What an estimate gathers, whole and split.
 struct Gathered {
     ProbeEstimate estimate;
-    SplitSum split;
+    LightGroupSum split;
 };
 
 /// Light along the probe's own directions; that of `start` has no say.
@@ -42,14 +42,14 @@ void add_paths(const PathTracer& tracer, const PathStart& start, const Direction
     const glm::mat3 rotation = sample_rotation(rotation_stream);
     const uint64_t paths_key = key_of(key, Purpose::Paths);
     const bool is_split = tracer.plan().has_split();
-    PathSplit split(tracer.plan().layer_count);
+    PathLightGroups split(tracer.plan().layer_count);
     RadianceShSum sum;
     PathStart path = start;
     for (uint32_t i = 0; i < directions.size(); ++i) {
         path.direction = rotation * directions[i];
         if (is_split) split.clear();
         const PathSample sample =
-            tracer.trace(path, PathNumbers(paths_key, i), is_split ? &split : nullptr);
+            tracer.trace(path, Sampler(paths_key, i), is_split ? &split : nullptr);
         sum.add(path.direction, sample.radiance);
         if (is_split) gathered.split.add(path.direction, split, kSphere / directions.size());
         estimate.behind_count += sample.is_behind_surface;
@@ -67,7 +67,7 @@ void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint
     const uint64_t emission_key = key_of(key, Purpose::Emission);
     RadianceShSum sum;
     for (uint32_t i = 0; i < count; ++i) {
-        PathNumbers numbers(emission_key, i);
+        Sampler numbers(emission_key, i);
         for (const EmitterKind kind : {EmitterKind::Triangle, EmitterKind::Sky}) {
             if (!tracer.emitters().has(kind)) continue;
             const LightSample sample = tracer.sample_emission(kind, {origin}, other_pdf, numbers);
@@ -89,11 +89,11 @@ void add_baked_light(const PathTracer& tracer, size_t light_index, glm::vec3 ori
     const uint32_t layer = tracer.layer_of_baked_light(light_index);
     RadianceShSum sum;
     for (uint32_t i = 0; i < count; ++i) {
-        PathNumbers numbers(key, i);
+        Sampler numbers(key, i);
         const LightSample sample = sample_light(light, origin, numbers.next2());
         if (sample.irradiance == glm::vec3(0.0f)) continue;
         ++estimate.ray_count;
-        if (tracer.is_blocked(origin, sample, numbers.next())) continue;
+        if (tracer.occluded(origin, sample, numbers.next())) continue;
         sum.add(sample.to_light, sample.irradiance);
         gathered.split.add(sample.to_light, layer, sample.irradiance, 1.0 / count);
     }
@@ -119,9 +119,9 @@ void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
 ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
                              const DirectionSet& directions) {
     const uint32_t direction_count = directions.size();
-    SplitLayout layout(tracer.plan());
+    LightGroupLayout layout(tracer.plan());
     layout.has_occlusion = false;  // no part of what directions gather
-    Gathered gathered{{}, SplitSum(layout)};
+    Gathered gathered{{}, LightGroupSum(layout)};
     gathered.estimate.direction_count = direction_count;
     if (tracer.can_sample_emission()) {
         const uint32_t drawn = std::max(1u, direction_count / kDirectionsPerEmitter);

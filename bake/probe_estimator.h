@@ -5,10 +5,10 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "bake/direction_set.h"
-#include "bake/path_tracer.h"
-#include "bake/trace_scene.h"
-#include "probes/sh.h"
+#include <tetralight/bake/path_tracer.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/sampling/direction_set.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 
@@ -20,11 +20,12 @@ struct ProbeEstimate {
     /// Directions that met the back of a single-sided surface first.
     uint32_t behind_count = 0;
     uint64_t ray_count = 0;
-    /// What the light is split into, as a row of `SplitLayout`; empty when the plan splits nothing.
+    /// What the light is split into, as a row of `LightGroupLayout`; empty when the plan splits
+    /// nothing.
     std::vector<float> split;
 };
 
-/// Gathers the light at `origin` (traced space) over a set of directions, which is turned at
+/// Gathers the light at `origin` (render space) over a set of directions, which is turned at
 /// random: sky, emission, the bounces of all lights, and the direct light of those whose mode is
 /// `Baked`. Unbiased for any set; a pure function of its arguments.
 [[nodiscard]] ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,

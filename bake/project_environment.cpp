@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/project_environment.h"
+#include <tetralight/bake/project_environment.h>
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "bake/parallel.h"
-#include "bake/scene/environment.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/scene/environment.h>
 
 namespace tetralight {
 namespace {

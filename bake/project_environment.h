@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "bake/scene/scene.h"
-#include "probes/distant_light.h"
-#include "probes/sh.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/probes/distant_light.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/round_plan.h"
+#include <tetralight/bake/round_plan.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bake/detail/mix.h"
-#include "base/text.h"
+#include <tetralight/bake/sampling/mix.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -40,18 +40,18 @@ Status RoundPlan::check(const BakeSettings& settings) {
     if (settings.sample_count == 0) return Error{"samples: 0 is not a number of directions"};
     const auto is_amount = [](double x) { return std::isfinite(x) && x >= 0.0; };
     if (!is_amount(settings.target_error)) {
-        return Error{text("target error: ", settings.target_error, " is not a share")};
+        return Error{str_cat("target error: ", settings.target_error, " is not a share")};
     }
     if (!is_amount(settings.time_budget_seconds)) {
-        return Error{text("time budget: ", settings.time_budget_seconds, " is not a time")};
+        return Error{str_cat("time budget: ", settings.time_budget_seconds, " is not a time")};
     }
     if (!is_amount(settings.clamp)) {
-        return Error{text("clamp: ", settings.clamp, " is not a radiance")};
+        return Error{str_cat("clamp: ", settings.clamp, " is not a radiance")};
     }
     const uint64_t maximum = settings.max_sample_count;
     if (has_rounds(settings) && maximum > 0 && maximum < first_directions(settings)) {
-        return Error{text("max samples: ", maximum, " are fewer than the ",
-                          first_directions(settings), " of the first round")};
+        return Error{str_cat("max samples: ", maximum, " are fewer than the ",
+                             first_directions(settings), " of the first round")};
     }
     return Ok{};
 }
@@ -78,21 +78,21 @@ uint32_t RoundPlan::directions_of_estimate(uint64_t round, uint32_t estimate) co
     return static_cast<uint32_t>(directions / estimates + (estimate < directions % estimates));
 }
 
-bool RoundPlan::is_done(const ProbeTally& tally) const noexcept {
-    if (tally.round_count == 0) return false;
-    if (target_error_ > 0.0 && tally.standard_error() <= target_error_) return true;
-    return directions_of(tally.round_count) == 0;
+bool RoundPlan::is_done(const ProbeAccumulator& accumulator) const noexcept {
+    if (accumulator.round_count == 0) return false;
+    if (target_error_ > 0.0 && accumulator.standard_error() <= target_error_) return true;
+    return directions_of(accumulator.round_count) == 0;
 }
 
-uint64_t RoundPlan::expected_directions(const ProbeTally& tally) const noexcept {
-    if (tally.round_count == 0) return first_;
-    if (is_done(tally)) return tally.direction_count;
+uint64_t RoundPlan::expected_directions(const ProbeAccumulator& accumulator) const noexcept {
+    if (accumulator.round_count == 0) return first_;
+    if (is_done(accumulator)) return accumulator.direction_count;
     if (target_error_ == 0.0) return maximum_;
     // Errors fall with the root of the directions at least.
-    const double excess = tally.standard_error() / target_error_;
-    const double needed = static_cast<double>(tally.direction_count) * excess * excess;
+    const double excess = accumulator.standard_error() / target_error_;
+    const double needed = static_cast<double>(accumulator.direction_count) * excess * excess;
     if (needed >= static_cast<double>(maximum_)) return maximum_;
-    uint64_t round = tally.round_count + 1;
+    uint64_t round = accumulator.round_count + 1;
     while (static_cast<double>(directions_before(round)) < needed) ++round;
     return directions_before(round);
 }

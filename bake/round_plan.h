@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "bake/bake_settings.h"
-#include "bake/probe_tally.h"
-#include "base/result.h"
+#include <tetralight/bake/bake_settings.h>
+#include <tetralight/bake/probe_accumulator.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 
@@ -38,10 +38,10 @@ class RoundPlan {
     [[nodiscard]] uint32_t directions_of_estimate(uint64_t round, uint32_t estimate) const noexcept;
 
     /// Whether the probe needs no further round.
-    [[nodiscard]] bool is_done(const ProbeTally& tally) const noexcept;
+    [[nodiscard]] bool is_done(const ProbeAccumulator& accumulator) const noexcept;
 
     /// Directions that the probe will have when it is done, as far as its error tells by now.
-    [[nodiscard]] uint64_t expected_directions(const ProbeTally& tally) const noexcept;
+    [[nodiscard]] uint64_t expected_directions(const ProbeAccumulator& accumulator) const noexcept;
 
   private:
     uint64_t first_ = 0;

@@ -3,20 +3,9 @@
 
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <string>
 #include <utility>
 
-#include "base/result.h"
-#include "base/shown_path.h"
-
 namespace tetralight {
-
-/// What the system says about a call on `path` that just failed.
-inline Error system_error(const std::string& path, const char* what) {
-    return {shown_path(path) + ": cannot " + what + " (" + std::strerror(errno) + ")"};
-}
 
 /// Owns a POSIX file descriptor.
 class Descriptor {

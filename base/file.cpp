@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/file.h"
+#include <tetralight/base/file.h>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -9,9 +9,10 @@
 #include <cerrno>
 #include <utility>
 
-#include "base/descriptor.h"
-#include "base/file_writer.h"
-#include "base/shown_path.h"
+#include <tetralight/base/descriptor.h>
+#include <tetralight/base/file_writer.h>
+#include <tetralight/base/shown_path.h>
+#include <tetralight/base/system_error.h>
 
 namespace tetralight {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/file_writer.h"
+#include <tetralight/base/file_writer.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -7,7 +7,8 @@
 #include <climits>
 #include <utility>
 
-#include "base/shown_path.h"
+#include <tetralight/base/shown_path.h>
+#include <tetralight/base/system_error.h>
 
 namespace tetralight {
 namespace {

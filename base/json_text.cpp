@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/json_text.h"
+#include <tetralight/base/json_text.h>
 
 #include <algorithm>
 
-#include "base/text.h"
-#include "base/utf8.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {
@@ -149,7 +149,7 @@ Status check_json_depth(std::string_view json) {
             is_in_string = true;
         } else if (c == '[' || c == '{') {
             if (++depth > kDeepestJson) {
-                return Error{text("JSON is nested deeper than ", kDeepestJson)};
+                return Error{str_cat("JSON is nested deeper than ", kDeepestJson)};
             }
         } else if (c == ']' || c == '}') {
             --depth;
@@ -162,7 +162,7 @@ Status check_json_object(std::string_view json) {
     if (auto status = check_json_depth(json); !status) return status;
     JsonScanner scanner(json);
     if (!scanner.take_document()) {
-        return Error{text("is not a JSON object (byte ", scanner.place(), ")")};
+        return Error{str_cat("is not a JSON object (byte ", scanner.place(), ")")};
     }
     return is_utf8(json) ? Status(Ok{}) : Error{"is not UTF-8"};
 }

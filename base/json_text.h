@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 // What text has to obey before it is given to a JSON library, or stored for others to read.
 

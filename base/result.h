@@ -2,23 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <utility>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/base/error.h>
 
 namespace tetralight {
-
-/// Why data could not be used: what, where and the value, in one line for a person.
-/// Example: `groups.json: group "hall": probe 7: position is not finite (nan, 0, 1)`.
-struct Error {
-    std::string message;
-
-    /// Puts a place before the message: `Error{"b"}.in("a")` reads `a: b`.
-    [[nodiscard]] Error in(const std::string& place) const { return {place + ": " + message}; }
-
-    bool operator==(const Error&) const = default;
-};
 
 /// A value, or the reason why there is none. The only way in which bad data is reported.
 template <class T>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/shown_path.h"
+#include <tetralight/base/shown_path.h>
 
-#include "base/utf8.h"
+#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/utf8.h"
+#include <tetralight/base/utf8.h>
 
 #include <algorithm>
 #include <cstddef>

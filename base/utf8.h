@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

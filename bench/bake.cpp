@@ -4,15 +4,15 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "bake/bake_probes.h"
-#include "bake/path_tracer.h"
-#include "bake/probe_estimator.h"
-#include "bake/sampling.h"
-#include "bench/bake_scenes.h"
-#include "bench/harness.h"
-#include "bench/plain_tracer.h"
-#include "probes/dering.h"
-#include "probes/sh_minimum.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/bake/path_tracer.h>
+#include <tetralight/bake/probe_estimator.h>
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bench/bake_scenes.h>
+#include <tetralight/bench/harness.h>
+#include <tetralight/bench/plain_tracer.h>
+#include <tetralight/probes/dering.h>
+#include <tetralight/probes/sh_minimum.h>
 
 namespace tetralight::bench {
 namespace {
@@ -65,7 +65,7 @@ struct Traced {
         const DirectionSet directions(direction_count / 8);
         for (uint64_t set = 0; set < 8; ++set) {
             const uint64_t key = probe_key(8 * seed + set, probe);
-            sum += estimate_probe(tracer, scene.traced_from_world(probe), key, directions).radiance;
+            sum += estimate_probe(tracer, scene.render_from_world(probe), key, directions).radiance;
         }
         return 0.125f * sum;
     }
@@ -86,7 +86,7 @@ void time_to_1_percent(const Traced& traced, const Options& options) {
             const double a_seconds =
                 seconds([&] { a = traced.estimate(probe, seed, kDirections); });
             const double b_seconds = seconds([&] {
-                b = plain.gather(traced.scene.traced_from_world(probe), kDirections, seed);
+                b = plain.gather(traced.scene.render_from_world(probe), kDirections, seed);
             });
             const double a_error = relative_rmse(a, reference) / 0.01;
             const double b_error = relative_rmse(b, reference) / 0.01;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <fstream>
 
-#include "bake/direction_set.h"
-#include "bake/parallel.h"
-#include "bake/path_tracer.h"
-#include "bake/probe_estimator.h"
-#include "bake/sampling.h"
-#include "bench/bake_scenes.h"
-#include "bench/plain_tracer.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/path_tracer.h>
+#include <tetralight/bake/probe_estimator.h>
+#include <tetralight/bake/sampling/direction_set.h>
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bench/bake_scenes.h>
+#include <tetralight/bench/plain_tracer.h>
 
 namespace tetralight::bench {
 namespace {
@@ -45,7 +45,7 @@ class Convergence {
             });
             PlainTracer plain(subject_.scene, scene_, kBounces);
             write_line("random", [&](const glm::dvec3& probe, uint64_t trial) {
-                return plain.gather(scene_.traced_from_world(probe), n, trial);
+                return plain.gather(scene_.render_from_world(probe), n, trial);
             });
         }
     }
@@ -58,7 +58,7 @@ class Convergence {
         for (uint64_t set = 0; set < kSets; ++set) {
             const uint64_t key = probe_key(kSets * trial + set, probe);
             sum +=
-                estimate_probe(tracer_, scene_.traced_from_world(probe), key, directions).radiance;
+                estimate_probe(tracer_, scene_.render_from_world(probe), key, directions).radiance;
         }
         return (1.0f / kSets) * sum;
     }

@@ -2,11 +2,11 @@
 // How much of a bake's time goes to rays: the same rays alone, against the whole baker.
 #include <limits>
 
-#include "bake/parallel.h"
-#include "bake/path_tracer.h"
-#include "bake/probe_estimator.h"
-#include "bake/sampling.h"
-#include "bench/bake_scenes.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/path_tracer.h>
+#include <tetralight/bake/probe_estimator.h>
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bench/bake_scenes.h>
 
 namespace tetralight::bench {
 namespace {
@@ -26,8 +26,8 @@ void record_ray(void* context, const Ray& ray, RayKind kind, float distance) {
 
 float distance_of(const RayCaster& caster, const RecordedRay& recorded) {
     constexpr float kNone = std::numeric_limits<float>::infinity();
-    if (recorded.kind == RayKind::Shadow) return caster.is_blocked(recorded.ray) ? 0.0f : kNone;
-    const auto hit = caster.cast(recorded.ray);
+    if (recorded.kind == RayKind::Shadow) return caster.occluded(recorded.ray) ? 0.0f : kNone;
+    const auto hit = caster.intersect(recorded.ray);
     return hit ? hit->distance : kNone;
 }
 
@@ -72,7 +72,7 @@ class RayContest {
     void estimate(size_t item) const {
         const glm::dvec3& probe = subject_.probes[item / kEstimates];
         const uint64_t key = probe_key(item % kEstimates, probe);
-        (void)estimate_probe(tracer_, scene_.traced_from_world(probe), key, directions_);
+        (void)estimate_probe(tracer_, scene_.render_from_world(probe), key, directions_);
     }
 
     const BakeSubject& subject_;
@@ -94,7 +94,7 @@ void bench_bake_rays(const BakeSubject& subject, const Options& options) {
     contest.baseline_is = "the same rays, Embree alone";
     contest.work = 1e-6 * static_cast<double>(rays.ray_count());
     contest.ours = [&] { return seconds([&] { rays.bake(); }); };
-    contest.baseline = [&] { return seconds([&] { rays.cast(); }); };
+    contest.baseline = [&] { return seconds([&] { rays.intersect(); }); };
     run(contest, options);
 }
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/bake_scenes.h"
+#include <tetralight/bench/bake_scenes.h>
 
 #include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
 
-#include "bake/bake_probes.h"
-#include "bake/emitter_bounds.h"
-#include "bake/scene/read_gltf.h"
-#include "bake/scene/scene_bounds.h"
-#include "bake/survey.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/bake/lights/light_bounds.h>
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/error_text.h>
 
 namespace tetralight::bench {
 namespace {
@@ -58,11 +59,11 @@ std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
     const Box bounds = scene_bounds(scene, everything).value_or(Box{});
     std::vector<glm::dvec3> candidates = random_positions(4 * count, 1, 1.0);
     for (glm::dvec3& p : candidates) p = bounds.low + p * bounds.size();
-    const auto surroundings = survey(scene, candidates);
-    require(bool(surroundings), "survey");
+    const auto visibility = probe_visibility(scene, candidates);
+    require(bool(visibility), "survey");
     std::vector<glm::dvec3> free;
     for (size_t i = 0; i < candidates.size() && free.size() < count; ++i) {
-        if ((*surroundings)[i].behind_share < 0.1f) free.push_back(candidates[i]);
+        if ((*visibility)[i].behind_share < 0.1f) free.push_back(candidates[i]);
     }
     return free;
 }
@@ -100,7 +101,7 @@ std::vector<glm::dvec3> group_positions(const Scene& scene, size_t count) {
 
 BakeSubject read_subject(const std::string& name, const std::string& path) {
     auto scene = read_gltf(path);
-    require(bool(scene), scene ? "" : scene.error().message);
+    require(bool(scene), scene ? "" : error_text(scene.error()));
     BakeSubject subject{name, std::move(*scene), {}};
     subject.probes = group_positions(subject.scene, kProbeCount);
     if (subject.scene.lights.empty() && subject.scene.environment.radiance == glm::vec3(0.0f)) {

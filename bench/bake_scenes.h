@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "bench/harness.h"
-#include "probes/sh.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/bench/harness.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight::bench {
 

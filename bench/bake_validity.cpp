@@ -7,9 +7,9 @@
 #include <numbers>
 #include <utility>
 
-#include "bake/survey.h"
-#include "bench/bake_scenes.h"
-#include "bench/closed_solids.h"
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/bench/bake_scenes.h>
+#include <tetralight/bench/closed_solids.h>
 
 namespace tetralight::bench {
 namespace {
@@ -78,12 +78,12 @@ void measure(const std::string& name, const AngleSurface& surface) {
     scene.instances[0].mesh = 0;
     std::vector<glm::dvec3> positions = random_positions(kPositions, 3, 3.8);
     for (glm::dvec3& position : positions) position -= 1.9;
-    const auto surroundings = survey(scene, positions);
-    require(bool(surroundings), "survey");
+    const auto visibility = probe_visibility(scene, positions);
+    require(bool(visibility), "survey");
     size_t agreeing = 0, inside = 0;
     for (size_t i = 0; i < kPositions; ++i) {
         const bool is_inside = winding_number(scene.meshes[0], positions[i]) > 0.5;
-        agreeing += (*surroundings)[i].is_inside() == is_inside;
+        agreeing += (*visibility)[i].is_inside() == is_inside;
         inside += is_inside;
     }
     require(inside > kPositions / 20, "positions inside " + name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/beast_baseline.h"
+#include <tetralight/bench/beast_baseline.h>
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>

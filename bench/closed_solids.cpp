@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/closed_solids.h"
+#include <tetralight/bench/closed_solids.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "bake/survey.h"
+#include <tetralight/bake/probe_visibility.h>
 
 namespace tetralight::bench {
 namespace {
@@ -126,8 +126,8 @@ bool ClosedSolids::hold(glm::vec3 position) const {
 }
 
 bool ClosedSolids::decide(glm::vec3 position) const {
-    return std::ranges::all_of(survey_directions(), [&](const glm::vec3& direction) {
-        const auto side = traced_.cast_side({position, direction});
+    return std::ranges::all_of(probe_visibility_directions(), [&](const glm::vec3& direction) {
+        const auto side = traced_.intersect_side({position, direction});
         return !side || !side->is_from_behind ||
                is_of_closed_part_[side->geometry][side->primitive];
     });

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "bake/trace_scene.h"
+#include <tetralight/bake/rays/trace_scene.h>
 
 namespace tetralight::bench {
 
@@ -21,11 +21,11 @@ class ClosedSolids {
     /// Keeps a reference.
     explicit ClosedSolids(const TraceScene& traced);
 
-    /// Whether a mesh's closed parts wind around a position in traced space, which is farther than
+    /// Whether a mesh's closed parts wind around a position in render space, which is farther than
     /// rounding from their surfaces.
     [[nodiscard]] bool hold(glm::vec3 position) const;
 
-    /// Whether no open part shows its back to a position in traced space, so that `hold` is all
+    /// Whether no open part shows its back to a position in render space, so that `hold` is all
     /// there is to say.
     [[nodiscard]] bool decide(glm::vec3 position) const;
 

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "bake/sampling.h"
-#include "bench/harness.h"
-#include "probes/sh.h"
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bench/harness.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight::bench {
 namespace {

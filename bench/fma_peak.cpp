@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each kind of processor: Highway includes this file again and again.
-#include "bench/fma_peak.h"
+#include <tetralight/bench/fma_peak.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "bench/fma_peak.cpp"
+#define HWY_TARGET_INCLUDE <tetralight/bench/fma_peak.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/gl_renderer.h"
+#include <tetralight/bench/gl_renderer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/read_gltf.h"
-#include "bake/scene/scene_bounds.h"
-#include "pipeline/bake_volume.h"
-#include "pipeline/render_gizmos.h"
-#include "runtime/gl/gl_mesh_ball.h"
-#include "runtime/gl/gl_pictures.h"
-#include "runtime/pack_instances.h"
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/render/gl/gl_mesh_ball.h>
+#include <tetralight/render/gl/gl_pictures.h>
+#include <tetralight/render/render_gizmos.h>
+#include <tetralight/runtime/pack_instances.h>
 
 namespace tetralight::bench {
 namespace {
@@ -72,7 +73,7 @@ void bench_image_difference(const Lit& lit, const Camera& camera, const std::str
     require(bool(light), name);
     auto gl = GlPictures::make(lit.scene, volume, *light);
     if (!gl) {
-        std::fprintf(stderr, "%s: %s\n", name.c_str(), gl.error().message.c_str());
+        std::fprintf(stderr, "%s: %s\n", name.c_str(), error_text(gl.error()).c_str());
         return;
     }
     const auto shader = SceneShader::make(lit.scene, volume, *light);
@@ -135,7 +136,7 @@ void bench_frame(const Lit& lit, uint32_t count, const std::string& size) {
             }));
         if (frame % 3 != 0) continue;
         gpu.push_back(1e3 * seconds([&] {
-                          const Crowd crowd = ball->crowd();
+                          const SphereInstances crowd = ball->crowd();
                           const auto status = ball->renderer().draw(camera, target, {&crowd, 1});
                           require(bool(status), "runtime.gl_frame: drawing");
                           glFinish();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/gpu_query.h"
+#include <tetralight/bench/gpu_query.h>
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
@@ -11,12 +11,13 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "bench/harness.h"
-#include "bench/query_subject.h"
-#include "probes/interpolate.h"
-#include "runtime/gl/offscreen_context.h"
-#include "runtime/gl/shader_program.h"
-#include "runtime/gl/volume_buffers.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/bench/harness.h>
+#include <tetralight/bench/query_subject.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/render/gl/offscreen_context.h>
+#include <tetralight/render/gl/shader_program.h>
+#include <tetralight/render/gl/volume_buffers.h>
 
 namespace tetralight::bench {
 namespace {
@@ -48,7 +49,7 @@ std::vector<Answer> query_gpu(const ShaderVolume& volume, const std::vector<glm:
         compose_shader(ShaderLanguage::Glsl450, {ShaderPart::Query}, {"query.comp", kShader});
     const ShaderStage stage{GL_COMPUTE_SHADER, source};
     const auto program = ShaderProgram::create(std::span(&stage, 1));
-    require(bool(program), program ? "" : program.error().message);
+    require(bool(program), program ? "" : error_text(program.error()));
     std::vector<glm::vec4> inputs;
     for (const glm::vec3& position : positions) inputs.emplace_back(position, 0.0f);
     std::vector<Answer> answers(positions.size());
@@ -154,7 +155,7 @@ void bench_gpu_query() {
     const auto context = OffscreenContext::create();
     if (!context) {
         std::fprintf(stderr, "runtime.gpu_query_disagreements: %s\n",
-                     context.error().message.c_str());
+                     error_text(context.error()).c_str());
         return;
     }
     Subject random = make_random_subject("20k", 20'000);

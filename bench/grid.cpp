@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "base/text.h"
-#include "bench/grid_error.h"
-#include "bench/grid_inside.h"
-#include "bench/grid_scenes.h"
-#include "bench/harness.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/bench/grid_error.h>
+#include <tetralight/bench/grid_inside.h>
+#include <tetralight/bench/grid_scenes.h>
+#include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {
 namespace {
@@ -47,8 +47,8 @@ Outcome probes_for_error(const GridSubject& subject, const Options& options) {
     const auto error_of = [&](const char* kind, uint64_t wanted, const ProbeGrid& grid) {
         outcome.inside_count += count_inside(subject, grid);
         const double error = light_error(subject, grid, reference, kProbeSamples);
-        report(text("grid.error.", subject.name, ".", kind, ".", wanted), 100.0 * error,
-               text("% with ", grid.probe_count(), " probes"));
+        report(str_cat("grid.error.", subject.name, ".", kind, ".", wanted), 100.0 * error,
+               str_cat("% with ", grid.probe_count(), " probes"));
         return ErrorAt{static_cast<double>(grid.probe_count()), error};
     };
     std::vector<uint64_t> counts{250, 500, 1000, 2000, 4000};

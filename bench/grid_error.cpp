@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/grid_error.h"
+#include <tetralight/bench/grid_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,15 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "bake/bake_probes.h"
-#include "bake/parallel.h"
-#include "bake/placement/light_difference.h"
-#include "bake/placement/space_map.h"
-#include "bake/survey.h"
-#include "bake/trace_scene.h"
-#include "pipeline/bake_volume.h"
-#include "probes/interpolate.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/light_difference.h>
+#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight::bench {
 namespace {
@@ -53,7 +54,7 @@ class Places {
         if (traced_.is_double_sided(triangles_[i].first) && number_(engine_) < 0.5) {
             normal = -normal;
         }
-        return traced_.world_from_traced(place) + kOffSurface * glm::dvec3(normal);
+        return traced_.world_from_render(place) + kOffSurface * glm::dvec3(normal);
     }
 
   private:
@@ -91,7 +92,7 @@ std::vector<glm::dvec3> free_positions(const GridSubject& subject, size_t count)
                 glm::any(glm::greaterThan(p, subject.bounds.high))) {
                 return;
             }
-            is_free[i] = !look_around(*traced, traced->traced_from_world(p)).is_inside() &&
+            is_free[i] = !probe_visibility_at(*traced, traced->render_from_world(p)).is_inside() &&
                          map.space_of(p) == wanted;
         });
         // In pairs, so that both kinds are equally many.
@@ -161,7 +162,7 @@ ProbeGrid regular_grid(const GridSubject& subject, uint64_t probe_count) {
     for (int i = 0; i < 12; ++i) {
         settings.spacing = glm::dvec3(spacing);
         auto grid = make_probe_grid(subject.scene, settings);
-        require(bool(grid), grid ? "" : grid.error().message);
+        require(bool(grid), grid ? "" : error_text(grid.error()));
         const auto off = [&](const ProbeGrid& g) {
             return std::abs(static_cast<double>(g.probe_count()) -
                             static_cast<double>(probe_count));
@@ -184,7 +185,7 @@ ProbeGrid adaptive_grid(const GridSubject& subject, uint64_t probe_count) {
     settings.max_probe_count = probe_count;
     settings.adaptive.target_error = 1e-4;  // as good as so many probes can be
     auto grid = make_probe_grid(subject.scene, settings);
-    require(bool(grid), grid ? "" : grid.error().message);
+    require(bool(grid), grid ? "" : error_text(grid.error()));
     return std::move(*grid);
 }
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "bake/placement/probe_grid.h"
-#include "bench/grid_scenes.h"
-#include "probes/sh.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bench/grid_scenes.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight::bench {
 

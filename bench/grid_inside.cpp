@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/grid_inside.h"
+#include <tetralight/bench/grid_inside.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "bake/parallel.h"
-#include "bake/placement/free_space.h"
-#include "bake/placement/lattice.h"
-#include "bake/ray_caster.h"
-#include "bake/survey.h"
-#include "bake/trace_scene.h"
-#include "base/text.h"
-#include "bench/closed_solids.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/lattice.h>
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/bake/rays/ray_caster.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/bench/closed_solids.h>
 
 namespace tetralight::bench {
 namespace {
@@ -55,13 +55,13 @@ double inside(const GridSubject& subject, const Options& options) {
         lattice_of(subject, options.is_quick ? 20'000.0 : 200'000.0);
     std::vector<Verdict> verdicts(candidates.size());
     parallel_for(candidates.size(), 0, [&](size_t i) {
-        const glm::vec3 here = traced->traced_from_world(candidates[i]);
+        const glm::vec3 here = traced->render_from_world(candidates[i]);
         Verdict& verdict = verdicts[i];
         verdict.is_free =
             !is_on_a_surface(*traced, here) && !solids.hold(here) && solids.decide(here);
         for (const ClearanceRule& rule : rules) {
             const PlacedProbe placed = place_probe(*traced, candidates[i], rule);
-            const glm::vec3 there = traced->traced_from_world(placed.position);
+            const glm::vec3 there = traced->render_from_world(placed.position);
             verdict.is_lost |= verdict.is_free && rule.clearance == 0.0 && !is_kept(placed.fate);
             verdict.left_inside +=
                 is_kept(placed.fate) && solids.hold(there) && !is_on_a_surface(*traced, there);
@@ -74,8 +74,8 @@ double inside(const GridSubject& subject, const Options& options) {
         free += verdict.is_free ? 1.0 : 0.0;
     }
     report("grid.inside." + subject.name, left,
-           text("probes of 3 x ", candidates.size(), ", in ", solids.count(), " closed meshes"));
-    report("grid.lost." + subject.name, 100.0 * lost / free, text("% of ", free, " candidates"));
+           str_cat("probes of 3 x ", candidates.size(), ", in ", solids.count(), " closed meshes"));
+    report("grid.lost." + subject.name, 100.0 * lost / free, str_cat("% of ", free, " candidates"));
     return left;
 }
 
@@ -105,9 +105,9 @@ void inside_rays(const GridSubject& subject, const Options& options) {
     std::vector<glm::vec3> positions;
     for (const glm::dvec3& p : random_positions(4000, 5, 1.0)) {
         positions.push_back(
-            traced->traced_from_world(subject.bounds.low + p * subject.bounds.size()));
+            traced->render_from_world(subject.bounds.low + p * subject.bounds.size()));
     }
-    const auto directions = survey_directions();
+    const auto directions = probe_visibility_directions();
     Contest contest;
     contest.figure = "grid.inside_rays." + subject.name;
     contest.unit = "Mrays/s";
@@ -117,7 +117,7 @@ void inside_rays(const GridSubject& subject, const Options& options) {
         return seconds([&] {
             size_t inside_count = 0;
             for (const glm::vec3& p : positions)
-                inside_count += look_around(*traced, p).is_inside();
+                inside_count += probe_visibility_at(*traced, p).is_inside();
             require(inside_count < positions.size(), "free positions");
         });
     };
@@ -125,7 +125,8 @@ void inside_rays(const GridSubject& subject, const Options& options) {
         return seconds([&] {
             size_t hit_count = 0;
             for (const glm::vec3& p : positions) {
-                for (const glm::vec3& d : directions) hit_count += caster.cast({p, d}).has_value();
+                for (const glm::vec3& d : directions)
+                    hit_count += caster.intersect({p, d}).has_value();
             }
             require(hit_count > 0, "hits");
         });
@@ -166,7 +167,7 @@ double count_inside(const GridSubject& subject, const ProbeGrid& grid) {
     double count = 0.0;
     for (const ProbeGroup& group : grid.groups) {
         for (const glm::dvec3& position : group.positions) {
-            const glm::vec3 place = traced->traced_from_world(position);
+            const glm::vec3 place = traced->render_from_world(position);
             count += solids.hold(place) && !is_on_a_surface(*traced, place) ? 1.0 : 0.0;
         }
     }

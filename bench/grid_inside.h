@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bake/placement/probe_grid.h"
-#include "bench/grid_scenes.h"
-#include "bench/harness.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bench/grid_scenes.h>
+#include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/grid_scenes.h"
+#include <tetralight/bench/grid_scenes.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "bake/scene/read_gltf.h"
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/error_text.h>
 
 namespace tetralight::bench {
 namespace {
@@ -146,7 +147,7 @@ Box bounds_of(const Scene& scene) {
 
 GridSubject read_subject(const std::string& name, const std::string& path) {
     auto scene = read_gltf(path);
-    require(bool(scene), scene ? "" : scene.error().message);
+    require(bool(scene), scene ? "" : error_text(scene.error()));
     GridSubject subject{name, std::move(*scene), {}};
     if (subject.scene.lights.empty() && subject.scene.environment.radiance == glm::vec3(0.0f)) {
         subject.scene.environment.radiance = {0.6f, 0.8f, 1.0f};

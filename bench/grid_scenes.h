@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "bake/scene/scene_bounds.h"
-#include "bench/harness.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {
 

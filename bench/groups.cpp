@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/harness.h"
-#include "probes/build/make_probe_volume.h"
-#include "probes/build/volume_builder.h"
+#include <tetralight/bench/harness.h>
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/build/volume_builder.h>
 
 namespace tetralight::bench {
 namespace {

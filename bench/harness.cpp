@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/harness.h"
+#include <tetralight/bench/harness.h>
 
 #include <algorithm>
 #include <chrono>

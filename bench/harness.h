@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "probes/probe_group.h"
+#include <tetralight/probes/probe_group.h>
 
 // Every figure is a ratio against a baseline that is timed in the same process, alternating,
 // because machines differ and are noisy. docs/performance.md says what the figures mean.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/http_client.h"
+#include <tetralight/bench/http_client.h>
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -16,8 +16,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "base/text.h"
-#include "bench/harness.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {
 
@@ -76,7 +76,7 @@ std::string http_request(const std::string& method, const std::string& path,
                          const std::string& content_type, std::string_view body) {
     std::string request = method + " " + path + " HTTP/1.1\r\nHost: localhost\r\n";
     if (!content_type.empty()) request += "Content-Type: " + content_type + "\r\n";
-    request += text("Content-Length: ", body.size(), "\r\n\r\n", body);
+    request += str_cat("Content-Length: ", body.size(), "\r\n\r\n", body);
     return request;
 }
 

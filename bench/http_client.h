@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/descriptor.h"
+#include <tetralight/base/descriptor.h>
 
 namespace tetralight::bench {
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv.h"
+#include <tetralight/lppv/lppv.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bench/harness.h"
-#include "bench/lppv_accuracy.h"
-#include "bench/query_subject.h"
-#include "lppv/lppv_atlas.h"
-#include "probes/build/make_probe_volume.h"
-#include "probes/compact_probes.h"
+#include <tetralight/bench/harness.h>
+#include <tetralight/bench/lppv_accuracy.h>
+#include <tetralight/bench/query_subject.h>
+#include <tetralight/lppv/lppv_atlas.h>
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/compact_probes.h>
 #ifdef TETRALIGHT_HAS_OPENVDB
-#include "bench/vdb_baseline.h"
-#include "lppv/vdb/write_vdb.h"
+#include <tetralight/bench/vdb_baseline.h>
+#include <tetralight/lppv/vdb/write_vdb.h>
 #endif
 
 namespace tetralight::bench {

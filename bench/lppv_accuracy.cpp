@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/lppv_accuracy.h"
+#include <tetralight/bench/lppv_accuracy.h>
 
 #include <array>
 #include <cmath>
@@ -8,11 +8,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "bake/placement/probe_grid.h"
-#include "bake/survey.h"
-#include "bench/grid_scenes.h"
-#include "lppv/lppv.h"
-#include "pipeline/bake_volume.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/bench/grid_scenes.h>
+#include <tetralight/lppv/lppv.h>
+#include <tetralight/pipeline/bake_volume.h>
 
 namespace tetralight::bench {
 namespace {
@@ -54,11 +55,11 @@ std::vector<SurfacePoint> points_on(const glm::dmat4& world_from_beam) {
 std::vector<SurfacePoint> visible(const Scene& scene, const std::vector<SurfacePoint>& points) {
     std::vector<glm::dvec3> positions;
     for (const SurfacePoint& point : points) positions.push_back(point.position);
-    const auto surroundings = survey(scene, positions);
-    require(bool(surroundings), "survey");
+    const auto visibility = probe_visibility(scene, positions);
+    require(bool(visibility), "survey");
     std::vector<SurfacePoint> free;
     for (size_t i = 0; i < points.size(); ++i) {
-        if (!(*surroundings)[i].is_inside()) free.push_back(points[i]);
+        if (!(*visibility)[i].is_inside()) free.push_back(points[i]);
     }
     return free;
 }
@@ -69,13 +70,13 @@ ProbeVolume bake(const GridSubject& subject) {
         ProbeGridSettings grid;
         grid.spacing = glm::dvec3(kProbeSpacing);
         auto made = make_probe_grid(subject.scene, grid);
-        require(bool(made), made ? "" : made.error().message);
+        require(bool(made), made ? "" : error_text(made.error()));
         groups = std::move(made->groups);
     }
     BakeVolumeSettings settings;
     settings.bake.sample_count = 4096;
     auto baked = bake_volume(subject.scene, groups, settings);
-    require(bool(baked), baked ? "" : baked.error().message);
+    require(bool(baked), baked ? "" : error_text(baked.error()));
     return std::move(baked->volume);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bench/harness.h"
+#include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {
 

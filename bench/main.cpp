@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
-#include "bench/harness.h"
+#include <tetralight/bench/harness.h>
 #ifdef TETRALIGHT_HAS_SERVER
-#include "bench/server.h"
+#include <tetralight/bench/server.h>
 #endif
 
 int main(int argc, char** argv) {

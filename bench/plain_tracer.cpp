@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/plain_tracer.h"
+#include <tetralight/bench/plain_tracer.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "bake/sampling.h"
-#include "bake/scene/environment.h"
-#include "bake/scene/scene_bounds.h"
-#include "bake/scene/surface_color.h"
-#include "bench/harness.h"
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bake/scene/environment.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/bake/scene/surface_color.h>
+#include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {
 namespace {
@@ -21,7 +21,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 
 PlainTracer::PlainTracer(const Scene& scene, const TraceScene& traced, uint32_t bounces)
     : scene_(scene), traced_(traced), bounces_(bounces) {
-    for (const Light& light : scene.lights) lights_.push_back(traced.traced_from_world(light));
+    for (const Light& light : scene.lights) lights_.push_back(traced.render_from_world(light));
     for (const MeshInstance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
         const Material& material = scene.materials[mesh.material];
@@ -31,7 +31,7 @@ PlainTracer::PlainTracer(const Scene& scene, const TraceScene& traced, uint32_t 
             Triangle triangle;
             for (size_t k = 0; k < 3; ++k) {
                 const glm::vec3& p = mesh.positions[mesh.indices[i + k]];
-                triangle[k] = traced.traced_from_world(world_position(instance, p));
+                triangle[k] = traced.render_from_world(world_position(instance, p));
             }
             emitters_.push_back(triangle);
         }
@@ -53,7 +53,7 @@ RadianceSh PlainTracer::gather(glm::vec3 origin, uint32_t direction_count, uint6
 glm::vec3 PlainTracer::trace(Ray ray) {
     glm::vec3 radiance(0.0f), throughput(1.0f);
     for (uint32_t bounce = 0;; ++bounce) {
-        const auto surface = traced_.cast(ray);
+        const auto surface = traced_.intersect(ray);
         if (!surface) {
             return radiance + throughput * environment_radiance(scene_.environment, ray.direction);
         }
@@ -79,7 +79,7 @@ glm::vec3 PlainTracer::reflected_light(const Surface& surface, glm::vec3 origin)
     }
     const Illumination light = illuminate(lights_[chosen], surface.position);
     const float cosine = glm::dot(surface.geometric_normal, light.to_light);
-    if (cosine <= 0.0f || traced_.is_blocked({origin, light.to_light, light.distance})) {
+    if (cosine <= 0.0f || traced_.occluded({origin, light.to_light, light.distance})) {
         return glm::vec3(0.0f);
     }
     return per_chance * cosine * light.irradiance;
@@ -98,7 +98,7 @@ glm::vec3 PlainTracer::light_of(const Triangle& triangle, const Surface& surface
     const glm::vec3 to_light = offset / distance;
     const float cosine = glm::dot(surface.geometric_normal, to_light);
     if (!(cosine > 0.0f)) return glm::vec3(0.0f);
-    const auto seen = traced_.cast({origin, to_light});
+    const auto seen = traced_.intersect({origin, to_light});
     if (!seen || seen->is_back_face) return glm::vec3(0.0f);
     if (glm::distance(seen->position, point) > 1e-4f + 1e-4f * distance) return glm::vec3(0.0f);
     const float projected = 0.5f * std::abs(glm::dot(double_area, to_light));

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "bake/trace_scene.h"
-#include "probes/sh.h"
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight::bench {
 

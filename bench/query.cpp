@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <thread>
 
-#include "bench/harness.h"
-#include "bench/query_subject.h"
-#include "probes/compact_probes.h"
-#include "probes/interpolate.h"
-#include "probes/probe_file.h"
+#include <tetralight/bench/harness.h>
+#include <tetralight/bench/query_subject.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight::bench {
 namespace {

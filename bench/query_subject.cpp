@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/query_subject.h"
+#include <tetralight/bench/query_subject.h>
 
 #include <cmath>
 #include <glm/common.hpp>
@@ -8,12 +8,13 @@
 #include <glm/mat3x3.hpp>
 #include <utility>
 
-#include "bake/placement/probe_grid.h"
-#include "bake/scene/read_gltf.h"
-#include "pipeline/bake_volume.h"
-#include "probes/build/make_probe_volume.h"
-#include "probes/compact_probes.h"
-#include "probes/morton_order.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/morton_order.h>
 
 namespace tetralight::bench {
 namespace {
@@ -86,7 +87,7 @@ Subject make_lattice_subject(const std::string& name, size_t probe_count) {
 Subject make_scene_subject(const Options& options) {
     const auto scene =
         read_gltf(options.scene.value_or(TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb"));
-    require(bool(scene), scene ? "" : scene.error().message);
+    require(bool(scene), scene ? "" : error_text(scene.error()));
     std::vector<ProbeGroup> groups = scene->probe_groups;
     if (groups.empty()) {
         const auto everything = [](const MeshInstance&) { return true; };
@@ -94,14 +95,14 @@ Subject make_scene_subject(const Options& options) {
         ProbeGridSettings grid;
         grid.spacing = glm::dvec3(std::cbrt(size.x * size.y * size.z / 20'000.0));
         auto made = make_probe_grid(*scene, grid);
-        require(bool(made), made ? "" : made.error().message);
+        require(bool(made), made ? "" : error_text(made.error()));
         groups = std::move(made->groups);
     }
     BakeVolumeSettings settings;
     settings.bake.sample_count = 64;
     settings.bake.bounces = 1;
     auto baked = bake_volume(*scene, groups, settings);
-    require(bool(baked), baked ? "" : baked.error().message);
+    require(bool(baked), baked ? "" : error_text(baked.error()));
     return make_subject("scene", std::move(baked->volume));
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/harness.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bench/harness.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::bench {
 

@@ -6,13 +6,13 @@
 #include <numbers>
 #include <thread>
 
-#include "bake/project_environment.h"
-#include "bench/bake_scenes.h"
-#include "bench/harness.h"
-#include "pipeline/bake_volume.h"
-#include "probes/compact_probes.h"
-#include "probes/recombine.h"
-#include "probes/relight.h"
+#include <tetralight/bake/project_environment.h>
+#include <tetralight/bench/bake_scenes.h>
+#include <tetralight/bench/harness.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/recombine.h>
+#include <tetralight/probes/relight.h>
 
 namespace tetralight::bench {
 namespace {

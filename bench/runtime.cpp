@@ -7,15 +7,15 @@
 #include <random>
 #include <span>
 
-#include "bench/fma_peak.h"
-#include "bench/harness.h"
-#include "bench/query_subject.h"
-#include "probes/interpolate.h"
-#include "runtime/pack_instances.h"
-#include "runtime/sample_normals.h"
+#include <tetralight/bench/fma_peak.h>
+#include <tetralight/bench/harness.h>
+#include <tetralight/bench/query_subject.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/runtime/pack_instances.h>
+#include <tetralight/runtime/sample_normals.h>
 #ifdef TETRALIGHT_HAS_GL
-#include "bench/gl_renderer.h"
-#include "bench/gpu_query.h"
+#include <tetralight/bench/gl_renderer.h>
+#include <tetralight/bench/gpu_query.h>
 #endif
 
 namespace tetralight::bench {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The HTTP service against a plain Beast server that answers the same bytes without thinking.
-#include "bench/server.h"
+#include <tetralight/bench/server.h>
 
 #include <poll.h>
 #include <unistd.h>
@@ -15,15 +15,15 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "bench/beast_baseline.h"
-#include "bench/harness.h"
-#include "bench/http_client.h"
-#include "bench/query_subject.h"
-#include "probes/interpolate.h"
-#include "probes/probe_file.h"
-#include "server/query_binary.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/bench/beast_baseline.h>
+#include <tetralight/bench/harness.h>
+#include <tetralight/bench/http_client.h>
+#include <tetralight/bench/query_subject.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/server/query_binary.h>
 
 namespace tetralight::bench {
 namespace {
@@ -46,7 +46,8 @@ std::string program() {
 
 /// A folder for a server, gone with this object.
 struct DataFolder {
-    std::string path = (fs::temp_directory_path() / text("tetralight_bench_", ::getpid())).string();
+    std::string path =
+        (fs::temp_directory_path() / str_cat("tetralight_bench_", ::getpid())).string();
 
     DataFolder() { fs::create_directories(path); }
 
@@ -231,7 +232,7 @@ double bake_rays_per_second(uint16_t port, const std::string& scene, uint64_t se
 }
 
 void bench_during_bake(const ServerProcess& ours, const std::string& request) {
-    const auto scene = read_file(text(TETRALIGHT_SOURCE_DIR, "/examples/scenes/courtyard.glb"));
+    const auto scene = read_file(str_cat(TETRALIGHT_SOURCE_DIR, "/examples/scenes/courtyard.glb"));
     require(bool(scene), "the courtyard's file is missing");
     const uint16_t port = ours.port();
     const std::string id = upload(port, "scenes", *scene);

@@ -5,9 +5,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bench/harness.h"
-#include "probes/build/make_probe_volume.h"
-#include "probes/build/quality.h"
+#include <tetralight/bench/harness.h>
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/build/quality.h>
 
 namespace tetralight::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/vdb_baseline.h"
+#include <tetralight/bench/vdb_baseline.h>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>

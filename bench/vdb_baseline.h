@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "lppv/lppv.h"
+#include <tetralight/lppv/lppv.h>
 
 namespace tetralight::bench {
 

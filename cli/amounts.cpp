@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/amounts.h"
+#include <tetralight/cli/amounts.h>
 
 #include <charconv>
 #include <cmath>

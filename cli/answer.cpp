@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/answer.h"
+#include <tetralight/cli/answer.h>
 
 #include <charconv>
 #include <cmath>
 
-#include "base/text.h"
-#include "cli/common.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/common.h>
 
 namespace tetralight::cli {
 namespace {
@@ -64,19 +64,19 @@ void append_json_probes(std::string& out, const CellLocation& location,
 
 void append_text(std::string& out, const glm::vec3& position, const CellLocation& location,
                  const RawAnswer& answer, const ProbeVolumeView& volume) {
-    out += text(position.x, " ", position.y, " ", position.z);
+    out += str_cat(position.x, " ", position.y, " ", position.z);
     if (location.cell >= volume.cells.size()) {
         out += ": ambient\n";
         return;
     }
     const bool is_outside = location.cell >= volume.info.inner_cell_count;
-    out += text(": ", is_outside ? "hull cell" : cell_name(volume.info.dimension), " ",
-                location.cell, ", probes");
+    out += str_cat(": ", is_outside ? "hull cell" : cell_name(volume.info.dimension), " ",
+                   location.cell, ", probes");
     for_each_probe(location, volume,
-                   [&](uint32_t probe, float weight) { out += text(" ", probe, "×", weight); });
-    if (location.ambient > 0.0f) out += text(", ambient×", location.ambient);
+                   [&](uint32_t probe, float weight) { out += str_cat(" ", probe, "×", weight); });
+    if (location.ambient > 0.0f) out += str_cat(", ambient×", location.ambient);
     const glm::vec3 up = evaluate_irradiance(answer.irradiance, {0.0f, 1.0f, 0.0f});
-    out += text(", irradiance from above ", up.x, " ", up.y, " ", up.z, "\n");
+    out += str_cat(", irradiance from above ", up.x, " ", up.y, " ", up.z, "\n");
 }
 
 void append_json(std::string& out, const glm::vec3& position, const CellLocation& location,
@@ -125,9 +125,9 @@ void append_csv(std::string& out, const glm::vec3& position, const RawAnswer& an
 std::string csv_header() {
     std::string header = "x,y,z,cell";
     for (int i = 0; i < kCoefficientCount; ++i) {
-        for (const char channel : {'r', 'g', 'b'}) header += text(",sh", i, "_", channel);
+        for (const char channel : {'r', 'g', 'b'}) header += str_cat(",sh", i, "_", channel);
     }
-    for (int i = 0; i < 4; ++i) header += text(",occlusion", i);
+    for (int i = 0; i < 4; ++i) header += str_cat(",occlusion", i);
     return header + "\n";
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <type_traits>
 
-#include "probes/locate.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/probe_volume.h>
 
 // The answers of `query` and the forms in which they are written; docs/query.md describes them.
 

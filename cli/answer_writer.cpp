@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/answer_writer.h"
+#include <tetralight/cli/answer_writer.h>
 
 #include <algorithm>
 #include <cfenv>
 #include <cstddef>
 
-#include "bake/parallel.h"
-#include "probes/interpolate.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight::cli {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "base/file_writer.h"
-#include "base/result.h"
-#include "cli/answer.h"
-#include "cli/query_formats.h"
-#include "probes/locate.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/file_writer.h>
+#include <tetralight/base/result.h>
+#include <tetralight/cli/answer.h>
+#include <tetralight/cli/query_formats.h>
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::cli {
 

@@ -3,21 +3,22 @@
 #include <filesystem>
 #include <optional>
 
-#include "base/text.h"
-#include "cli/amounts.h"
-#include "cli/bake_report.h"
-#include "cli/common.h"
-#include "cli/group_files.h"
-#include "cli/health_options.h"
-#include "cli/lighting_options.h"
-#include "cli/paths.h"
-#include "cli/progress.h"
-#include "cli/scene_options.h"
-#include "pipeline/bake_chunks.h"
-#include "pipeline/bake_volume.h"
-#include "pipeline/resumable_bake.h"
-#include "pipeline/reuse_probes.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/amounts.h>
+#include <tetralight/cli/bake_report.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/group_files.h>
+#include <tetralight/cli/health_options.h>
+#include <tetralight/cli/lighting_options.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/cli/progress.h>
+#include <tetralight/cli/scene_options.h>
+#include <tetralight/pipeline/bake_chunks.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/pipeline/resumable_bake.h>
+#include <tetralight/pipeline/reuse_probes.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
 namespace {
@@ -140,8 +141,8 @@ struct Bake {
         const std::string extension = std::filesystem::path(output).extension().string();
         if (extension == (probes ? ".probes" : ".part")) {
             throw CLI::ValidationError(
-                "--output",
-                text("with --probes a .part is written, without it .probes, not \"", output, "\""));
+                "--output", str_cat("with --probes a .part is written, without it .probes, not \"",
+                                    output, "\""));
         }
     }
 
@@ -189,7 +190,8 @@ struct Bake {
         const auto old = open_probe_file(reuse_path);
         if (!old) return old.error();
         if (const Status status = reuse_probes(old->view(), *prepared); !status) {
-            common.warn({text(reuse_path, ": nothing is re-used: ", status.error().message)});
+            common.warn(
+                {str_cat(reuse_path, ": nothing is re-used: ", error_text(status.error()))});
         }
         return bake(*scene, std::move(*prepared));
     }
@@ -257,7 +259,7 @@ struct Bake {
         };
         auto baked = reuse_path.empty() ? bake(prepared) : bake(bake_of_others(prepared));
         if (baked && !reuse_path.empty()) baked->partial = spread_others(prepared, baked->partial);
-        if (baked || baked.error().message != "cancelled") return baked;
+        if (baked || error_text(baked.error()) != "cancelled") return baked;
         if (!chunk_folder.empty())
             return Error{"interrupted; " + chunk_folder + " keeps what is done"};
         if (kept.path.empty()) return Error{"interrupted"};
@@ -273,7 +275,7 @@ struct Bake {
 
     Status write_whole(PreparedBake prepared, const RangeBake& baked, double seconds) const {
         const BakedVolume result =
-            finish_bake(std::move(prepared), baked.partial.tallies, baked.partial.split_rows);
+            finish_bake(std::move(prepared), baked.partial.accumulators, baked.partial.split_rows);
         common.warn(result.report.warnings);
         if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
         report_volume(common, {output, settings.bake, seconds, baked.earlier_ray_count}, result);

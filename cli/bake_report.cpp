@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/bake_report.h"
+#include <tetralight/cli/bake_report.h>
 
-#include "base/text.h"
-#include "cli/amounts.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/amounts.h>
 
 namespace tetralight::cli {
 namespace {
@@ -22,8 +22,8 @@ Json work(uint64_t ray_count, const BakeRun& run) {
 
 /// "2.3 s (3.4 Mrays, 1.5 Mrays/s)".
 std::string work_text(uint64_t ray_count, const BakeRun& run) {
-    return text(duration(run.seconds), " (", magnitude(static_cast<double>(ray_count)), "rays, ",
-                magnitude(ray_rate(ray_count, run)), "rays/s)");
+    return str_cat(duration(run.seconds), " (", magnitude(static_cast<double>(ray_count)), "rays, ",
+                   magnitude(ray_rate(ray_count, run)), "rays/s)");
 }
 
 /// What became of probes in geometry, if there are any, and how many were not baked.
@@ -48,8 +48,8 @@ Json errors_json(const BakeStatistics& statistics) {
 /// "median 0.50 %, 99 % below 1.20 %, worst 3.00 %".
 std::string errors_text(const BakeStatistics& statistics) {
     if (statistics.known_error_count == 0) return "not known";
-    return text("median ", percent(statistics.median_error), ", 99 % below ",
-                percent(statistics.p99_error), ", worst ", percent(statistics.worst_error));
+    return str_cat("median ", percent(statistics.median_error), ", 99 % below ",
+                   percent(statistics.p99_error), ", worst ", percent(statistics.worst_error));
 }
 
 }  // namespace
@@ -72,18 +72,18 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
                        {"tetrahedralize", report.tetrahedralize_seconds},
                        {"bake", run.seconds}};
     common.report(run.output, json,
-                  text(run.output, ": ", counted(volume.probe_count(), "probe"), " (",
-                       merged_text(report.welded_count, report.lattice_group_names.size(),
-                                   report.largest_snap),
-                       health_text(report), "), ", cells_text(volume), "\n  merge ",
-                       duration(report.merge_seconds), ", tetrahedralize ",
-                       duration(report.tetrahedralize_seconds), ", bake ",
-                       work_text(report.ray_count, run), "\n  ", to_text(report.statistics)));
+                  str_cat(run.output, ": ", counted(volume.probe_count(), "probe"), " (",
+                          merged_text(report.welded_count, report.lattice_group_names.size(),
+                                      report.largest_snap),
+                          health_text(report), "), ", cells_text(volume), "\n  merge ",
+                          duration(report.merge_seconds), ", tetrahedralize ",
+                          duration(report.tetrahedralize_seconds), ", bake ",
+                          work_text(report.ray_count, run), "\n  ", to_text(report.statistics)));
 }
 
 void report_range(const CommonOptions& common, const BakeRun& run, const PartialBake& part,
                   size_t probe_count) {
-    const BakedProbes light = baked_probes(part.tallies);
+    const BakedProbes light = baked_probes(part.accumulators);
     const BakeStatistics statistics = bake_statistics(light, run.settings.target_error);
     Json json{{"output", run.output},
               {"range", {part.range.begin, part.range.end}},
@@ -93,9 +93,9 @@ void report_range(const CommonOptions& common, const BakeRun& run, const Partial
     json.update(to_json(statistics));
     json["seconds"] = {{"bake", run.seconds}};
     common.report(run.output, json,
-                  text(run.output, ": probes ", part.range.begin, "..", part.range.end, " of ",
-                       grouped(probe_count), "\n  bake ", work_text(light.ray_count, run), "\n  ",
-                       to_text(statistics)));
+                  str_cat(run.output, ": probes ", part.range.begin, "..", part.range.end, " of ",
+                          grouped(probe_count), "\n  bake ", work_text(light.ray_count, run),
+                          "\n  ", to_text(statistics)));
 }
 
 Json to_json(const BakeStatistics& statistics) {
@@ -110,14 +110,14 @@ Json to_json(const BakeStatistics& statistics) {
 std::string to_text(const BakeStatistics& statistics) {
     std::string directions = grouped(statistics.median_directions);
     if (statistics.fewest_directions != statistics.most_directions) {
-        directions = text(grouped(statistics.fewest_directions), " to ",
-                          grouped(statistics.most_directions), " (median ", directions, ")");
+        directions = str_cat(grouped(statistics.fewest_directions), " to ",
+                             grouped(statistics.most_directions), " (median ", directions, ")");
     }
-    return text(
+    return str_cat(
         directions, " samples a probe; standard error: ", errors_text(statistics),
         statistics.over_target_count == 0
             ? ""
-            : text("; ", counted(statistics.over_target_count, "probe"), " above the target"));
+            : str_cat("; ", counted(statistics.over_target_count, "probe"), " above the target"));
 }
 
 }  // namespace tetralight::cli

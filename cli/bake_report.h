@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
-#include "bake/bake_statistics.h"
-#include "cli/common.h"
-#include "pipeline/bake_volume.h"
-#include "pipeline/partial_bake.h"
+#include <tetralight/bake/bake_statistics.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/pipeline/partial_bake.h>
 
 namespace tetralight::cli {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/ball_options.h"
+#include <tetralight/cli/ball_options.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::cli {
 
@@ -70,8 +70,8 @@ void BallOptions::check_center() const {
     const double smallest = 0.5 * settings.instance_size * settings.radius;
     const bool is_fine = smallest > farthest * std::numeric_limits<float>::epsilon();
     if (center_option_->count() == 0 || is_fine) return;
-    throw CLI::ValidationError("--center", text("floats cannot place spheres of ", smallest,
-                                                " m at ", farthest, " m from the origin"));
+    throw CLI::ValidationError("--center", str_cat("floats cannot place spheres of ", smallest,
+                                                   " m at ", farthest, " m from the origin"));
 }
 
 Camera BallOptions::place(const ProbeVolumeView& volume, const SceneShader* scene,

@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <vector>
 
-#include "cli/common.h"
-#include "cli/view_options.h"
-#include "pipeline/ball_view.h"
-#include "pipeline/mesh_ball.h"
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/view_options.h>
+#include <tetralight/render/ball_view.h>
+#include <tetralight/render/mesh_ball.h>
 
 namespace tetralight::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/ball_window.h"
+#include <tetralight/cli/ball_window.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/orbit_camera.h"
-#include "runtime/gl/gl_mesh_ball.h"
-#include "runtime/gl/presenter.h"
-#include "runtime/gl/window.h"
+#include <tetralight/render/gl/gl_mesh_ball.h>
+#include <tetralight/render/gl/presenter.h>
+#include <tetralight/render/gl/window.h>
+#include <tetralight/render/orbit_camera.h>
 
 namespace tetralight::cli {
 namespace {
@@ -40,7 +40,7 @@ class BallWindow {
             target_.emplace(size.x, size.y, 4);
         }
         if (auto status = spheres_.set_frame(angle_, light_, specular_); !status) return status;
-        const Crowd crowd = spheres_.crowd();
+        const SphereInstances crowd = spheres_.crowd();
         const auto status = spheres_.renderer().draw(orbit_.camera(), *target_, {&crowd, 1});
         if (!status) return status;
         if (exposure_ <= 0.0f) exposure_ = automatic_exposure(target_->read());
@@ -60,9 +60,9 @@ class BallWindow {
             if (key == 'S') {
                 specular_ = specular_ == Specular::On ? Specular::Off : Specular::On;
             }
-            if (key == ' ') turns_ = !turns_;
+            if (key == ' ') bit_trails_ = !bit_trails_;
         }
-        if (turns_) angle_ += kRadiansPerSecond * std::min(seconds, 0.1);
+        if (bit_trails_) angle_ += kRadiansPerSecond * std::min(seconds, 0.1);
     }
 
     Window& window_;
@@ -73,7 +73,7 @@ class BallWindow {
     OrbitCamera orbit_;
     float exposure_;
     double angle_ = 0.0;
-    bool turns_ = true;
+    bool bit_trails_ = true;
     std::optional<RenderTarget> target_;
 };
 

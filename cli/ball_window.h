@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "cli/ball_options.h"
-#include "pipeline/image_renderer.h"
-#include "pipeline/scene_light.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/cli/ball_options.h>
+#include <tetralight/render/image_renderer.h>
+#include <tetralight/render/scene_light.h>
 
 namespace tetralight::cli {
 

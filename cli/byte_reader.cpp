@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/byte_reader.h"
+#include <tetralight/base/system_error.h>
+#include <tetralight/cli/byte_reader.h>
 
 #include <fcntl.h>
 #include <poll.h>

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "base/descriptor.h"
-#include "base/result.h"
+#include <tetralight/base/descriptor.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight::cli {
 

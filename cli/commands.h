@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 // The subcommands, one file each. `add_X` declares the options on `app` and sets `run` when the
 // user chose the subcommand.

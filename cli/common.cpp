@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common.h"
+#include <tetralight/cli/common.h>
 
 #include <algorithm>
 #include <charconv>
@@ -8,8 +8,8 @@
 #include <glm/common.hpp>
 #include <iostream>
 
-#include "base/text.h"
-#include "cli/validators.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/validators.h>
 
 namespace tetralight::cli {
 namespace {
@@ -38,10 +38,10 @@ std::string range_error(const std::string& input, double low, double high) {
         double value = 0.0;
         const auto [next, error] = std::from_chars(begin, comma, value);
         if (error == std::errc::invalid_argument || next != comma || std::isnan(value)) {
-            return text("\"", part, "\" is not a number");
+            return str_cat("\"", part, "\" is not a number");
         }
         if (error != std::errc{} || !(value >= low && value <= high)) {
-            return text(part, " is not in the range from ", low, " to ", high);
+            return str_cat(part, " is not in the range from ", low, " to ", high);
         }
         if (comma == end) return {};
         begin = comma + 1;
@@ -95,7 +95,7 @@ std::optional<glm::dvec3> parse_vec3(const std::string& text) {
 
 CLI::Validator numbers_in(double low, double high) {
     return {[low, high](const std::string& input) { return range_error(input, low, high); },
-            text("[", low, " - ", high, "]")};
+            str_cat("[", low, " - ", high, "]")};
 }
 
 CLI::Validator whole_numbers(uint64_t largest, const char* name) {
@@ -104,7 +104,7 @@ CLI::Validator whole_numbers(uint64_t largest, const char* name) {
         const char* const end = input.data() + input.size();
         const auto [next, error] = std::from_chars(input.data(), end, value);
         if (error == std::errc{} && next == end && value <= largest) return "";
-        return text("\"", input, "\" is not a whole number from 0 to ", name);
+        return str_cat("\"", input, "\" is not a whole number from 0 to ", name);
     };
     return {check, ""};
 }

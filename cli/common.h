@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "cli/commands.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/result.h>
+#include <tetralight/cli/commands.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::cli {
 

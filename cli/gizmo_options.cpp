@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/gizmo_options.h"
+#include <tetralight/cli/gizmo_options.h>
 
 #include <string>
 #include <vector>
 
-#include "cli/choice.h"
-#include "cli/common.h"
-#include "cli/validators.h"
+#include <tetralight/cli/choice.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/validators.h>
 
 namespace tetralight::cli {
 namespace {

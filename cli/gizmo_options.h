@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "pipeline/gizmos.h"
+#include <tetralight/render/gizmos.h>
 
 namespace tetralight::cli {
 

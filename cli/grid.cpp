@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 
-#include "bake/placement/probe_grid.h"
-#include "bake/scene/probe_groups_gltf.h"
-#include "bake/scene/probe_groups_json.h"
-#include "cli/common.h"
-#include "cli/grid_interrupt.h"
-#include "cli/grid_options.h"
-#include "cli/grid_preview.h"
-#include "cli/grid_progress.h"
-#include "cli/grid_report.h"
-#include "cli/paths.h"
-#include "cli/scene_options.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bake/scene/probe_groups_gltf.h>
+#include <tetralight/bake/scene/probe_groups_json.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/grid_interrupt.h>
+#include <tetralight/cli/grid_options.h>
+#include <tetralight/cli/grid_preview.h>
+#include <tetralight/cli/grid_progress.h>
+#include <tetralight/cli/grid_report.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/cli/scene_options.h>
 
 namespace tetralight::cli {
 namespace {
@@ -96,7 +96,7 @@ struct Grid {
     }
 
     [[nodiscard]] Error located(const Error& error) const {
-        if (error.message == "interrupted") return Error{interrupted()};
+        if (error.code == ErrorCode::Cancelled) return Error{interrupted()};
         return error.in(scene_options.path);
     }
 

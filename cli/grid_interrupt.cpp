@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/grid_interrupt.h"
+#include <tetralight/cli/grid_interrupt.h>
 
 #include <unistd.h>
 
 #include <csignal>
 
-#include "cli/common.h"
+#include <tetralight/cli/common.h>
 
 namespace tetralight::cli {
 namespace {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/grid_options.h"
+#include <tetralight/cli/grid_options.h>
 
-#include "base/text.h"
-#include "base/utf8.h"
-#include "cli/amounts.h"
-#include "cli/choice.h"
-#include "cli/common.h"
-#include "cli/validators.h"
-#include "probes/is_finite.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
+#include <tetralight/cli/amounts.h>
+#include <tetralight/cli/choice.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/validators.h>
+#include <tetralight/probes/is_finite.h>
 
 namespace tetralight::cli {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kLongest = 1e9;
 CLI::Validator name_check() {
     const auto check = [](const std::string& name) -> std::string {
         const auto status = check_characters(name);
-        return status ? "" : status.error().message;
+        return status ? "" : error_text(status.error());
     };
     return {check, ""};
 }
@@ -139,8 +140,8 @@ void GridOptions::check_usage() const {
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (int i = 0; i < 3; ++i) {
         if (bounds_.low[i] <= bounds_.high[i]) continue;
-        throw CLI::ValidationError("--max", text(bounds_.high[i], " is less than --min ",
-                                                 bounds_.low[i], " along ", kAxes[i]));
+        throw CLI::ValidationError("--max", str_cat(bounds_.high[i], " is less than --min ",
+                                                    bounds_.low[i], " along ", kAxes[i]));
     }
     const bool is_adaptive = settings.mode == PlacementMode::Adaptive;
     if (spacing_option_->count() == 0 && !is_adaptive) throw CLI::RequiredError("--spacing");

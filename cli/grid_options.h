@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/placement/probe_grid.h"
+#include <tetralight/bake/placement/probe_grid.h>
 
 namespace tetralight::cli {
 

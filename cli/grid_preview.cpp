@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/grid_preview.h"
+#include <tetralight/cli/grid_preview.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 #include <limits>
 #include <vector>
 
-#include "bake/image/write_image.h"
-#include "cli/paths.h"
-#include "pipeline/bake_volume.h"
-#include "pipeline/light_balls.h"
-#include "pipeline/render_scene.h"
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/render/light_balls.h>
+#include <tetralight/render/render_scene.h>
 
 namespace tetralight::cli {
 namespace {

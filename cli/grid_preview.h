@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "bake/placement/probe_grid.h"
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "cli/view_options.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/cli/view_options.h>
 
 namespace tetralight::cli {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/grid_progress.h"
+#include <tetralight/cli/grid_progress.h>
 
 #include <unistd.h>
 
 #include <iostream>
 
-#include "base/text.h"
-#include "cli/amounts.h"
-#include "cli/common.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/amounts.h>
+#include <tetralight/cli/common.h>
 
 namespace tetralight::cli {
 
@@ -24,9 +24,9 @@ bool GridProgressDisplay::show(const AdaptiveProgress& progress) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     if (is_new && !is_quiet_ && elapsed.count() >= 1.0) {
         const std::string line =
-            text("round ", progress.round, progress.is_removing ? ", removing: " : ": ",
-                 counted(progress.probe_count, "probe"), ", error ", percent(progress.error), ", ",
-                 duration(elapsed.count()));
+            str_cat("round ", progress.round, progress.is_removing ? ", removing: " : ": ",
+                    counted(progress.probe_count, "probe"), ", error ", percent(progress.error),
+                    ", ", duration(elapsed.count()));
         if (is_terminal_) {
             std::cerr << '\r' << line << "\x1b[K" << std::flush;
             is_line_open_ = true;

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cstdint>
 
-#include "bake/placement/adaptive_grid.h"
-#include "cli/progress.h"
+#include <tetralight/bake/placement/adaptive_grid.h>
+#include <tetralight/cli/progress.h>
 
 namespace tetralight::cli {
 

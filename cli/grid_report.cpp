@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/grid_report.h"
+#include <tetralight/cli/grid_report.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "base/text.h"
-#include "cli/amounts.h"
-#include "cli/table.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/amounts.h>
+#include <tetralight/cli/table.h>
 
 namespace tetralight::cli {
 namespace {
@@ -42,8 +42,8 @@ std::array<uint64_t, kEnds.size()> histogram(const ProbeGrid& grid) {
 
 std::string bin_name(size_t bin) {
     const float low = bin == 0 ? 0.0f : kEnds[bin - 1];
-    return bin + 1 == kEnds.size() ? text("from ", low, " m on")
-                                   : text(low, " to ", kEnds[bin], " m");
+    return bin + 1 == kEnds.size() ? str_cat("from ", low, " m on")
+                                   : str_cat(low, " to ", kEnds[bin], " m");
 }
 
 std::string bar(uint64_t count, uint64_t most) {
@@ -74,11 +74,11 @@ Json adaptive_json(const AdaptiveReport& report) {
 }
 
 std::string adaptive_text(const AdaptiveReport& report) {
-    return text("error ", percent(report.error), " (", name_of(report.end), ") after ",
-                counted(report.round_count, "round"), ", by the light of ",
-                counted(report.position_count, "position"), " with ",
-                counted(report.direction_count, "sample"), " each, ",
-                magnitude(static_cast<double>(report.ray_count)), "rays\n");
+    return str_cat("error ", percent(report.error), " (", name_of(report.end), ") after ",
+                   counted(report.round_count, "round"), ", by the light of ",
+                   counted(report.position_count, "position"), " with ",
+                   counted(report.direction_count, "sample"), " each, ",
+                   magnitude(static_cast<double>(report.ray_count)), "rays\n");
 }
 
 std::string share_text(uint64_t count, uint64_t all) {
@@ -88,7 +88,7 @@ std::string share_text(uint64_t count, uint64_t all) {
 /// With as few digits as tell it.
 std::string place_text(const glm::dvec3& position) {
     const glm::vec3 p(position);
-    return text(p.x, ",", p.y, ",", p.z);
+    return str_cat(p.x, ",", p.y, ",", p.z);
 }
 
 constexpr size_t kMostLines = 3;
@@ -97,13 +97,13 @@ void add_pockets(const ProbeGrid& grid, std::vector<std::string>& lines) {
     for (size_t i = 0; i < std::min(grid.pockets.size(), kMostLines); ++i) {
         const uint64_t count = grid.pockets[i].probe_count;
         const std::string place = place_text(grid.pockets[i].position);
-        lines.push_back(text(counted(count, "probe"), " around ", place, " cannot be reached and ",
-                             count == 1 ? "was" : "were", " dropped; --from ", place,
-                             " would keep them"));
+        lines.push_back(str_cat(counted(count, "probe"), " around ", place,
+                                " cannot be reached and ", count == 1 ? "was" : "were",
+                                " dropped; --from ", place, " would keep them"));
     }
     if (grid.pockets.size() > kMostLines) {
-        lines.push_back(text("and ", grid.pockets.size() - kMostLines,
-                             " smaller spaces; --unreachable keep keeps all"));
+        lines.push_back(str_cat("and ", grid.pockets.size() - kMostLines,
+                                " smaller spaces; --unreachable keep keeps all"));
     }
 }
 
@@ -111,13 +111,13 @@ void add_empty_spaces(const ProbeGrid& grid, std::vector<std::string>& lines) {
     for (size_t i = 0; i < std::min(grid.empty_spaces.size(), kMostLines); ++i) {
         const EmptySpace& space = grid.empty_spaces[i];
         const std::string place = place_text(space.position);
-        lines.push_back(text("the space around ", place, " has no probes; ",
-                             space.is_wanted ? "a smaller --spacing would give it some"
-                                             : "--from " + place + " would ask for some"));
+        lines.push_back(str_cat("the space around ", place, " has no probes; ",
+                                space.is_wanted ? "a smaller --spacing would give it some"
+                                                : "--from " + place + " would ask for some"));
     }
     if (grid.empty_spaces.size() > kMostLines) {
         lines.push_back(
-            text("and ", grid.empty_spaces.size() - kMostLines, " more spaces have no probes"));
+            str_cat("and ", grid.empty_spaces.size() - kMostLines, " more spaces have no probes"));
     }
 }
 
@@ -163,13 +163,13 @@ std::string grid_text(const std::string& output, const ProbeGrid& grid) {
     add("pushed", grid.count(Fate::Pushed));
     for (const Reason& reason : kReasons) {
         if (grid.count(reason.fate) > 0)
-            add(text("dropped: ", reason.words), grid.count(reason.fate));
+            add(str_cat("dropped: ", reason.words), grid.count(reason.fate));
     }
-    return text(output, ": ", counted(grid.probe_count(), "probe"), " in ",
-                counted(grid.groups.size(), "group"), ", of ",
-                counted(grid.candidate_count, "candidate"), "\n",
-                grid.adaptive ? adaptive_text(*grid.adaptive) : "", aligned(rows, "lrr"),
-                histogram_text(grid));
+    return str_cat(output, ": ", counted(grid.probe_count(), "probe"), " in ",
+                   counted(grid.groups.size(), "group"), ", of ",
+                   counted(grid.candidate_count, "candidate"), "\n",
+                   grid.adaptive ? adaptive_text(*grid.adaptive) : "", aligned(rows, "lrr"),
+                   histogram_text(grid));
 }
 
 std::vector<std::string> grid_warnings(const ProbeGrid& grid, const ProbeGridSettings& settings) {
@@ -177,14 +177,16 @@ std::vector<std::string> grid_warnings(const ProbeGrid& grid, const ProbeGridSet
     add_pockets(grid, lines);
     add_empty_spaces(grid, lines);
     for (const std::string& name : grid.adjustments_outside) {
-        lines.push_back(text("adjustment volume \"", name, "\" lies outside of the box to fill"));
+        lines.push_back(
+            str_cat("adjustment volume \"", name, "\" lies outside of the box to fill"));
     }
     const auto& asked = settings.adaptive.start_spacing;
     if (grid.adaptive && asked && grid.adaptive->start_spacing != *asked) {
-        lines.push_back(text("--spacing ", place_text(*asked),
-                             " asks for more than half of the most probes to begin with; it began "
-                             "with ",
-                             place_text(grid.adaptive->start_spacing)));
+        lines.push_back(
+            str_cat("--spacing ", place_text(*asked),
+                    " asks for more than half of the most probes to begin with; it began "
+                    "with ",
+                    place_text(grid.adaptive->start_spacing)));
     }
     return lines;
 }

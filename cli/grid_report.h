@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/placement/probe_grid.h"
-#include "cli/common.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/cli/common.h>
 
 namespace tetralight::cli {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/group_files.h"
+#include <tetralight/cli/group_files.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "bake/scene/probe_groups_json.h"
-#include "bake/scene/read_gltf.h"
-#include "cli/amounts.h"
+#include <tetralight/bake/scene/probe_groups_json.h>
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/cli/amounts.h>
 
 namespace tetralight::cli {
 namespace {
@@ -48,7 +49,8 @@ void GroupFiles::add(const std::string& path, std::vector<ProbeGroup> groups) {
 
 Error GroupFiles::locate(const Error& error) const {
     for (const auto& [name, paths] : paths_of_group_) {
-        if (error.message.starts_with("group \"" + name + "\": ")) return error.in(joined(paths));
+        if (error_text(error).starts_with("group \"" + name + "\": "))
+            return error.in(joined(paths));
     }
     return error;
 }

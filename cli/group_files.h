@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "probes/probe_group.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_group.h>
 
 namespace tetralight::cli {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/health_options.h"
+#include <tetralight/cli/health_options.h>
 
-#include "cli/choice.h"
-#include "cli/common.h"
+#include <tetralight/cli/choice.h>
+#include <tetralight/cli/common.h>
 
 namespace tetralight::cli {
 void add_health_options(CLI::App& command, HealthSettings& settings) {

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "pipeline/bake_volume.h"
+#include <tetralight/pipeline/bake_volume.h>
 
 namespace tetralight::cli {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <span>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "cli/common.h"
-#include "cli/info_probes.h"
-#include "cli/paths.h"
-#include "cli/volume_facts.h"
-#include "pipeline/partial_bake.h"
-#include "probes/build/wireframe.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/info_probes.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/cli/volume_facts.h>
+#include <tetralight/pipeline/partial_bake.h>
+#include <tetralight/probes/build/wireframe.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
 namespace {
@@ -84,11 +84,12 @@ struct Info {
     }
 
     static std::string part_text(const PartialBake& part, uint32_t probe_count) {
-        return text("part of a bake: probes ", part.range.begin, "..", part.range.end, " of ",
-                    grouped(probe_count),
-                    part.is_finished ? ", finished"
-                                     : text(", not finished: ", grouped(part.begun_count()), " of ",
-                                            counted(part.range.count(), "probe"), " begun"));
+        return str_cat("part of a bake: probes ", part.range.begin, "..", part.range.end, " of ",
+                       grouped(probe_count),
+                       part.is_finished
+                           ? ", finished"
+                           : str_cat(", not finished: ", grouped(part.begun_count()), " of ",
+                                     counted(part.range.count(), "probe"), " begun"));
     }
 
     [[nodiscard]] Status write_wireframe(const ProbeVolumeView& volume) const {

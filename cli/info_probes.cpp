@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/info_probes.h"
+#include <tetralight/cli/info_probes.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "base/text.h"
-#include "cli/amounts.h"
-#include "cli/table.h"
-#include "pipeline/prepare_probes.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/amounts.h>
+#include <tetralight/cli/table.h>
+#include <tetralight/pipeline/prepare_probes.h>
 
 namespace tetralight::cli {
 namespace {
@@ -38,7 +38,7 @@ float min_validity(const ProbeVolumeView& volume) {
 
 std::vector<std::string> flags(const ProbeFacts& probe, bool is_baked, float least_validity) {
     std::vector<std::string> flags;
-    if (probe.health.capture_offset != glm::vec3(0.0f)) flags.emplace_back("moved");
+    if (probe.health.virtual_offset != glm::vec3(0.0f)) flags.emplace_back("moved");
     if (probe.validity < least_validity) flags.emplace_back("buried");
     if (probe.health.is_dilated != 0) flags.emplace_back("dilated");
     if (is_baked && probe.irradiance == glm::vec3(0.0f)) flags.emplace_back("dark");
@@ -83,7 +83,7 @@ Json probe_json(uint32_t index, const ProbeFacts& probe, const ProbeVolumeView& 
             {"validity", known(!volume.validity.empty(), probe.validity)},
             {"standard_error", known(has_health && error > 0.0f, error)},
             {"surface_distance", known(has_health && std::isfinite(distance), distance)},
-            {"capture_offset", known(has_health, to_json(glm::dvec3(probe.health.capture_offset)))},
+            {"capture_offset", known(has_health, to_json(glm::dvec3(probe.health.virtual_offset)))},
             {"mean_irradiance",
              known(!volume.irradiance.empty(), to_json(glm::dvec3(probe.irradiance)))},
             {"flags", probe.flags}};
@@ -99,8 +99,8 @@ std::vector<std::string> probe_row(uint32_t index, const ProbeFacts& probe,
                                    const ProbeVolumeView& volume) {
     const bool has_health = !volume.health.empty(), is_baked = !volume.irradiance.empty();
     const ProbeHealth& health = probe.health;
-    const float offset = glm::length(health.capture_offset);
-    std::vector<std::string> row{text(index)};
+    const float offset = glm::length(health.virtual_offset);
+    std::vector<std::string> row{str_cat(index)};
     for (int axis = 0; axis < 3; ++axis) {
         row.push_back(number("%.6g", static_cast<float>(probe.position[axis])));
     }

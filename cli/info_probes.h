@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "cli/common.h"
-#include "probes/probe_volume.h"
+#include <tetralight/cli/common.h>
+#include <tetralight/probes/probe_volume.h>
 
 // The health of every probe: what `info --probes` shows.
 

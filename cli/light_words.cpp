@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/light_words.h"
+#include <tetralight/cli/light_words.h>
 
 namespace tetralight::cli {
 

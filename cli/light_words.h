@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "probes/light.h"
+#include <tetralight/probes/light.h>
 
 namespace tetralight::cli {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/lighting_options.h"
+#include <tetralight/cli/lighting_options.h>
 
 #include <algorithm>
 
-#include "bake/memory_estimate.h"
-#include "bake/scene/surface_color.h"
-#include "base/text.h"
-#include "cli/choice.h"
-#include "cli/light_words.h"
-#include "cli/table.h"
-#include "runtime/runtime_lights.h"
+#include <tetralight/bake/rays/memory_estimate.h>
+#include <tetralight/bake/scene/surface_color.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/choice.h>
+#include <tetralight/cli/light_words.h>
+#include <tetralight/cli/table.h>
+#include <tetralight/runtime/runtime_lights.h>
 
 namespace tetralight::cli {
 namespace {
@@ -97,7 +97,7 @@ std::string table_of(const Json& sources) {
         rows.push_back({printable(source["name"]), source["type"],
                         source["fell_back"].get<bool>() ? mode + " (no channel left)" : mode,
                         yes(source["direct_in_probes"]), yes(source["bounces_in_probes"]),
-                        channel.is_null() ? "-" : text("channel ", channel.get<uint32_t>()),
+                        channel.is_null() ? "-" : str_cat("channel ", channel.get<uint32_t>()),
                         layer.empty() ? "-" : printable(layer), source["runtime"]});
     }
     std::string lines = aligned(rows, "llllllll");
@@ -139,7 +139,7 @@ Status explain(const Scene& scene, const LightingSettings& settings, const Commo
                   {"instances", scene.instances.size()},
                   {"probe_groups", scene.probe_groups.size()},
                   {"probes", probe_count}},
-                 text("mixed lighting: ", mode, "\n", table_of(sources)));
+                 str_cat("mixed lighting: ", mode, "\n", table_of(sources)));
     return Ok{};
 }
 

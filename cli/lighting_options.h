@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "cli/common.h"
-#include "pipeline/lighting_plan.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/pipeline/lighting_plan.h>
 
 namespace tetralight::cli {
 

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv.h"
+#include <tetralight/lppv/lppv.h>
 
 #include <chrono>
 #include <filesystem>
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "bake/parallel.h"
-#include "bake/scene/read_gltf.h"
-#include "base/text.h"
-#include "cli/choice.h"
-#include "cli/common.h"
-#include "cli/lppv_grid_options.h"
-#include "cli/lppv_warnings.h"
-#include "cli/paths.h"
-#include "lppv/sparse_lppv.h"
-#include "pipeline/lppv_validity.h"
-#include "pipeline/sparse_blocks.h"
-#include "pipeline/write_lppv.h"
-#include "probes/compact_probes.h"
-#include "probes/probe_file.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/choice.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/lppv_grid_options.h>
+#include <tetralight/cli/lppv_warnings.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/lppv/sparse_lppv.h>
+#include <tetralight/pipeline/lppv_validity.h>
+#include <tetralight/pipeline/sparse_blocks.h>
+#include <tetralight/pipeline/write_lppv.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/probe_file.h>
 #ifdef TETRALIGHT_HAS_OPENVDB
-#include "lppv/vdb/write_vdb.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/lppv/vdb/write_vdb.h>
 #endif
 
 namespace tetralight::cli {
@@ -211,12 +212,12 @@ struct LppvCommand {
         const glm::uvec3& size = points.resolution;
         common.report(
             output, json,
-            text(output, ": ", size.x, " x ", size.y, " x ", size.z, " points, ",
-                 magnitude(static_cast<double>(file_size(output))), "B, filled in ",
-                 duration(fill_seconds), ", written in ", duration(write_seconds),
-                 lppv.replaced_count == 0 ? ""
-                                          : text("; ", counted(lppv.replaced_count, "point"),
-                                                 " in geometry took the light beside")));
+            str_cat(output, ": ", size.x, " x ", size.y, " x ", size.z, " points, ",
+                    magnitude(static_cast<double>(file_size(output))), "B, filled in ",
+                    duration(fill_seconds), ", written in ", duration(write_seconds),
+                    lppv.replaced_count == 0 ? ""
+                                             : str_cat("; ", counted(lppv.replaced_count, "point"),
+                                                       " in geometry took the light beside")));
     }
 
 #ifdef TETRALIGHT_HAS_OPENVDB
@@ -227,7 +228,7 @@ struct LppvCommand {
         if (status) status = add_blocks_near_surfaces(scene, near, blocks);
         if (!status) {
             throw CLI::ValidationError(reach > 0.0 ? "--density, --reach" : "--density",
-                                       status.error().message);
+                                       error_text(status.error()));
         }
         const Stopwatch filling;
         const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads());
@@ -241,20 +242,21 @@ struct LppvCommand {
         if (!status) return status;
         common.warn(half_warnings(largest_coefficient(lppv.irradiance), file));
         const PointBox box = box_of(lppv);
-        common.report(output,
-                      {{"output", output},
-                       {"bounds", bounds_json(lppv.spacing * glm::dvec3(box.first),
-                                              lppv.spacing * glm::dvec3(box.last))},
-                       {"resolution", to_json(glm::uvec3(box.last - box.first + 1))},
-                       {"spacing", lppv.spacing},
-                       {"blocks", lppv.blocks.size()},
-                       {"points", lppv.irradiance.size()},
-                       {"bytes", file_size(output)},
-                       {"fill_seconds", fill_seconds},
-                       {"write_seconds", writing.seconds()}},
-                      text(output, ": ", counted(lppv.blocks.size(), "block"), " of 512 points, ",
-                           magnitude(static_cast<double>(file_size(output))), "B, filled in ",
-                           duration(fill_seconds), ", written in ", duration(writing.seconds())));
+        common.report(
+            output,
+            {{"output", output},
+             {"bounds", bounds_json(lppv.spacing * glm::dvec3(box.first),
+                                    lppv.spacing * glm::dvec3(box.last))},
+             {"resolution", to_json(glm::uvec3(box.last - box.first + 1))},
+             {"spacing", lppv.spacing},
+             {"blocks", lppv.blocks.size()},
+             {"points", lppv.irradiance.size()},
+             {"bytes", file_size(output)},
+             {"fill_seconds", fill_seconds},
+             {"write_seconds", writing.seconds()}},
+            str_cat(output, ": ", counted(lppv.blocks.size(), "block"), " of 512 points, ",
+                    magnitude(static_cast<double>(file_size(output))), "B, filled in ",
+                    duration(fill_seconds), ", written in ", duration(writing.seconds())));
         return Ok{};
     }
 #else

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/lppv_grid_options.h"
+#include <tetralight/cli/lppv_grid_options.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
 
-#include "base/text.h"
-#include "cli/choice.h"
-#include "cli/common.h"
-#include "cli/validators.h"
-#include "pipeline/lppv_object.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/choice.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/validators.h>
+#include <tetralight/pipeline/lppv_object.h>
 
 namespace tetralight::cli {
 namespace {
@@ -33,8 +34,8 @@ void check_spacing(const LppvGrid& grid) {
         const bool is_one = is_flat(grid, i) || grid.resolution[i] == 1;
         if (is_one || spacing[i] > farthest * std::numeric_limits<float>::epsilon()) continue;
         throw CLI::ValidationError(
-            "--bounds", text("floats cannot tell grid points ", spacing[i], " m apart at ",
-                             farthest, " m from the origin"));
+            "--bounds", str_cat("floats cannot tell grid points ", spacing[i], " m apart at ",
+                                farthest, " m from the origin"));
     }
 }
 
@@ -80,8 +81,8 @@ void LppvGridOptions::add_to(CLI::App& command) {
 void LppvGridOptions::check_usage() const {
     for (size_t i = 0; i < 3 && !bounds.empty(); ++i) {
         if (bounds[i] <= bounds[i + 3]) continue;
-        throw CLI::ValidationError(
-            "--bounds", text("reversed along ", kAxes[i], ": ", bounds[i], " to ", bounds[i + 3]));
+        throw CLI::ValidationError("--bounds", str_cat("reversed along ", kAxes[i], ": ", bounds[i],
+                                                       " to ", bounds[i + 3]));
     }
     if (!orientation.empty() && std::ranges::count(orientation, 0.0) == 4) {
         throw CLI::ValidationError("--orientation", "0,0,0,0 is no turn");
@@ -89,7 +90,7 @@ void LppvGridOptions::check_usage() const {
     if (resolution.empty()) return;
     const LppvPart unit{glm::dmat4(1.0), glm::dvec3(0.0), glm::dvec3(1.0)};
     const auto grid = make_grid({glm::dmat4(1.0), std::span(&unit, 1)}, settings);
-    if (!grid) throw CLI::ValidationError("--resolution", grid.error().message);
+    if (!grid) throw CLI::ValidationError("--resolution", error_text(grid.error()));
 }
 
 Result<LppvGrid> LppvGridOptions::make_grid(const LppvObject& wrapped,
@@ -131,7 +132,7 @@ Result<LppvGrid> LppvGridOptions::make_grid(const Scene& scene,
             glm::dquat(orientation[3], orientation[0], orientation[1], orientation[2])};
     }
     auto grid = make_grid({glm::dmat4(1.0), std::span(&world, 1)}, chosen);
-    if (!grid) throw CLI::ValidationError("--density", grid.error().message);
+    if (!grid) throw CLI::ValidationError("--density", error_text(grid.error()));
     if (!bounds.empty()) check_spacing(*grid);
     return grid;
 }
@@ -141,8 +142,8 @@ std::vector<std::string> LppvGridOptions::warnings(const LppvGrid& grid) const {
     for (int i = 0; i < 3 && !resolution.empty(); ++i) {
         const uint32_t asked = resolution[static_cast<size_t>(i)];
         if (asked == 1 || !is_flat(grid, i)) continue;
-        lines.push_back(text("the box has no thickness along ", kAxes[i],
-                             ": one grid point there, not ", asked));
+        lines.push_back(str_cat("the box has no thickness along ", kAxes[i],
+                                ": one grid point there, not ", asked));
     }
     return lines;
 }

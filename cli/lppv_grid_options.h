@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "lppv/lppv_grid.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/lppv/lppv_grid.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::cli {
 

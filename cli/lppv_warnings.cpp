@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/lppv_warnings.h"
+#include <tetralight/cli/lppv_warnings.h>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::cli {
 
@@ -9,8 +9,8 @@ std::vector<std::string> half_warnings(float largest, const LppvFileSettings& fi
     const bool is_half =
         file.precision == LppvTexelFormat::Half && file.kind != LppvFileKind::NanoVdb;
     if (!is_half || largest <= kLargestHalf) return {};
-    return {text("values of up to ", largest, " were cut to ", kLargestHalf,
-                 ", the largest half; --precision float keeps them")};
+    return {str_cat("values of up to ", largest, " were cut to ", kLargestHalf,
+                    ", the largest half; --precision float keeps them")};
 }
 
 std::vector<std::string> lppv_warnings(const Lppv& lppv, const LppvFileSettings& file) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/write_lppv.h"
+#include <tetralight/pipeline/write_lppv.h>
 
 namespace tetralight::cli {
 

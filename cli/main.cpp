@@ -5,11 +5,12 @@
 #include <iostream>
 #include <new>
 
-#include "cli/commands.h"
-#include "cli/common.h"
-#include "cli/progress.h"
+#include <tetralight/cli/commands.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/progress.h>
 #ifdef TETRALIGHT_HAS_SERVER
-#include "cli/serve.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/cli/serve.h>
 #endif
 
 namespace {
@@ -65,7 +66,8 @@ void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
 int run_command(const tetralight::cli::Run& run) {
     const tetralight::Status status = run();
     if (!status) {
-        std::cerr << "tetralight: " << tetralight::cli::printable(status.error().message) << '\n';
+        std::cerr << "tetralight: " << tetralight::cli::printable(error_text(status.error()))
+                  << '\n';
         const int signal = tetralight::cli::BakeProgressDisplay::interrupting_signal();
         return signal == 0 ? kExitBadData : kExitSignal + signal;
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/text.h"
-#include "cli/bake_report.h"
-#include "cli/common.h"
-#include "cli/paths.h"
-#include "pipeline/merge_parts.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/bake_report.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/pipeline/merge_parts.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
 namespace {
@@ -35,9 +35,9 @@ struct Merge {
         json.update({{"rays", merged->report.ray_count}});
         json.update(to_json(merged->report.statistics));
         common.report(output, json,
-                      text(output, ": ", counted(volume.probe_count(), "probe"), " of ",
-                           counted(parts.size(), "part"), ", ", cells_text(volume), "\n  ",
-                           to_text(merged->report.statistics)));
+                      str_cat(output, ": ", counted(volume.probe_count(), "probe"), " of ",
+                              counted(parts.size(), "part"), ", ", cells_text(volume), "\n  ",
+                              to_text(merged->report.statistics)));
         return Ok{};
     }
 };

@@ -7,20 +7,20 @@
 #include <optional>
 #include <utility>
 
-#include "bake/image/write_image.h"
-#include "bake/scene/read_gltf.h"
-#include "base/text.h"
-#include "cli/ball_options.h"
-#include "cli/common.h"
-#include "cli/paths.h"
-#include "cli/renderer_options.h"
-#include "cli/view_options.h"
-#include "pipeline/mesh_ball.h"
-#include "probes/probe_file.h"
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/ball_options.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/cli/renderer_options.h>
+#include <tetralight/cli/view_options.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/render/mesh_ball.h>
 #ifdef TETRALIGHT_HAS_GL
-#include "cli/ball_window.h"
-#include "cli/open_gl.h"
-#include "runtime/gl/gl_mesh_ball.h"
+#include <tetralight/cli/ball_window.h>
+#include <tetralight/cli/open_gl.h>
+#include <tetralight/render/gl/gl_mesh_ball.h>
 #endif
 
 namespace tetralight::cli {
@@ -135,8 +135,9 @@ struct MeshBall {
         const auto shown = show_ball(ball, scene, volume, camera, view.settings,
                                      frames_option->count() > 0 ? frame_count : 0);
         if (!shown) return shown.error();
-        common.print({{"frames", shown->frame_count}, {"seconds", shown->seconds}},
-                     text(counted(shown->frame_count, "frame"), " in ", duration(shown->seconds)));
+        common.print(
+            {{"frames", shown->frame_count}, {"seconds", shown->seconds}},
+            str_cat(counted(shown->frame_count, "frame"), " in ", duration(shown->seconds)));
         return Ok{};
 #else
         static_cast<void>(volume), static_cast<void>(scene), static_cast<void>(camera);
@@ -168,7 +169,7 @@ struct MeshBall {
             if (auto status = spheres->set_frame(angle, ball.light, ball.specular); !status) {
                 return status.error();
             }
-            const Crowd crowd = spheres->crowd();
+            const SphereInstances crowd = spheres->crowd();
             auto image = spheres->renderer().render(camera, view.settings, std::span(&crowd, 1));
             if (!image) return image.error();
             return MeshBallPicture{std::move(*image), spheres->query_seconds()};
@@ -207,8 +208,8 @@ struct MeshBall {
                        {"eye", to_json(glm::dvec3(camera.world_from_camera[3]))},
                        {"query_seconds", query_seconds},
                        {"seconds", seconds}},
-                      text(output, ": ", counted(ball.settings.instance_count, "instance"), lit,
-                           ", ", counted(frame_count, "picture"), " in ", duration(seconds)));
+                      str_cat(output, ": ", counted(ball.settings.instance_count, "instance"), lit,
+                              ", ", counted(frame_count, "picture"), " in ", duration(seconds)));
     }
 };
 

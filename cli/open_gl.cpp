@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/open_gl.h"
+#include <tetralight/cli/open_gl.h>
 
 #include <utility>
 
-#include "runtime/gl/driver.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/render/gl/driver.h>
 
 namespace tetralight::cli {
 
@@ -13,7 +14,7 @@ std::optional<OffscreenContext> open_gl(const RenderSettings& settings,
     const Status status =
         context ? check_size(settings, pixels_per_axis(settings)) : Status(context.error());
     if (!status) {
-        common.warn({status.error().message + "; rendering on the CPU"});
+        common.warn({error_text(status.error()) + "; rendering on the CPU"});
         return std::nullopt;
     }
     const std::string driver = driver_name();

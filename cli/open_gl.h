@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "cli/common.h"
-#include "pipeline/image_renderer.h"
-#include "runtime/gl/offscreen_context.h"
+#include <tetralight/cli/common.h>
+#include <tetralight/render/gl/offscreen_context.h>
+#include <tetralight/render/image_renderer.h>
 
 namespace tetralight::cli {
 

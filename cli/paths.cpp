@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/paths.h"
+#include <tetralight/cli/paths.h>
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "base/file_writer.h"
-#include "base/text.h"
-#include "cli/validators.h"
+#include <tetralight/base/file_writer.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/validators.h>
 
 namespace tetralight::cli {
 namespace {
@@ -21,8 +21,8 @@ CLI::Validator has_extension(const std::string& extension) {
         const auto known = CLI::detail::split(extension, ',');
         const bool is_known = std::ranges::count(known, CLI::detail::to_lower(found)) > 0;
         if (found.empty() || is_known) return "";
-        return text("cannot write \"", found, "\" files; the extension may be ", extension,
-                    ", or none");
+        return str_cat("cannot write \"", found, "\" files; the extension may be ", extension,
+                       ", or none");
     };
     return {check, ""};
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 // The files that a command reads and writes, as options.
 

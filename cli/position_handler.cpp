@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/position_handler.h"
+#include <tetralight/cli/position_handler.h>
 
-#include "base/json_text.h"
-#include "base/text.h"
-#include "cli/position_text.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/json_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/position_text.h>
 
 namespace tetralight::cli {
 namespace {
@@ -25,11 +26,11 @@ std::string reason_of(const std::exception& exception, PositionHandler::Document
 }  // namespace
 
 bool PositionHandler::number_integer(int64_t number) {
-    return coordinate(static_cast<float>(number)) || value(text(number));
+    return coordinate(static_cast<float>(number)) || value(str_cat(number));
 }
 
 bool PositionHandler::number_unsigned(uint64_t number) {
-    return coordinate(static_cast<float>(number)) || value(text(number));
+    return coordinate(static_cast<float>(number)) || value(str_cat(number));
 }
 
 /// The digits go straight to float, as those of text do: by way of double they may round twice.
@@ -39,7 +40,7 @@ bool PositionHandler::number_float(double /*number*/, const std::string& digits)
     size_t length = 0;
     const auto number = parse_coordinate(digits, axis, length);
     if (number) return coordinate(*number) || value(shown(digits));
-    return place_ == Place::Coordinates ? fail(number.error().message) : value(shown(digits));
+    return place_ == Place::Coordinates ? fail(error_text(number.error())) : value(shown(digits));
 }
 
 bool PositionHandler::is_ignored() const {
@@ -57,10 +58,10 @@ bool PositionHandler::coordinate(float number) {
 /// A value that is wrong unless nobody asked for it.
 bool PositionHandler::value(std::string_view shown_value) {
     if (is_ignored()) return true;
-    const std::string what = text(" (", shown(shown_value), ")");
+    const std::string what = str_cat(" (", shown(shown_value), ")");
     if (place_ == Place::Coordinates) {
         if (coordinate_count_ == 3) return fail("has more than three numbers");
-        return fail(text(kAxes[coordinate_count_], " is not a number", what));
+        return fail(str_cat(kAxes[coordinate_count_], " is not a number", what));
     }
     if (place_ == Place::Object) return fail("\"position\" is not [x, y, z]" + what);
     if (place_ == Place::Document && document_ == Document::Array) {
@@ -71,7 +72,7 @@ bool PositionHandler::value(std::string_view shown_value) {
 
 bool PositionHandler::fail(const std::string& message) {
     error_ = Error{message};
-    if (is_in_array_) error_ = error_.in(text("position ", index_));
+    if (is_in_array_) error_ = error_.in(str_cat("position ", index_));
     return false;
 }
 
@@ -141,8 +142,8 @@ bool PositionHandler::end_array() {
         return true;
     }
     if (coordinate_count_ < 3) {
-        return fail(text("has ", coordinate_count_, coordinate_count_ == 1 ? " number" : " numbers",
-                         ", not three"));
+        return fail(str_cat("has ", coordinate_count_,
+                            coordinate_count_ == 1 ? " number" : " numbers", ", not three"));
     }
     if (!is_in_object_) return take();
     place_ = Place::Object;  // what follows in it may yet be wrong

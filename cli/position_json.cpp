@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/position_json.h"
+#include <tetralight/cli/position_json.h>
 
 #include <array>
 #include <cstdint>
@@ -7,8 +7,8 @@
 #include <optional>
 #include <streambuf>
 
-#include "base/text.h"
-#include "cli/position_handler.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/position_handler.h>
 
 namespace tetralight::cli {
 namespace {

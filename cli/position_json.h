@@ -4,9 +4,9 @@
 #include <glm/vec3.hpp>
 #include <string_view>
 
-#include "base/result.h"
-#include "cli/byte_reader.h"
-#include "cli/position_chunks.h"
+#include <tetralight/base/result.h>
+#include <tetralight/cli/byte_reader.h>
+#include <tetralight/cli/position_chunks.h>
 
 namespace tetralight::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/position_reader.h"
+#include <tetralight/cli/position_reader.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/text.h"
-#include "cli/position_json.h"
-#include "cli/position_text.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/position_json.h>
+#include <tetralight/cli/position_text.h>
 
 namespace tetralight::cli {
 namespace {
@@ -82,7 +82,7 @@ Status read_lines(ByteReader& reader, PositionChunks& chunks, ParseLine parse_li
     std::vector<char> memory(kLongestLine);
     size_t held = 0;
     const auto error_in = [&](uint64_t number, const Error& error) {
-        return error.in(text(reader.name(), ":", number));
+        return error.in(str_cat(reader.name(), ":", number));
     };
     while (true) {
         const auto count = reader.read(std::span(memory).subspan(held));
@@ -104,7 +104,7 @@ Status read_lines(ByteReader& reader, PositionChunks& chunks, ParseLine parse_li
         held = rest.size();
         if (held == kLongestLine) {
             return error_in(parse.number() + 1,
-                            Error{text("the line is longer than ", kLongestLine, " bytes")});
+                            Error{str_cat("the line is longer than ", kLongestLine, " bytes")});
         }
         std::memmove(memory.data(), rest.data(), held);
     }
@@ -131,9 +131,9 @@ Status read_raw(ByteReader& reader, PositionChunks& chunks) {
         std::memmove(memory.data(), memory.data() + done, held);
     }
     if (held == 0) return Ok{};
-    return Error{text(reader.name(), ": ends at byte ", kRecord * record + held, ", ", held,
-                      held == 1 ? " byte" : " bytes", " into record ", record, "; records are ",
-                      kRecord, " bytes, x y z as float32")};
+    return Error{str_cat(reader.name(), ": ends at byte ", kRecord * record + held, ", ", held,
+                         held == 1 ? " byte" : " bytes", " into record ", record, "; records are ",
+                         kRecord, " bytes, x y z as float32")};
 }
 
 Status read_all(ByteReader& reader, PositionFormat format, PositionChunks& chunks) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/result.h"
-#include "cli/byte_reader.h"
-#include "cli/position_chunks.h"
-#include "cli/query_formats.h"
+#include <tetralight/base/result.h>
+#include <tetralight/cli/byte_reader.h>
+#include <tetralight/cli/position_chunks.h>
+#include <tetralight/cli/query_formats.h>
 
 namespace tetralight::cli {
 

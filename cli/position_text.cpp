@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/position_text.h"
+#include <tetralight/cli/position_text.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 
-#include "base/text.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::cli {
 
@@ -25,7 +26,7 @@ Result<float> parse_coordinate(std::string_view digits, char axis, size_t& lengt
     const std::string taken(digits.substr(0, length));
     const double value = std::strtod(taken.c_str(), nullptr);
     if (std::abs(value) > 1.0) {
-        return Error{text(axis, " is ", shown(taken), ", beyond what a float holds (3.4e38)")};
+        return Error{str_cat(axis, " is ", shown(taken), ", beyond what a float holds (3.4e38)")};
     }
     return static_cast<float>(value);  // nearly 0
 }
@@ -55,7 +56,7 @@ Result<glm::vec3> parse_position(std::string_view line) {
         skip_blanks();
         return true;
     };
-    const auto not_three = [&] { return Error{text("\"", shown(line), "\" is not x y z")}; };
+    const auto not_three = [&] { return Error{str_cat("\"", shown(line), "\" is not x y z")}; };
     glm::vec3 position(0.0f);
     skip_blanks();
     for (int axis = 0; axis < 3; ++axis) {
@@ -63,7 +64,7 @@ Result<glm::vec3> parse_position(std::string_view line) {
         rest = without_plus(rest);
         size_t length = 0;
         const auto number = parse_coordinate(rest, "xyz"[axis], length);
-        if (!number) return number.error().message.empty() ? not_three() : number.error();
+        if (!number) return error_text(number.error()).empty() ? not_three() : number.error();
         position[axis] = *number;
         rest.remove_prefix(length);
     }

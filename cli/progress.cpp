@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/progress.h"
+#include <tetralight/cli/progress.h>
 
 #include <unistd.h>
 
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "cli/amounts.h"
-#include "cli/common.h"
+#include <tetralight/cli/amounts.h>
+#include <tetralight/cli/common.h>
 
 namespace tetralight::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "bake/bake_probes.h"
+#include <tetralight/bake/bake_probes.h>
 
 namespace tetralight::cli {
 

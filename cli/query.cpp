@@ -2,12 +2,12 @@
 #include <chrono>
 #include <filesystem>
 
-#include "base/text.h"
-#include "cli/answer_writer.h"
-#include "cli/common.h"
-#include "cli/paths.h"
-#include "cli/position_reader.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/answer_writer.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/cli/position_reader.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
 namespace {
@@ -80,12 +80,14 @@ struct Query {
         const auto format = answer_format_of_file(output);
         if (!format) {
             throw CLI::ValidationError(
-                "--output", text("cannot write \"", extension,
-                                 "\" files; the extension may be .txt, .jsonl, .csv, .f32, .raw or "
-                                 ".bin, or none"));
+                "--output",
+                str_cat("cannot write \"", extension,
+                        "\" files; the extension may be .txt, .jsonl, .csv, .f32, .raw or "
+                        ".bin, or none"));
         }
         if (!to.empty() && answer_format(to) != *format) {
-            throw CLI::ValidationError("--to", text(to, " does not go with \"", extension, "\""));
+            throw CLI::ValidationError("--to",
+                                       str_cat(to, " does not go with \"", extension, "\""));
         }
     }
 
@@ -135,8 +137,9 @@ struct Query {
 
     void warn_of_not_finite(const ByteReader& reader, uint64_t count) const {
         if (count == 0) return;
-        common.warn({text(reader.name(), ": ", counted(count, "position"),
-                          count == 1 ? " is" : " are", " not finite and got the ambient light")});
+        common.warn(
+            {str_cat(reader.name(), ": ", counted(count, "position"), count == 1 ? " is" : " are",
+                     " not finite and got the ambient light")});
     }
 
     void report(const AnswerWriter& answers, double seconds) const {
@@ -145,8 +148,8 @@ struct Query {
                        {"answers", answers.answer_count()},
                        {"not_finite", answers.not_finite_count()},
                        {"seconds", seconds}},
-                      text(output, ": ", counted(answers.answer_count(), "answer"), " in ",
-                           duration(seconds)));
+                      str_cat(output, ": ", counted(answers.answer_count(), "answer"), " in ",
+                              duration(seconds)));
     }
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/query_formats.h"
+#include <tetralight/cli/query_formats.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
 
 namespace tetralight::cli {
 namespace {

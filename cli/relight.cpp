@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/relight.h"
+#include <tetralight/probes/relight.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,15 +9,15 @@
 #include <limits>
 #include <string_view>
 
-#include "bake/project_environment.h"
-#include "base/text.h"
-#include "cli/common.h"
-#include "cli/paths.h"
-#include "cli/sky_options.h"
-#include "pipeline/partial_bake.h"
-#include "probes/blend_volumes.h"
-#include "probes/probe_file.h"
-#include "probes/recombine.h"
+#include <tetralight/bake/project_environment.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/cli/sky_options.h>
+#include <tetralight/pipeline/partial_bake.h>
+#include <tetralight/probes/blend_volumes.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/recombine.h>
 
 namespace tetralight::cli {
 namespace {
@@ -120,17 +120,17 @@ struct Relight {
         if (!made_with.is_object()) made_with = Json::object();
         std::string relit = made_with.value("relit", "");
         const auto add = [&](const char* option, const std::string& value) {
-            relit += text(relit.empty() ? "" : " ", option, " ", value);
+            relit += str_cat(relit.empty() ? "" : " ", option, " ", value);
         };
-        const auto vector = [](const glm::dvec3& v) { return text(v.x, ",", v.y, ",", v.z); };
+        const auto vector = [](const glm::dvec3& v) { return str_cat(v.x, ",", v.y, ",", v.z); };
         if (!sky.sky.empty()) add("--sky", sky.sky);
-        if (sky.intensity != 1.0) add("--sky-intensity", text(sky.intensity));
-        if (sky.rotation_degrees != 0.0) add("--sky-rotation", text(sky.rotation_degrees));
+        if (sky.intensity != 1.0) add("--sky-intensity", str_cat(sky.intensity));
+        if (sky.rotation_degrees != 0.0) add("--sky-rotation", str_cat(sky.rotation_degrees));
         if (sun_direction != glm::dvec3(0.0)) add("--sun-direction", vector(sun_direction));
         if (sun_irradiance.x >= 0.0) add("--sun-irradiance", vector(sun_irradiance));
         if (!blend_path.empty()) {
             add("--blend", blend_path);
-            add("--blend-share", text(blend_share));
+            add("--blend-share", str_cat(blend_share));
         }
         if (!relit.empty()) made_with["relit"] = relit;
         return dump(made_with);
@@ -196,13 +196,13 @@ struct Relight {
         std::string line;
         for (size_t i = 0; i < names.size() && i < volume.layers.size(); ++i) {
             layers.push_back({{"name", names[i]}, {"weight", volume.layers[i].weight}});
-            line += text(line.empty() ? "" : ", ", printable(std::string(names[i])), " ",
-                         volume.layers[i].weight);
+            line += str_cat(line.empty() ? "" : ", ", printable(std::string(names[i])), " ",
+                            volume.layers[i].weight);
         }
         common.report(output,
                       {{"output", output}, {"probes", volume.positions.size()}, {"layers", layers}},
-                      text(output, ": ", counted(volume.positions.size(), "probe"),
-                           line.empty() ? "" : ", layers " + line));
+                      str_cat(output, ": ", counted(volume.positions.size(), "probe"),
+                              line.empty() ? "" : ", layers " + line));
     }
 };
 

@@ -2,21 +2,22 @@
 #include <chrono>
 #include <utility>
 
-#include "bake/image/write_image.h"
-#include "bake/scene/read_gltf.h"
-#include "base/text.h"
-#include "cli/choice.h"
-#include "cli/common.h"
-#include "cli/gizmo_options.h"
-#include "cli/paths.h"
-#include "cli/renderer_options.h"
-#include "cli/validators.h"
-#include "cli/view_options.h"
-#include "pipeline/render_gizmos.h"
-#include "probes/probe_file.h"
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/choice.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/gizmo_options.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/cli/renderer_options.h>
+#include <tetralight/cli/validators.h>
+#include <tetralight/cli/view_options.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/render/render_gizmos.h>
 #ifdef TETRALIGHT_HAS_GL
-#include "cli/open_gl.h"
-#include "runtime/gl/gl_pictures.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/cli/open_gl.h>
+#include <tetralight/render/gl/gl_pictures.h>
 #endif
 
 namespace tetralight::cli {
@@ -66,7 +67,7 @@ struct Render {
             if (auto context = open_gl(view.settings, common)) {
                 auto pictures = GlPictures::make(std::move(*context), scene, volume, *light);
                 if (pictures) return render(pictures->source());
-                common.warn({pictures.error().message + "; rendering on the CPU"});
+                common.warn({error_text(pictures.error()) + "; rendering on the CPU"});
             }
 #else
             common.warn({"this build has no OpenGL; rendering on the CPU"});
@@ -96,8 +97,8 @@ struct Render {
         if (!status) return status;
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         common.report(output, {{"output", output}, {"seconds", elapsed.count()}},
-                      text(output, ": ", image->width, "×", image->height, " in ",
-                           duration(elapsed.count())));
+                      str_cat(output, ": ", image->width, "×", image->height, " in ",
+                              duration(elapsed.count())));
         return Ok{};
     }
 };

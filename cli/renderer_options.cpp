@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/renderer_options.h"
+#include <tetralight/cli/renderer_options.h>
 
-#include "cli/choice.h"
+#include <tetralight/cli/choice.h>
 
 namespace tetralight::cli {
 

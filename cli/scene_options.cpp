@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/scene_options.h"
+#include <tetralight/cli/scene_options.h>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "bake/scene/probe_adjustments_json.h"
-#include "bake/scene/probe_groups_json.h"
-#include "bake/scene/read_gltf.h"
-#include "cli/common.h"
-#include "cli/paths.h"
+#include <tetralight/bake/scene/probe_adjustments_json.h>
+#include <tetralight/bake/scene/probe_groups_json.h>
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
 
 namespace tetralight::cli {
 

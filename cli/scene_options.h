@@ -5,9 +5,9 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "cli/sky_options.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/cli/sky_options.h>
 
 namespace tetralight::cli {
 

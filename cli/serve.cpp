@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/serve.h"
+#include <tetralight/cli/serve.h>
 
 #include <algorithm>
 #include <charconv>
@@ -7,14 +7,14 @@
 #include <filesystem>
 #include <iostream>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "cli/choice.h"
-#include "cli/common.h"
-#include "cli/paths.h"
-#include "server/command.h"
-#include "server/find_viewer.h"
-#include "server/serve.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/choice.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/server/command.h>
+#include <tetralight/server/find_viewer.h>
+#include <tetralight/server/serve.h>
 
 namespace tetralight::cli {
 namespace {

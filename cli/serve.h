@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cli/commands.h"
+#include <tetralight/cli/commands.h>
 
 namespace tetralight::cli {
 

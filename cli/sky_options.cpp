@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/sky_options.h"
+#include <tetralight/cli/sky_options.h>
 
 #include <filesystem>
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
 
-#include "bake/image/read_image.h"
-#include "base/text.h"
-#include "cli/common.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/common.h>
 
 namespace tetralight::cli {
 namespace {
@@ -37,8 +37,8 @@ Status check_sky(const Environment& environment) {
     const glm::dvec3 radiance = glm::dvec3(environment.radiance) * glm::dvec3(brightest);
     for (int i = 0; i < 3; ++i) {
         if (radiance[i] >= 0.0 && radiance[i] <= kMaxRadiance) continue;
-        return Error{text("the sky's radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
-                          ") is not in 0 to ", kMaxRadiance)};
+        return Error{str_cat("the sky's radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
+                             ") is not in 0 to ", kMaxRadiance)};
     }
     return Ok{};
 }
@@ -76,9 +76,9 @@ Status SkyOptions::apply(const std::string& path, Environment& environment,
         environment.image = std::move(image->image);
         if (image->mended_pixel_count > 0) {
             warnings.push_back(
-                text(sky, ": ", counted(image->mended_pixel_count, "pixel"),
-                     " mended (NaN and negative become 0, infinite 65504, and nothing is "
-                     "above 1e30)"));
+                str_cat(sky, ": ", counted(image->mended_pixel_count, "pixel"),
+                        " mended (NaN and negative become 0, infinite 65504, and nothing is "
+                        "above 1e30)"));
         }
     }
     environment.radiance *= static_cast<float>(intensity);

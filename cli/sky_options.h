@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight::cli {
 

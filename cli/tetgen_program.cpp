@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/tetgen_program.h"
+#include <tetralight/cli/tetgen_program.h>
 
 #include <unistd.h>
 

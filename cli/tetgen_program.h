@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "probes/build/tetgen.h"
+#include <tetralight/probes/build/tetgen.h>
 
 namespace tetralight::cli {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/probes/build/tetrahedralize.h>
 
 #include <cstdlib>
 
-#include "base/text.h"
-#include "cli/common.h"
-#include "cli/group_files.h"
-#include "cli/paths.h"
-#include "cli/tetgen_program.h"
-#include "probes/build/make_probe_volume.h"
-#include "probes/build/merge_warnings.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/group_files.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/cli/tetgen_program.h>
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/build/merge_warnings.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
 namespace {
@@ -52,7 +52,8 @@ struct Tetrahedralize {
     [[nodiscard]] static Error explained(const Error& error) {
         const char* named = std::getenv(kTetgenVariable);
         if (named == nullptr || *named == '\0') return error;
-        return {text(error.message, " (", kTetgenVariable, " names the program)")};
+        return {error.code,
+                error.message.suffixed(str_cat(" (", kTetgenVariable, " names the program)"))};
     }
 
     [[nodiscard]] std::string metadata() const {
@@ -77,9 +78,9 @@ struct Tetrahedralize {
         json.update({{"lattice_groups", lattices}, {"largest_snap", merged->largest_snap}});
         common.report(
             output, json,
-            text(output, ": ", counted(volume.positions.size(), "probe"), " (",
-                 merged_text(merged->welded_count(), lattices.size(), merged->largest_snap), "), ",
-                 cells_text(volume.view()), ", no light"));
+            str_cat(output, ": ", counted(volume.positions.size(), "probe"), " (",
+                    merged_text(merged->welded_count(), lattices.size(), merged->largest_snap),
+                    "), ", cells_text(volume.view()), ", no light"));
         return Ok{};
     }
 };

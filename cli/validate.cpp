@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/validate.h"
+#include <tetralight/probes/build/validate.h>
 
-#include "base/text.h"
-#include "cli/common.h"
-#include "cli/paths.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
 namespace {
@@ -33,7 +34,7 @@ struct Validate {
     Status run() {
         const auto file = open_probe_file(path);
         if (!file) {
-            if (common.is_json) common.print(verdict({file.error().message}), "");
+            if (common.is_json) common.print(verdict({error_text(file.error())}), "");
             return file.error();
         }
         const ValidationReport report = validate(file->view());
@@ -41,9 +42,10 @@ struct Validate {
         Json json = verdict(problems);
         json.update(counts(file->view()));
         json.update(to_json(report));
-        common.print(json, text(printable(path), problems.empty() ? ": valid, " : ": not valid, ",
-                                counted(file->view().probe_count(), "probe"), ", ",
-                                problems.empty() ? "Delaunay " : "", cells_text(file->view())));
+        common.print(json,
+                     str_cat(printable(path), problems.empty() ? ": valid, " : ": not valid, ",
+                             counted(file->view().probe_count(), "probe"), ", ",
+                             problems.empty() ? "Delaunay " : "", cells_text(file->view())));
         if (problems.empty()) return Ok{};
         std::string message = path + ": ";
         for (const std::string& problem : problems) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/validators.h"
+#include <tetralight/cli/validators.h>
 
-#include "base/text.h"
-#include "cli/common.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/common.h>
 
 namespace tetralight::cli {
 
@@ -12,7 +12,7 @@ CLI::Validator positions() {
 
 CLI::Validator not_empty(const char* what) {
     const auto check = [what](const std::string& word) {
-        return word.empty() ? text("the ", what, " is empty") : "";
+        return word.empty() ? str_cat("the ", what, " is empty") : "";
     };
     return {check, ""};
 }

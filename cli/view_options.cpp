@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/view_options.h"
+#include <tetralight/cli/view_options.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "bake/scene/scene_bounds.h"
-#include "cli/common.h"
-#include "cli/validators.h"
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/validators.h>
 
 namespace tetralight::cli {
 

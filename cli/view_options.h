@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-#include "base/result.h"
-#include "pipeline/image_renderer.h"
+#include <tetralight/base/result.h>
+#include <tetralight/render/image_renderer.h>
 
 namespace tetralight::cli {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/volume_facts.h"
+#include <tetralight/cli/volume_facts.h>
 
 #include <algorithm>
 
-#include "cli/info_probes.h"
-#include "cli/light_words.h"
-#include "probes/build/quality.h"
+#include <tetralight/cli/info_probes.h>
+#include <tetralight/cli/light_words.h>
+#include <tetralight/probes/build/quality.h>
 
 namespace tetralight::cli {
 namespace {

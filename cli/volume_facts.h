@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/common.h"
-#include "cli/walk_facts.h"
-#include "probes/probe_file.h"
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/walk_facts.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
 

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <iterator>
 
-#include "base/text.h"
-#include "cli/info_probes.h"
-#include "cli/table.h"
-#include "cli/volume_facts.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/info_probes.h>
+#include <tetralight/cli/table.h>
+#include <tetralight/cli/volume_facts.h>
 
 namespace tetralight::cli {
 namespace {
@@ -35,12 +35,13 @@ Rows walk_rows(const VolumeFacts& facts) {
     std::snprintf(mean, sizeof mean, "%.1f", walks.steps_from_seed);
     const auto hits =
         static_cast<uint64_t>(std::lround(walks.seed_hit_rate * walks.position_count));
-    return {{"seeds", text(grouped(facts.seed_count), ", in the cell asked for: ",
-                           percent(hits, walks.position_count), ", ", mean, " steps in the mean")},
-            {"walks", text("p50 ", walks.median_steps, ", p99 ", walks.p99_steps, ", max ",
-                           counted(walks.most_steps, "step"), ", ",
-                           counted(walks.fallback_count, "fallback"), " of ",
-                           grouped(walks.position_count))}};
+    return {{"seeds", str_cat(grouped(facts.seed_count),
+                              ", in the cell asked for: ", percent(hits, walks.position_count),
+                              ", ", mean, " steps in the mean")},
+            {"walks", str_cat("p50 ", walks.median_steps, ", p99 ", walks.p99_steps, ", max ",
+                              counted(walks.most_steps, "step"), ", ",
+                              counted(walks.fallback_count, "fallback"), " of ",
+                              grouped(walks.position_count))}};
 }
 
 /// "1.5 2 3", at most six digits each.
@@ -64,10 +65,10 @@ std::string lights_text(const Json& lights) {
     for (const Json& light : lights) {
         const std::string channel =
             light.contains("occlusion_channel")
-                ? text(", occlusion ", light["occlusion_channel"].get<uint32_t>())
+                ? str_cat(", occlusion ", light["occlusion_channel"].get<uint32_t>())
                 : "";
-        line += text(line.empty() ? "" : ", ", name_text(light["name"]), " (",
-                     name_text(light["type"]), ", ", name_text(light["mode"]), channel, ")");
+        line += str_cat(line.empty() ? "" : ", ", name_text(light["name"]), " (",
+                        name_text(light["type"]), ", ", name_text(light["mode"]), channel, ")");
     }
     return line.empty() ? "none" : line;
 }
@@ -76,8 +77,8 @@ std::string lights_text(const Json& lights) {
 std::string layers_text(const VolumeFacts& facts) {
     std::string line;
     for (const Json& layer : facts.layers) {
-        line += text(line.empty() ? "" : ", ", name_text(layer["name"]), " ",
-                     layer["weight"].get<float>());
+        line += str_cat(line.empty() ? "" : ", ", name_text(layer["name"]), " ",
+                        layer["weight"].get<float>());
     }
     if (facts.has_transfer) line += "; transfer of distant light";
     return line.empty() ? "none (light cannot change; bake with --layers)" : line;
@@ -97,21 +98,21 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
     const uint64_t inner = volume.info.inner_cell_count;
     const uint64_t left_out = facts.counts["left_out"];
     const std::string not_there = left_out > 0 ? ", " + grouped(left_out) + " left out" : "";
-    Rows rows{{"probes", text(grouped(volume.probe_count()), " (", grouped(welded), " welded",
-                              not_there, "), in ", counted(facts.groups.size(), "group"))},
+    Rows rows{{"probes", str_cat(grouped(volume.probe_count()), " (", grouped(welded), " welded",
+                                 not_there, "), in ", counted(facts.groups.size(), "group"))},
               {"dimension", name_of(volume.info.dimension)},
-              {"cells",
-               text(cells_text(volume), ", ", counted(volume.cells.size() - inner, "hull cell"))}};
+              {"cells", str_cat(cells_text(volume), ", ",
+                                counted(volume.cells.size() - inner, "hull cell"))}};
     if (facts.slivers) {
         const auto [below_1e3, below_1e6] = *facts.slivers;
-        rows.push_back({"slivers", text(grouped(below_1e3), " of quality < 1e-3 (",
-                                        percent(below_1e3, inner), "), ", grouped(below_1e6),
-                                        " < 1e-6 (", percent(below_1e6, inner), ")")});
+        rows.push_back({"slivers", str_cat(grouped(below_1e3), " of quality < 1e-3 (",
+                                           percent(below_1e3, inner), "), ", grouped(below_1e6),
+                                           " < 1e-6 (", percent(below_1e6, inner), ")")});
     }
     if (facts.walks) std::ranges::copy(walk_rows(facts), std::back_inserter(rows));
     if (!facts.bounds.is_null()) {
-        rows.push_back({"bounds", text(corner_text(facts.bounds["min"]), "  to  ",
-                                       corner_text(facts.bounds["max"]))});
+        rows.push_back({"bounds", str_cat(corner_text(facts.bounds["min"]), "  to  ",
+                                          corner_text(facts.bounds["max"]))});
     }
     rows.push_back({"light", facts.is_baked ? "baked" : "none (not baked)"});
     rows.push_back({"lights", lights_text(facts.lights)});
@@ -155,7 +156,7 @@ Rows memory_rows(const VolumeFacts& facts) {
 }  // namespace
 
 std::string to_text(const VolumeFacts& facts, const ProbeVolumeView& volume) {
-    std::string lines = text(printable(facts.path), "\n", aligned(summary(facts, volume), "ll"));
+    std::string lines = str_cat(printable(facts.path), "\n", aligned(summary(facts, volume), "ll"));
     if (!facts.groups.empty()) {
         lines += "probes by group\n" +
                  aligned(group_rows(facts, volume.sources.size() - left_out_count(volume)), "lrrl");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/walk_facts.h"
+#include <tetralight/cli/walk_facts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "base/assert.h"
-#include "cli/common.h"
-#include "probes/locate.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/probes/locate.h>
 
 namespace tetralight::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "probes/probe_volume.h"
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::cli {
 

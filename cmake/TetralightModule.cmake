@@ -20,6 +20,15 @@ function(tetralight_options target)
   endif()
 endfunction()
 
+# Headers are included as <tetralight/FOLDER/header.h>, in the build tree as where they are installed:
+# here through links to the source folders.
+set(tetralight_include_dir ${PROJECT_BINARY_DIR}/include)
+file(MAKE_DIRECTORY ${tetralight_include_dir}/tetralight)
+foreach(folder base probes lppv runtime bake pipeline render server cli bench)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${tetralight_include_dir}/tetralight/${folder}
+       COPY_ON_ERROR SYMBOLIC)
+endforeach()
+
 # tetralight_module(NAME SOURCES a.cpp... [PUBLIC lib...] [PRIVATE lib...]):
 # a folder of the architecture as the library tetralight::NAME.
 function(tetralight_module name)
@@ -29,7 +38,7 @@ function(tetralight_module name)
   add_library(tetralight::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/tetralight>)
+    $<BUILD_INTERFACE:${tetralight_include_dir}> $<INSTALL_INTERFACE:include>)
   target_link_libraries(${target} PUBLIC ${module_PUBLIC} PRIVATE ${module_PRIVATE})
   tetralight_options(${target})
 endfunction()

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv.h"
+#include <tetralight/lppv/lppv.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "base/text.h"
-#include "lppv/detail/grid_positions.h"
-#include "lppv/detail/mean_band_2.h"
-#include "lppv/detail/nearest_valid.h"
-#include "lppv/detail/serpentine.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/lppv/detail/grid_positions.h>
+#include <tetralight/lppv/detail/mean_band_2.h>
+#include <tetralight/lppv/detail/nearest_valid.h>
+#include <tetralight/lppv/detail/serpentine.h>
 
 namespace tetralight {
 namespace {
@@ -137,8 +137,8 @@ void LppvFillTasks::write_beam(const LppvBeam& beam,
 
 Status check_fill(const LppvGrid& grid, const LppvFill& fill) {
     if (fill.validity.empty() || fill.validity.size() == grid.point_count()) return Ok{};
-    return Error{text("validity has ", fill.validity.size(), " values, but the grid has ",
-                      grid.point_count(), " points")};
+    return Error{str_cat("validity has ", fill.validity.size(), " values, but the grid has ",
+                         grid.point_count(), " points")};
 }
 
 void finish_lppv(const LppvFill& fill, Lppv& lppv) {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "base/result.h"
-#include "lppv/lppv_grid.h"
-#include "probes/interpolate.h"
+#include <tetralight/base/result.h>
+#include <tetralight/lppv/lppv_grid.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv_atlas.h"
+#include <tetralight/lppv/lppv_atlas.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
-#include "base/text.h"
-#include "lppv/detail/grid_positions.h"
-#include "lppv/detail/nearest_valid.h"
-#include "lppv/detail/slab_texels.h"
-#include "lppv/detail/write_guarded.h"
-#include "probes/interpolate.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/lppv/detail/grid_positions.h>
+#include <tetralight/lppv/detail/nearest_valid.h>
+#include <tetralight/lppv/detail/slab_texels.h>
+#include <tetralight/lppv/detail/write_guarded.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight {
 namespace {
@@ -82,9 +82,9 @@ Result<uint32_t> LppvAtlas::add(const LppvGrid& grid, LppvQuality quality, LppvR
     const glm::uvec3 size = grid.resolution + 2 * kGuard;
     const auto low = packing_.allocate(size);
     if (!low) {
-        return Error{text("the atlas has no room for ", size.x, " x ", size.y, " x ", size.z,
-                          " texels; ", packing_.used(), " of ", packing_.capacity(),
-                          " are in use")};
+        return Error{str_cat("the atlas has no room for ", size.x, " x ", size.y, " x ", size.z,
+                             " texels; ", packing_.used(), " of ", packing_.capacity(),
+                             " are in use")};
     }
     uint32_t id = static_cast<uint32_t>(volumes_.size());
     if (free_ids_.empty()) {

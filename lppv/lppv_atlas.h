@@ -10,10 +10,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/result.h"
-#include "lppv/detail/box_packing.h"
-#include "lppv/detail/changed_probes.h"
-#include "lppv/lppv_texture.h"
+#include <tetralight/base/result.h>
+#include <tetralight/lppv/detail/box_packing.h>
+#include <tetralight/lppv/detail/changed_probes.h>
+#include <tetralight/lppv/lppv_texture.h>
 
 // The proxy volumes of many objects in one 3D texture, refilled only where the light around them
 // may have changed.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv_grid.h"
+#include <tetralight/lppv/lppv_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -30,30 +30,30 @@ bool is_finite(const glm::dvec3& v) {
 }
 
 std::string shown(const glm::dvec3& v) {
-    return text("(", v.x, ", ", v.y, ", ", v.z, ")");
+    return str_cat("(", v.x, ", ", v.y, ", ", v.z, ")");
 }
 
 Status check_transform(const glm::dmat4& m) {
     for (int column = 0; column < 4; ++column) {
         if (!is_finite(glm::dvec3(m[column]))) {
-            return Error{text("transform of the object is not finite: column ", column, " is ",
-                              shown(glm::dvec3(m[column])))};
+            return Error{str_cat("transform of the object is not finite: column ", column, " is ",
+                                 shown(glm::dvec3(m[column])))};
         }
     }
     if (m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 1.0) return Ok{};
-    return Error{text("transform of the object is not affine: its last row is (", m[0][3], ", ",
-                      m[1][3], ", ", m[2][3], ", ", m[3][3], "), not (0, 0, 0, 1)")};
+    return Error{str_cat("transform of the object is not affine: its last row is (", m[0][3], ", ",
+                         m[1][3], ", ", m[2][3], ", ", m[3][3], "), not (0, 0, 0, 1)")};
 }
 
 Status check_bounds(const glm::dvec3& low, const glm::dvec3& high) {
     for (int axis = 0; axis < 3; ++axis) {
         if (!std::isfinite(low[axis]) || !std::isfinite(high[axis])) {
-            return Error{text("bounds are not finite along ", kAxes[axis], ": ", low[axis], " to ",
-                              high[axis])};
+            return Error{str_cat("bounds are not finite along ", kAxes[axis], ": ", low[axis],
+                                 " to ", high[axis])};
         }
         if (low[axis] > high[axis]) {
-            return Error{text("bounds are reversed along ", kAxes[axis], ": ", low[axis], " to ",
-                              high[axis])};
+            return Error{str_cat("bounds are reversed along ", kAxes[axis], ": ", low[axis], " to ",
+                                 high[axis])};
         }
     }
     return Ok{};
@@ -84,8 +84,8 @@ Result<Bounds> automatic_bounds(const LppvObject& object, const glm::dmat4& worl
 Result<Bounds> custom_bounds(const glm::dmat4& world_from_object, const LppvBox& box) {
     const double length = glm::length(box.orientation);
     if (!is_finite(box.center) || !std::isfinite(length) || length == 0.0) {
-        return Error{text("the box has no place: center ", shown(box.center),
-                          ", orientation of length ", length)};
+        return Error{str_cat("the box has no place: center ", shown(box.center),
+                             ", orientation of length ", length)};
     }
     const glm::dmat4 world_from_box = glm::translate(world_from_object, box.center) *
                                       glm::mat4_cast(glm::normalize(box.orientation));
@@ -151,7 +151,7 @@ Result<glm::uvec3> find_resolution(const Bounds& bounds, const LppvSettings& set
     glm::dvec3 wanted(settings.resolution);
     if (settings.resolution_mode == LppvResolution::Automatic) {
         if (!std::isfinite(settings.density) || settings.density <= 0.0) {
-            return Error{text("density is not a positive number: ", settings.density)};
+            return Error{str_cat("density is not a positive number: ", settings.density)};
         }
         for (int i = 0; i < 3; ++i) {
             const double metres = (bounds.high[i] - bounds.low[i]) *
@@ -161,16 +161,16 @@ Result<glm::uvec3> find_resolution(const Bounds& bounds, const LppvSettings& set
     }
     const double smallest = std::min({wanted.x, wanted.y, wanted.z});
     const double largest = std::max({wanted.x, wanted.y, wanted.z});
-    const std::string request = text(wanted.x, " x ", wanted.y, " x ", wanted.z);
+    const std::string request = str_cat(wanted.x, " x ", wanted.y, " x ", wanted.z);
     if (smallest < 1.0) return Error{"a grid of " + request + " points has none"};
     if (settings.limits == LppvLimits::Unity) {
         return glm::uvec3(nearest_power_of_two(wanted.x), nearest_power_of_two(wanted.y),
                           nearest_power_of_two(wanted.z));
     }
     if (!(largest <= kMaxLppvResolution)) {
-        return Error{text("a grid of ", request, " points (", wanted.x * wanted.y * wanted.z,
-                          " in all) is too large: ", kMaxLppvResolution,
-                          " along an axis are the most")};
+        return Error{str_cat("a grid of ", request, " points (", wanted.x * wanted.y * wanted.z,
+                             " in all) is too large: ", kMaxLppvResolution,
+                             " along an axis are the most")};
     }
     return glm::uvec3(wanted);
 }

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 // Light probe proxy volumes (LPPVs): an object larger than the space between probes gets a grid of
 // light of its own. This header says where the points of that grid are; lppv/lppv.h fills it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv_texture.h"
+#include <tetralight/lppv/lppv_texture.h>
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <glm/common.hpp>
 #include <glm/gtc/packing.hpp>
 
-#include "base/assert.h"
-#include "lppv/detail/mean_band_2.h"
-#include "lppv/detail/slab_texels.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/lppv/detail/mean_band_2.h>
+#include <tetralight/lppv/detail/slab_texels.h>
 
 namespace tetralight {
 namespace {

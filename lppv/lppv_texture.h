@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "lppv/lppv.h"
-#include "probes/packed_sh.h"
+#include <tetralight/lppv/lppv.h>
+#include <tetralight/probes/packed_sh.h>
 
 // A proxy volume as a 3D texture of RGBA texels, which shaders sample with hardware filtering
 // (runtime/shaders/lppv.glsl; its twin in C++ is here). The texture is a row of slabs along X, each

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/sparse_lppv.h"
+#include <tetralight/lppv/sparse_lppv.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -42,19 +42,19 @@ Status SparseBlocks::add_box(const glm::dvec3& low, const glm::dvec3& high) {
         const double a = std::floor(std::floor(low[axis] / spacing_) / kSparseBlockSide);
         const double b = std::floor((std::floor(high[axis] / spacing_) + 1.0) / kSparseBlockSide);
         if (!(a >= -kLargestBlock && b < kLargestBlock && a <= b)) {
-            return Error{text("a box from ", low[axis], " to ", high[axis],
-                              " m reaches beyond a sparse grid of spacing ", spacing_,
-                              " m: it ends ", kLargestBlock * kSparseBlockSide * spacing_,
-                              " m from the origin")};
+            return Error{str_cat("a box from ", low[axis], " to ", high[axis],
+                                 " m reaches beyond a sparse grid of spacing ", spacing_,
+                                 " m: it ends ", kLargestBlock * kSparseBlockSide * spacing_,
+                                 " m from the origin")};
         }
         count *= b - a + 1.0;
         first[static_cast<size_t>(axis)] = static_cast<int64_t>(a);
         last[static_cast<size_t>(axis)] = static_cast<int64_t>(b);
     }
     const auto too_many = [](double blocks) {
-        return Error{text("a sparse grid of ", blocks * kSparseBlockPoints,
-                          " points or more is too large: ", kMaxSparseBlocks * kSparseBlockPoints,
-                          " are the most")};
+        return Error{str_cat("a sparse grid of ", blocks * kSparseBlockPoints,
+                             " points or more is too large: ",
+                             kMaxSparseBlocks * kSparseBlockPoints, " are the most")};
     };
     if (count > kMaxSparseBlocks) return too_many(count);
     for (int64_t z = first[2]; z <= last[2]; ++z) {

@@ -7,8 +7,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "base/result.h"
-#include "lppv/lppv.h"
+#include <tetralight/base/result.h>
+#include <tetralight/lppv/lppv.h>
 
 // A grid of light for a world that is kilometres wide: points only where something is, in blocks of
 // 8³ as OpenVDB stores them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/bake_chunks.h"
+#include <tetralight/pipeline/bake_chunks.h>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,10 +8,11 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/descriptor.h"
-#include "base/file.h"
-#include "base/text.h"
-#include "probes/content_hash.h"
+#include <tetralight/base/descriptor.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
+#include <tetralight/probes/content_hash.h>
 
 namespace tetralight {
 namespace {
@@ -24,7 +25,7 @@ constexpr uint64_t kMagic = 0x31'4b'4e'55'48'43'4c'54;  // "TLCHUNK1"
 struct ChunkHeader {
     uint64_t magic = kMagic;
     uint64_t key = 0;
-    uint64_t hash = 0;  ///< of the rest of the header, tallies and rows
+    uint64_t hash = 0;  ///< of the rest of the header, accumulators and rows
     uint32_t begin = 0;
     uint32_t end = 0;
     uint64_t row_size = 0;
@@ -32,12 +33,12 @@ struct ChunkHeader {
 
 static_assert(sizeof(ChunkHeader) == 40);
 
-uint64_t hash_of(ChunkHeader header, std::span<const std::byte> tallies,
+uint64_t hash_of(ChunkHeader header, std::span<const std::byte> accumulators,
                  std::span<const std::byte> rows) {
     header.hash = 0;
     ContentHash hash;
     hash.add(header);
-    hash.add_bytes(tallies);
+    hash.add_bytes(accumulators);
     hash.add_bytes(rows);
     return hash.value();
 }
@@ -49,7 +50,7 @@ class ChunkFolder {
         : path_(std::move(path)),
           key_(prepared.key),
           probe_count_(static_cast<uint32_t>(prepared.capture_positions.size())),
-          row_size_(SplitLayout(prepared.settings.bake.plan).size()),
+          row_size_(LightGroupLayout(prepared.settings.bake.plan).size()),
           bake_(bake) {}
 
     /// Takes all chunks that are of this bake; one flag a probe.
@@ -69,18 +70,18 @@ class ChunkFolder {
     }
 
     [[nodiscard]] Status write(const ProbeRange& range) const {
-        const auto tallies =
-            std::as_bytes(std::span(bake_.partial.tallies).subspan(range.begin, range.count()));
+        const auto accumulators = std::as_bytes(
+            std::span(bake_.partial.accumulators).subspan(range.begin, range.count()));
         const auto rows =
             std::as_bytes(std::span(bake_.partial.split_rows)
                               .subspan(range.begin * row_size_, range.count() * row_size_));
         ChunkHeader header{
             .key = key_, .begin = range.begin, .end = range.end, .row_size = row_size_};
-        header.hash = hash_of(header, tallies, rows);
-        const std::span<const std::byte> parts[] = {std::as_bytes(std::span(&header, 1)), tallies,
-                                                    rows};
+        header.hash = hash_of(header, accumulators, rows);
+        const std::span<const std::byte> parts[] = {std::as_bytes(std::span(&header, 1)),
+                                                    accumulators, rows};
         const std::string path =
-            text(path_, "/", range.begin, "-", range.end, "-of-", probe_count_, ".chunk");
+            str_cat(path_, "/", range.begin, "-", range.end, "-of-", probe_count_, ".chunk");
         if (auto status = write_file(path, parts); !status) return status;
         const Descriptor folder(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
         if (!folder || ::fsync(folder.value()) != 0) return system_error(path_, "sync");
@@ -99,13 +100,14 @@ class ChunkFolder {
                              header.end <= probe_count_;
         if (!is_ours) return std::nullopt;
         const ProbeRange range{header.begin, header.end};
-        const size_t tally_bytes = range.count() * sizeof(ProbeTally);
+        const size_t tally_bytes = range.count() * sizeof(ProbeAccumulator);
         const size_t row_bytes = range.count() * row_size_ * sizeof(double);
         if (bytes->size() != sizeof header + tally_bytes + row_bytes) return std::nullopt;
-        const auto tallies = std::span(*bytes).subspan(sizeof header, tally_bytes);
+        const auto accumulators = std::span(*bytes).subspan(sizeof header, tally_bytes);
         const auto rows = std::span(*bytes).subspan(sizeof header + tally_bytes);
-        if (hash_of(header, tallies, rows) != header.hash) return std::nullopt;
-        std::memcpy(bake_.partial.tallies.data() + range.begin, tallies.data(), tally_bytes);
+        if (hash_of(header, accumulators, rows) != header.hash) return std::nullopt;
+        std::memcpy(bake_.partial.accumulators.data() + range.begin, accumulators.data(),
+                    tally_bytes);
         if (row_bytes > 0) {
             std::memcpy(bake_.partial.split_rows.data() + range.begin * row_size_, rows.data(),
                         row_bytes);
@@ -134,17 +136,20 @@ ProbeRange next_range(const std::vector<bool>& is_done, uint32_t from, uint32_t 
 Result<RangeBake> bake_in_chunks(const Scene& scene, const PreparedBake& prepared,
                                  const std::string& folder, const BakeCallback& callback) {
     const auto count = static_cast<uint32_t>(prepared.capture_positions.size());
-    const size_t row_size = SplitLayout(prepared.settings.bake.plan).size();
+    const size_t row_size = LightGroupLayout(prepared.settings.bake.plan).size();
     RangeBake bake;
-    bake.partial = {
-        {0, count}, std::vector<ProbeTally>(count), true, std::vector<double>(count * row_size)};
+    bake.partial = {{0, count},
+                    std::vector<ProbeAccumulator>(count),
+                    true,
+                    std::vector<double>(count * row_size)};
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) return Error{folder + ": cannot make the folder (" + error.message() + ")"};
 
     ChunkFolder chunks(folder, prepared, bake);
     const std::vector<bool> is_done = chunks.read();
-    for (const ProbeTally& tally : bake.partial.tallies) bake.earlier_ray_count += tally.ray_count;
+    for (const ProbeAccumulator& accumulator : bake.partial.accumulators)
+        bake.earlier_ray_count += accumulator.ray_count;
     auto done_count = static_cast<size_t>(std::ranges::count(is_done, true));
     uint64_t ray_count = 0;
     const uint32_t size = std::max(kLeastProbes, (count + kMostChunks - 1) / kMostChunks);
@@ -163,7 +168,7 @@ Result<RangeBake> bake_in_chunks(const Scene& scene, const PreparedBake& prepare
         auto baked = bake_range(scene, prepared, range, {}, report);
         if (!baked) return baked.error();
         const PartialBake& part = baked->partial;
-        std::ranges::copy(part.tallies, bake.partial.tallies.begin() + range.begin);
+        std::ranges::copy(part.accumulators, bake.partial.accumulators.begin() + range.begin);
         std::ranges::copy(part.split_rows, bake.partial.split_rows.begin() +
                                                static_cast<ptrdiff_t>(range.begin * row_size));
         if (auto status = chunks.write(range); !status) return status.error();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/bake_key.h"
+#include <tetralight/pipeline/bake_key.h>
 
-#include "probes/content_hash.h"
-#include "probes/probe_file.h"
+#include <tetralight/probes/content_hash.h>
+#include <tetralight/probes/probe_file.h>
 
 // Every struct is taken apart by a structured binding: a member that is added to it does not
 // compile here until someone says whether the bake depends on it.

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "bake/scene/scene.h"
-#include "pipeline/bake_volume.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/pipeline/bake_volume.h>
 
 namespace tetralight {
 

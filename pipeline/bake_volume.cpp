@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/bake_volume.h"
+#include <tetralight/pipeline/bake_volume.h>
 
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <utility>
 
-#include "bake/bake_tallies.h"
-#include "bake/memory_estimate.h"
-#include "bake/occlusion_channels.h"
-#include "bake/project_environment.h"
-#include "bake/round_plan.h"
-#include "base/assert.h"
-#include "base/text.h"
-#include "pipeline/bake_key.h"
-#include "pipeline/dilate_probes.h"
-#include "pipeline/probe_warnings.h"
-#include "pipeline/split_light.h"
-#include "pipeline/take_reused.h"
-#include "probes/build/make_probe_volume.h"
-#include "probes/build/merge_warnings.h"
-#include "probes/compact_probes.h"
+#include <tetralight/bake/bake_accumulators.h>
+#include <tetralight/bake/occlusion_channels.h>
+#include <tetralight/bake/project_environment.h>
+#include <tetralight/bake/rays/memory_estimate.h>
+#include <tetralight/bake/round_plan.h>
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/pipeline/bake_key.h>
+#include <tetralight/pipeline/dilate_probes.h>
+#include <tetralight/pipeline/probe_warnings.h>
+#include <tetralight/pipeline/split_light.h>
+#include <tetralight/pipeline/take_reused.h>
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/build/merge_warnings.h>
+#include <tetralight/probes/compact_probes.h>
 
 namespace tetralight {
 namespace {
@@ -48,14 +48,14 @@ std::string metadata(const Scene& scene, const PreparedBake& prepared, bool has_
     const BakeVolumeSettings& settings = prepared.settings;
     const BakeSettings& bake = settings.bake;
     const HealthSettings& health = settings.health;
-    std::string json = text("{\"generator\":\"tetralight ", TETRALIGHT_VERSION, "\",\"scene\":\"",
-                            hexadecimal(scene_key(scene)), "\",\"samples\":", bake.sample_count,
-                            ",\"bounces\":", bake.bounces, ",\"seed\":", bake.seed,
-                            ",\"min_validity\":", health.min_validity,
-                            ",\"virtual_offset\":", health.virtual_offset, ",\"invalid_probes\":\"",
-                            name_of(health.invalid), "\"");
+    std::string json = str_cat("{\"generator\":\"tetralight ", TETRALIGHT_VERSION,
+                               "\",\"scene\":\"", hexadecimal(scene_key(scene)),
+                               "\",\"samples\":", bake.sample_count, ",\"bounces\":", bake.bounces,
+                               ",\"seed\":", bake.seed, ",\"min_validity\":", health.min_validity,
+                               ",\"virtual_offset\":", health.virtual_offset,
+                               ",\"invalid_probes\":\"", name_of(health.invalid), "\"");
     const auto add = [&](const char* name, auto value) {
-        if (value != 0) json += text(",\"", name, "\":", value);
+        if (value != 0) json += str_cat(",\"", name, "\":", value);
     };
     add("target_error", bake.target_error);
     add("max_samples", bake.max_sample_count);
@@ -66,14 +66,14 @@ std::string metadata(const Scene& scene, const PreparedBake& prepared, bool has_
         add("max_albedo", bake.surfaces.max_albedo);
     }
     if (settings.lighting.mixed_lighting != MixedLighting::Indirect) {
-        json += text(",\"mixed_lighting\":\"", name_of(settings.lighting.mixed_lighting), "\"");
+        json += str_cat(",\"mixed_lighting\":\"", name_of(settings.lighting.mixed_lighting), "\"");
     }
     if (!prepared.overrides.empty()) {
-        json += text(",\"adjustments\":\"", hexadecimal(adjustments_key(scene.probe_adjustments)),
-                     "\"");
+        json += str_cat(",\"adjustments\":\"",
+                        hexadecimal(adjustments_key(scene.probe_adjustments)), "\"");
     }
     if (has_dering) {
-        json += text(",\"dering\":\"", name_of(settings.dering.window), "\"");
+        json += str_cat(",\"dering\":\"", name_of(settings.dering.window), "\"");
     }
     return json + "}";
 }
@@ -134,9 +134,9 @@ void store_light(const BakedProbes& baked, ProbeVolume& volume) {
 void add_target_warning(const BakeStatistics& statistics, double target_error, size_t probe_count,
                         std::vector<std::string>& warnings) {
     if (statistics.over_target_count == 0) return;
-    warnings.push_back(text(statistics.over_target_count, " of ", probe_count,
-                            " probes have a standard error above ", target_error, " (the worst ",
-                            statistics.worst_error, ") with the samples and the time they had"));
+    warnings.push_back(str_cat(statistics.over_target_count, " of ", probe_count,
+                               " probes have a standard error above ", target_error, " (the worst ",
+                               statistics.worst_error, ") with the samples and the time they had"));
 }
 
 void remove_ringing(const MergedProbes& merged, const DeringSettings& settings,
@@ -176,8 +176,9 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     for (const ProbeGroup& group : groups) position_count += group.positions.size();
     auto plan = plan_lighting(scene, settings.lighting);
     if (!plan) return plan.error();
-    const SplitLayout split(plan->bake);
-    if (auto status = check_bake_memory(scene, position_count, split); !status) {
+    const LightGroupLayout split(plan->bake);
+    if (auto status = check_bake_memory(estimate_bake_memory(scene, position_count, split.size()));
+        !status) {
         return status.error();
     }
     PreparedBake prepared;
@@ -214,15 +215,16 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     return prepared;
 }
 
-BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies,
+BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeAccumulator> accumulators,
                         std::span<const double> split_rows) {
-    TETRALIGHT_ASSERT(tallies.size() == prepared.volume.positions.size(), "one for each probe");
-    BakedProbes baked = baked_probes(tallies);
+    TETRALIGHT_ASSERT(accumulators.size() == prepared.volume.positions.size(),
+                      "one for each probe");
+    BakedProbes baked = baked_probes(accumulators);
     take_reused(prepared.reused, baked);
     ProbeVolume volume = std::move(prepared.volume);
     BakeReport report = std::move(prepared.report);
     store_light(baked, volume);
-    store_split(tallies, split_rows, volume);
+    store_split(accumulators, split_rows, volume);
     take_reused(prepared.reused, volume);
 
     const double target_error = prepared.settings.bake.target_error;
@@ -231,7 +233,7 @@ BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> talli
     report.statistics = bake_statistics(baked, target_error);
     const auto merge_lines = merge_warnings(prepared.merged, volume.info.dimension);
     report.warnings.insert(report.warnings.begin(), merge_lines.begin(), merge_lines.end());
-    add_target_warning(report.statistics, target_error, tallies.size(), report.warnings);
+    add_target_warning(report.statistics, target_error, accumulators.size(), report.warnings);
     finish_light(prepared, volume, report);
     return {std::move(volume), std::move(report)};
 }
@@ -241,14 +243,14 @@ Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> 
     auto prepared = prepare_bake(scene, groups, settings);
     if (!prepared) return prepared.error();
     Stopwatch watch;
-    std::vector<ProbeTally> tallies(prepared->capture_positions.size());
+    std::vector<ProbeAccumulator> accumulators(prepared->capture_positions.size());
     const BakeSettings& with_plan = prepared->settings.bake;
-    std::vector<double> rows(SplitLayout(with_plan.plan).size() * tallies.size());
+    std::vector<double> rows(LightGroupLayout(with_plan.plan).size() * accumulators.size());
     const auto status =
-        bake_tallies(scene, prepared->capture_positions, with_plan, tallies, {.progress = callback},
-                     {rows, prepared->volume.occlusion_lights});
+        bake_accumulators(scene, prepared->capture_positions, with_plan, accumulators,
+                          {.progress = callback}, {rows, prepared->volume.occlusion_lights});
     if (!status) return status.error();
-    BakedVolume baked = finish_bake(std::move(*prepared), tallies, rows);
+    BakedVolume baked = finish_bake(std::move(*prepared), accumulators, rows);
     baked.report.bake_seconds = watch.lap();
     return baked;
 }

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_probes.h"
-#include "bake/bake_statistics.h"
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "pipeline/dering_probes.h"
-#include "pipeline/lighting_plan.h"
-#include "pipeline/override_probes.h"
-#include "pipeline/prepare_probes.h"
-#include "pipeline/reused_probes.h"
-#include "probes/build/merge.h"
-#include "probes/probe_group.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/bake/bake_statistics.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/pipeline/dering_probes.h>
+#include <tetralight/pipeline/lighting_plan.h>
+#include <tetralight/pipeline/override_probes.h>
+#include <tetralight/pipeline/prepare_probes.h>
+#include <tetralight/pipeline/reused_probes.h>
+#include <tetralight/probes/build/merge.h>
+#include <tetralight/probes/probe_group.h>
+#include <tetralight/probes/probe_volume.h>
 
 // The offline chain in one function:
 //
@@ -26,7 +26,7 @@
 //
 // and in its three steps, for bakes that are put aside, or shared by several machines:
 //
-//     prepare_bake → bake_tallies → finish_bake
+//     prepare_bake → bake_accumulators → finish_bake
 
 namespace tetralight {
 
@@ -95,10 +95,11 @@ struct PreparedBake {
                                                 const BakeVolumeSettings& settings);
 
 /// Puts the light of all probes into the volume. A function of the volume, `merged`, `is_invalid`,
-/// the settings, the tallies and the rows of what light was split into (`SplitRows`), and what is
-/// reused, alone. Precondition: one tally for each probe, and one row of `split_layout(volume)`;
-/// empty ones where light is reused.
-[[nodiscard]] BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeTally> tallies,
+/// the settings, the accumulators and the rows of what light was split into (`LightGroupRows`), and
+/// what is reused, alone. Precondition: one accumulator for each probe, and one row of
+/// `split_layout(volume)`; empty ones where light is reused.
+[[nodiscard]] BakedVolume finish_bake(PreparedBake prepared,
+                                      std::span<const ProbeAccumulator> accumulators,
                                       std::span<const double> split_rows = {});
 
 /// Bakes a scene's light at the probes of all `groups` and joins them in one volume. The scene's

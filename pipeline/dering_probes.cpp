@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/dering_probes.h"
+#include <tetralight/pipeline/dering_probes.h>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
 
 namespace tetralight {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "probes/build/merge.h"
-#include "probes/dering.h"
+#include <tetralight/probes/build/merge.h>
+#include <tetralight/probes/dering.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/dilate_probes.h"
+#include <tetralight/pipeline/dilate_probes.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
 
 namespace tetralight {
 namespace {

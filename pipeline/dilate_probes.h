@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "probes/probe_volume.h"
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/lighting_plan.h"
+#include <tetralight/pipeline/lighting_plan.h>
 
 #include <algorithm>
 #include <string_view>
 
-#include "bake/occlusion_channels.h"
-#include "bake/scene/surface_color.h"
-#include "base/assert.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include <tetralight/bake/occlusion_channels.h>
+#include <tetralight/bake/scene/surface_color.h>
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {
@@ -33,7 +33,7 @@ std::string listed(std::vector<std::string> names) {
     names.erase(std::ranges::unique(names).begin(), names.end());
     std::string list;
     for (const std::string& name : names) {
-        if (!name.empty()) list += text(list.empty() ? "" : ", ", "\"", name, "\"");
+        if (!name.empty()) list += str_cat(list.empty() ? "" : ", ", "\"", name, "\"");
     }
     return list.empty() ? "none" : list;
 }
@@ -63,7 +63,7 @@ class Planner {
             const bool fell_back = channels.fell_back[i];
             if (fell_back) {
                 plan_.lights[i].mode = LightMode::Baked;
-                plan_.warnings.push_back(text(
+                plan_.warnings.push_back(str_cat(
                     "light \"", scene_.light_names[i],
                     "\": all four occlusion channels are taken by lights around it; its direct "
                     "light is baked too (give lights a range, or make some of them baked)"));
@@ -86,12 +86,12 @@ class Planner {
             if (std::ranges::find(words, "sky") == words.end()) words.push_back("sky");
         }
         if (words.size() > kMaxLayers) {
-            return Error{text(words.size(), " layers are more than ", kMaxLayers)};
+            return Error{str_cat(words.size(), " layers are more than ", kMaxLayers)};
         }
         plan_.bake.layer_count = static_cast<uint32_t>(words.size());
         for (uint32_t i = 0; i < words.size(); ++i) {
             if (std::ranges::count(words, words[i]) > 1) {
-                return Error{text("layer \"", words[i], "\" is there twice")};
+                return Error{str_cat("layer \"", words[i], "\" is there twice")};
             }
             if (auto status = add_named(words[i], i); !status) return status;
         }
@@ -105,15 +105,16 @@ class Planner {
     Status add_named(const std::string& word, uint32_t layer) {
         if (word == "sun" || word == "sky" || word == "emission") return Ok{};
         if (const auto status = check_characters(word); !status) {
-            return status.error().in(text("layer \"", word, "\""));
+            return status.error().in(str_cat("layer \"", word, "\""));
         }
         const size_t colon = word.find(':');
         const std::string kind = word.substr(0, colon);
         const std::string name = colon == std::string::npos ? "" : word.substr(colon + 1);
         if (!name.empty() && kind == "light") return add_lights(name, layer);
         if (!name.empty() && kind == "material") return add_materials(name, layer);
-        return Error{text("layer \"", word,
-                          "\" is none of sun, sky, emission, transfer, light:NAME, material:NAME")};
+        return Error{
+            str_cat("layer \"", word,
+                    "\" is none of sun, sky, emission, transfer, light:NAME, material:NAME")};
     }
 
     Status add_lights(const std::string& name, uint32_t layer) {
@@ -122,15 +123,15 @@ class Planner {
             if (scene_.light_names[i] != name) continue;
             ++count;
             if (!is_shining(plan_.bake, scene_, i)) {
-                return Error{text("layer \"light:", name,
-                                  "\": the light is realtime, and nothing "
-                                  "of it is baked")};
+                return Error{str_cat("layer \"light:", name,
+                                     "\": the light is realtime, and nothing "
+                                     "of it is baked")};
             }
             plan_.bake.layer_of_light[i] = layer;
         }
         if (count > 0) return Ok{};
-        return Error{text("layer \"light:", name, "\": the scene has no such light; there is ",
-                          listed(scene_.light_names))};
+        return Error{str_cat("layer \"light:", name, "\": the scene has no such light; there is ",
+                             listed(scene_.light_names))};
     }
 
     Status add_materials(const std::string& name, uint32_t layer) {
@@ -144,10 +145,10 @@ class Planner {
             plan_.bake.layer_of_material[i] = layer;
         }
         if (count > 0) return Ok{};
-        return Error{text("layer \"material:", name,
-                          "\": the scene has no such material; those "
-                          "that shine are ",
-                          listed(shining))};
+        return Error{str_cat("layer \"material:", name,
+                             "\": the scene has no such material; those "
+                             "that shine are ",
+                             listed(shining))};
     }
 
     /// "sun", "sky" and "emission": what no name has taken.
@@ -197,9 +198,9 @@ class Planner {
             const std::string& name = plan_.layer_names[i];
             const bool waits_for_sky = name == "sky" && plan_.bake.has_transfer;
             if (has_light[i] || waits_for_sky) continue;
-            plan_.warnings.push_back(text("layer \"", name,
-                                          "\" is dark: nothing in the scene lights "
-                                          "it"));
+            plan_.warnings.push_back(str_cat("layer \"", name,
+                                             "\" is dark: nothing in the scene lights "
+                                             "it"));
         }
     }
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "bake/light_plan.h"
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "probes/mixed_lighting.h"
+#include <tetralight/bake/light_plan.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/probes/mixed_lighting.h>
 
 namespace tetralight {
 

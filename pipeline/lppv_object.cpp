@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/lppv_object.h"
+#include <tetralight/pipeline/lppv_object.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {

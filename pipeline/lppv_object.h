@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "lppv/lppv_grid.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/lppv/lppv_grid.h>
 
 namespace tetralight {
 

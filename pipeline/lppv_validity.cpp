@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/lppv_validity.h"
+#include <tetralight/pipeline/lppv_validity.h>
 
-#include "bake/survey.h"
+#include <tetralight/bake/probe_visibility.h>
 
 namespace tetralight {
 
@@ -16,11 +16,11 @@ Result<std::vector<float>> survey_grid(const Scene& scene, const LppvGrid& grid,
             }
         }
     }
-    const auto surveyed = survey(scene, positions, thread_count);
+    const auto surveyed = probe_visibility(scene, positions, thread_count);
     if (!surveyed) return surveyed.error();
     std::vector<float> validity;
     validity.reserve(surveyed->size());
-    for (const Surroundings& around : *surveyed) {
+    for (const ProbeVisibility& around : *surveyed) {
         validity.push_back(around.is_inside() ? 0.0f : 1.0f - around.back_face_share);
     }
     return validity;

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "lppv/lppv_grid.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/lppv/lppv_grid.h>
 
 namespace tetralight {
 
 /// What `LppvFill::validity` takes, for the scene's static geometry: 0 for grid points inside of
-/// it, as `Surroundings::is_inside` judges, else the share of directions without back faces.
+/// it, as `ProbeVisibility::is_inside` judges, else the share of directions without back faces.
 /// Error: not enough memory.
 [[nodiscard]] Result<std::vector<float>> survey_grid(const Scene& scene, const LppvGrid& grid,
                                                      uint32_t thread_count);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/merge_parts.h"
+#include <tetralight/pipeline/merge_parts.h>
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 
-#include "base/assert.h"
-#include "base/text.h"
-#include "pipeline/partial_bake.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/pipeline/partial_bake.h>
 
 namespace tetralight {
 namespace {
@@ -19,7 +19,7 @@ struct Piece {
 };
 
 std::string name(const ProbeRange& range) {
-    return text(range.begin, "..", range.end);
+    return str_cat(range.begin, "..", range.end);
 }
 
 /// Tells of the first probes that are in no part or in two. `pieces` are sorted.
@@ -29,32 +29,32 @@ Status check_cover(const std::vector<Piece>& pieces, uint32_t probe_count) {
         const ProbeRange& range = pieces[i].partial.range;
         if (range.begin < end) {
             const Piece& before = pieces[i - 1];
-            return Error{text(pieces[i].path, ": probes ", name(range), " overlap probes ",
-                              name(before.partial.range), " of ", before.path)};
+            return Error{str_cat(pieces[i].path, ": probes ", name(range), " overlap probes ",
+                                 name(before.partial.range), " of ", before.path)};
         }
         if (range.begin > end) {
-            return Error{text("probes ", name({end, range.begin}), " of ", probe_count,
-                              " are in none of the parts; the next, ", name(range), ", are in ",
-                              pieces[i].path)};
+            return Error{str_cat("probes ", name({end, range.begin}), " of ", probe_count,
+                                 " are in none of the parts; the next, ", name(range), ", are in ",
+                                 pieces[i].path)};
         }
         end = range.end;
     }
     if (end < probe_count) {
-        return Error{text("probes ", name({end, probe_count}), " of ", probe_count,
-                          " are in none of the parts; the last, ",
-                          name(pieces.back().partial.range), ", are in ", pieces.back().path)};
+        return Error{str_cat("probes ", name({end, probe_count}), " of ", probe_count,
+                             " are in none of the parts; the last, ",
+                             name(pieces.back().partial.range), ", are in ", pieces.back().path)};
     }
     return Ok{};
 }
 
 Status check_part(const PartFile& part, const PreparedBake& bake, const std::string& first_path) {
     if (part.prepared.key != bake.key) {
-        return Error{text(part.path, ": is of another bake than ", first_path,
-                          " (scene, groups, settings or program version differ)")};
+        return Error{str_cat(part.path, ": is of another bake than ", first_path,
+                             " (scene, groups, settings or program version differ)")};
     }
     if (!part.partial.is_finished) {
-        return Error{text(part.path, ": is not finished (", part.partial.begun_count(), " of ",
-                          part.partial.range.count(), " probes have light); --resume its bake")};
+        return Error{str_cat(part.path, ": is not finished (", part.partial.begun_count(), " of ",
+                             part.partial.range.count(), " probes have light); --resume its bake")};
     }
     return Ok{};
 }
@@ -79,15 +79,15 @@ Result<BakedVolume> merge_parts(const std::vector<std::string>& paths) {
     const auto probe_count = static_cast<uint32_t>(bake->volume.positions.size());
     if (auto status = check_cover(pieces, probe_count); !status) return status.error();
 
-    std::vector<ProbeTally> tallies;
+    std::vector<ProbeAccumulator> accumulators;
     std::vector<double> rows;
     for (const Piece& piece : pieces) {
-        const auto& some = piece.partial.tallies;
-        tallies.insert(tallies.end(), some.begin(), some.end());
+        const auto& some = piece.partial.accumulators;
+        accumulators.insert(accumulators.end(), some.begin(), some.end());
         const auto& some_rows = piece.partial.split_rows;
         rows.insert(rows.end(), some_rows.begin(), some_rows.end());
     }
-    return finish_bake(std::move(*bake), tallies, rows);
+    return finish_bake(std::move(*bake), accumulators, rows);
 }
 
 }  // namespace tetralight

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "pipeline/bake_volume.h"
+#include <tetralight/base/result.h>
+#include <tetralight/pipeline/bake_volume.h>
 
 namespace tetralight {
 

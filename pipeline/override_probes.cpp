@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/override_probes.h"
+#include <tetralight/pipeline/override_probes.h>
 
 #include <algorithm>
 

@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "bake/scene/probe_adjustment.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/scene/probe_adjustment.h>
+#include <tetralight/probes/probe_volume.h>
 
 // What adjustment volumes change of baked probes.
 

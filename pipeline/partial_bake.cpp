@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/partial_bake.h"
+#include <tetralight/pipeline/partial_bake.h>
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <span>
 #include <type_traits>
 
-#include "bake/round_plan.h"
-#include "base/assert.h"
-#include "base/text.h"
-#include "pipeline/split_light.h"
-#include "probes/is_finite.h"
+#include <tetralight/bake/round_plan.h>
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/pipeline/split_light.h>
+#include <tetralight/probes/is_finite.h>
 
 namespace tetralight {
 namespace {
@@ -79,43 +79,43 @@ BakeVolumeSettings settings_of(const PartInfo& info) {
     return settings;
 }
 
-/// Whether rounds of this plan can leave such a tally.
-bool is_possible(const ProbeTally& tally, const RoundPlan& plan) {
-    for (const glm::dvec3& c : tally.radiance_sum) {
+/// Whether rounds of this plan can leave such a accumulator.
+bool is_possible(const ProbeAccumulator& accumulator, const RoundPlan& plan) {
+    for (const glm::dvec3& c : accumulator.radiance_sum) {
         if (!is_finite(c)) return false;
     }
-    const uint64_t rounds = tally.round_count;
-    return std::isfinite(tally.variance_sum) && tally.variance_sum >= 0.0 &&
+    const uint64_t rounds = accumulator.round_count;
+    return std::isfinite(accumulator.variance_sum) && accumulator.variance_sum >= 0.0 &&
            (rounds == 0 || plan.directions_of(rounds - 1) > 0) &&
-           tally.direction_count == plan.directions_before(rounds) &&
-           tally.behind_count <= tally.direction_count;
+           accumulator.direction_count == plan.directions_before(rounds) &&
+           accumulator.behind_count <= accumulator.direction_count;
 }
 
 Status check_tallies(const PartFile& part) {
     const RoundPlan plan(part.prepared.settings.bake);
-    const auto& [range, tallies, is_finished, split_rows] = part.partial;
+    const auto& [range, accumulators, is_finished, split_rows] = part.partial;
     const size_t probe_count = part.prepared.volume.positions.size();
     if (range.begin > range.end || range.end > probe_count) {
-        return Error{text("probes ", range.begin, "..", range.end, " are out of range (there are ",
-                          probe_count, ")")};
+        return Error{str_cat("probes ", range.begin, "..", range.end,
+                             " are out of range (there are ", probe_count, ")")};
     }
-    if (tallies.size() != range.count()) {
-        return Error{text(tallies.size(), " tallies for ", range.count(), " probes")};
+    if (accumulators.size() != range.count()) {
+        return Error{str_cat(accumulators.size(), " tallies for ", range.count(), " probes")};
     }
     const size_t row_size = split_layout(part.prepared.volume.view()).size();
-    if (split_rows.size() != row_size * tallies.size()) {
-        return Error{text("section \"split_rows\": ", split_rows.size(), " numbers for ",
-                          tallies.size(), " probes of ", row_size)};
+    if (split_rows.size() != row_size * accumulators.size()) {
+        return Error{str_cat("section \"split_rows\": ", split_rows.size(), " numbers for ",
+                             accumulators.size(), " probes of ", row_size)};
     }
     for (size_t i = 0; i < split_rows.size(); ++i) {
         if (std::isfinite(split_rows[i])) continue;
-        return Error{text("what the light of probe ", range.begin + i / row_size,
-                          " is split into is not finite")};
+        return Error{str_cat("what the light of probe ", range.begin + i / row_size,
+                             " is split into is not finite")};
     }
-    for (size_t i = 0; i < tallies.size(); ++i) {
-        const bool has_light = tallies[i].round_count > 0 || !is_finished;
-        if (has_light && is_possible(tallies[i], plan)) continue;
-        return Error{text("the tally of probe ", range.begin + i, " is not in range")};
+    for (size_t i = 0; i < accumulators.size(); ++i) {
+        const bool has_light = accumulators[i].round_count > 0 || !is_finished;
+        if (has_light && is_possible(accumulators[i], plan)) continue;
+        return Error{str_cat("the tally of probe ", range.begin + i, " is not in range")};
     }
     return Ok{};
 }
@@ -123,14 +123,14 @@ Status check_tallies(const PartFile& part) {
 Status check_overrides(const PreparedBake& prepared) {
     const auto& overrides = prepared.overrides;
     if (!overrides.empty() && overrides.size() != prepared.volume.positions.size()) {
-        return Error{text("section \"overrides\": ", overrides.size(), " of ",
-                          prepared.volume.positions.size(), " probes")};
+        return Error{str_cat("section \"overrides\": ", overrides.size(), " of ",
+                             prepared.volume.positions.size(), " probes")};
     }
     for (size_t i = 0; i < overrides.size(); ++i) {
         const auto& [intensity, validity] = overrides[i];
         const bool is_validity = validity == -1.0f || (validity >= 0.0f && validity <= 1.0f);
         if (intensity >= 0.0f && std::isfinite(intensity) && is_validity) continue;
-        return Error{text("section \"overrides\": that of probe ", i, " is not in range")};
+        return Error{str_cat("section \"overrides\": that of probe ", i, " is not in range")};
     }
     return Ok{};
 }
@@ -146,7 +146,7 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
     PartFile part;
     part.path = path;
     part.partial.range = {info.begin, info.end};
-    part.partial.tallies = read_section<ProbeTally>(file, "tallies");
+    part.partial.accumulators = read_section<ProbeAccumulator>(file, "tallies");
     part.partial.split_rows = read_section<double>(file, "split_rows");
     part.partial.is_finished = info.is_finished != 0;
     part.prepared.key = info.key;
@@ -159,15 +159,15 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
     const auto dering = read_section<uint8_t>(file, "group_dering");
     part.prepared.merged = merged_probes(part.prepared.volume, dering);
     if (dering.size() != part.prepared.merged.group_names.size()) {
-        return Error{
-            text(dering.size(), " flags for ", part.prepared.merged.group_names.size(), " groups")};
+        return Error{str_cat(dering.size(), " flags for ", part.prepared.merged.group_names.size(),
+                             " groups")};
     }
     for (const uint8_t flag : read_section<uint8_t>(file, "is_invalid")) {
         part.prepared.is_invalid.push_back(flag != 0);
     }
     if (part.prepared.is_invalid.size() != part.prepared.volume.positions.size()) {
-        return Error{text("section \"is_invalid\": ", part.prepared.is_invalid.size(),
-                          " flags for ", part.prepared.volume.positions.size(), " probes")};
+        return Error{str_cat("section \"is_invalid\": ", part.prepared.is_invalid.size(),
+                             " flags for ", part.prepared.volume.positions.size(), " probes")};
     }
     part.prepared.overrides = read_section<ProbeOverride>(file, "overrides");
     if (auto status = check_overrides(part.prepared); !status) return status.error();
@@ -182,7 +182,8 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
 
 size_t PartialBake::begun_count() const {
     return static_cast<size_t>(std::ranges::count_if(
-        tallies, [](const ProbeTally& tally) { return tally.round_count > 0; }));
+        accumulators,
+        [](const ProbeAccumulator& accumulator) { return accumulator.round_count > 0; }));
 }
 
 bool is_part(const ProbeFile& file) noexcept {
@@ -191,8 +192,9 @@ bool is_part(const ProbeFile& file) noexcept {
 
 Status write_part(const std::string& path, const PreparedBake& prepared,
                   const PartialBake& partial) {
-    const auto& [range, tallies, is_finished, split_rows] = partial;
-    TETRALIGHT_ASSERT(tallies.size() == range.count(), "one tally for each probe of the range");
+    const auto& [range, accumulators, is_finished, split_rows] = partial;
+    TETRALIGHT_ASSERT(accumulators.size() == range.count(),
+                      "one tally for each probe of the range");
     const BakeSettings& settings = prepared.settings.bake;
     const PartInfo info{prepared.key,
                         range.begin,
@@ -215,7 +217,7 @@ Status write_part(const std::string& path, const PreparedBake& prepared,
         {"part", std::as_bytes(std::span(&info, 1)), sizeof info},
         {"group_dering", std::as_bytes(std::span(dering)), 1},
         {"is_invalid", std::as_bytes(std::span(invalid)), 1},
-        {"tallies", std::as_bytes(std::span(tallies)), sizeof(ProbeTally)},
+        {"tallies", std::as_bytes(std::span(accumulators)), sizeof(ProbeAccumulator)},
         {"split_rows", std::as_bytes(std::span(split_rows)), sizeof(double)},
     };
     if (!prepared.overrides.empty()) {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "bake/probe_tally.h"
-#include "base/result.h"
-#include "pipeline/bake_volume.h"
-#include "probes/probe_file.h"
+#include <tetralight/bake/probe_accumulator.h>
+#include <tetralight/base/result.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/probes/probe_file.h>
 
 // Bakes that are put aside, and ranges of bakes: a `.probes` file whose probes have no light yet,
 // with what their rounds found so far beside it (docs/file_format.md).
@@ -29,10 +29,10 @@ struct ProbeRange {
 struct PartialBake {
     ProbeRange range;
     /// One for each probe of the range.
-    std::vector<ProbeTally> tallies;
-    /// Nothing is left to do; with a time budget the tallies alone do not tell.
+    std::vector<ProbeAccumulator> accumulators;
+    /// Nothing is left to do; with a time budget the accumulators alone do not tell.
     bool is_finished = false;
-    /// A row for each tally, when light is split (`SplitRows`).
+    /// A row for each accumulator, when light is split (`LightGroupRows`).
     std::vector<double> split_rows{};
 
     /// Probes that have had a round.
@@ -57,8 +57,8 @@ struct PartFile {
 [[nodiscard]] Status write_part(const std::string& path, const PreparedBake& prepared,
                                 const PartialBake& partial);
 
-/// Reads a part and verifies all of it: what every `.probes` file has to hold, and that tallies
-/// are what rounds can leave. Errors name the path.
+/// Reads a part and verifies all of it: what every `.probes` file has to hold, and that
+/// accumulators are what rounds can leave. Errors name the path.
 [[nodiscard]] Result<PartFile> read_part(const std::string& path);
 
 }  // namespace tetralight

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/prepare_probes.h"
+#include <tetralight/pipeline/prepare_probes.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 
-#include "bake/capture_offset.h"
-#include "bake/parallel.h"
-#include "bake/scene/scene_bounds.h"
-#include "bake/survey.h"
-#include "bake/trace_scene.h"
-#include "base/text.h"
-#include "probes/build/group_spacing.h"
-#include "probes/build/leave_out.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/bake/virtual_offset.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/group_spacing.h>
+#include <tetralight/probes/build/leave_out.h>
 
 namespace tetralight {
 namespace {
@@ -40,7 +40,8 @@ struct Survey {
 
     void look() {
         parallel_for(health.size(), thread_count, [&](size_t i) {
-            const auto found = look_around(traced, traced.traced_from_world(merged.positions[i]));
+            const auto found =
+                probe_visibility_at(traced, traced.render_from_world(merged.positions[i]));
             health[i].surface_distance = found.surface_distance;
             is_inside[i] = found.is_inside(settings.min_validity);
         });
@@ -65,13 +66,13 @@ struct Survey {
         const std::vector<double> spacing = group_spacing(merged, inside);
         parallel_for(inside.size(), thread_count, [&](size_t i) {
             const double room = std::min(spacing[i], lone_reach);
-            const CaptureSearch search{static_cast<float>(settings.virtual_offset * room),
-                                       static_cast<float>(kMarginShare * room),
-                                       settings.min_validity};
-            const glm::vec3 position = traced.traced_from_world(merged.positions[inside[i]]);
-            const auto offset = find_capture_offset(traced, position, search);
+            const VirtualOffsetSearch search{static_cast<float>(settings.virtual_offset * room),
+                                             static_cast<float>(kMarginShare * room),
+                                             settings.min_validity};
+            const glm::vec3 position = traced.render_from_world(merged.positions[inside[i]]);
+            const auto offset = find_virtual_offset(traced, position, search);
             if (!offset) return;
-            health[inside[i]].capture_offset = *offset;
+            health[inside[i]].virtual_offset = *offset;
             is_inside[inside[i]] = 0;
         });
     }
@@ -101,8 +102,8 @@ std::vector<std::string> group_warnings(const MergedProbes& merged,
     std::vector<std::string> warnings;
     for (size_t g = 0; g < total.size(); ++g) {
         if (inside[g] == 0) continue;
-        warnings.push_back(text("group \"", merged.group_names[g], "\": ", inside[g], " of ",
-                                total[g], " probes lie inside geometry ", fate(policy)));
+        warnings.push_back(str_cat("group \"", merged.group_names[g], "\": ", inside[g], " of ",
+                                   total[g], " probes lie inside geometry ", fate(policy)));
     }
     return warnings;
 }
@@ -127,24 +128,24 @@ Result<PreparedProbes> prepare_probes(const Scene& scene, MergedProbes merged,
                                       const HealthSettings& settings, uint32_t thread_count) {
     const auto traced = TraceScene::make_static(scene);
     if (!traced) return traced.error();
-    Survey survey{*traced, merged, settings, thread_count};
-    survey.look();
-    survey.obey(scene.probe_adjustments);
-    if (settings.virtual_offset > 0.0) survey.move_out(scene_size(scene));
+    Survey probe_visibility{*traced, merged, settings, thread_count};
+    probe_visibility.look();
+    probe_visibility.obey(scene.probe_adjustments);
+    if (settings.virtual_offset > 0.0) probe_visibility.move_out(scene_size(scene));
 
     PreparedProbes prepared;
-    prepared.warnings = group_warnings(merged, survey.is_inside, settings.invalid);
+    prepared.warnings = group_warnings(merged, probe_visibility.is_inside, settings.invalid);
     std::vector<bool> is_left_out(merged.positions.size(), false);
     if (settings.invalid == InvalidProbes::LeaveOut) {
-        is_left_out.assign(survey.is_inside.begin(), survey.is_inside.end());
+        is_left_out.assign(probe_visibility.is_inside.begin(), probe_visibility.is_inside.end());
     }
-    prepared.health = kept(survey.health, is_left_out);
-    const std::vector<uint8_t> invalid = kept(survey.is_inside, is_left_out);
+    prepared.health = kept(probe_visibility.health, is_left_out);
+    const std::vector<uint8_t> invalid = kept(probe_visibility.is_inside, is_left_out);
     prepared.is_invalid.assign(invalid.begin(), invalid.end());
     prepared.left_out_count = merged.positions.size() - prepared.health.size();
     prepared.merged = leave_out(std::move(merged), is_left_out);
     for (size_t i = 0; i < prepared.health.size(); ++i) {
-        const glm::vec3 offset = prepared.health[i].capture_offset;
+        const glm::vec3 offset = prepared.health[i].virtual_offset;
         prepared.moved_count += offset != glm::vec3(0.0f);
         prepared.capture_positions.push_back(prepared.merged.positions[i] + glm::dvec3(offset));
     }

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "probes/build/merge.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/probes/build/merge.h>
+#include <tetralight/probes/probe_volume.h>
 
 // Before any light is baked: which probes lie in geometry, and what becomes of them.
 //
-//     merged → survey, adjustment volumes → in geometry? → find_capture_offset → out: baked there
+//     merged → survey, adjustment volumes → in geometry? → find_virtual_offset → out: baked there
 //                                            → still in: InvalidProbes
 
 namespace tetralight {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/probe_warnings.h"
+#include <tetralight/pipeline/probe_warnings.h>
 
 #include <algorithm>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -34,10 +34,10 @@ void add_dark_warnings(const MergedProbes& merged, std::span<const IrradianceSh>
     }
     for (size_t g = 0; g < dark.size(); ++g) {
         if (dark[g] == 0) continue;
-        warnings.push_back(text("group \"", merged.group_names[g], "\": ", dark[g], " of ",
-                                total[g],
-                                " probes receive no light at all (in closed hollows?); what they "
-                                "light will be black"));
+        warnings.push_back(
+            str_cat("group \"", merged.group_names[g], "\": ", dark[g], " of ", total[g],
+                    " probes receive no light at all (in closed hollows?); what they "
+                    "light will be black"));
     }
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "probes/build/merge.h"
-#include "probes/sh.h"
+#include <tetralight/probes/build/merge.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "bake/bake_progress.h"
-#include "base/result.h"
-#include "pipeline/partial_bake.h"
+#include <tetralight/bake/bake_progress.h>
+#include <tetralight/base/result.h>
+#include <tetralight/pipeline/partial_bake.h>
 
 namespace tetralight {
 
@@ -31,8 +31,8 @@ struct RangeBake {
 };
 
 /// Bakes the probes of a range to the end. When the callback cancels it, the error says "cancelled"
-/// and the bake is kept. Errors beside those of `bake_tallies`: the range is not within the volume;
-/// the kept file cannot be read, is of another bake, or of another range.
+/// and the bake is kept. Errors beside those of `bake_accumulators`: the range is not within the
+/// volume; the kept file cannot be read, is of another bake, or of another range.
 [[nodiscard]] Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared,
                                            ProbeRange range, const BakeKeeping& keeping,
                                            const BakeCallback& callback = {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/reuse_probes.h"
+#include <tetralight/pipeline/reuse_probes.h>
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "base/assert.h"
-#include "base/text.h"
-#include "probes/content_hash.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/content_hash.h>
 
 namespace tetralight {
 namespace {
@@ -43,12 +43,12 @@ std::string difference(const std::string& member, const Json& old, const Json& f
     if (member == "scene") return "it is of another scene, sky or sun";
     if (member == "adjustments") return "its adjustment volumes are others";
     if (member == "generator")
-        return text("it was made by ", old.dump(), ", not by ", fresh.dump());
-    if (member == "relit") return text("it was relit with ", old.dump());
+        return str_cat("it was made by ", old.dump(), ", not by ", fresh.dump());
+    if (member == "relit") return str_cat("it was relit with ", old.dump());
     const auto value = [](const Json& json) {
         return json.is_null() ? std::string("not set") : json.dump();
     };
-    return text("its ", member, " is ", value(old), ", that of this bake is ", value(fresh));
+    return str_cat("its ", member, " is ", value(old), ", that of this bake is ", value(fresh));
 }
 
 /// Both volumes say how they were made. Of dering each probe has its own record.
@@ -77,9 +77,9 @@ Status check_recipe(std::string_view old, std::string_view fresh) {
 std::string listed(const ProbeVolumeView& volume) {
     std::string names;
     for (const std::string_view name : split_names(volume.layer_names)) {
-        names += text(names.empty() ? "" : ", ", name);
+        names += str_cat(names.empty() ? "" : ", ", name);
     }
-    if (!volume.sky.empty()) names += text(names.empty() ? "" : ", ", "transfer");
+    if (!volume.sky.empty()) names += str_cat(names.empty() ? "" : ", ", "transfer");
     return names.empty() ? "none" : names;
 }
 
@@ -87,7 +87,7 @@ Status check_same_bake(const ProbeVolumeView& old, const ProbeVolumeView& fresh)
     if (auto status = check_arrays(old); !status) return status;
     if (auto status = check_recipe(old.metadata, fresh.metadata); !status) return status;
     if (listed(old) == listed(fresh)) return Ok{};
-    return Error{text("its layers are ", listed(old), ", those of this bake ", listed(fresh))};
+    return Error{str_cat("its layers are ", listed(old), ", those of this bake ", listed(fresh))};
 }
 
 /// One a probe: it is dilated, or lies in a cell with one that is.
@@ -109,7 +109,7 @@ std::vector<bool> near_dilated(const PreparedBake& prepared) {
 
 /// Where a probe of a volume gathered its light.
 glm::dvec3 capture_position(const ProbeVolumeView& volume, uint32_t probe) {
-    return volume.exact_positions[probe] + glm::dvec3(volume.health[probe].capture_offset);
+    return volume.exact_positions[probe] + glm::dvec3(volume.health[probe].virtual_offset);
 }
 
 std::vector<uint32_t> find_taken(const ProbeVolumeView& old, const PreparedBake& prepared) {
@@ -157,16 +157,16 @@ PreparedBake bake_of_others(const PreparedBake& prepared) {
 
 PartialBake spread_others(const PreparedBake& prepared, const PartialBake& others) {
     const auto count = static_cast<uint32_t>(prepared.capture_positions.size());
-    const size_t row_size = SplitLayout(prepared.settings.bake.plan).size();
+    const size_t row_size = LightGroupLayout(prepared.settings.bake.plan).size();
     PartialBake all{{0, count},
-                    std::vector<ProbeTally>(count),
+                    std::vector<ProbeAccumulator>(count),
                     others.is_finished,
                     std::vector<double>(count * row_size)};
     size_t next = 0;
     for (size_t i = 0; i < count; ++i) {
         if (prepared.reused.is_taken(i)) continue;
-        TETRALIGHT_ASSERT(next < others.tallies.size(), "one tally for each of the others");
-        all.tallies[i] = others.tallies[next];
+        TETRALIGHT_ASSERT(next < others.accumulators.size(), "one tally for each of the others");
+        all.accumulators[i] = others.accumulators[next];
         std::ranges::copy(std::span(others.split_rows).subspan(next * row_size, row_size),
                           all.split_rows.begin() + static_cast<ptrdiff_t>(i * row_size));
         ++next;

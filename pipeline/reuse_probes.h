@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/result.h"
-#include "pipeline/bake_volume.h"
-#include "pipeline/partial_bake.h"
+#include <tetralight/base/result.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/pipeline/partial_bake.h>
 
 // Bakes only what changed: probes that stayed where they were take the light that an earlier bake
 // found for them. The volume has the bytes of a bake of all probes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/sparse_blocks.h"
+#include <tetralight/pipeline/sparse_blocks.h>
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "bake/scene/scene_bounds.h"
+#include <tetralight/bake/scene/scene_bounds.h>
 
 namespace tetralight {
 namespace {

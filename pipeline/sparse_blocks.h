@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "lppv/sparse_lppv.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/lppv/sparse_lppv.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/split_light.h"
+#include <tetralight/pipeline/split_light.h>
 
 #include <algorithm>
 
-#include "base/assert.h"
-#include "probes/compact_probes.h"
-#include "probes/recombine.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/recombine.h>
 
 namespace tetralight {
 namespace {
@@ -30,7 +30,7 @@ IrradianceSh irradiance_from_row(std::span<const double> row, double direction_c
 ProbeTransfer transfer_from_row(std::span<const double> row, double direction_count) {
     ProbeTransfer transfer;
     const double* direct = row.data();
-    const double* bounced = direct + SplitLayout::kDirect;
+    const double* bounced = direct + LightGroupLayout::kDirect;
     for (int i = 0; i < kShCoefficientCount; ++i) {
         const double factor = cosine_factor(i) / direction_count;
         for (int j = 0; j < kDistantCoefficientCount; ++j) {
@@ -60,29 +60,29 @@ std::span<IrradianceSh> layer_light(ProbeVolume& volume, size_t layer) {
 
 }  // namespace
 
-SplitLayout split_layout(const ProbeVolumeView& volume) noexcept {
-    SplitLayout layout;
+LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept {
+    LightGroupLayout layout;
     layout.layer_count = static_cast<uint32_t>(volume.layers.size()) - (has_rest(volume) ? 1 : 0);
     layout.has_transfer = !volume.sky.empty();
     layout.has_occlusion = !volume.occlusion_lights.empty();
     return layout;
 }
 
-void store_split(std::span<const ProbeTally> tallies, std::span<const double> rows,
+void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const double> rows,
                  ProbeVolume& volume) {
-    const SplitLayout layout = split_layout(volume.view());
-    TETRALIGHT_ASSERT(rows.size() == layout.size() * tallies.size(), "one row a probe");
-    volume.layer_irradiance.resize(volume.layers.size() * tallies.size());
-    if (layout.has_transfer) volume.transfer.resize(tallies.size());
-    if (layout.has_occlusion) volume.occlusion.resize(tallies.size());
-    for (size_t i = 0; i < tallies.size(); ++i) {
+    const LightGroupLayout layout = split_layout(volume.view());
+    TETRALIGHT_ASSERT(rows.size() == layout.size() * accumulators.size(), "one row a probe");
+    volume.layer_irradiance.resize(volume.layers.size() * accumulators.size());
+    if (layout.has_transfer) volume.transfer.resize(accumulators.size());
+    if (layout.has_occlusion) volume.occlusion.resize(accumulators.size());
+    for (size_t i = 0; i < accumulators.size(); ++i) {
         const auto row = rows.subspan(i * layout.size(), layout.size());
         // A probe without directions has no light, and zeros for it.
         const auto directions =
-            static_cast<double>(std::max<uint64_t>(tallies[i].direction_count, 1));
+            static_cast<double>(std::max<uint64_t>(accumulators[i].direction_count, 1));
         for (uint32_t layer = 0; layer < layout.layer_count; ++layer) {
             layer_light(volume, layer)[i] =
-                irradiance_from_row(row.subspan(layer * SplitLayout::kLayer), directions);
+                irradiance_from_row(row.subspan(layer * LightGroupLayout::kLayer), directions);
         }
         if (layout.has_transfer) {
             volume.transfer[i] = transfer_from_row(row.subspan(layout.direct_begin()), directions);

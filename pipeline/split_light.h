@@ -3,11 +3,11 @@
 
 #include <span>
 
-#include "bake/light_plan.h"
-#include "bake/probe_tally.h"
-#include "pipeline/dering_probes.h"
-#include "probes/build/merge.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/light_plan.h>
+#include <tetralight/bake/probe_accumulator.h>
+#include <tetralight/pipeline/dering_probes.h>
+#include <tetralight/probes/build/merge.h>
+#include <tetralight/probes/probe_volume.h>
 
 // From what a bake split light into to the layers, transfer and occlusion of a volume.
 
@@ -15,11 +15,11 @@ namespace tetralight {
 
 /// The parts that a volume without light asks for: its layers but for "rest", a transfer where it
 /// has a sky, occlusion where it has lights of it.
-[[nodiscard]] SplitLayout split_layout(const ProbeVolumeView& volume) noexcept;
+[[nodiscard]] LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept;
 
-/// Fills layers (but for "rest"), transfer and occlusion from `rows`, one a tally. Precondition:
-/// rows of `split_layout(volume)`.
-void store_split(std::span<const ProbeTally> tallies, std::span<const double> rows,
+/// Fills layers (but for "rest"), transfer and occlusion from `rows`, one a accumulator.
+/// Precondition: rows of `split_layout(volume)`.
+void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const double> rows,
                  ProbeVolume& volume);
 
 /// Fills "rest", where there is one, with what the other layers leave of the light: their sum with

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/take_reused.h"
+#include <tetralight/pipeline/take_reused.h>
 
 #include <span>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bake/bake_probes.h"
-#include "pipeline/reused_probes.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/pipeline/reused_probes.h>
 
 namespace tetralight {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/write_lppv.h"
+#include <tetralight/pipeline/write_lppv.h>
 
 #include <cctype>
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <vector>
 
-#include "bake/image/texture_3d.h"
-#include "bake/image/write_layered_exr.h"
-#include "base/text.h"
-#include "probes/compact_probes.h"
+#include <tetralight/bake/image/texture_3d.h>
+#include <tetralight/bake/image/write_layered_exr.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/compact_probes.h>
 #ifdef TETRALIGHT_HAS_OPENVDB
-#include "lppv/vdb/write_vdb.h"
+#include <tetralight/lppv/vdb/write_vdb.h>
 #endif
 
 namespace tetralight {
@@ -45,7 +45,7 @@ LayeredImage layered_image(const Lppv& lppv, const Slices& slices) {
     LayeredImage image{size.x * size.z, size.y, {}, {}};
     for (size_t k = 0; k < kShCoefficientCount; ++k) {
         for (int c = 0; c < 3; ++c) {
-            image.channels.push_back({text("sh", k, ".", "RGB"[c]),
+            image.channels.push_back({str_cat("sh", k, ".", "RGB"[c]),
                                       &slices.irradiance[0].coefficients[k][c],
                                       sizeof(IrradianceSh)});
         }
@@ -53,14 +53,14 @@ LayeredImage layered_image(const Lppv& lppv, const Slices& slices) {
     image.channels.push_back({"validity.V", slices.validity.data(), sizeof(float)});
     for (int c = 0; c < 4 && !slices.occlusion.empty(); ++c) {
         image.channels.push_back(
-            {text("occlusion.", "RGBA"[c]), &slices.occlusion[0][c], sizeof(glm::vec4)});
+            {str_cat("occlusion.", "RGBA"[c]), &slices.occlusion[0][c], sizeof(glm::vec4)});
     }
     image.attributes = {
         {"sh:basis", "real orthonormal, all-positive polynomials, index l(l+1)+m"},
         {"sh:quantity", "irradiance, not divided by pi; linear Rec.709 RGB"},
         {"sh:axes", "right-handed, Y up, metres (glTF)"},
-        {"lppv:slices", text(size.z, " slices of ", size.x, " x ", size.y,
-                             " points side by side, z grows to the right, y downwards")}};
+        {"lppv:slices", str_cat(size.z, " slices of ", size.x, " x ", size.y,
+                                " points side by side, z grows to the right, y downwards")}};
     return image;
 }
 
@@ -90,7 +90,7 @@ Status write_voxels(const std::string& path, [[maybe_unused]] const Lppv& lppv,
 
 std::string json_array(const float* values, size_t count) {
     std::string json = "[";
-    for (size_t i = 0; i < count; ++i) json += text(i == 0 ? "" : ",", values[i]);
+    for (size_t i = 0; i < count; ++i) json += str_cat(i == 0 ? "" : ",", values[i]);
     return json + "]";
 }
 
@@ -136,12 +136,12 @@ float largest_value(const Lppv& lppv, const LppvFileSettings& settings) {
 std::string lppv_constants_json(const Lppv& lppv, LppvLayout layout) {
     const LppvConstants c = make_lppv_constants(lppv, layout);
     const auto vector = [](const glm::vec4& v) { return json_array(&v[0], 4); };
-    return text("{\"layout\":\"", layout == LppvLayout::FourSlabs ? "four slabs" : "seven slabs",
-                "\",\"local_from_world\":", json_array(glm::value_ptr(c.local_from_world), 16),
-                ",\"params\":", vector(c.params), ",\"low\":", vector(c.low),
-                ",\"size_inverse\":", vector(c.size_inverse), ",\"shb_r\":", vector(c.shb_r),
-                ",\"shb_g\":", vector(c.shb_g), ",\"shb_b\":", vector(c.shb_b),
-                ",\"shc\":", vector(c.shc), "}");
+    return str_cat("{\"layout\":\"", layout == LppvLayout::FourSlabs ? "four slabs" : "seven slabs",
+                   "\",\"local_from_world\":", json_array(glm::value_ptr(c.local_from_world), 16),
+                   ",\"params\":", vector(c.params), ",\"low\":", vector(c.low),
+                   ",\"size_inverse\":", vector(c.size_inverse), ",\"shb_r\":", vector(c.shb_r),
+                   ",\"shb_g\":", vector(c.shb_g), ",\"shb_b\":", vector(c.shb_b),
+                   ",\"shc\":", vector(c.shc), "}");
 }
 
 }  // namespace tetralight

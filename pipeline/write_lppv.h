@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "base/result.h"
-#include "lppv/lppv_texture.h"
+#include <tetralight/base/result.h>
+#include <tetralight/lppv/lppv_texture.h>
 
 namespace tetralight {
 

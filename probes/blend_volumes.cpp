@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/blend_volumes.h"
+#include <tetralight/probes/blend_volumes.h>
 
 #include <algorithm>
 
-#include "base/text.h"
-#include "probes/compact_probes.h"
-#include "probes/recombine.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/recombine.h>
 
 namespace tetralight {
 namespace {
 
 Status check_positions(const ProbeVolumeView& a, const ProbeVolumeView& b) {
     if (a.positions.size() != b.positions.size()) {
-        return Error{
-            text("the volumes have ", a.positions.size(), " and ", b.positions.size(), " probes")};
+        return Error{str_cat("the volumes have ", a.positions.size(), " and ", b.positions.size(),
+                             " probes")};
     }
     for (size_t i = 0; i < a.positions.size(); ++i) {
         if (a.positions[i] == b.positions[i] && a.info.world_origin == b.info.world_origin) {
             continue;
         }
-        return Error{text("probe ", i, " is not at the same position in both volumes")};
+        return Error{str_cat("probe ", i, " is not at the same position in both volumes")};
     }
     if (!std::ranges::equal(a.cells, b.cells)) return Error{"the volumes have different cells"};
     if (a.irradiance.empty() != b.irradiance.empty()) {
@@ -76,9 +76,9 @@ Result<std::vector<uint32_t>> add_lights(const std::vector<Share>& of_b,
             is_taken[i] = true;
         } else if (has_channel(share) && has_channels) {
             return Error{
-                text("light \"", share.name,
-                     "\" has occlusion, and the other volume has that of other lights, or in "
-                     "another mixed-lighting mode")};
+                str_cat("light \"", share.name,
+                        "\" has occlusion, and the other volume has that of other lights, or in "
+                        "another mixed-lighting mode")};
         } else {
             lights.push_back(share);
         }
@@ -139,7 +139,7 @@ void blend_occlusion(const ProbeVolumeView& a, const ProbeVolumeView& b, float t
 }  // namespace
 
 Result<ProbeVolume> blend(const ProbeVolumeView& a, const ProbeVolumeView& b, float t) {
-    if (!(t >= 0.0f && t <= 1.0f)) return Error{text("a blend of ", t, " is not in [0, 1]")};
+    if (!(t >= 0.0f && t <= 1.0f)) return Error{str_cat("a blend of ", t, " is not in [0, 1]")};
     if (auto status = check_positions(a, b); !status) return status.error();
     std::vector<Share> lights = lights_of(a, 1.0f - t);
     const auto places = add_lights(lights_of(b, t), lights);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/compact_probes.h"
+#include <tetralight/probes/compact_probes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/content_hash.h"
+#include <tetralight/probes/content_hash.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

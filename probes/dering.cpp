@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/dering.h"
+#include <tetralight/probes/dering.h>
 
-#include "probes/detail/sh_polynomials.h"
-#include "probes/sh_minimum.h"
+#include <tetralight/probes/detail/sh_polynomials.h>
+#include <tetralight/probes/sh_minimum.h>
 
 namespace tetralight {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 // Three bands cannot hold a small bright light: the irradiance that they give rings around the true
 // one, and is negative on the far side, by 4 % of its peak for a single distant light. A window

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/distant_light.h"
+#include <tetralight/probes/distant_light.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/hilbert.h"
+#include <tetralight/probes/hilbert.h>
 
 #include <algorithm>
 #include <utility>

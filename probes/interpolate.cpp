@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/interpolate.h"
+#include <tetralight/probes/interpolate.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
-#include "base/assert.h"
-#include "base/text.h"
-#include "probes/detail/batch_queries.h"
-#include "probes/detail/blend_probes.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/detail/batch_queries.h>
+#include <tetralight/probes/detail/blend_probes.h>
 
 namespace tetralight {
 namespace {
@@ -35,11 +35,11 @@ Status check_outputs(const InterpolationBatch& batch, size_t count) {
 
 Status check_outside(const OutsideHull& outside) {
     if (outside.policy > OutsidePolicy::Ambient) {
-        return Error{text("outside has policy ", static_cast<uint32_t>(outside.policy))};
+        return Error{str_cat("outside has policy ", static_cast<uint32_t>(outside.policy))};
     }
     const bool is_length = std::isfinite(outside.fade_distance) && outside.fade_distance > 0.0f;
     if (outside.policy != OutsidePolicy::Ambient || is_length) return Ok{};
-    return Error{text("fade_distance is ", outside.fade_distance, ", not a length")};
+    return Error{str_cat("fade_distance is ", outside.fade_distance, ", not a length")};
 }
 
 }  // namespace

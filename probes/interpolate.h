@@ -6,10 +6,10 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-#include "base/result.h"
-#include "probes/locate.h"
-#include "probes/probe_volume.h"
-#include "probes/query_output.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/probe_volume.h>
+#include <tetralight/probes/query_output.h>
 
 // What light arrives at a position, for one object or a million instances in one call.
 //

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/light.h"
+#include <tetralight/probes/light.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/live_light.h"
+#include <tetralight/probes/live_light.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "probes/compact_probes.h"
-#include "probes/recombine.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/recombine.h>
 
 namespace tetralight {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "base/result.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_volume.h>
 
 // A volume whose light changes while others read it: one thread recombines layers, some probes a
 // frame, and any number of threads query what was finished last.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/locate.h"
+#include <tetralight/probes/locate.h>
 
 #include <cmath>
 
-#include "base/assert.h"
-#include "probes/detail/closest_hull_point.h"
-#include "probes/detail/walk.h"
-#include "probes/is_finite.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/probes/detail/closest_hull_point.h>
+#include <tetralight/probes/detail/walk.h>
+#include <tetralight/probes/is_finite.h>
 
 namespace tetralight {
 namespace {}  // namespace

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "probes/light.h"
-#include "probes/no_index.h"
+#include <tetralight/probes/light.h>
+#include <tetralight/probes/no_index.h>
 
 // How baked and real-time light share the lights of a scene, so that each term counts exactly once.
 // docs/mixed_lighting.md has the table of what is baked and what is added at run time.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/morton_order.h"
-#include "probes/is_finite.h"
+#include <tetralight/probes/is_finite.h>
+#include <tetralight/probes/morton_order.h>
 
 #include <algorithm>
 #include <array>

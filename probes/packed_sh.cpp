@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/packed_sh.h"
+#include <tetralight/probes/packed_sh.h>
 
 #include <array>
 #include <glm/geometric.hpp>

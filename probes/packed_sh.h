@@ -5,7 +5,7 @@
 #include <glm/vec4.hpp>
 #include <type_traits>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 

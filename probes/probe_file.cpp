@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/probe_file.h"
+#include <tetralight/probes/probe_file.h>
 
 #include <cstring>
 #include <string_view>
 #include <utility>
 
-#include "base/shown_path.h"
-#include "base/text.h"
-#include "probes/detail/probe_file_layout.h"
+#include <tetralight/base/shown_path.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/detail/probe_file_layout.h>
 
 namespace tetralight {
 namespace {
@@ -74,10 +74,12 @@ template <class T>
 Status read_section(const SectionEntry& entry, std::span<const std::byte> bytes,
                     std::span<const T>& out) {
     if (entry.element_size != sizeof(T)) {
-        return Error{text("elements have ", entry.element_size, " bytes instead of ", sizeof(T))};
+        return Error{
+            str_cat("elements have ", entry.element_size, " bytes instead of ", sizeof(T))};
     }
     if (entry.element_count >= kNoIndex) {
-        return Error{text(entry.element_count, " elements are more than 32-bit indices can name")};
+        return Error{
+            str_cat(entry.element_count, " elements are more than 32-bit indices can name")};
     }
     out = {reinterpret_cast<const T*>(bytes.data()), entry.element_count};
     return Ok{};
@@ -86,7 +88,7 @@ Status read_section(const SectionEntry& entry, std::span<const std::byte> bytes,
 Status read_info(const SectionEntry& entry, std::span<const std::byte> bytes, VolumeInfo& info) {
     std::span<const VolumeInfo> one;
     if (auto status = read_section(entry, bytes, one); !status) return status;
-    if (one.size() != 1) return Error{text(one.size(), " elements instead of 1")};
+    if (one.size() != 1) return Error{str_cat(one.size(), " elements instead of 1")};
     info = one[0];
     return Ok{};
 }

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/file.h"
-#include "base/result.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_volume.h>
 
 // The `.probes` file: little-endian, 64-byte aligned sections with an xxh3 checksum each, mapped
 // and used in place. docs/file_format.md has the layout byte by byte.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/probe_volume.h"
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 namespace {

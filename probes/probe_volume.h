@@ -12,14 +12,14 @@
 #include <type_traits>
 #include <vector>
 
-#include "probes/distant_light.h"
-#include "probes/hilbert.h"
-#include "probes/layer.h"
-#include "probes/light.h"
-#include "probes/mixed_lighting.h"
-#include "probes/no_index.h"
-#include "probes/sh.h"
-#include "probes/transfer.h"
+#include <tetralight/probes/distant_light.h>
+#include <tetralight/probes/hilbert.h>
+#include <tetralight/probes/layer.h>
+#include <tetralight/probes/light.h>
+#include <tetralight/probes/mixed_lighting.h>
+#include <tetralight/probes/no_index.h>
+#include <tetralight/probes/sh.h>
+#include <tetralight/probes/transfer.h>
 
 // The probe volume: baked probes joined by one Delaunay tetrahedralization, whose tetrahedra and
 // hull cells together fill space. ProbeVolume owns, ProbeVolumeView is what queries read: of a
@@ -115,7 +115,7 @@ struct ProbeHealth {
     /// To the nearest surface, metres; infinite: there is none.
     float surface_distance = std::numeric_limits<float>::infinity();
     /// From the probe to where its light was gathered: out of what it lies in.
-    glm::vec3 capture_offset{0.0f};
+    glm::vec3 virtual_offset{0.0f};
     /// Not zero: its light is that of the healthy probes around it.
     uint32_t is_dilated = 0;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/query_output.h"
+#include <tetralight/probes/query_output.h>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 
@@ -52,7 +52,7 @@ Status check_strides(const char* name, const StridedOutput& output, size_t count
                      size_t answer_count) {
     const auto address = reinterpret_cast<uintptr_t>(output.memory.data());
     if ((address | output.answer_stride | output.value_stride) % size != 0) {
-        return Error{text(name, " does not lie at multiples of ", size, " bytes")};
+        return Error{str_cat(name, " does not lie at multiples of ", size, " bytes")};
     }
     if (answer_count <= 1) return Ok{};
     const size_t answer = (count - 1) * output.value_stride + size;
@@ -60,14 +60,14 @@ Status check_strides(const char* name, const StridedOutput& output, size_t count
     const bool is_apart = output.value_stride >= size && output.answer_stride >= size &&
                           (output.answer_stride >= answer || output.value_stride >= array);
     if (is_apart) return Ok{};
-    return Error{text(name, " has a stride of ", output.answer_stride, " bytes, and answers of ",
-                      count * size)};
+    return Error{str_cat(name, " has a stride of ", output.answer_stride, " bytes, and answers of ",
+                         count * size)};
 }
 
 Status check_length(const char* name, size_t length, size_t needed) {
     if (length >= needed) return Ok{};
     return Error{
-        text(name, " has room for ", length, " answers, but there are ", needed, " positions")};
+        str_cat(name, " has room for ", length, " answers, but there are ", needed, " positions")};
 }
 
 }  // namespace tetralight

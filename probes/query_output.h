@@ -6,9 +6,9 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-#include "base/result.h"
-#include "probes/packed_sh.h"
-#include "probes/sh.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/packed_sh.h>
+#include <tetralight/probes/sh.h>
 
 // Where a batch of queries writes. The memory is the caller's and may be part of an instance buffer
 // with other things between the answers:

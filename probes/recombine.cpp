@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/recombine.h"
+#include <tetralight/probes/recombine.h>
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "base/text.h"
-#include "probes/compact_probes.h"
-#include "probes/detail/recombine_kernel.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/detail/recombine_kernel.h>
 
 namespace tetralight {
 namespace {
@@ -23,17 +23,17 @@ constexpr size_t kBlockSize = 32;
 std::string listed(const ProbeVolumeView& volume) {
     std::string names;
     for (const std::string_view name : split_names(volume.layer_names)) {
-        names += text(names.empty() ? "" : ", ", "\"", name, "\"");
+        names += str_cat(names.empty() ? "" : ", ", "\"", name, "\"");
     }
     return names.empty() ? "it holds no layers" : "it holds " + names;
 }
 
 Status check_weight(std::string_view name, float weight) {
     if (std::isfinite(weight) && weight >= 0.0f) return Ok{};
-    return Error{text("layer \"", name, "\": weight ", weight, " is ",
-                      std::isnan(weight) ? "no number"
-                      : weight < 0.0f    ? "negative"
-                                         : "not finite")};
+    return Error{str_cat("layer \"", name, "\": weight ", weight, " is ",
+                         std::isnan(weight) ? "no number"
+                         : weight < 0.0f    ? "negative"
+                                            : "not finite")};
 }
 
 /// Whether a name is that of a layer, or what is behind its colon.
@@ -51,8 +51,8 @@ Result<size_t> find_named(const ProbeVolumeView& volume, std::string_view name) 
     if (count == 1) {
         return static_cast<size_t>(std::ranges::find_if(names, is_meant) - names.begin());
     }
-    return Error{text(count == 0 ? "there is no layer \"" : "there are several layers \"", name,
-                      "\"; ", listed(volume))};
+    return Error{str_cat(count == 0 ? "there is no layer \"" : "there are several layers \"", name,
+                         "\"; ", listed(volume))};
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
         if (auto status = check_weight(change.name, change.weight); !status) return status.error();
         if (*layer >= weights.size()) continue;
         if (is_changed[*layer]) {
-            return Error{text("layer \"", change.name, "\" is given two weights")};
+            return Error{str_cat("layer \"", change.name, "\" is given two weights")};
         }
         is_changed[*layer] = true;
         weights[*layer] = change.weight;
@@ -100,12 +100,12 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
         return Error{"the volume holds no layers (bake it with --layers to change its light)"};
     }
     if (volume.layer_irradiance.size() != layer_count * volume.positions.size()) {
-        return Error{text("section \"layer_irradiance\": ", volume.layer_irradiance.size(),
-                          " elements for ", layer_count, " layers of ", volume.positions.size(),
-                          " probes")};
+        return Error{str_cat("section \"layer_irradiance\": ", volume.layer_irradiance.size(),
+                             " elements for ", layer_count, " layers of ", volume.positions.size(),
+                             " probes")};
     }
     if (weights.size() != layer_count) {
-        return Error{text(weights.size(), " weights for ", layer_count, " layers")};
+        return Error{str_cat(weights.size(), " weights for ", layer_count, " layers")};
     }
     const auto names = split_names(volume.layer_names);
     RecombinedInfo info;
@@ -122,8 +122,8 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
     }
     if (!(bound < 1e37)) {
         const size_t k = brightest.second;
-        return Error{text("layer \"", k < names.size() ? names[k] : "", "\": weight ", weights[k],
-                          " makes its light too bright to be finite")};
+        return Error{str_cat("layer \"", k < names.size() ? names[k] : "", "\": weight ",
+                             weights[k], " makes its light too bright to be finite")};
     }
     info.compact_scale = compact_scale(static_cast<float>(bound));
     return info;

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_volume.h>
 
 // Light that can change after the bake. A volume with layers keeps the light of each (the sun, the
 // sky, a lamp, a material); what queries read is their weighted sum, written anew in place:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/relight.h"
+#include <tetralight/probes/relight.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "base/text.h"
-#include "probes/compact_probes.h"
-#include "probes/dering.h"
-#include "probes/is_finite.h"
-#include "probes/recombine.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/dering.h>
+#include <tetralight/probes/is_finite.h>
+#include <tetralight/probes/recombine.h>
 
 namespace tetralight {
 namespace {
@@ -20,7 +20,7 @@ Status check_transfer(const ProbeVolumeView& volume, const char* layer) {
             "transfer)"};
     }
     if (find_layer(volume, layer) != kNoIndex) return Ok{};
-    return Error{text("the volume holds no layer \"", layer, "\" to relight")};
+    return Error{str_cat("the volume holds no layer \"", layer, "\" to relight")};
 }
 
 /// Fills a layer with `light_of(probe)`, without ringing where that was asked for.
@@ -75,7 +75,7 @@ Result<uint32_t> movable_sun(const ProbeVolumeView& volume) {
         ++count;
     }
     if (count == 1) return sun;
-    return Error{text("layer \"sun\" holds ", count, " suns; only one alone can be moved")};
+    return Error{str_cat("layer \"sun\" holds ", count, " suns; only one alone can be moved")};
 }
 
 Status relight_sun(ProbeVolume& volume, glm::vec3 direction, glm::vec3 irradiance) {

@@ -4,8 +4,8 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "base/result.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_volume.h>
 
 // Another sky, a turned sky or a moved sun without another bake: volumes that were baked with
 // layers "sky" and "transfer" hold how each probe answers to distant light (probes/transfer.h).

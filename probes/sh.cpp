@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "base/assert.h"
-#include "probes/detail/sh_polynomials.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/probes/detail/sh_polynomials.h>
 
 namespace tetralight {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/sh_minimum.h"
+#include <tetralight/probes/sh_minimum.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "probes/detail/sh_polynomials.h"
-#include "probes/detail/symmetric_eigen.h"
+#include <tetralight/probes/detail/sh_polynomials.h>
+#include <tetralight/probes/detail/symmetric_eigen.h>
 
 namespace tetralight {
 namespace {

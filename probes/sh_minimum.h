@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/transfer.h"
+#include <tetralight/probes/transfer.h>
 
 namespace tetralight {
 namespace {

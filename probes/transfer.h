@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <type_traits>
 
-#include "probes/distant_light.h"
-#include "probes/sh.h"
+#include <tetralight/probes/distant_light.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 

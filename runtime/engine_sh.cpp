@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/engine_sh.h"
+#include <tetralight/runtime/engine_sh.h>
 
 #include <glm/mat3x3.hpp>
 #include <numbers>

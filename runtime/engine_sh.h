@@ -4,7 +4,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 // Light, positions and directions as engines have them. docs/embed.md has the table, and the
 // formula by which each engine evaluates these numbers.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/pack_instances.h"
+#include <tetralight/runtime/pack_instances.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {

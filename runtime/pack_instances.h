@@ -5,8 +5,8 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-#include "base/result.h"
-#include "probes/interpolate.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/interpolate.h>
 
 // Probe light as instancing renderers upload it: for N instances either seven arrays of float4, one
 // for each shader variable (what Unity's MaterialPropertyBlock.CopySHCoefficientArraysFrom fills),

@@ -5,7 +5,7 @@
 #include <glm/vec4.hpp>
 #include <type_traits>
 
-#include "probes/packed_sh.h"
+#include <tetralight/probes/packed_sh.h>
 
 // The functions of runtime/shaders/sh.glsl in C++, under the same names; `sample_sh9` is in
 // probes/packed_sh.h. A test runs both over random inputs.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/runtime_lights.h"
+#include <tetralight/runtime/runtime_lights.h>
 
-#include "probes/recombine.h"
+#include <tetralight/probes/recombine.h>
 
 namespace tetralight {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "probes/locate.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/probe_volume.h>
 
 // The lights whose direct term is not in the probes, so that baked and real-time light count each
 // term exactly once:

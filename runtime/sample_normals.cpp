@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/sample_normals.h"
+#include <tetralight/runtime/sample_normals.h>
 
-#include "base/assert.h"
-#include "runtime/detail/sample_kernel.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/runtime/detail/sample_kernel.h>
 
 namespace tetralight {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "probes/packed_sh.h"
+#include <tetralight/probes/packed_sh.h>
 
 namespace tetralight {
 

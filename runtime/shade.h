@@ -3,8 +3,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "probes/light.h"
-#include "probes/packed_sh.h"
+#include <tetralight/probes/light.h>
+#include <tetralight/probes/packed_sh.h>
 
 namespace tetralight {
 

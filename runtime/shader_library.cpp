@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/shader_library.h"
+#include <tetralight/runtime/shader_library.h>
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -63,7 +63,7 @@ std::string moved_line(std::string_view line, size_t first) {
     }
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
     const auto number = take_number(rest);
-    return number ? text("#line ", first + *number, rest) : std::string(line);
+    return number ? str_cat("#line ", first + *number, rest) : std::string(line);
 }
 
 void append_glsl(std::string& to, std::string_view from, size_t first) {
@@ -77,11 +77,11 @@ void append_glsl(std::string& to, std::string_view from, size_t first) {
 
 void append(ShaderSource& source, ShaderLanguage language, const ShaderFile& file) {
     if (language == ShaderLanguage::Hlsl) {
-        source.text += text("#line 1 ", quoted(file.name), "\n", file.text);
+        source.text += str_cat("#line 1 ", quoted(file.name), "\n", file.text);
         if (!file.text.ends_with('\n')) source.text += '\n';
     } else {
         const size_t place = source.files.size();
-        source.text += text("#line ", kLineStep * place + 1, " ", place, "\n");
+        source.text += str_cat("#line ", kLineStep * place + 1, " ", place, "\n");
         append_glsl(source.text, file.text, kLineStep * place);
     }
     source.files.emplace_back(file.name);
@@ -102,7 +102,7 @@ std::string name_line(const ShaderSource& source, std::string_view line) {
     if (!number) return std::string(line);
     if (is_bracket && rest.starts_with(')')) rest.remove_prefix(1);
     const size_t file = std::min(*number / kLineStep, source.files.size() - 1);
-    return text(kind, source.files[file], ':', *number - kLineStep * file, rest);
+    return str_cat(kind, source.files[file], ':', *number - kLineStep * file, rest);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/shader_query.h"
+#include <tetralight/runtime/shader_query.h>
 
 #include <bit>
 #include <glm/common.hpp>
@@ -24,12 +24,12 @@ struct Shader {
 // The files in the order of the shader.
 // clang-format off
 #define TETRALIGHT_CPP
-#include "runtime/shaders/begin.glsl"
-#include "runtime/shaders/sh.glsl"
-#include "runtime/shaders/query_volume.glsl"
-#include "runtime/shaders/query_hull.glsl"
-#include "runtime/shaders/query.glsl"
-#include "runtime/shaders/end.glsl"
+#include <tetralight/runtime/shaders/begin.glsl>
+#include <tetralight/runtime/shaders/sh.glsl>
+#include <tetralight/runtime/shaders/query_volume.glsl>
+#include <tetralight/runtime/shaders/query_hull.glsl>
+#include <tetralight/runtime/shaders/query.glsl>
+#include <tetralight/runtime/shaders/end.glsl>
 
     // clang-format on
 

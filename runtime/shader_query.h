@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "probes/locate.h"
-#include "runtime/shader_volume.h"
+#include <tetralight/probes/locate.h>
+#include <tetralight/runtime/shader_volume.h>
 
 // The functions of runtime/shaders/query.glsl on the CPU, for tests and for engines that check what
 // their shaders do. They are the shader's own text, compiled as C++ with GLM: in floats, from the

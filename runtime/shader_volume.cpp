@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/shader_volume.h"
+#include <tetralight/runtime/shader_volume.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "probes/compact_probes.h"
-#include "probes/interpolate.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight {
 namespace {

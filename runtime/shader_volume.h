@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "probes/packed_sh.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/packed_sh.h>
+#include <tetralight/probes/probe_volume.h>
 
 // A probe volume as shaders read it: one uniform block and five arrays of 16-byte elements, ready
 // to upload. runtime/shaders/query_volume.glsl declares them: storage buffers (std430), structured

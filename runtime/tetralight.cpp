@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/tetralight.h"
+#include <tetralight/runtime/tetralight.h>
 
 #include <cmath>
 #include <cstring>
 #include <new>
 
-#include "probes/probe_file.h"
-#include "runtime/detail/c_arrays.h"
-#include "runtime/detail/c_volume.h"
-#include "runtime/pack_instances.h"
-#include "runtime/shader_volume.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/runtime/detail/c_arrays.h>
+#include <tetralight/runtime/detail/c_volume.h>
+#include <tetralight/runtime/pack_instances.h>
+#include <tetralight/runtime/shader_volume.h>
 
 struct tetralight_shader_volume {
     tetralight::ShaderVolume volume;
@@ -41,7 +42,7 @@ tetralight_status open_with(OpenFile open, const char* path, tetralight_volume**
     if (!wrong) wrong = check_pointer("volume", volume);
     if (wrong) return finish(wrong, error);
     auto file = open(path);
-    if (!file) return finish({TETRALIGHT_BAD_FILE, file.error().message}, error);
+    if (!file) return finish({TETRALIGHT_BAD_FILE, error_text(file.error())}, error);
     auto* opened = new (std::nothrow) tetralight_volume(std::move(*file));
     if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for a volume"}, error);
     *volume = opened;
@@ -50,12 +51,12 @@ tetralight_status open_with(OpenFile open, const char* path, tetralight_volume**
 
 CallError check_outside(const tetralight_batch& batch) {
     if (batch.outside > TETRALIGHT_AMBIENT) {
-        return {TETRALIGHT_BAD_VALUE, text("outside is ", batch.outside)};
+        return {TETRALIGHT_BAD_VALUE, str_cat("outside is ", batch.outside)};
     }
     const bool fades = batch.outside == TETRALIGHT_AMBIENT;
     if (fades && !(batch.fade_distance > 0.0f && std::isfinite(batch.fade_distance))) {
         return {TETRALIGHT_BAD_VALUE,
-                text("fade_distance is ", batch.fade_distance, ", not a length")};
+                str_cat("fade_distance is ", batch.fade_distance, ", not a length")};
     }
     return {};
 }
@@ -82,7 +83,7 @@ CallError check_hints(const tetralight_array& hints, size_t count) {
 
 CallError check_batch(const tetralight_batch& batch) {
     if (batch.sh_format > TETRALIGHT_SH_HALF) {
-        return {TETRALIGHT_BAD_VALUE, text("sh_format is ", batch.sh_format)};
+        return {TETRALIGHT_BAD_VALUE, str_cat("sh_format is ", batch.sh_format)};
     }
     if (auto wrong = check_outside(batch)) return wrong;
     if (batch.count == 0) return {};
@@ -173,7 +174,7 @@ tetralight_status answer_blocks(const tetralight_const_array& positions, size_t 
     PositionBlocks blocks(positions, count);
     while (blocks.next()) {
         const Result<BatchReport> met = answer(blocks.begin(), blocks.positions());
-        if (!met) return finish({TETRALIGHT_BAD_VALUE, met.error().message}, error);
+        if (!met) return finish({TETRALIGHT_BAD_VALUE, error_text(met.error())}, error);
         sum.not_finite_count += met->not_finite_count;
         sum.step_count += met->step_count;
     }
@@ -212,7 +213,7 @@ tetralight_status tetralight_verify(const tetralight_volume* volume,
                                     tetralight_error* error) noexcept {
     if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
     const auto status = verify(volume->file);
-    if (!status) return finish({TETRALIGHT_BAD_FILE, status.error().message}, error);
+    if (!status) return finish({TETRALIGHT_BAD_FILE, error_text(status.error())}, error);
     return succeed(error);
 }
 
@@ -344,7 +345,7 @@ tetralight_status tetralight_get_shader_array(const tetralight_shader_volume* ma
         default:
             break;
     }
-    return finish({TETRALIGHT_BAD_VALUE, text("there is no shader array ", index)}, error);
+    return finish({TETRALIGHT_BAD_VALUE, str_cat("there is no shader array ", index)}, error);
 }
 
 void tetralight_free_shader_volume(tetralight_shader_volume* made) noexcept {

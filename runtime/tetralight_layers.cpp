@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include "probes/recombine.h"
-#include "runtime/detail/c_arrays.h"
-#include "runtime/detail/c_volume.h"
-#include "runtime/tetralight.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/recombine.h>
+#include <tetralight/runtime/detail/c_arrays.h>
+#include <tetralight/runtime/detail/c_volume.h>
+#include <tetralight/runtime/tetralight.h>
 
 namespace {
 
@@ -57,9 +58,9 @@ tetralight_status tetralight_get_layer(const tetralight_volume* volume, uint32_t
     const ProbeVolumeView& view = view_of(*volume);
     const auto names = split_names(view.layer_names);
     if (index >= view.layers.size() || index >= names.size()) {
-        return finish(
-            {TETRALIGHT_NOT_THERE, text("there is no layer ", index, " of ", view.layers.size())},
-            error);
+        return finish({TETRALIGHT_NOT_THERE,
+                       str_cat("there is no layer ", index, " of ", view.layers.size())},
+                      error);
     }
     const size_t length = std::min(names[index].size(), sizeof layer->name - 1);
     std::memcpy(layer->name, names[index].data(), length);
@@ -77,7 +78,7 @@ tetralight_status tetralight_recombine(tetralight_volume* volume, const float* w
     }
     if (weight_count < from.layers.size()) {
         return finish({TETRALIGHT_SHORT_BUFFER,
-                       text(weight_count, " weights for ", from.layers.size(), " layers")},
+                       str_cat(weight_count, " weights for ", from.layers.size(), " layers")},
                       error);
     }
     const tetralight_const_array array{weights, weight_count * sizeof(float), 0};
@@ -86,7 +87,7 @@ tetralight_status tetralight_recombine(tetralight_volume* volume, const float* w
     }
     const std::span<const float> each(weights, weight_count);
     const auto info = check_weights(from, each);
-    if (!info) return finish({TETRALIGHT_BAD_VALUE, info.error().message}, error);
+    if (!info) return finish({TETRALIGHT_BAD_VALUE, error_text(info.error())}, error);
     if (auto wrong = check_memory("the light of the layers", memory_of_light(*volume))) {
         return finish(wrong, error);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/tone_map.h"
+#include <tetralight/runtime/tone_map.h>
 
 #include <algorithm>
 #include <glm/common.hpp>

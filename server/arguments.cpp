@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/arguments.h"
+#include <tetralight/server/arguments.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/text.h"
-#include "base/utf8.h"
-#include "server/problem.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 namespace {
@@ -18,10 +18,10 @@ std::string option_of(const char* member) {
 }
 
 std::string number_text(const std::string& member, const Json& value) {
-    if (value.is_number_unsigned()) return text(value.get<uint64_t>());
-    if (value.is_number_integer()) return text(value.get<int64_t>());
+    if (value.is_number_unsigned()) return str_cat(value.get<uint64_t>());
+    if (value.is_number_integer()) return str_cat(value.get<int64_t>());
     if (!value.is_number()) refuse(member, value, "a number");
-    return text(value.get<double>());
+    return str_cat(value.get<double>());
 }
 
 std::string plain_text(const std::string& member, const Json& value) {
@@ -34,11 +34,11 @@ std::string plain_text(const std::string& member, const Json& value) {
 std::string joined(const std::string& member, const Json& value, size_t count) {
     if (!value.is_array() || value.empty() || (count > 0 && value.size() != count)) {
         refuse(member, value,
-               count > 0 ? text("an array of ", count, " numbers") : "an array of numbers");
+               count > 0 ? str_cat("an array of ", count, " numbers") : "an array of numbers");
     }
     std::string list;
     for (const Json& element : value) {
-        list += text(list.empty() ? "" : ",", number_text(member, element));
+        list += str_cat(list.empty() ? "" : ",", number_text(member, element));
     }
     return list;
 }
@@ -49,7 +49,7 @@ std::string words(const std::string& member, const Json& value) {
     for (const Json& element : value) {
         const std::string word = plain_text(member, element);
         if (word.find(',') != std::string::npos) refuse(member, element, "without commas");
-        list += text(list.empty() ? "" : ",", word);
+        list += str_cat(list.empty() ? "" : ",", word);
     }
     return list;
 }

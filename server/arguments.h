@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/json.h"
+#include <tetralight/server/json.h>
 
 namespace tetralight::server {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/text.h"
-#include "server/arguments.h"
-#include "server/problem.h"
-#include "server/service.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/arguments.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/service.h>
 
 namespace tetralight::server {
 namespace {
@@ -37,9 +37,9 @@ BakeOrder read_order(Service& service, const Json& json) {
     order.arguments = std::move(scene.arguments);
     const std::vector<std::string> groups = fields.texts("groups");
     for (size_t i = 0; i < groups.size(); ++i) {
-        const std::string name = text("groups_", i, ".json");
+        const std::string name = str_cat("groups_", i, ".json");
         order.inputs.emplace_back(
-            file_for(service, Kind::Groups, text("groups[", i, "]"), groups[i]), name);
+            file_for(service, Kind::Groups, str_cat("groups[", i, "]"), groups[i]), name);
         order.arguments.push_back("--groups=" + name);
     }
     const std::string reuse = fields.text("reuse");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/bakes.h"
+#include <tetralight/server/bakes.h>
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <random>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "server/command.h"
-#include "server/problem.h"
-#include "server/tool_problem.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/command.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/tool_problem.h>
 
 namespace tetralight::server {
 namespace {
@@ -150,7 +150,7 @@ Json Bakes::submit(const BakeOrder& order) {
         const std::lock_guard lock(mutex_);
         if (waiting_locked() >= settings_.max_queued_bakes) {
             throw Problem{429, "queue_full",
-                          text(settings_.max_queued_bakes, " bakes wait already")};
+                          str_cat(settings_.max_queued_bakes, " bakes wait already")};
         }
     }
     Bake bake;
@@ -345,12 +345,13 @@ void Bakes::run_bake(const std::string& id, const std::vector<std::string>& argu
     const std::string folder = store_.bake_folder(id);
     std::error_code error;
     fs::remove(folder + "/" + kProgress, error);  // of a run that is over
-    Command command{.arguments = {"bake", "scene.glb", "--output=out.probes",
-                                  text("--chunks=", kChunks), text("--progress-file=", kProgress),
-                                  "--json", text("--threads=", settings_.tool_thread_count)},
-                    .folder = folder,
-                    .is_background = true,
-                    .goes_on = [&] { return goes_on(id); }};
+    Command command{
+        .arguments = {"bake", "scene.glb", "--output=out.probes", str_cat("--chunks=", kChunks),
+                      str_cat("--progress-file=", kProgress), "--json",
+                      str_cat("--threads=", settings_.tool_thread_count)},
+        .folder = folder,
+        .is_background = true,
+        .goes_on = [&] { return goes_on(id); }};
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
     update_progress(id);
     CommandResult result = run_command(settings_, command);

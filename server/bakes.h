@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "server/open_volumes.h"
-#include "server/store.h"
+#include <tetralight/server/open_volumes.h>
+#include <tetralight/server/store.h>
 
 namespace tetralight::server {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/command.h"
+#include <tetralight/server/command.h>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -17,9 +17,9 @@
 #include <cstring>
 #include <optional>
 
-#include "base/descriptor.h"
-#include "base/text.h"
-#include "server/problem.h"
+#include <tetralight/base/descriptor.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 namespace {
@@ -171,8 +171,8 @@ void read_errors(const std::string& errors, CommandResult& result) {
 void judge(int status, CommandResult& result) {
     using End = CommandResult::End;
     if (WIFSIGNALED(status)) {
-        result.message = text("the program was ended by signal ", WTERMSIG(status), " (",
-                              ::strsignal(WTERMSIG(status)), ")");
+        result.message = str_cat("the program was ended by signal ", WTERMSIG(status), " (",
+                                 ::strsignal(WTERMSIG(status)), ")");
         return;
     }
     switch (WEXITSTATUS(status)) {
@@ -187,7 +187,7 @@ void judge(int status, CommandResult& result) {
             break;
         default:
             if (result.message.empty()) {
-                result.message = text("the program ended with code ", WEXITSTATUS(status));
+                result.message = str_cat("the program ended with code ", WEXITSTATUS(status));
             }
     }
 }
@@ -206,7 +206,7 @@ CommandResult run_command(const Settings& settings, const Command& command) {
     CommandResult result;
     auto child = start(settings, command);
     if (!child) {
-        result.message = text("cannot run the program (", std::strerror(errno), ")");
+        result.message = str_cat("cannot run the program (", std::strerror(errno), ")");
         return result;
     }
     const auto begin = Clock::now();

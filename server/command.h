@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "server/json.h"
-#include "server/settings.h"
+#include <tetralight/server/json.h>
+#include <tetralight/server/settings.h>
 
 // All work that takes long, or reads what strangers sent, is done by the `tetralight` command in a
 // process of its own: what ends that process ends a request or a bake, and never the server.

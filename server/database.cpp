@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/database.h"
+#include <tetralight/server/database.h>
 
 #include <sqlite3.h>
 
 #include <array>
 #include <cerrno>
 
-#include "base/text.h"
-#include "server/problem.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 namespace {
@@ -108,7 +108,7 @@ Database::Value column(sqlite3_stmt* statement, int index) {
     const bool is_full =
         code == SQLITE_FULL || (code == SQLITE_IOERR && (reason == ENOSPC || reason == EDQUOT));
     throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "database",
-                  text("the database: ", sqlite3_errmsg(handle))};
+                  str_cat("the database: ", sqlite3_errmsg(handle))};
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ Status Database::migrate() {
     const auto version = static_cast<size_t>(std::get<int64_t>(run("PRAGMA user_version")[0][0]));
     if (version > kMigrations.size()) {
         return Error{
-            text("is of version ", version, ", newer than this program's ", kMigrations.size())};
+            str_cat("is of version ", version, ", newer than this program's ", kMigrations.size())};
     }
     for (size_t i = version; i < kMigrations.size(); ++i) {
         transaction([&] {
@@ -157,7 +157,7 @@ Status Database::migrate() {
                 SQLITE_OK) {
                 fail(handle_.get());
             }
-            run(text("PRAGMA user_version = ", i + 1).c_str());
+            run(str_cat("PRAGMA user_version = ", i + 1).c_str());
         });
     }
     return Ok{};
@@ -168,16 +168,16 @@ Status Database::connect(const std::string& path, const char* locking_mode) {
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX;
     const int opened = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
     handle_.reset(raw);
-    if (opened != SQLITE_OK) return Error{text(path, ": ", sqlite3_errmsg(raw))};
+    if (opened != SQLITE_OK) return Error{str_cat(path, ": ", sqlite3_errmsg(raw))};
     sqlite3_extended_result_codes(raw, 0);
     sqlite3_busy_timeout(raw, 5000);
     try {
-        run(text("PRAGMA locking_mode = ", locking_mode).c_str());
+        run(str_cat("PRAGMA locking_mode = ", locking_mode).c_str());
         run("PRAGMA journal_mode = WAL");
         run("PRAGMA synchronous = FULL");
         run("PRAGMA foreign_keys = ON");
     } catch (const Problem& problem) {
-        return Error{text(path, ": ", problem.detail)};
+        return Error{str_cat(path, ": ", problem.detail)};
     }
     return Ok{};
 }
@@ -192,11 +192,11 @@ Result<Database> Database::open(const std::string& path) {
         const auto check = database.run("PRAGMA quick_check(1)");
         const auto* verdict = std::get_if<std::string>(&check.at(0).at(0));
         if (verdict == nullptr || *verdict != "ok") {
-            return Error{text(path, ": is damaged (", verdict == nullptr ? "" : *verdict, ")")};
+            return Error{str_cat(path, ": is damaged (", verdict == nullptr ? "" : *verdict, ")")};
         }
         if (auto status = database.migrate(); !status) return status.error().in(path);
     } catch (const Problem& problem) {
-        return Error{text(path, ": ", problem.detail)};
+        return Error{str_cat(path, ": ", problem.detail)};
     }
     return database;
 }

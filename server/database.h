@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 struct sqlite3;
 

@@ -4,10 +4,11 @@
 
 #include <charconv>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "server/problem.h"
-#include "server/service.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/service.h>
 
 namespace tetralight::server {
 namespace {
@@ -82,9 +83,10 @@ Json find_facts(Service& service, Kind kind, const Request& request, const WorkF
             if (facts.value("triangles", uint64_t{0}) <= service.settings.max_triangles) {
                 return facts;
             }
-            throw Problem{413, "too_large",
-                          text("a scene may have ", service.settings.max_triangles, " triangles"),
-                          "triangles", dump(facts["triangles"])};
+            throw Problem{
+                413, "too_large",
+                str_cat("a scene may have ", service.settings.max_triangles, " triangles"),
+                "triangles", dump(facts["triangles"])};
         }
         case Kind::Skies: {
             write_empty_scene(folder.file("empty.gltf"));
@@ -131,7 +133,7 @@ Response upload(Service& service, Kind kind, Request& request) {
     const auto added = service.store.add(kind, folder->file(upload_name(kind)),
                                          name == nullptr ? "" : *name, facts);
     Response response = json_response(to_json_with_facts(added.file), added.is_new ? 201 : 200);
-    response.headers.emplace_back("Location", text("/v1/", name_of(kind), "/", added.file.id));
+    response.headers.emplace_back("Location", str_cat("/v1/", name_of(kind), "/", added.file.id));
     return response;
 }
 
@@ -192,8 +194,9 @@ Response download(Service& service, Kind kind, const Request& request) {
     const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
     Response response =
         bytes_response(request, {kept->bytes(), kept}, content_type_of(kind), stored.id);
-    response.headers.emplace_back("Content-Disposition", text("attachment; filename=\"", stored.id,
-                                                              extension_of(kind), "\""));
+    response.headers.emplace_back(
+        "Content-Disposition",
+        str_cat("attachment; filename=\"", stored.id, extension_of(kind), "\""));
     return response;
 }
 
@@ -278,14 +281,14 @@ Response bytes_response(const Request& request, const Body& body, const std::str
     if (range->begin >= size || range->begin >= range->end) {
         throw Problem{416,
                       "invalid_range",
-                      text("there are ", size, " bytes"),
+                      str_cat("there are ", size, " bytes"),
                       "range",
                       std::string(request.header("range")),
-                      {{"Content-Range", text("bytes */", size)}}};
+                      {{"Content-Range", str_cat("bytes */", size)}}};
     }
     response.status = 206;
     response.headers.emplace_back("Content-Range",
-                                  text("bytes ", range->begin, "-", range->end - 1, "/", size));
+                                  str_cat("bytes ", range->begin, "-", range->end - 1, "/", size));
     response.body.bytes = body.bytes.subspan(range->begin, range->end - range->begin);
     return response;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/find_viewer.h"
+#include <tetralight/server/find_viewer.h>
 
 #include <filesystem>
 

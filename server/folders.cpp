@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/folders.h"
+#include <tetralight/base/system_error.h>
+#include <tetralight/server/folders.h>
 
 #include <fcntl.h>
 #include <unistd.h>

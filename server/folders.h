@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "base/descriptor.h"
-#include "base/result.h"
+#include <tetralight/base/descriptor.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight::server {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/gate.h"
+#include <tetralight/server/gate.h>
 
 #include <algorithm>
 
-#include "server/problem.h"
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "server/http.h"
-#include "server/router.h"
-#include "server/settings.h"
+#include <tetralight/server/http.h>
+#include <tetralight/server/router.h>
+#include <tetralight/server/settings.h>
 
 namespace tetralight::server {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http.h"
+#include <tetralight/server/http.h>
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 
-#include "base/utf8.h"
+#include <tetralight/base/utf8.h>
 
 namespace tetralight::server {
 namespace {

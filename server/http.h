@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/descriptor.h"
+#include <tetralight/base/descriptor.h>
 
 // Requests and responses as plain values. Handlers see these alone; the sockets and the library
 // that parses HTTP are behind http_server.h.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/http_server.h"
+#include <tetralight/server/http_server.h>
 
 #include <fcntl.h>
 
@@ -21,10 +21,10 @@
 #include <thread>
 #include <vector>
 
-#include "base/text.h"
-#include "server/detail/read_request.h"
-#include "server/detail/send_response.h"
-#include "server/detail/session.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/detail/read_request.h>
+#include <tetralight/server/detail/send_response.h>
+#include <tetralight/server/detail/session.h>
 
 namespace tetralight::server {
 namespace {
@@ -175,11 +175,11 @@ net::awaitable<void> Server::refuse(std::shared_ptr<Session> session) {
     Request request;
     request.id = make_request_id();
     request.remote = session->remote;
-    const Response response =
-        application_.refusal({503, "too_many_connections",
-                              text("there are ", settings_.max_connections, " connections already"),
-                              "connections", std::to_string(settings_.max_connections)},
-                             request);
+    const Response response = application_.refusal(
+        {503, "too_many_connections",
+         str_cat("there are ", settings_.max_connections, " connections already"), "connections",
+         std::to_string(settings_.max_connections)},
+        request);
     const auto sent = co_await send_response(*session, request, response, send_rule(false));
     application_.answered({request, "", response.status, sent.bytes, 0.0, !sent.is_whole});
     co_await session->linger();
@@ -254,7 +254,7 @@ net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& r
     }
     if (waiting_count_ >= settings_.max_waiting) {
         co_return application_.refusal(
-            {503, "busy", text(settings_.max_waiting, " requests wait already"), "requests",
+            {503, "busy", str_cat(settings_.max_waiting, " requests wait already"), "requests",
              std::to_string(settings_.max_waiting)},
             request);
     }
@@ -289,8 +289,8 @@ Result<std::unique_ptr<HttpServer>> HttpServer::bind(const Settings& settings,
                                                      Application application) {
     auto server = std::make_unique<Server>(settings, std::move(application));
     if (const error_code error = server->open()) {
-        return Error{text("cannot listen on ", settings.address, ":", settings.port, " (",
-                          error.message(), ")")};
+        return Error{str_cat("cannot listen on ", settings.address, ":", settings.port, " (",
+                             error.message(), ")")};
     }
     return std::unique_ptr<HttpServer>(std::move(server));
 }

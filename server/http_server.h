@@ -5,10 +5,10 @@
 #include <functional>
 #include <memory>
 
-#include "base/result.h"
-#include "server/http.h"
-#include "server/problem.h"
-#include "server/settings.h"
+#include <tetralight/base/result.h>
+#include <tetralight/server/http.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/settings.h>
 
 namespace tetralight::server {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/json.h"
+#include <tetralight/server/json.h>
 
-#include "base/json_text.h"
-#include "server/problem.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/json_text.h>
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 
@@ -16,7 +17,7 @@ Response json_response(const Json& json, unsigned status) {
 
 Json parse_object(std::string_view body) {
     if (auto status = check_json_depth(body); !status) {
-        throw Problem{400, "invalid_json", status.error().message, "body"};
+        throw Problem{400, "invalid_json", error_text(status.error()), "body"};
     }
     try {
         Json json = Json::parse(body);

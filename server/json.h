@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/http.h"
+#include <tetralight/server/http.h>
 
 namespace tetralight::server {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/log.h"
+#include <tetralight/server/log.h>
 
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::server {
 namespace {
@@ -71,8 +71,9 @@ void Log::request(const Exchange& exchange) {
     const Level level = status >= 500 ? Level::Warning : Level::Info;
     if (!is_shown(level)) return;
     // Written by hand: it is on the way of every request. The path alone holds what clients chose.
-    append(level,
-           text(R"({"time":")", now_text(), R"(","level":")", name_of(level),
+    append(
+        level,
+        str_cat(R"({"time":")", now_text(), R"(","level":")", name_of(level),
                 R"(","message":"request","request_id":")", request.id, R"(","method":")",
                 request.method, R"(","path":)", dump(Json(request.path)), R"(,"status":)", status,
                 R"(,"received":)", request.body_size, R"(,"sent":)", sent_bytes, R"(,"ms":)",

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <thread>
 
-#include "server/json.h"
+#include <tetralight/server/json.h>
 
 namespace tetralight::server {
 

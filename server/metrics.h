@@ -8,7 +8,7 @@
 #include <mutex>
 #include <string>
 
-#include "server/http.h"
+#include <tetralight/server/http.h>
 
 namespace tetralight::server {
 

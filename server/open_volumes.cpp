@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/open_volumes.h"
+#include <tetralight/server/open_volumes.h>
 
-#include "server/problem.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 
@@ -19,7 +20,7 @@ std::shared_ptr<const ProbeFile> OpenVolumes::open(const std::string& reference)
     if (!opened) {
         // It may have been deleted since.
         if (!store_.find(Kind::Volumes, stored.id)) (void)store_.get(Kind::Volumes, reference);
-        const std::string& message = opened.error().message;
+        const std::string& message = error_text(opened.error());
         store_.quarantine(Kind::Volumes, stored.id, message.substr(message.find(": ") + 2));
         (void)store_.get(Kind::Volumes, stored.id);
     }

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <string>
 
-#include "probes/probe_file.h"
-#include "server/store.h"
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/server/store.h>
 
 namespace tetralight::server {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/problem.h"
+#include <tetralight/server/problem.h>
 
-#include "server/json.h"
+#include <tetralight/server/json.h>
 
 namespace tetralight::server {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "server/http.h"
+#include <tetralight/server/http.h>
 
 namespace tetralight::server {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "probes/locate.h"
+#include <tetralight/probes/locate.h>
 
 // The binary form of queries, little-endian, both ways: this header and then
 //

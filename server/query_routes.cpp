@@ -4,11 +4,12 @@
 #include <cstring>
 #include <glm/vec3.hpp>
 
-#include "base/text.h"
-#include "probes/interpolate.h"
-#include "server/problem.h"
-#include "server/query_binary.h"
-#include "server/service.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/query_binary.h>
+#include <tetralight/server/service.h>
 
 namespace tetralight::server {
 namespace {
@@ -34,7 +35,7 @@ bool is_fade(float metres) {
 void check_positions(const Service& service, std::span<const glm::vec3> positions) {
     if (positions.size() > service.settings.max_positions) {
         throw Problem{413, "too_large",
-                      text("a query may have ", service.settings.max_positions, " positions"),
+                      str_cat("a query may have ", service.settings.max_positions, " positions"),
                       "positions", std::to_string(positions.size())};
     }
     for (size_t i = 0; i < positions.size(); ++i) {
@@ -43,8 +44,8 @@ void check_positions(const Service& service, std::span<const glm::vec3> position
             (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))) {
             continue;
         }
-        throw Problem{400, "not_finite", text("position ", i, " is not finite"),
-                      text("positions[", i, "]"), text(p.x, ", ", p.y, ", ", p.z)};
+        throw Problem{400, "not_finite", str_cat("position ", i, " is not finite"),
+                      str_cat("positions[", i, "]"), str_cat(p.x, ", ", p.y, ", ", p.z)};
     }
 }
 
@@ -61,7 +62,7 @@ ProbeVolumeView view_for(const ProbeFile& file, const Query& query) {
 glm::vec3 to_position(const Json& value, size_t index) {
     const bool is_triple = value.is_array() && value.size() == 3 && value[0].is_number() &&
                            value[1].is_number() && value[2].is_number();
-    if (!is_triple) refuse(text("positions[", index, "]"), value, "three numbers");
+    if (!is_triple) refuse(str_cat("positions[", index, "]"), value, "three numbers");
     return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
@@ -146,8 +147,8 @@ Response answer_json(Service& service, const ProbeFile& file, const Request& req
     if (request.body.size() > kMostJson) {
         throw Problem{
             413, "too_large",
-            text("a query in JSON may have ", kMostJson, " bytes; the binary form takes more"),
-            "body", text(request.body.size(), " bytes")};
+            str_cat("a query in JSON may have ", kMostJson, " bytes; the binary form takes more"),
+            "body", str_cat(request.body.size(), " bytes")};
     }
     const Json json = parse_object(request.body);
     Fields fields(json);
@@ -173,22 +174,22 @@ QueryHeader read_header(const Request& request) {
     QueryHeader header;
     if (request.body.size() < sizeof header) {
         throw Problem{400, "invalid_header",
-                      text("the body is shorter than the header's ", sizeof header, " bytes"),
-                      "body", text(request.body.size(), " bytes")};
+                      str_cat("the body is shorter than the header's ", sizeof header, " bytes"),
+                      "body", str_cat(request.body.size(), " bytes")};
     }
     std::memcpy(&header, request.body.data(), sizeof header);
     const auto check = [](bool is_right, const char* field, auto value) {
         if (is_right) return;
-        throw Problem{400, "invalid_header", text(field, " is not one of its values"), field,
-                      text(value)};
+        throw Problem{400, "invalid_header", str_cat(field, " is not one of its values"), field,
+                      str_cat(value)};
     };
     check(header.magic == QueryHeader::kRequest, "magic", header.magic);
     const uint64_t expected = sizeof header + uint64_t{header.count} * sizeof(glm::vec3);
     if (request.body.size() != expected) {
         throw Problem{400, "invalid_header",
-                      text("the body has ", request.body.size(), " bytes where ", expected,
-                           " are expected for this count"),
-                      "count", text(header.count)};
+                      str_cat("the body has ", request.body.size(), " bytes where ", expected,
+                              " are expected for this count"),
+                      "count", str_cat(header.count)};
     }
     check(header.sh <= kShHalf, "sh", header.sh);
     check(header.wants <= (QueryHeader::kOcclusion | QueryHeader::kCells), "wants", header.wants);
@@ -197,8 +198,8 @@ QueryHeader read_header(const Request& request) {
           header.outside);
     check(header.precision <= 1, "precision", header.precision);
     if (!is_fade(header.fade_distance)) {
-        throw Problem{400, "invalid_header", text("fade is not ", kFadeRange), "fade",
-                      text(header.fade_distance)};
+        throw Problem{400, "invalid_header", str_cat("fade is not ", kFadeRange), "fade",
+                      str_cat(header.fade_distance)};
     }
     return header;
 }
@@ -240,7 +241,7 @@ OcclusionOutput occlusion_output(const QueryHeader& header, const AnswerLayout& 
 }
 
 void require(const Status& status) {
-    if (!status) throw Problem{500, "query", status.error().message};
+    if (!status) throw Problem{500, "query", error_text(status.error())};
 }
 
 Response answer_binary(Service& service, const ProbeFile& file, const Request& request) {

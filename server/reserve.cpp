@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/reserve.h"
+#include <tetralight/server/reserve.h>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "base/descriptor.h"
+#include <tetralight/base/descriptor.h>
 
 namespace tetralight::server {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/router.h"
+#include <tetralight/server/router.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "server/problem.h"
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/serve.h"
+#include <tetralight/server/serve.h>
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -11,11 +11,12 @@
 #include <new>
 #include <thread>
 
-#include "base/text.h"
-#include "server/gate.h"
-#include "server/http_server.h"
-#include "server/problem.h"
-#include "server/service.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
+#include <tetralight/server/gate.h>
+#include <tetralight/server/http_server.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/service.h>
 
 namespace tetralight::server {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "base/result.h"
-#include "server/settings.h"
+#include <tetralight/base/result.h>
+#include <tetralight/server/settings.h>
 
 // The HTTP service: scenes, bakes, volumes and queries (docs/server.md).
 //

@@ -3,13 +3,13 @@
 
 #include <atomic>
 
-#include "server/bakes.h"
-#include "server/log.h"
-#include "server/metrics.h"
-#include "server/open_volumes.h"
-#include "server/router.h"
-#include "server/settings.h"
-#include "server/store.h"
+#include <tetralight/server/bakes.h>
+#include <tetralight/server/log.h>
+#include <tetralight/server/metrics.h>
+#include <tetralight/server/open_volumes.h>
+#include <tetralight/server/router.h>
+#include <tetralight/server/settings.h>
+#include <tetralight/server/store.h>
 
 namespace tetralight::server {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/log.h"
+#include <tetralight/server/log.h>
 
 namespace tetralight::server {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/store.h"
+#include <tetralight/server/store.h>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -9,11 +9,13 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "base/utf8.h"
-#include "server/problem.h"
-#include "server/reserve.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
+#include <tetralight/base/utf8.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/reserve.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -43,7 +45,7 @@ std::string id_of(std::span<const std::byte> bytes) {
 /// Bytes of a file of the store. Throws.
 MappedFile map(const std::string& path) {
     auto file = MappedFile::open(path);
-    if (!file) throw Problem{500, "storage", file.error().message};
+    if (!file) throw Problem{500, "storage", error_text(file.error())};
     return std::move(*file);
 }
 
@@ -88,7 +90,8 @@ Index parse_index(std::span<const std::byte> bytes) {
             if (!kind) continue;  // of a later version
             StoredFile file = read_entry(*kind, entry);
             index.is_whole &= is_id(file.id);
-            if (is_id(file.id)) index.files[text(name_of(*kind), "/", file.id)] = std::move(file);
+            if (is_id(file.id))
+                index.files[str_cat(name_of(*kind), "/", file.id)] = std::move(file);
         } catch (const Json::exception&) {
             index.is_whole = false;
         }
@@ -118,8 +121,9 @@ bool is_id(const std::string& text) {
 
 void require_stored(const Status& status) {
     if (status) return;
-    const bool is_full = status.error().message.find("No space left") != std::string::npos;
-    throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "storage", status.error().message};
+    const bool is_full = error_text(status.error()).find("No space left") != std::string::npos;
+    throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "storage",
+                  error_text(status.error())};
 }
 
 double now() {
@@ -195,7 +199,7 @@ Status Store::open_database() {
     is_database_new_ = !fs::exists(path);
     for (int attempt = 0; attempt < 2; ++attempt) {
         auto opened = Database::open(path);
-        std::string reason = opened ? "" : opened.error().message;
+        std::string reason = opened ? "" : error_text(opened.error());
         if (opened) {
             database_.emplace(std::move(*opened));
             try {
@@ -204,7 +208,7 @@ Status Store::open_database() {
             } catch (const Problem& problem) {
                 reason = problem.detail;
             } catch (const std::exception& exception) {
-                reason = text("is damaged (", exception.what(), ")");
+                reason = str_cat("is damaged (", exception.what(), ")");
             }
         }
         database_.reset();
@@ -271,7 +275,7 @@ void Store::adopt_or_drop_unknown_files() {
         for (auto& [id, file] : files(kind)) {
             if (!file.damage.empty() || present.contains(id)) continue;
             quarantine(kind, id, "the file is missing");
-            report(text(name_of(kind), "/", id, " is missing"));
+            report(str_cat(name_of(kind), "/", id, " is missing"));
         }
         for (const auto& [id, path] : present) {
             if (files(kind).contains(id)) continue;
@@ -280,7 +284,7 @@ void Store::adopt_or_drop_unknown_files() {
                 continue;
             }
             StoredFile file;
-            const auto known = index.files.find(text(name_of(kind), "/", id));
+            const auto known = index.files.find(str_cat(name_of(kind), "/", id));
             if (known != index.files.end()) file = known->second;
             file.kind = kind;
             file.id = id;
@@ -309,14 +313,14 @@ std::optional<StoredFile> Store::find(Kind kind, const std::string& reference) {
 StoredFile Store::get(Kind kind, const std::string& reference) {
     auto file = find(kind, reference);
     if (!file) {
-        throw Problem{
-            404, "not_found",
-            text(kind == Kind::Groups ? "there are no such " : "there is no such ", noun_of(kind)),
-            noun_of(kind), reference.substr(0, 200)};
+        throw Problem{404, "not_found",
+                      str_cat(kind == Kind::Groups ? "there are no such " : "there is no such ",
+                              noun_of(kind)),
+                      noun_of(kind), reference.substr(0, 200)};
     }
     if (!file->damage.empty()) {
         throw Problem{410, "quarantined",
-                      text("the ", noun_of(kind), " is damaged: ", file->damage), noun_of(kind),
+                      str_cat("the ", noun_of(kind), " is damaged: ", file->damage), noun_of(kind),
                       file->id};
     }
     return std::move(*file);
@@ -469,7 +473,7 @@ std::string Store::bake_folder(const std::string& id) const {
 }
 
 WorkFolder Store::make_work_folder() {
-    const std::string folder = text(settings_.data, "/work/", ++work_count_);
+    const std::string folder = str_cat(settings_.data, "/work/", ++work_count_);
     require_stored(make_folder(folder));
     return WorkFolder(folder);
 }
@@ -485,7 +489,7 @@ uint64_t Store::total_bytes() const {
 
 void Store::check_quota(uint64_t more) const {
     if (settings_.quota_bytes == 0 || total_bytes() + more <= settings_.quota_bytes) return;
-    throw Problem{507, "quota", text("the store may hold ", settings_.quota_bytes, " bytes"),
+    throw Problem{507, "quota", str_cat("the store may hold ", settings_.quota_bytes, " bytes"),
                   "quota", std::to_string(more)};
 }
 
@@ -542,8 +546,8 @@ void Store::read_index_now_and_then() {
     if (ticks < next || !next_index_check_.compare_exchange_strong(next, ticks + kSecond)) return;
     struct stat status = {};
     if (::stat(index_path().c_str(), &status) != 0) return;
-    std::string stamp = text(status.st_ino, " ", status.st_mtim.tv_sec, " ", status.st_mtim.tv_nsec,
-                             " ", status.st_size);
+    std::string stamp = str_cat(status.st_ino, " ", status.st_mtim.tv_sec, " ",
+                                status.st_mtim.tv_nsec, " ", status.st_size);
     const std::lock_guard change(change_mutex_);
     if (stamp == index_stamp_) return;
     const auto bytes = read_file(index_path());

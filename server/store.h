@@ -13,13 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "server/database.h"
-#include "server/folders.h"
-#include "server/json.h"
-#include "server/log.h"
-#include "server/metrics.h"
-#include "server/settings.h"
+#include <tetralight/base/result.h>
+#include <tetralight/server/database.h>
+#include <tetralight/server/folders.h>
+#include <tetralight/server/json.h>
+#include <tetralight/server/log.h>
+#include <tetralight/server/metrics.h>
+#include <tetralight/server/settings.h>
 
 namespace tetralight::server {
 

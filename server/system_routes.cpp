@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "server/openapi.h"
-#include "server/problem.h"
-#include "server/service.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/openapi.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/service.h>
 
 namespace tetralight::server {
 namespace {

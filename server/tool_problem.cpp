@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/tool_problem.h"
+#include <tetralight/server/tool_problem.h>
 
 #include <algorithm>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::server {
 namespace {
@@ -25,7 +25,7 @@ std::vector<Meaning> file_meanings(const Json& order) {
     const auto groups = order.find("groups");
     const size_t count = groups == order.end() ? 0 : groups->size();
     for (size_t i = 0; i < count; ++i) {
-        all.push_back({text("groups_", i, ".json"), text("groups[", i, "]")});
+        all.push_back({str_cat("groups_", i, ".json"), str_cat("groups[", i, "]")});
     }
     return all;
 }
@@ -77,7 +77,7 @@ bool blame_quoted(const std::string& message, const std::string& member, const J
     }
     if (value.is_array()) {
         for (size_t i = 0; i < value.size(); ++i) {
-            if (blame_quoted(message, text(member, "[", i, "]"), value[i], problem)) return true;
+            if (blame_quoted(message, str_cat(member, "[", i, "]"), value[i], problem)) return true;
         }
     }
     if (value.is_object()) {
@@ -152,7 +152,7 @@ Problem tool_problem(const Settings& settings, const CommandResult& result,
         case End::BadUsage:
             break;
         case End::TooSlow:
-            return {504, "too_slow", text("it takes longer than ", settings.tool_seconds, " s")};
+            return {504, "too_slow", str_cat("it takes longer than ", settings.tool_seconds, " s")};
         case End::Stopped:
             if (request.is_abandoned) return {499, "abandoned", "nobody waits for the answer"};
             return {503, "ending", "the server ends"};

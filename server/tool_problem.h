@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "server/command.h"
-#include "server/problem.h"
+#include <tetralight/server/command.h>
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "server/arguments.h"
-#include "server/command.h"
-#include "server/problem.h"
-#include "server/service.h"
-#include "server/tool_problem.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/arguments.h>
+#include <tetralight/server/command.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/service.h>
+#include <tetralight/server/tool_problem.h>
 
 namespace tetralight::server {
 namespace {
@@ -42,7 +43,7 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
 }
 
 std::string threads(const Service& service) {
-    return text("--threads=", service.settings.tool_thread_count);
+    return str_cat("--threads=", service.settings.tool_thread_count);
 }
 
 /// Links a file that a member refers to.
@@ -58,7 +59,7 @@ void link_all(Service& service, const SceneInputs& inputs, const WorkFolder& fol
 /// A file that a command wrote, as a body; the folder may go then.
 Body file_body(const std::string& path) {
     auto mapping = MappedFile::open(path);
-    if (!mapping) throw Problem{500, "storage", mapping.error().message};
+    if (!mapping) throw Problem{500, "storage", error_text(mapping.error())};
     const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
     return {kept->bytes(), kept};
 }
@@ -70,7 +71,7 @@ Response store_result(Service& service, Kind kind, const std::string& path, cons
     Json json = to_json(added.file);
     json["report"] = report;
     Response response = json_response(json, added.is_new ? 201 : 200);
-    response.headers.emplace_back("Location", text("/v1/", name_of(kind), "/", added.file.id));
+    response.headers.emplace_back("Location", str_cat("/v1/", name_of(kind), "/", added.file.id));
     return response;
 }
 
@@ -114,8 +115,8 @@ Response tetrahedralize(Service& service, const Request& request) {
     const auto groups = fields.texts("groups");
     if (groups.empty()) throw Problem{400, "missing_value", "groups: is not given", "groups"};
     for (size_t i = 0; i < groups.size(); ++i) {
-        const std::string name = text("groups_", i, ".json");
-        link(service, Kind::Groups, text("groups[", i, "]"), groups[i], folder.file(name));
+        const std::string name = str_cat("groups_", i, ".json");
+        link(service, Kind::Groups, str_cat("groups[", i, "]"), groups[i], folder.file(name));
         arguments.push_back(name);
     }
     constexpr OptionRule kRules[] = {{"weld", Number}, {"backend", Text}};
@@ -158,7 +159,7 @@ std::vector<std::string> weights_arguments(Fields& fields) {
     for (const auto& [layer, weight] : weights->items()) {
         if (!weight.is_number()) refuse("weights." + layer, weight, "a number");
         if (layer.find(',') != std::string::npos) refuse("weights", layer, "without commas");
-        arguments.push_back(text("--weights=", layer, "=", weight.get<double>()));
+        arguments.push_back(str_cat("--weights=", layer, "=", weight.get<double>()));
     }
     return arguments;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/draw_text.h"
+#include <tetralight/bake/image/draw_text.h>
 
 #include <stb_easy_font.h>
 

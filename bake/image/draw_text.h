@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "bake/image/image.h"
+#include <tetralight/bake/image/image.h>
 
 namespace tetralight {
 

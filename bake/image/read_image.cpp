@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/read_image.h"
+#include <tetralight/bake/image/read_image.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include <memory>
 #include <string_view>
 
-#include "bake/image/detail/radiance_length.h"
-#include "bake/image/detail/read_exr.h"
-#include "base/file.h"
-#include "base/text.h"
+#include <tetralight/bake/image/detail/radiance_length.h>
+#include <tetralight/bake/image/detail/read_exr.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
 
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
@@ -49,7 +49,7 @@ const stbi_uc* stb_data(std::span<const std::byte> bytes) {
 
 Error stb_error(const std::string& name) {
     const char* reason = stbi_failure_reason();
-    return {text(name, ": cannot decode image (", reason != nullptr ? reason : "unknown", ")")};
+    return {str_cat(name, ": cannot decode image (", reason != nullptr ? reason : "unknown", ")")};
 }
 
 bool is_too_large(uint64_t width, uint64_t height) {
@@ -57,8 +57,8 @@ bool is_too_large(uint64_t width, uint64_t height) {
 }
 
 Error too_large(const std::string& name, uint64_t width, uint64_t height) {
-    return {text(name, ": ", width, " x ", height, " pixels are more than the largest size (",
-                 kMaxImagePixels, " pixels)")};
+    return {str_cat(name, ": ", width, " x ", height, " pixels are more than the largest size (",
+                    kMaxImagePixels, " pixels)")};
 }
 
 uint32_t big_endian_at(std::span<const std::byte> bytes, size_t offset) {
@@ -83,7 +83,7 @@ Status check_png_size(std::span<const std::byte> bytes, const std::string& name)
 /// Reads the size from the header, so that nothing is allocated for an image that is too large.
 Result<ImageSize> read_size(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
-        return Error{text(name, ": ", bytes.size(), " bytes are too many for an image file")};
+        return Error{str_cat(name, ": ", bytes.size(), " bytes are too many for an image file")};
     }
     const auto png = check_png_size(bytes, name);
     if (!png) return png.error();
@@ -105,8 +105,8 @@ Result<ImageF> decode_radiance_hdr(std::span<const std::byte> bytes, const std::
     if (!size) return size.error();
     if (!detail::has_all_scan_lines(bytes, static_cast<uint32_t>(size->width),
                                     static_cast<uint32_t>(size->height))) {
-        return Error{
-            text(path, ": is cut off or corrupt (", size->width, " x ", size->height, " pixels)")};
+        return Error{str_cat(path, ": is cut off or corrupt (", size->width, " x ", size->height,
+                             " pixels)")};
     }
     int width = 0;
     int height = 0;

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "bake/image/image.h"
-#include "base/result.h"
+#include <tetralight/bake/image/image.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

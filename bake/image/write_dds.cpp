@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 
-#include "bake/image/detail/texture_3d.h"
-#include "bake/image/texture_3d.h"
-#include "base/assert.h"
-#include "base/file.h"
+#include <tetralight/bake/image/detail/texture_3d.h>
+#include <tetralight/bake/image/texture_3d.h>
+#include <tetralight/base/contract.h>
+#include <tetralight/base/file.h>
 
 // The layout: Microsoft, "Programming guide for DDS", DDS_HEADER and DDS_HEADER_DXT10.
 

@@ -8,10 +8,10 @@
 #include <exception>
 #include <new>
 
-#include "bake/image/read_image.h"
-#include "bake/image/write_image.h"
-#include "base/file.h"
-#include "base/text.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -45,8 +45,8 @@ Status write_exr(const std::string& path, const ImageF& image) {
     const uint64_t pixel_count = uint64_t{image.width} * image.height;
     TETRALIGHT_ASSERT(image.pixels.size() == pixel_count, "an image has width * height pixels");
     if (pixel_count == 0 || pixel_count > kMaxImagePixels) {
-        return Error{
-            text(path, ": cannot write an image of ", image.width, " x ", image.height, " pixels")};
+        return Error{str_cat(path, ": cannot write an image of ", image.width, " x ", image.height,
+                             " pixels")};
     }
     try {
         const std::string bytes = encode_exr(image);
@@ -54,7 +54,7 @@ Status write_exr(const std::string& path, const ImageF& image) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{text(path, ": cannot encode OpenEXR image (", exception.what(), ")")};
+        return Error{str_cat(path, ": cannot encode OpenEXR image (", exception.what(), ")")};
     }
 }
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "bake/image/image.h"
-#include "base/result.h"
+#include <tetralight/bake/image/image.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

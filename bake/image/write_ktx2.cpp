@@ -3,9 +3,9 @@
 #include <array>
 #include <cstring>
 
-#include "bake/image/detail/texture_3d.h"
-#include "bake/image/texture_3d.h"
-#include "base/file.h"
+#include <tetralight/bake/image/detail/texture_3d.h>
+#include <tetralight/bake/image/texture_3d.h>
+#include <tetralight/base/file.h>
 
 // The layout: Khronos, "KTX File Format Specification, version 2.0" and "Data Format Specification,
 // version 1.3", section 5 (basic descriptor block).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/write_layered_exr.h"
+#include <tetralight/bake/image/write_layered_exr.h>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -14,9 +14,9 @@
 #include <new>
 #include <span>
 
-#include "bake/image/read_image.h"
-#include "base/file.h"
-#include "base/text.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -74,8 +74,8 @@ Status write_layered_exr(const std::string& path, const LayeredImage& image,
                          ExrPrecision precision) {
     const uint64_t pixel_count = uint64_t{image.width} * image.height;
     if (pixel_count == 0 || pixel_count > kMaxImagePixels) {
-        return Error{
-            text(path, ": cannot write an image of ", image.width, " x ", image.height, " pixels")};
+        return Error{str_cat(path, ": cannot write an image of ", image.width, " x ", image.height,
+                             " pixels")};
     }
     try {
         const std::string bytes = encode(image, precision);
@@ -83,7 +83,7 @@ Status write_layered_exr(const std::string& path, const LayeredImage& image,
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{text(path, ": cannot encode OpenEXR image (", exception.what(), ")")};
+        return Error{str_cat(path, ": cannot encode OpenEXR image (", exception.what(), ")")};
     }
 }
 

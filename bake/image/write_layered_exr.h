@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

@@ -2,10 +2,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "bake/image/read_image.h"
-#include "bake/image/write_image.h"
-#include "base/file.h"
-#include "base/text.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -27,8 +27,8 @@ Status write_png(const std::string& path, const Image8& image) {
     const uint64_t pixel_count = uint64_t{image.width} * image.height;
     TETRALIGHT_ASSERT(image.pixels.size() == pixel_count, "an image has width * height pixels");
     if (pixel_count == 0 || pixel_count > kMaxImagePixels) {
-        return Error{
-            text(path, ": cannot write an image of ", image.width, " x ", image.height, " pixels")};
+        return Error{str_cat(path, ": cannot write an image of ", image.width, " x ", image.height,
+                             " pixels")};
     }
     std::vector<std::byte> bytes;
     const int width = static_cast<int>(image.width);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/adaptive_grid.h"
+#include <tetralight/bake/placement/adaptive_grid.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,12 +9,13 @@
 #include <optional>
 #include <utility>
 
-#include "bake/placement/light_pool.h"
-#include "bake/placement/light_survey.h"
-#include "bake/placement/refine_cells.h"
-#include "bake/placement/remove_probes.h"
-#include "bake/placement/sensors.h"
-#include "base/assert.h"
+#include <tetralight/bake/placement/light_pool.h>
+#include <tetralight/bake/placement/light_survey.h>
+#include <tetralight/bake/placement/refine_cells.h>
+#include <tetralight/bake/placement/remove_probes.h>
+#include <tetralight/bake/placement/sensors.h>
+#include <tetralight/base/contract.h>
+#include <tetralight/base/error_text.h>
 
 namespace tetralight {
 namespace {
@@ -51,7 +52,7 @@ class AdaptiveGrid {
         for (const glm::dvec3& sensor : input_.sensors) add_sensor(sensor);
         Status status = refine();
         if (status) status = remove_and_replace();
-        if (!status && status.error().message != "cancelled") return status.error();
+        if (!status && error_text(status.error()) != "cancelled") return status.error();
         if (!best_ && is_time_over()) return Error{"out of time before there was a result"};
         if (!best_) return Error{"interrupted"};
         if (!status)
@@ -127,7 +128,7 @@ class AdaptiveGrid {
     }
 
     /// The light and the errors of the set, with less noise until errors stand out of it.
-    Status survey() {
+    Status probe_visibility() {
         while (true) {
             add_sensors();
             if (checks_.empty()) {
@@ -159,7 +160,7 @@ class AdaptiveGrid {
     Status refine() {
         const double most = kBeyondCount * static_cast<double>(input_.max_probe_count);
         while (true) {
-            if (auto status = survey(); !status) return status;
+            if (auto status = probe_visibility(); !status) return status;
             // More than is asked for is no result.
             if (set_.probes.size() <= input_.max_probe_count) {
                 if (auto status = accept(); !status) return status;
@@ -204,7 +205,7 @@ class AdaptiveGrid {
 
     /// Sensors that are nearer to a surface than the clearance are for looking only.
     [[nodiscard]] bool has_clearance(const glm::dvec3& world_position) const {
-        const glm::vec3 position = input_.traced.traced_from_world(world_position);
+        const glm::vec3 position = input_.traced.render_from_world(world_position);
         const auto nearest = input_.traced.nearest_surface(position);
         constexpr double kRounding = 0.99;
         return !nearest ||
@@ -236,7 +237,7 @@ class AdaptiveGrid {
                                   rule);
         if (left.size() == set_.probes.size()) return false;
         set_.probes = std::move(left);
-        if (auto status = survey(); !status) return status.error();
+        if (auto status = probe_visibility(); !status) return status.error();
         return true;
     }
 
@@ -274,7 +275,7 @@ class AdaptiveGrid {
             const size_t count = set_.probes.size();
             const auto room = static_cast<size_t>(share * static_cast<double>(count));
             if (insert(room) == 0) break;
-            if (auto status = survey(); !status) return status;
+            if (auto status = probe_visibility(); !status) return status;
             while (set_.probes.size() > count) {
                 const auto removed = remove(count, std::numeric_limits<double>::max());
                 if (!removed) return removed.error();
@@ -305,7 +306,7 @@ class AdaptiveGrid {
         }
         std::ranges::sort(added);
         for (const uint32_t probe : added) {
-            const glm::vec3 position = input_.traced.traced_from_world(pool_.position(probe));
+            const glm::vec3 position = input_.traced.render_from_world(pool_.position(probe));
             const auto nearest = input_.traced.nearest_surface(position);
             const float distance = nearest ? glm::distance(*nearest, position)
                                            : std::numeric_limits<float>::infinity();

@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "bake/bake_settings.h"
-#include "bake/placement/free_space.h"
-#include "bake/placement/space_map.h"
-#include "bake/scene/scene.h"
-#include "bake/scene/scene_bounds.h"
-#include "bake/trace_scene.h"
-#include "base/result.h"
+#include <tetralight/bake/bake_settings.h>
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

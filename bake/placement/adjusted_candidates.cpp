@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/adjusted_candidates.h"
+#include <tetralight/bake/placement/adjusted_candidates.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <limits>
 
-#include "bake/parallel.h"
-#include "bake/placement/candidate_count.h"
-#include "base/text.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/candidate_count.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -76,7 +76,7 @@ Result<std::vector<Candidate>> adjusted_candidates(const TraceScene& traced,
         dense.spacing = glm::dvec3(*adjustment.spacing);
         status = add(traced, adjustments, mode, dense, &adjustment, candidates);
         if (!status) {
-            return status.error().in(text("adjustment volume \"", adjustment.name, "\""));
+            return status.error().in(str_cat("adjustment volume \"", adjustment.name, "\""));
         }
     }
     return candidates;

@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "bake/placement/candidates.h"
-#include "bake/placement/free_space.h"
-#include "bake/placement/probe_grid.h"
-#include "bake/scene/probe_adjustment.h"
-#include "bake/trace_scene.h"
-#include "base/result.h"
+#include <tetralight/bake/placement/candidates.h>
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/probe_adjustment.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

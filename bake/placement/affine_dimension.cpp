@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/affine_dimension.h"
+#include <tetralight/bake/placement/affine_dimension.h>
 
 #include <glm/geometric.hpp>
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "bake/memory_estimate.h"
-#include "base/result.h"
+#include <tetralight/bake/rays/memory_estimate.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

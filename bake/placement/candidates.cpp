@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/candidates.h"
+#include <tetralight/bake/placement/candidates.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include <map>
 #include <tuple>
 
-#include "bake/parallel.h"
-#include "bake/placement/candidate_count.h"
-#include "bake/placement/free_space.h"
-#include "bake/placement/grid_bounds.h"
-#include "bake/placement/lattice.h"
-#include "base/text.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/candidate_count.h>
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/grid_bounds.h>
+#include <tetralight/bake/placement/lattice.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -36,14 +36,14 @@ std::vector<LineHit> hits_along(const TraceScene& traced, const Box& bounds, glm
     const double length = bounds.size()[axis] + 2.0 * margin;
     glm::vec3 direction(0.0f);
     direction[axis] = -1.0f;
-    glm::vec3 from = traced.traced_from_world(start);
+    glm::vec3 from = traced.render_from_world(start);
     const float end = from[axis] - static_cast<float>(length);
     std::vector<LineHit> hits;
     for (int i = 0; i < kMaxHits && from[axis] > end; ++i) {
-        const auto side = traced.cast_side({from, direction, from[axis] - end});
+        const auto side = traced.intersect_side({from, direction, from[axis] - end});
         if (!side) break;
         const glm::vec3 hit = from + side->distance * direction;
-        hits.push_back({traced.world_from_traced(hit), *side});
+        hits.push_back({traced.world_from_render(hit), *side});
         from = traced.ray_origin(*side, hit, direction);
     }
     return hits;
@@ -91,7 +91,7 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
         for (const LineHit& hit : hits_along(traced, rule.bounds, column, kUp)) {
             if (!is_floor(hit)) continue;
             const glm::vec3 foot =
-                traced.ray_origin(hit.side, traced.traced_from_world(hit.position), {0, 1, 0});
+                traced.ray_origin(hit.side, traced.render_from_world(hit.position), {0, 1, 0});
             for (const double height : rule.heights) {
                 const glm::vec3 top(0.0f, static_cast<float>(height), 0.0f);
                 if (!sees(traced, foot, foot + top)) continue;
@@ -101,8 +101,8 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
         }
     });
     if (candidates && candidates->empty()) {
-        return Error{text("there is no floor, or no room above it in the bounds, in any of ",
-                          columns->size(), " columns")};
+        return Error{str_cat("there is no floor, or no room above it in the bounds, in any of ",
+                             columns->size(), " columns")};
     }
     return candidates;
 }
@@ -152,7 +152,7 @@ std::vector<bool> find_crowded(const TraceScene& traced, std::span<const glm::dv
                 const glm::dvec3& q = positions[other];
                 return glm::distance(p, q) < distance &&
                        (p == q ||
-                        sees(traced, traced.traced_from_world(p), traced.traced_from_world(q)));
+                        sees(traced, traced.render_from_world(p), traced.render_from_world(q)));
             });
         }
         if (!is_crowded[i]) kept[{x, y, z}].push_back(i);

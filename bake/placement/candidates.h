@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "bake/scene/scene_bounds.h"
-#include "bake/trace_scene.h"
-#include "base/result.h"
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/result.h>
 
 // Where probes might stand, before anyone looks whether they can. All in world space, in a fixed
 // order, and the same for any number of threads. Errors: those of `make_lattice`.

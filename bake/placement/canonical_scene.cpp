@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/canonical_scene.h"
+#include <tetralight/bake/placement/canonical_scene.h>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "probes/content_hash.h"
+#include <tetralight/probes/content_hash.h>
 
 namespace tetralight {
 namespace {

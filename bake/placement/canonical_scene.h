@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bake/scene/scene.h"
+#include <tetralight/bake/scene/scene.h>
 
 namespace tetralight {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/empty_spaces.h"
+#include <tetralight/bake/placement/empty_spaces.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 
-#include "bake/parallel.h"
-#include "bake/placement/free_space.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/free_space.h>
 
 namespace tetralight {
 namespace {

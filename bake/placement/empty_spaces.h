@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "bake/placement/space_map.h"
-#include "bake/scene/scene_bounds.h"
-#include "bake/trace_scene.h"
+#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/free_space.h"
+#include <tetralight/bake/placement/free_space.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "bake/capture_offset.h"
-#include "bake/placement/grid_bounds.h"
-#include "bake/survey.h"
+#include <tetralight/bake/placement/grid_bounds.h>
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/bake/virtual_offset.h>
 
 namespace tetralight {
 namespace {
@@ -29,7 +29,7 @@ int solids_around(const TraceScene& traced, glm::vec3 position, glm::vec3 direct
     constexpr int kMostSurfaces = 256;
     int count = 0;
     for (int i = 0; i < kMostSurfaces; ++i) {
-        const auto side = traced.cast_side({position, direction});
+        const auto side = traced.intersect_side({position, direction});
         if (!side) break;
         count += side->is_from_behind ? 1 : -1;
         const glm::vec3 hit = position + side->distance * direction;
@@ -50,8 +50,8 @@ class Push {
 
     /// Out of geometry, and then away from what is there.
     [[nodiscard]] std::optional<glm::vec3> out_of_geometry() const {
-        const CaptureSearch search{reach_, clearance_ * (1.0f + 2.0f * kSlack), kMinValidity};
-        const auto offset = find_capture_offset(traced_, start_, search);
+        const VirtualOffsetSearch search{reach_, clearance_ * (1.0f + 2.0f * kSlack), kMinValidity};
+        const auto offset = find_virtual_offset(traced_, start_, search);
         if (!offset) return std::nullopt;
         return along_gradient(start_ + *offset);
     }
@@ -124,7 +124,7 @@ class Push {
 
     /// Beyond the first surface along an axis, if the candidate is behind it.
     [[nodiscard]] std::optional<glm::vec3> exit(const glm::vec3& axis) const {
-        const auto side = traced_.cast_side({start_, axis, reach_});
+        const auto side = traced_.intersect_side({start_, axis, reach_});
         if (!side || !side->is_from_behind) return std::nullopt;
         return traced_.ray_origin(*side, start_ + side->distance * axis, axis);
     }
@@ -149,9 +149,9 @@ class Push {
 
     [[nodiscard]] bool is_fine(glm::vec3 from, glm::vec3 place) const {
         return glm::distance(place, start_) <= reach_ &&
-               is_in(bounds_, traced_.world_from_traced(place)) &&
+               is_in(bounds_, traced_.world_from_render(place)) &&
                (place == from || sees(traced_, from, place)) &&
-               standing_of(traced_, place, look_around(traced_, place)) == Standing::Free;
+               standing_of(traced_, place, probe_visibility_at(traced_, place)) == Standing::Free;
     }
 
     const TraceScene& traced_;
@@ -163,13 +163,13 @@ class Push {
 
 }  // namespace
 
-Standing standing_of(const TraceScene& traced, glm::vec3 position, const Surroundings& around) {
+Standing standing_of(const TraceScene& traced, glm::vec3 position, const ProbeVisibility& around) {
     if (around.is_inside()) return Standing::Inside;
     if (around.behind_share == 0.0f) return Standing::Free;
     constexpr size_t kEvery = 4;
     int inside = 0, outside = 0;
-    for (size_t i = 0; i < survey_directions().size(); i += kEvery) {
-        const bool is_in = solids_around(traced, position, survey_directions()[i]) > 0;
+    for (size_t i = 0; i < probe_visibility_directions().size(); i += kEvery) {
+        const bool is_in = solids_around(traced, position, probe_visibility_directions()[i]) > 0;
         ++(is_in ? inside : outside);
     }
     // Open surfaces miss sides in some directions, and so do faces that coincide; closed solids
@@ -179,20 +179,20 @@ Standing standing_of(const TraceScene& traced, glm::vec3 position, const Surroun
 }
 
 bool is_surely_free(const TraceScene& traced, const glm::dvec3& position, double clearance) {
-    const glm::vec3 place = traced.traced_from_world(position);
-    const Surroundings around = look_around(traced, place);
+    const glm::vec3 place = traced.render_from_world(position);
+    const ProbeVisibility around = probe_visibility_at(traced, place);
     return around.surface_distance >= (1.0 - kSlack) * clearance &&
            standing_of(traced, place, around) == Standing::Free;
 }
 
 bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
-    return !traced.is_blocked({from, to - from, 1.0f});
+    return !traced.occluded({from, to - from, 1.0f});
 }
 
 PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                         const ClearanceRule& rule) {
-    const glm::vec3 start = traced.traced_from_world(candidate);
-    const Surroundings around = look_around(traced, start);
+    const glm::vec3 start = traced.render_from_world(candidate);
+    const ProbeVisibility around = probe_visibility_at(traced, start);
     const bool is_inside = standing_of(traced, start, around) == Standing::Inside;
     PlacedProbe placed{candidate, Fate::Kept, around.surface_distance};
     if (!is_inside && around.surface_distance >= (1.0 - kSlack) * rule.clearance) return placed;
@@ -208,7 +208,7 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
         placed.fate = is_inside ? Fate::Inside : Fate::TooClose;
         return placed;
     }
-    placed.position = traced.world_from_traced(*place);
+    placed.position = traced.world_from_render(*place);
     // A push along an axis leaves the others as they are. Probes that rounding moves out of the
     // planes of their lattice make flat tetrahedra, across which light jumps.
     for (int i = 0; i < 3; ++i) {
@@ -216,7 +216,7 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
         if (way <= kSlack * rule.clearance) placed.position[i] = candidate[i];
     }
     placed.fate = Fate::Pushed;
-    placed.surface_distance = surface_distance(traced, traced.traced_from_world(placed.position));
+    placed.surface_distance = surface_distance(traced, traced.render_from_world(placed.position));
     return placed;
 }
 

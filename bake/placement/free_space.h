@@ -5,9 +5,9 @@
 #include <glm/vec3.hpp>
 #include <limits>
 
-#include "bake/scene/scene_bounds.h"
-#include "bake/survey.h"
-#include "bake/trace_scene.h"
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
 
 namespace tetralight {
 
@@ -64,18 +64,18 @@ enum class Standing : uint8_t {
     Inside,
 };
 
-/// How a position in traced space stands: by the shares of back faces around it
-/// (`Surroundings::is_inside`), and where there are few of them by counting, in some directions,
+/// How a position in render space stands: by the shares of back faces around it
+/// (`ProbeVisibility::is_inside`), and where there are few of them by counting, in some directions,
 /// all surfaces out to the sky: among solids that cross each other the nearest surfaces may all be
 /// fronts of others.
 [[nodiscard]] Standing standing_of(const TraceScene& traced, glm::vec3 position,
-                                   const Surroundings& around);
+                                   const ProbeVisibility& around);
 
 /// Whether a world position is free beyond doubt and `clearance` metres from all surfaces.
 [[nodiscard]] bool is_surely_free(const TraceScene& traced, const glm::dvec3& position,
                                   double clearance);
 
-/// Whether nothing stands between two positions in traced space.
+/// Whether nothing stands between two positions in render space.
 [[nodiscard]] bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to);
 
 }  // namespace tetralight

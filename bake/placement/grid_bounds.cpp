@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/grid_bounds.h"
+#include <tetralight/bake/placement/grid_bounds.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "bake/placement/candidate_count.h"
-#include "bake/placement/lattice.h"
-#include "base/text.h"
+#include <tetralight/bake/placement/candidate_count.h>
+#include <tetralight/bake/placement/lattice.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 
@@ -28,8 +28,8 @@ Status check_name(const Scene& scene, const std::string& name) {
     const auto is_part = [&](const MeshInstance& i) { return is_part_of(scene, i, name); };
     if (std::ranges::any_of(scene.instances, is_part)) return Ok{};
     const bool is_there = std::ranges::count(scene.nodes, name, &SceneNode::name) > 0;
-    if (is_there) return Error{text("node \"", name, "\" has no mesh to take bounds from")};
-    return Error{text("there is no node \"", name, "\"")};
+    if (is_there) return Error{str_cat("node \"", name, "\" has no mesh to take bounds from")};
+    return Error{str_cat("there is no node \"", name, "\"")};
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ Result<glm::dvec3> first_spacing(const Box& bounds, const ProbeGridSettings& set
     if (!count) return count.error();
     const glm::dvec3& p = bounds.low;
     if (p == bounds.high) {
-        return Error{text("bounds are empty: nothing but ", p.x, ",", p.y, ",", p.z)};
+        return Error{str_cat("bounds are empty: nothing but ", p.x, ",", p.y, ",", p.z)};
     }
     const uint64_t most = most_probes(settings);
     if (settings.mode == PlacementMode::Regular) {
@@ -127,7 +127,7 @@ Result<double> checked_clearance(const glm::dvec3& spacing, const ProbeGridSetti
     const double usual = std::min(kShare * std::min({spacing.x, spacing.y, spacing.z}), longest);
     const double clearance = settings.clearance.value_or(usual);
     if (clearance >= 0.0 && std::isfinite(clearance)) return clearance;
-    return Error{text("clearance ", clearance, " is not a length")};
+    return Error{str_cat("clearance ", clearance, " is not a length")};
 }
 
 }  // namespace tetralight

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bake/placement/probe_grid.h"
-#include "bake/scene/scene.h"
-#include "bake/scene/scene_bounds.h"
-#include "base/result.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/group_by_region.h"
+#include <tetralight/bake/placement/group_by_region.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
-#include "base/assert.h"
-#include "base/text.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -24,8 +24,8 @@ Region region_of(const glm::dvec3& position, size_t rank, double size) {
 std::string name_of(const Region& region, const RegionRule& rule, size_t space_count) {
     const auto [rank, x, y, z] = region;
     std::string name = rule.name;
-    if (space_count > 1) name += text(" space ", rank + 1);
-    if (rule.size > 0.0) name += text(" ", x, ",", y, ",", z);
+    if (space_count > 1) name += str_cat(" space ", rank + 1);
+    if (rule.size > 0.0) name += str_cat(" ", x, ",", y, ",", z);
     return name;
 }
 

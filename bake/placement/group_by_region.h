@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "probes/probe_group.h"
+#include <tetralight/probes/probe_group.h>
 
 namespace tetralight {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/lattice.h"
+#include <tetralight/bake/placement/lattice.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "bake/placement/candidate_count.h"
-#include "base/text.h"
+#include <tetralight/bake/placement/candidate_count.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -18,13 +18,13 @@ constexpr double kFlatShare = 0.001;
 Status check(const Box& bounds, const glm::dvec3& spacing) {
     for (int axis = 0; axis < 3; ++axis) {
         if (!(spacing[axis] > 0.0) || !std::isfinite(spacing[axis])) {
-            return Error{text("spacing ", spacing[axis], " along ", kAxisNames[axis],
-                              " is not a positive length")};
+            return Error{str_cat("spacing ", spacing[axis], " along ", kAxisNames[axis],
+                                 " is not a positive length")};
         }
         const double low = bounds.low[axis], high = bounds.high[axis];
         if (!std::isfinite(low) || !std::isfinite(high) || high < low) {
-            return Error{text("bounds ", low, " to ", high, " along ", kAxisNames[axis],
-                              " are empty or not finite")};
+            return Error{str_cat("bounds ", low, " to ", high, " along ", kAxisNames[axis],
+                                 " are empty or not finite")};
         }
     }
     return Ok{};

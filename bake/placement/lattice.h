@@ -6,8 +6,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "bake/scene/scene_bounds.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

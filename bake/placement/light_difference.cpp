@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/light_difference.h"
+#include <tetralight/bake/placement/light_difference.h>
 
 #include <array>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 // How different two lights are: over the 26 normals towards the faces, edges and corners of a cube,
 // and the three colour channels.

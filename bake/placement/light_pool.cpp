@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/light_pool.h"
+#include <tetralight/bake/placement/light_pool.h>
 
 #include <utility>
 
-#include "bake/bake_tallies.h"
+#include <tetralight/bake/bake_accumulators.h>
 
 namespace tetralight {
 
@@ -22,7 +22,7 @@ uint32_t LightPool::add(const glm::dvec3& position) {
 
 uint64_t LightPool::ray_count() const {
     uint64_t count = 0;
-    for (const ProbeTally& tally : tallies_) count += tally.ray_count;
+    for (const ProbeAccumulator& accumulator : tallies_) count += accumulator.ray_count;
     return count;
 }
 
@@ -35,17 +35,18 @@ Status LightPool::bake(const BakeCallback& callback) {
     }
     if (missing.empty()) return Ok{};
     std::vector<glm::dvec3> positions;
-    std::vector<ProbeTally> tallies;
+    std::vector<ProbeAccumulator> accumulators;
     for (const uint32_t i : missing) {
         positions.push_back(positions_[i]);
-        tallies.push_back(tallies_[i]);
+        accumulators.push_back(tallies_[i]);
     }
-    auto status = bake_tallies(scene_, positions, settings_, tallies, {.progress = callback});
+    auto status =
+        bake_accumulators(scene_, positions, settings_, accumulators, {.progress = callback});
     if (!status) return status;
     light_.resize(positions_.size());
     for (size_t k = 0; k < missing.size(); ++k) {
-        tallies_[missing[k]] = tallies[k];
-        light_[missing[k]] = irradiance_from_radiance(tallies[k].radiance());
+        tallies_[missing[k]] = accumulators[k];
+        light_[missing[k]] = irradiance_from_radiance(accumulators[k].radiance());
     }
     return Ok{};
 }

@@ -5,12 +5,12 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "bake/bake_progress.h"
-#include "bake/bake_settings.h"
-#include "bake/probe_tally.h"
-#include "bake/scene/scene.h"
-#include "base/result.h"
-#include "probes/sh.h"
+#include <tetralight/bake/bake_progress.h>
+#include <tetralight/bake/bake_settings.h>
+#include <tetralight/bake/probe_accumulator.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/probes/sh.h>
 
 namespace tetralight {
 
@@ -42,7 +42,7 @@ class LightPool {
     [[nodiscard]] uint64_t ray_count() const;
 
     /// Bakes what was added, with as many directions as the others have. Errors: those of
-    /// `bake_tallies`.
+    /// `bake_accumulators`.
     [[nodiscard]] Status bake(const BakeCallback& callback);
 
     /// Twice the directions for all; false: they have the most already.
@@ -53,7 +53,7 @@ class LightPool {
     BakeSettings settings_;
     uint32_t directions_ = kFewestDirections;
     std::vector<glm::dvec3> positions_;
-    std::vector<ProbeTally> tallies_;
+    std::vector<ProbeAccumulator> tallies_;
     std::vector<IrradianceSh> light_;
 };
 

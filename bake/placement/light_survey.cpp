@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/light_survey.h"
+#include <tetralight/bake/placement/light_survey.h>
 
 #include <cmath>
 
-#include "bake/parallel.h"
-#include "bake/placement/free_space.h"
-#include "bake/placement/light_difference.h"
-#include "probes/build/make_probe_volume.h"
-#include "probes/interpolate.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/light_difference.h>
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight {
 namespace {
@@ -29,14 +29,14 @@ double relative(double square_sum, double light_sum, size_t count) {
 float visible_part(const ProbeVolume& volume, const TraceScene& traced, const glm::dvec3& position,
                    const IrradianceSh& light, const CellLocation& location, SensorError& error) {
     const Cell& cell = volume.cells[location.cell];
-    const glm::vec3 here = traced.traced_from_world(position);
+    const glm::vec3 here = traced.render_from_world(position);
     IrradianceSh seen;
     float weight = 0.0f, hidden = 0.0f;
     for (int i = 0; i < 4; ++i) {
         const uint32_t probe = cell.vertices[i];
         constexpr float kNothing = 1e-3f;
         if (probe == kNoIndex || location.weights[i] < kNothing) continue;
-        const glm::vec3 there = traced.traced_from_world(volume.exact_positions[probe]);
+        const glm::vec3 there = traced.render_from_world(volume.exact_positions[probe]);
         if (there == here || sees(traced, here, there)) {
             seen += location.weights[i] * volume.irradiance[probe];
             weight += location.weights[i];

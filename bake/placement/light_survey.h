@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "bake/placement/light_pool.h"
-#include "bake/trace_scene.h"
-#include "probes/locate.h"
-#include "probes/no_index.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/placement/light_pool.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/no_index.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/probe_grid.h"
+#include <tetralight/bake/placement/probe_grid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,16 +7,16 @@
 #include <map>
 #include <utility>
 
-#include "bake/placement/adjusted_candidates.h"
-#include "bake/placement/affine_dimension.h"
-#include "bake/placement/candidates.h"
-#include "bake/placement/canonical_scene.h"
-#include "bake/placement/empty_spaces.h"
-#include "bake/placement/grid_bounds.h"
-#include "bake/placement/group_by_region.h"
-#include "bake/placement/reach.h"
-#include "bake/placement/space_map.h"
-#include "base/text.h"
+#include <tetralight/bake/placement/adjusted_candidates.h>
+#include <tetralight/bake/placement/affine_dimension.h>
+#include <tetralight/bake/placement/candidates.h>
+#include <tetralight/bake/placement/canonical_scene.h>
+#include <tetralight/bake/placement/empty_spaces.h>
+#include <tetralight/bake/placement/grid_bounds.h>
+#include <tetralight/bake/placement/group_by_region.h>
+#include <tetralight/bake/placement/reach.h>
+#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -49,10 +49,10 @@ void drop_crowded(const TraceScene& traced, double distance, std::vector<PlacedP
 }
 
 std::string none_left(const ProbeGrid& grid) {
-    return text("no probe is left of ", grid.candidate_count, ": ", grid.count(Fate::Inside),
-                " inside geometry, ", grid.count(Fate::TooClose), " too close to it, ",
-                grid.count(Fate::Unreachable), " unreachable, ", grid.count(Fate::Forbidden),
-                " forbidden");
+    return str_cat("no probe is left of ", grid.candidate_count, ": ", grid.count(Fate::Inside),
+                   " inside geometry, ", grid.count(Fate::TooClose), " too close to it, ",
+                   grid.count(Fate::Unreachable), " unreachable, ", grid.count(Fate::Forbidden),
+                   " forbidden");
 }
 
 /// Without heights that are nearer than the clearance to one before them.
@@ -199,8 +199,8 @@ class GridMaker {
     Result<AdaptiveReport> adapt(const AdaptiveCallback& callback) {
         const size_t fewest = fewest_probes();
         if (fewest > rule_.max_count) {
-            return Error{text(wanted_.size(), " spaces need ", fewest,
-                              " probes at least, more than the limit of ", rule_.max_count)};
+            return Error{str_cat(wanted_.size(), " spaces need ", fewest,
+                                 " probes at least, more than the limit of ", rule_.max_count)};
         }
         const AdaptiveInput input{scene_,
                                   traced_,

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "bake/placement/adaptive_grid.h"
-#include "bake/placement/free_space.h"
-#include "bake/scene/scene.h"
-#include "bake/scene/scene_bounds.h"
-#include "base/result.h"
-#include "probes/probe_group.h"
+#include <tetralight/bake/placement/adaptive_grid.h>
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_group.h>
 
 // The probe-grid generator: probes for a scene that nobody has to place by hand.
 //

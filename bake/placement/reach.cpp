@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/reach.h"
+#include <tetralight/bake/placement/reach.h>
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "bake/placement/group_by_region.h"
-#include "bake/survey.h"
-#include "base/text.h"
+#include <tetralight/bake/placement/group_by_region.h>
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
 
 Status check_seed(const TraceScene& traced, const SpaceMap& map, const glm::dvec3& seed) {
-    const std::string place = text("seed ", seed.x, ",", seed.y, ",", seed.z);
+    const std::string place = str_cat("seed ", seed.x, ",", seed.y, ",", seed.z);
     if (!map.contains(seed)) return Error{place + " lies outside of the bounds"};
-    const glm::vec3 position = traced.traced_from_world(seed);
-    if (standing_of(traced, position, look_around(traced, position)) == Standing::Inside) {
+    const glm::vec3 position = traced.render_from_world(seed);
+    if (standing_of(traced, position, probe_visibility_at(traced, position)) == Standing::Inside) {
         return Error{place + " lies inside geometry"};
     }
     if (map.space_of(seed) == kNoIndex) {

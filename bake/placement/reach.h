@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "bake/placement/free_space.h"
-#include "bake/placement/probe_grid.h"
-#include "bake/placement/space_map.h"
-#include "bake/trace_scene.h"
-#include "base/result.h"
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/refine_cells.h"
+#include <tetralight/bake/placement/refine_cells.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
 
 namespace tetralight {
 namespace {
@@ -120,23 +120,23 @@ class Refiner {
 
 std::vector<glm::dvec3> pair_at_wall(const TraceScene& traced, const glm::dvec3& from,
                                      const glm::dvec3& to, double clearance, double thickness) {
-    const glm::vec3 start = traced.traced_from_world(from);
-    const glm::vec3 way = traced.traced_from_world(to) - start;
+    const glm::vec3 start = traced.render_from_world(from);
+    const glm::vec3 way = traced.render_from_world(to) - start;
     const float length = glm::length(way);
     if (!(length > 0.0f)) return {};
     const glm::vec3 direction = way / length;
-    const auto front = traced.cast_side({start, direction, length});
+    const auto front = traced.intersect_side({start, direction, length});
     if (!front) return {};
     const auto off = static_cast<float>(clearance);
     const glm::vec3 hit = start + front->distance * direction;
     const glm::vec3 inwards = -front->normal;
-    std::vector<glm::dvec3> pair{traced.world_from_traced(hit - off * inwards)};
+    std::vector<glm::dvec3> pair{traced.world_from_render(hit - off * inwards)};
     const glm::vec3 behind = traced.ray_origin(*front, hit, inwards);
-    const auto back = traced.cast_side({behind, inwards});
+    const auto back = traced.intersect_side({behind, inwards});
     if (!back || (!back->is_from_behind && back->distance > 2.0f * off)) {
-        pair.push_back(traced.world_from_traced(hit + off * inwards));  // a sheet
+        pair.push_back(traced.world_from_render(hit + off * inwards));  // a sheet
     } else if (back->is_from_behind && double{back->distance} <= thickness) {
-        pair.push_back(traced.world_from_traced(behind + (back->distance + off) * inwards));
+        pair.push_back(traced.world_from_render(behind + (back->distance + off) * inwards));
     }
     return pair;
 }

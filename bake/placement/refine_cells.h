@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "bake/placement/light_pool.h"
-#include "bake/placement/light_survey.h"
-#include "bake/trace_scene.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/placement/light_pool.h>
+#include <tetralight/bake/placement/light_survey.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/remove_probes.h"
+#include <tetralight/bake/placement/remove_probes.h>
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <utility>
 
-#include "bake/parallel.h"
-#include "bake/placement/affine_dimension.h"
-#include "base/assert.h"
-#include "probes/content_hash.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/affine_dimension.h>
+#include <tetralight/base/contract.h>
+#include <tetralight/probes/content_hash.h>
 
 namespace tetralight {
 namespace {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "bake/placement/light_pool.h"
-#include "bake/placement/light_survey.h"
-#include "probes/probe_volume.h"
+#include <tetralight/bake/placement/light_pool.h>
+#include <tetralight/bake/placement/light_survey.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/sensors.h"
+#include <tetralight/bake/placement/sensors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "bake/parallel.h"
+#include <tetralight/bake/parallel.h>
 
 namespace tetralight {
 namespace {
@@ -37,7 +37,7 @@ SensorPlaces::SensorPlaces(const TraceScene& traced, const Box& bounds, double s
     for (uint32_t g = 0; g < traced.geometry_count(); ++g) {
         for (uint32_t p = 0; p < traced.triangle_count(g); ++p) {
             const auto [a, b, c] = traced.triangle(g, p);
-            const glm::dvec3 center = traced.world_from_traced((a + b + c) / 3.0f);
+            const glm::dvec3 center = traced.world_from_render((a + b + c) / 3.0f);
             if (!is_in(bounds, center)) continue;
             sum += 0.5 * double{glm::length(glm::cross(b - a, c - a))};
             triangles_.push_back({g, p});
@@ -62,7 +62,7 @@ glm::dvec3 SensorPlaces::off_a_surface(uint64_t i) const {
     glm::vec3 normal = glm::normalize(glm::cross(b - a, c - a));
     const bool is_back = traced_.is_double_sided(chosen.geometry) && fraction(i, 3) < 0.5;
     if (is_back) normal = -normal;
-    return traced_.world_from_traced(place) + surface_offset_ * glm::dvec3(normal);
+    return traced_.world_from_render(place) + surface_offset_ * glm::dvec3(normal);
 }
 
 bool SensorPlaces::counts(const glm::dvec3& position) const {

@@ -6,8 +6,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "bake/scene/scene_bounds.h"
-#include "bake/trace_scene.h"
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
 
 namespace tetralight {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/space_map.h"
+#include <tetralight/bake/placement/space_map.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "bake/parallel.h"
-#include "bake/placement/free_space.h"
-#include "bake/placement/grid_bounds.h"
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/grid_bounds.h>
 
 namespace tetralight {
 namespace {
@@ -77,7 +77,7 @@ SpaceMap::SpaceMap(const TraceScene& traced, const Box& bounds, const glm::dvec3
 }
 
 glm::vec3 SpaceMap::post(uint64_t i) const {
-    return traced_.traced_from_world(posts_.at(i));
+    return traced_.render_from_world(posts_.at(i));
 }
 
 void SpaceMap::fill(uint32_t thread_count) {
@@ -140,7 +140,7 @@ void SpaceMap::look(const glm::dvec3& position, int reach, std::vector<uint32_t>
         low[axis] =
             static_cast<int>(std::clamp(steps, 0.0, static_cast<double>(layers.count) - 2.0));
     }
-    const glm::vec3 from = traced_.traced_from_world(position);
+    const glm::vec3 from = traced_.render_from_world(position);
     for (int y = -reach; y <= reach + 1; ++y) {
         for (int z = -reach; z <= reach + 1; ++z) {
             for (int x = -reach; x <= reach + 1; ++x) {

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "bake/placement/lattice.h"
-#include "bake/scene/scene_bounds.h"
-#include "bake/trace_scene.h"
-#include "probes/no_index.h"
+#include <tetralight/bake/placement/lattice.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/probes/no_index.h>
 
 namespace tetralight {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/check_lights.h"
+#include <tetralight/bake/scene/check_lights.h>
 
 #include <cmath>
 
-#include "base/text.h"
-#include "base/utf8.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {
 
 Status check(float value, const char* name) {
     if (value >= 0.0f && std::isfinite(value)) return Ok{};
-    return Error{text(name, " ", value, " is negative or not finite")};
+    return Error{str_cat(name, " ", value, " is negative or not finite")};
 }
 
 Status check_light(const Light& light) {
@@ -33,7 +33,7 @@ Status check_lights(const Scene& scene) {
         auto status = check_light(scene.lights[i]);
         if (status) status = check_characters(name);
         if (status) continue;
-        return status.error().in(text("light ", i, " \"", name, "\""));
+        return status.error().in(str_cat("light ", i, " \"", name, "\""));
     }
     return Ok{};
 }

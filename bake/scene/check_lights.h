@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

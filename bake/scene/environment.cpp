@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/environment.h"
+#include <tetralight/bake/scene/environment.h>
 
 #include <algorithm>
 #include <cmath>

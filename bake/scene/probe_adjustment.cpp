@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/probe_adjustment.h"
+#include <tetralight/bake/scene/probe_adjustment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -43,13 +43,13 @@ Status check_transform(const glm::dmat4& transform) {
 
 Status check_settings(const ProbeAdjustment& a) {
     if (a.spacing && !(*a.spacing > 0.0 && std::isfinite(*a.spacing))) {
-        return Error{text("spacing ", *a.spacing, " is not a positive length")};
+        return Error{str_cat("spacing ", *a.spacing, " is not a positive length")};
     }
     if (a.validity && !(*a.validity >= 0.0f && *a.validity <= 1.0f)) {
-        return Error{text("validity ", *a.validity, " is not from 0 to 1")};
+        return Error{str_cat("validity ", *a.validity, " is not from 0 to 1")};
     }
     if (a.intensity && !(*a.intensity >= 0.0f && std::isfinite(*a.intensity))) {
-        return Error{text("intensity ", *a.intensity, " is negative or not finite")};
+        return Error{str_cat("intensity ", *a.intensity, " is negative or not finite")};
     }
     if (!a.forbids_probes && !a.spacing && !a.validity && !a.intensity) {
         return Error{"it adjusts nothing (forbid, spacing, validity, intensity)"};
@@ -68,7 +68,7 @@ bool contains(const ProbeAdjustment& adjustment, const glm::dvec3& position) {
 Status check_size(AdjustmentShape shape, const glm::dvec3& size) {
     const char* what = shape == AdjustmentShape::Box ? "size " : "radius ";
     for (int i = 0; i < 3; ++i) {
-        if (!(size[i] > 0.0)) return Error{text(what, size[i], " is not a positive length")};
+        if (!(size[i] > 0.0)) return Error{str_cat(what, size[i], " is not a positive length")};
     }
     return Ok{};
 }
@@ -98,7 +98,7 @@ AdjustmentAt adjustment_at(std::span<const ProbeAdjustment> adjustments,
 }
 
 Status check(const ProbeAdjustment& adjustment) {
-    const std::string place = text("adjustment volume \"", adjustment.name, "\"");
+    const std::string place = str_cat("adjustment volume \"", adjustment.name, "\"");
     if (auto status = check_transform(adjustment.world_from_volume); !status) {
         return status.error().in(place);
     }

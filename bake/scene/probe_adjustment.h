@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 // Adjustment volumes: what people say about probes in a part of a scene, against what the
 // generator and the bake would do by themselves.

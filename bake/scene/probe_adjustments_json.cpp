@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/probe_adjustments_json.h"
+#include <tetralight/bake/scene/probe_adjustments_json.h>
 
 #include <algorithm>
 #include <exception>
@@ -10,9 +10,9 @@
 #include <set>
 #include <string_view>
 
-#include "base/file.h"
-#include "base/json_text.h"
-#include "base/text.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/json_text.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -28,7 +28,7 @@ std::string shown(const json& value) {
 Status check_keys(const json& object, std::initializer_list<std::string_view> known) {
     for (const auto& [key, value] : object.items()) {
         if (std::ranges::find(known, key) == known.end()) {
-            return Error{text("unknown key \"", key, "\"")};
+            return Error{str_cat("unknown key \"", key, "\"")};
         }
     }
     return Ok{};
@@ -39,7 +39,7 @@ template <class Number>
 Status read_number(const json& object, const char* key, std::optional<Number>& number) {
     const auto value = object.find(key);
     if (value == object.end()) return Ok{};
-    if (!value->is_number()) return Error{text(key, " is not a number (", shown(*value), ")")};
+    if (!value->is_number()) return Error{str_cat(key, " is not a number (", shown(*value), ")")};
     number = value->get<Number>();
     return Ok{};
 }
@@ -49,7 +49,7 @@ Status read_vec3(const json& object, const char* key, glm::dvec3& v) {
     if (value == object.end()) return Ok{};
     const bool is_vec3 = value->is_array() && value->size() == 3 &&
                          std::ranges::all_of(*value, [](const json& n) { return n.is_number(); });
-    if (!is_vec3) return Error{text(key, " is not three numbers (", shown(*value), ")")};
+    if (!is_vec3) return Error{str_cat(key, " is not three numbers (", shown(*value), ")")};
     for (int i = 0; i < 3; ++i) v[i] = (*value)[static_cast<size_t>(i)].get<double>();
     return Ok{};
 }
@@ -59,10 +59,10 @@ Status read_place(const json& object, ProbeAdjustment& adjustment) {
     if (shape == object.end()) return Error{"shape is missing"};
     const bool is_box = *shape == "box";
     if (!is_box && *shape != "sphere") {
-        return Error{text("shape ", shown(*shape), " is not \"box\" or \"sphere\"")};
+        return Error{str_cat("shape ", shown(*shape), " is not \"box\" or \"sphere\"")};
     }
     const char* other = is_box ? "radius" : "size";
-    if (object.contains(other)) return Error{text(other, " does not fit the shape")};
+    if (object.contains(other)) return Error{str_cat(other, " does not fit the shape")};
     glm::dvec3 center(0.0), size(1.0);
     std::optional<double> radius;
     if (auto status = read_vec3(object, "center", center); !status) return status;
@@ -78,7 +78,7 @@ Status read_place(const json& object, ProbeAdjustment& adjustment) {
 Status read_settings(const json& object, ProbeAdjustment& adjustment) {
     if (const auto forbid = object.find("forbid"); forbid != object.end()) {
         if (!forbid->is_boolean()) {
-            return Error{text("forbid is not a boolean (", shown(*forbid), ")")};
+            return Error{str_cat("forbid is not a boolean (", shown(*forbid), ")")};
         }
         adjustment.forbids_probes = forbid->get<bool>();
     }
@@ -88,11 +88,11 @@ Status read_settings(const json& object, ProbeAdjustment& adjustment) {
 }
 
 Result<ProbeAdjustment> read_adjustment(const json& object, size_t index) {
-    const std::string place = text("adjustment ", index);
-    if (!object.is_object()) return Error{text(place, ": is not an object")};
+    const std::string place = str_cat("adjustment ", index);
+    if (!object.is_object()) return Error{str_cat(place, ": is not an object")};
     const auto name = object.find("name");
     if (name == object.end() || !name->is_string() || name->get<std::string>().empty()) {
-        return Error{text(place, ": has no name")};
+        return Error{str_cat(place, ": has no name")};
     }
     ProbeAdjustment adjustment;
     adjustment.name = name->get<std::string>();
@@ -100,7 +100,7 @@ Result<ProbeAdjustment> read_adjustment(const json& object, size_t index) {
                                         "spacing", "validity", "intensity"});
     if (status) status = read_place(object, adjustment);
     if (status) status = read_settings(object, adjustment);
-    if (!status) return status.error().in(text("adjustment volume \"", adjustment.name, "\""));
+    if (!status) return status.error().in(str_cat("adjustment volume \"", adjustment.name, "\""));
     if (status = check(adjustment); !status) return status.error();
     return adjustment;
 }
@@ -118,7 +118,7 @@ Result<std::vector<ProbeAdjustment>> read_document(const json& document) {
         auto adjustment = read_adjustment(value, adjustments.size());
         if (!adjustment) return adjustment.error();
         if (!names.insert(adjustment->name).second) {
-            return Error{text("two adjustment volumes are named \"", adjustment->name, "\"")};
+            return Error{str_cat("two adjustment volumes are named \"", adjustment->name, "\"")};
         }
         adjustments.push_back(std::move(*adjustment));
     }

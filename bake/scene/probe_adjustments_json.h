@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/probe_adjustment.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/probe_adjustment.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "base/result.h"
-#include "probes/probe_group.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_group.h>
 
 namespace tetralight {
 

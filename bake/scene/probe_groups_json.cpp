@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/probe_groups_json.h"
+#include <tetralight/bake/scene/probe_groups_json.h>
 
 #include <algorithm>
 #include <exception>
@@ -10,10 +10,11 @@
 #include <optional>
 #include <set>
 
-#include "bake/scene/detail/probe_group_check.h"
-#include "base/file.h"
-#include "base/json_text.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/probe_group_check.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/json_text.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -46,7 +47,7 @@ class ParsePlace {
 
     [[nodiscard]] Error located(Error error) const {
         if (!is_in_group_) return error;
-        if (is_in_probe_) error = error.in(text("probe ", probe_count_));
+        if (is_in_probe_) error = error.in(str_cat("probe ", probe_count_));
         return error.in(detail::group_place(group_count_ - 1, name_));
     }
 
@@ -65,7 +66,7 @@ class ParsePlace {
     void start_key(const std::string& key) {
         key_ = key;
         if (keys_.insert(key).second || duplicate_key_) return;
-        duplicate_key_ = located(Error{text("key \"", key, "\" stands twice")});
+        duplicate_key_ = located(Error{str_cat("key \"", key, "\" stands twice")});
     }
 
     std::optional<Error> duplicate_key_;
@@ -86,31 +87,32 @@ std::string shown(const json& value) {
 }
 
 Result<double> read_number(const json& value) {
-    if (!value.is_number()) return Error{text("is not a number (", shown(value), ")")};
+    if (!value.is_number()) return Error{str_cat("is not a number (", shown(value), ")")};
     return value.get<double>();
 }
 
 Result<glm::dvec3> read_position(const json& value) {
     if (!value.is_array() || value.size() != 3) {
-        return Error{text("position is not three numbers (", shown(value), ")")};
+        return Error{str_cat("position is not three numbers (", shown(value), ")")};
     }
     constexpr const char* kAxes[] = {"x", "y", "z"};
     glm::dvec3 position{};
     for (int axis = 0; axis < 3; ++axis) {
         const auto number = read_number(value[static_cast<size_t>(axis)]);
-        if (!number) return Error{text("position: ", kAxes[axis], " ", number.error().message)};
+        if (!number)
+            return Error{str_cat("position: ", kAxes[axis], " ", error_text(number.error()))};
         position[axis] = *number;
     }
     return position;
 }
 
 Result<std::vector<glm::dvec3>> read_positions(const json& value) {
-    if (!value.is_array()) return Error{text("positions is not an array (", shown(value), ")")};
+    if (!value.is_array()) return Error{str_cat("positions is not an array (", shown(value), ")")};
     std::vector<glm::dvec3> positions;
     positions.reserve(value.size());
     for (const json& element : value) {
         const auto position = read_position(element);
-        if (!position) return position.error().in(text("probe ", positions.size()));
+        if (!position) return position.error().in(str_cat("probe ", positions.size()));
         positions.push_back(*position);
     }
     return positions;
@@ -118,12 +120,13 @@ Result<std::vector<glm::dvec3>> read_positions(const json& value) {
 
 Result<glm::dmat4> read_transform(const json& value) {
     if (!value.is_array() || value.size() != 16) {
-        return Error{text("transform is not 16 numbers (", shown(value), ")")};
+        return Error{str_cat("transform is not 16 numbers (", shown(value), ")")};
     }
     glm::dmat4 transform{};
     for (int i = 0; i < 16; ++i) {
         const auto number = read_number(value[static_cast<size_t>(i)]);
-        if (!number) return Error{text("transform: number ", i, " ", number.error().message)};
+        if (!number)
+            return Error{str_cat("transform: number ", i, " ", error_text(number.error()))};
         transform[i / 4][i % 4] = *number;
     }
     return transform;
@@ -132,7 +135,7 @@ Result<glm::dmat4> read_transform(const json& value) {
 Status check_keys(const json& object, std::initializer_list<std::string_view> known) {
     for (const auto& [key, value] : object.items()) {
         if (std::find(known.begin(), known.end(), key) == known.end()) {
-            return Error{text("unknown key \"", key, "\"")};
+            return Error{str_cat("unknown key \"", key, "\"")};
         }
     }
     return Ok{};
@@ -146,7 +149,7 @@ Status read_optional_parts(const json& value, ProbeGroup& group) {
     }
     if (const auto dering = value.find("dering"); dering != value.end()) {
         if (!dering->is_boolean())
-            return Error{text("dering is not a boolean (", shown(*dering), ")")};
+            return Error{str_cat("dering is not a boolean (", shown(*dering), ")")};
         group.dering = dering->get<bool>();
     }
     return Ok{};
@@ -168,12 +171,12 @@ Result<ProbeGroup> read_named_group(const json& value, std::string name) {
 }
 
 Result<ProbeGroup> read_group(const json& value, size_t group_index) {
-    const std::string place = text("group ", group_index);
-    if (!value.is_object()) return Error{text(place, ": is not an object (", shown(value), ")")};
+    const std::string place = str_cat("group ", group_index);
+    if (!value.is_object()) return Error{str_cat(place, ": is not an object (", shown(value), ")")};
     const auto name = value.find("name");
     if (name == value.end()) return Error{place + ": name is missing"};
     if (!name->is_string()) {
-        return Error{text(place, ": name is not a string (", shown(*name), ")")};
+        return Error{str_cat(place, ": name is not a string (", shown(*name), ")")};
     }
     auto group = read_named_group(value, name->get<std::string>());
     if (!group) {
@@ -188,7 +191,7 @@ Result<std::vector<ProbeGroup>> read_document(const json& document) {
     if (!keys) return keys.error();
     const auto values = document.find("groups");
     if (values == document.end()) return Error{"groups is missing"};
-    if (!values->is_array()) return Error{text("groups is not an array (", shown(*values), ")")};
+    if (!values->is_array()) return Error{str_cat("groups is not an array (", shown(*values), ")")};
     std::vector<ProbeGroup> groups;
     for (const json& value : *values) {
         auto group = read_group(value, groups.size());

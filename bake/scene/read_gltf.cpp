@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/read_gltf.h"
+#include <tetralight/bake/scene/read_gltf.h>
 
 #include <algorithm>
 
-#include "bake/scene/detail/gltf_cameras.h"
-#include "bake/scene/detail/gltf_document.h"
-#include "bake/scene/detail/gltf_instances.h"
-#include "bake/scene/detail/gltf_lights.h"
-#include "bake/scene/detail/gltf_materials.h"
-#include "bake/scene/detail/gltf_meshes.h"
-#include "bake/scene/detail/gltf_nodes.h"
-#include "bake/scene/detail/gltf_probe_adjustments.h"
-#include "bake/scene/detail/gltf_probe_groups.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_cameras.h>
+#include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_instances.h>
+#include <tetralight/bake/scene/detail/gltf_lights.h>
+#include <tetralight/bake/scene/detail/gltf_materials.h>
+#include <tetralight/bake/scene/detail/gltf_meshes.h>
+#include <tetralight/bake/scene/detail/gltf_nodes.h>
+#include <tetralight/bake/scene/detail/gltf_probe_adjustments.h>
+#include <tetralight/bake/scene/detail/gltf_probe_groups.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -78,8 +78,8 @@ Status add_sky(const detail::GltfDocument& document, Scene& scene) {
     const glm::dvec3& radiance = *document.sky_radiance;
     scene.environment.radiance = glm::vec3(radiance);
     if (std::min({radiance.x, radiance.y, radiance.z}) >= 0.0) return Ok{};
-    return Error{text("scene: extras.sky.radiance (", radiance.x, ", ", radiance.y, ", ",
-                      radiance.z, ") is negative")};
+    return Error{str_cat("scene: extras.sky.radiance (", radiance.x, ", ", radiance.y, ", ",
+                         radiance.z, ") is negative")};
 }
 
 Status add_all(const detail::GltfDocument& document, Scene& scene) {

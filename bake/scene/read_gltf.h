@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 

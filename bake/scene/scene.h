@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "bake/image/image.h"
-#include "bake/scene/probe_adjustment.h"
-#include "probes/light.h"
-#include "probes/no_index.h"
-#include "probes/probe_group.h"
+#include <tetralight/bake/image/image.h>
+#include <tetralight/bake/scene/probe_adjustment.h>
+#include <tetralight/probes/light.h>
+#include <tetralight/probes/no_index.h>
+#include <tetralight/probes/probe_group.h>
 
 // What a bake reads, as plain values: filled by read_gltf(), or by hand. Elements refer to each
 // other by index. Space is glTF's: right-handed, Y up, metres.

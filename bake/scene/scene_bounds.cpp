@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/scene_bounds.h"
+#include <tetralight/bake/scene/scene_bounds.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "bake/scene/scene.h"
+#include <tetralight/bake/scene/scene.h>
 
 namespace tetralight {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/surface_color.h"
+#include <tetralight/bake/scene/surface_color.h>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 
-#include "bake/scene/texture.h"
+#include <tetralight/bake/scene/texture.h>
 
 namespace tetralight {
 namespace {

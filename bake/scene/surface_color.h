@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "bake/scene/scene.h"
+#include <tetralight/bake/scene/scene.h>
 
 // What light transport needs of a material at one point: diffuse reflectivity, emission, alpha.
 

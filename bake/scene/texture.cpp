@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/texture.h"
+#include <tetralight/bake/scene/texture.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "bake/image/srgb.h"
-#include "base/assert.h"
+#include <tetralight/bake/image/srgb.h>
+#include <tetralight/base/contract.h>
 
 namespace tetralight {
 namespace {

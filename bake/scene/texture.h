@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
-#include "bake/scene/scene.h"
+#include <tetralight/bake/scene/scene.h>
 
 namespace tetralight {
 

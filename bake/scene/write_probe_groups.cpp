@@ -2,18 +2,18 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bake/scene/detail/probe_group_check.h"
-#include "bake/scene/probe_groups_json.h"
-#include "base/file.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include <tetralight/bake/scene/detail/probe_group_check.h>
+#include <tetralight/bake/scene/probe_groups_json.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {
 
 /// A finite double as JSON that reads back to the same bits: "-0" would read as the integer 0.
 std::string json_number(double value) {
-    return value == 0.0 && std::signbit(value) ? "-0.0" : text(value);
+    return value == 0.0 && std::signbit(value) ? "-0.0" : str_cat(value);
 }
 
 void append_transform(std::string& out, const glm::dmat4& transform) {
@@ -26,14 +26,14 @@ void append_transform(std::string& out, const glm::dmat4& transform) {
 }
 
 void append_group(std::string& out, const ProbeGroup& group) {
-    out += text("    {\n      \"name\": ", nlohmann::json(group.name).dump(), ",\n");
+    out += str_cat("    {\n      \"name\": ", nlohmann::json(group.name).dump(), ",\n");
     append_transform(out, group.world_from_group);
-    out += text("      \"dering\": ", group.dering ? "true" : "false", ",\n");
+    out += str_cat("      \"dering\": ", group.dering ? "true" : "false", ",\n");
     out += "      \"positions\": [\n";
     for (const glm::dvec3& position : group.positions) {
         const bool is_last = &position == &group.positions.back();
-        out += text("        [", json_number(position.x), ", ", json_number(position.y), ", ",
-                    json_number(position.z), is_last ? "]\n" : "],\n");
+        out += str_cat("        [", json_number(position.x), ", ", json_number(position.y), ", ",
+                       json_number(position.z), is_last ? "]\n" : "],\n");
     }
     out += "      ]\n    }";
 }
@@ -55,7 +55,7 @@ Status write_probe_groups(const std::string& path, std::span<const ProbeGroup> g
     if (!status) return status.error().in(path);
     for (const ProbeGroup& group : groups) {
         if (!is_utf8(group.name)) {
-            return Error{text(path, ": group \"", group.name, "\": the name is not UTF-8")};
+            return Error{str_cat(path, ": group \"", group.name, "\": the name is not UTF-8")};
         }
     }
     const std::string out = json_text(groups);

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bake/scene/detail/probe_group_check.h"
-#include "bake/scene/probe_groups_gltf.h"
-#include "base/file.h"
-#include "base/text.h"
-#include "base/utf8.h"
+#include <tetralight/bake/scene/detail/probe_group_check.h>
+#include <tetralight/bake/scene/probe_groups_gltf.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {
@@ -125,7 +125,7 @@ Status write_probe_groups_glb(const std::string& path, std::span<const ProbeGrou
     Document document;
     for (const ProbeGroup& group : groups) {
         if (!is_utf8(group.name)) {
-            return Error{text(path, ": group \"", group.name, "\": the name is not UTF-8")};
+            return Error{str_cat(path, ": group \"", group.name, "\": the name is not UTF-8")};
         }
         document.add(group);
     }

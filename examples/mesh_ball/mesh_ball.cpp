@@ -12,11 +12,12 @@
 #include <random>
 #include <vector>
 
-#include "probes/probe_file.h"
-#include "runtime/pack_instances.h"
-#include "runtime/runtime_lights.h"
-#include "runtime/shade.h"
-#include "runtime/tone_map.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/runtime/pack_instances.h>
+#include <tetralight/runtime/runtime_lights.h>
+#include <tetralight/runtime/shade.h>
+#include <tetralight/runtime/tone_map.h>
 
 using namespace tetralight;
 
@@ -59,7 +60,7 @@ bool light_instances(const ProbeVolumeView& volume, std::vector<Instance>& insta
     batch.occlusion =
         strided_occlusion(bytes.subspan(offsetof(Instance, occlusion)), sizeof(Instance));
     const auto report = pack_instances(volume, batch);
-    if (!report) std::fprintf(stderr, "%s\n", report.error().message.c_str());
+    if (!report) std::fprintf(stderr, "%s\n", error_text(report.error()).c_str());
     return bool(report);
 }
 
@@ -99,7 +100,7 @@ int main(int argc, char** argv) {
     const float radius = ball[3];
 
     const auto file = open_probe_file(argv[1]);
-    if (!file) return std::fprintf(stderr, "%s\n", file.error().message.c_str()), 1;
+    if (!file) return std::fprintf(stderr, "%s\n", error_text(file.error()).c_str()), 1;
     std::vector<Instance> instances = make_ball(center, radius);
     if (!light_instances(file->view(), instances)) return 1;
     const std::vector<RuntimeLight> lights = runtime_lights(file->view());

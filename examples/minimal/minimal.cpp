@@ -3,9 +3,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "probes/interpolate.h"
-#include "probes/packed_sh.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/packed_sh.h>
+#include <tetralight/probes/probe_file.h>
 
 int main(int argc, char** argv) {
     using namespace tetralight;
@@ -14,7 +15,7 @@ int main(int argc, char** argv) {
 
     const auto file = open_probe_file(argv[1]);  // maps the file and verifies all of it
     if (!file) {
-        std::fprintf(stderr, "%s\n", file.error().message.c_str());
+        std::fprintf(stderr, "%s\n", error_text(file.error()).c_str());
         return 1;
     }
     const CellLocation location = locate(file->view(), position);  // pass location.cell next time

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/box_packing.h"
+#include <tetralight/lppv/detail/box_packing.h>
 
 #include <algorithm>
 #include <array>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
 
 namespace tetralight::detail {
 namespace {

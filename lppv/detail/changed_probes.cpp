@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/changed_probes.h"
+#include <tetralight/lppv/detail/changed_probes.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "base/assert.h"
-#include "probes/no_index.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/probes/no_index.h>
 
 namespace tetralight::detail {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "probes/locate.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
 

@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "lppv/lppv_grid.h"
+#include <tetralight/lppv/lppv_grid.h>
 
 namespace tetralight::detail {
 

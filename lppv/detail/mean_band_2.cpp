@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/mean_band_2.h"
+#include <tetralight/lppv/detail/mean_band_2.h>
 
 #include <array>
 

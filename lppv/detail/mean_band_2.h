@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 namespace tetralight::detail {
 

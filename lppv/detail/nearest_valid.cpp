@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/nearest_valid.h"
+#include <tetralight/lppv/detail/nearest_valid.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
 
 namespace tetralight::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "probes/no_index.h"
+#include <tetralight/probes/no_index.h>
 
 namespace tetralight::detail {
 

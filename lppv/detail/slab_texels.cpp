@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/slab_texels.h"
+#include <tetralight/lppv/detail/slab_texels.h>
 
 #include <cstring>
 
-#include "lppv/detail/half.h"
+#include <tetralight/lppv/detail/half.h>
 
 namespace tetralight::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "lppv/lppv_texture.h"
+#include <tetralight/lppv/lppv_texture.h>
 
 namespace tetralight::detail {
 

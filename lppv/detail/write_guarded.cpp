@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/write_guarded.h"
+#include <tetralight/lppv/detail/write_guarded.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
 
 namespace tetralight::detail {
 namespace {

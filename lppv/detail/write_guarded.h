@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "lppv/lppv_texture.h"
+#include <tetralight/lppv/lppv_texture.h>
 
 namespace tetralight::detail {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one file that includes OpenVDB and NanoVDB.
-#include "lppv/vdb/write_vdb.h"
+#include <tetralight/lppv/vdb/write_vdb.h>
 
 #include <nanovdb/util/IO.h>
 #include <nanovdb/util/OpenToNanoVDB.h>
@@ -20,11 +20,11 @@
 #include <ostream>
 #include <span>
 
-#include "base/file.h"
-#include "base/text.h"
-#include "lppv/lppv_texture.h"
-#include "lppv/vdb/detail/memory_stream.h"
-#include "lppv/vdb/detail/vdb_uuid.h"
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/lppv/lppv_texture.h>
+#include <tetralight/lppv/vdb/detail/memory_stream.h>
+#include <tetralight/lppv/vdb/detail/vdb_uuid.h>
 
 namespace tetralight {
 namespace {
@@ -170,7 +170,7 @@ openvdb::GridPtrVec make_grids(const VoxelBlocks& voxels, VdbPrecision precision
     const float most =
         precision == VdbPrecision::Half ? kLargestHalf : std::numeric_limits<float>::max();
     for (int k = 0; k < kShCoefficientCount; ++k) {
-        grids.push_back(make_grid<openvdb::Vec3SGrid>(text("sh", k), voxels, [&](size_t i) {
+        grids.push_back(make_grid<openvdb::Vec3SGrid>(str_cat("sh", k), voxels, [&](size_t i) {
             const glm::vec3 c =
                 glm::clamp(voxels.irradiance[i].coefficients[static_cast<size_t>(k)], -most, most);
             return openvdb::Vec3s(c.x, c.y, c.z);
@@ -181,7 +181,7 @@ openvdb::GridPtrVec make_grids(const VoxelBlocks& voxels, VdbPrecision precision
     }));
     for (int k = 0; k < 4 && !voxels.occlusion.empty(); ++k) {
         grids.push_back(make_grid<openvdb::FloatGrid>(
-            text("occlusion", k), voxels, [&](size_t i) { return voxels.occlusion[i][k]; }));
+            str_cat("occlusion", k), voxels, [&](size_t i) { return voxels.occlusion[i][k]; }));
     }
     for (const auto& grid : grids) grid->setSaveFloatAsHalf(precision == VdbPrecision::Half);
     return grids;
@@ -223,7 +223,7 @@ Status write_encoded(const std::string& path, uint32_t thread_count, Encode enco
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{text(path, ": cannot encode the volume (", exception.what(), ")")};
+        return Error{str_cat(path, ": cannot encode the volume (", exception.what(), ")")};
     }
 }
 

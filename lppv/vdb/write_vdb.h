@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string>
 
-#include "base/result.h"
-#include "lppv/lppv.h"
-#include "lppv/sparse_lppv.h"
+#include <tetralight/base/result.h>
+#include <tetralight/lppv/lppv.h>
+#include <tetralight/lppv/sparse_lppv.h>
 
 // Proxy volumes as OpenVDB and NanoVDB files: nine vector grids `sh0` .. `sh8`, the RGB irradiance
 // coefficients of `IrradianceSh`, a float grid `validity` (1 = free), and, where the volume has it,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/carry_light.h"
+#include <tetralight/probes/build/carry_light.h>
 
 #include <span>
 
-#include "base/assert.h"
-#include "probes/build/detail/position_table.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/probes/build/detail/position_table.h>
 
 namespace tetralight {
 namespace {

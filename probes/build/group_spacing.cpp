@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/group_spacing.h"
+#include <tetralight/probes/build/group_spacing.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "probes/build/detail/position_tree.h"
+#include <tetralight/probes/build/detail/position_tree.h>
 
 namespace tetralight {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "probes/build/merge.h"
+#include <tetralight/probes/build/merge.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/hull_rays.h"
+#include <tetralight/probes/build/hull_rays.h>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/probes/build/tetrahedralize.h>
 
 namespace tetralight {
 

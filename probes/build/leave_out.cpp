@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/leave_out.h"
+#include <tetralight/probes/build/leave_out.h>
 
-#include "base/assert.h"
+#include <tetralight/base/contract.h>
 
 namespace tetralight {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "probes/build/merge.h"
+#include <tetralight/probes/build/merge.h>
 
 namespace tetralight {
 

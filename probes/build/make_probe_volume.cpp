@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/make_probe_volume.h"
+#include <tetralight/probes/build/make_probe_volume.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "probes/build/detail/local_origin.h"
-#include "probes/build/hull_rays.h"
-#include "probes/build/make_seeds.h"
+#include <tetralight/probes/build/detail/local_origin.h>
+#include <tetralight/probes/build/hull_rays.h>
+#include <tetralight/probes/build/make_seeds.h>
 
 namespace tetralight {
 ProbeVolume make_probe_volume(const MergedProbes& probes) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "probes/build/merge.h"
-#include "probes/build/tetrahedralize.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/build/merge.h>
+#include <tetralight/probes/build/tetrahedralize.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/make_seeds.h"
+#include <tetralight/probes/build/make_seeds.h>
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "probes/hilbert.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/hilbert.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

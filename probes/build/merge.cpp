@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/merge.h"
+#include <tetralight/probes/build/merge.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/text.h"
-#include "base/utf8.h"
-#include "probes/build/detail/hilbert_order.h"
-#include "probes/build/detail/snap_to_lattice.h"
-#include "probes/build/detail/weld.h"
-#include "probes/is_finite.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
+#include <tetralight/probes/build/detail/hilbert_order.h>
+#include <tetralight/probes/build/detail/snap_to_lattice.h>
+#include <tetralight/probes/build/detail/weld.h>
+#include <tetralight/probes/is_finite.h>
 
 namespace tetralight {
 namespace {
@@ -18,17 +18,17 @@ namespace {
 constexpr double kFarthest = 1e18;
 
 Error position_error(const ProbeGroup& group, size_t index, const char* what, glm::dvec3 p) {
-    return {text("group \"", group.name, "\": probe ", index, ": position ", what, " (", p.x, ", ",
-                 p.y, ", ", p.z, ")")};
+    return {str_cat("group \"", group.name, "\": probe ", index, ": position ", what, " (", p.x,
+                    ", ", p.y, ", ", p.z, ")")};
 }
 
 Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
     if (group.name.empty()) return Error{"a probe group has no name"};
     if (const auto status = check_characters(group.name); !status) {
-        return status.error().in(text("group \"", group.name, "\""));
+        return status.error().in(str_cat("group \"", group.name, "\""));
     }
     if (previous != nullptr && previous->name == group.name) {
-        return Error{text("group \"", group.name, "\": there are two groups of this name")};
+        return Error{str_cat("group \"", group.name, "\": there are two groups of this name")};
     }
     return Ok{};
 }
@@ -115,7 +115,8 @@ Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettin
         }
     }
     if (positions.size() >= kNoIndex / 8) {
-        return Error{text(positions.size(), " probes are more than 32-bit cell indices can name")};
+        return Error{
+            str_cat(positions.size(), " probes are more than 32-bit cell indices can name")};
     }
     weld_sources(positions, settings.weld_tolerance, merged);
     return merged;

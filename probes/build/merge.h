@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
-#include "probes/probe_group.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_group.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

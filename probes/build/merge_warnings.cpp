@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/merge_warnings.h"
+#include <tetralight/probes/build/merge_warnings.h>
 
 #include <cstdio>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "base/text.h"
-#include "probes/build/detail/spread.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/detail/spread.h>
 
 namespace tetralight {
 namespace {
@@ -25,7 +25,7 @@ void add_empty_groups(const MergedProbes& probes, std::vector<std::string>& warn
     for (const ProbeSource& source : probes.sources) is_empty[source.group] = false;
     for (size_t group = 0; group < is_empty.size(); ++group) {
         if (!is_empty[group]) continue;
-        warnings.push_back(text("group \"", probes.group_names[group], "\" has no probes"));
+        warnings.push_back(str_cat("group \"", probes.group_names[group], "\" has no probes"));
     }
     if (!probes.sources.empty()) return;
     warnings.emplace_back("there are no probes: the volume answers with its ambient light alone");
@@ -33,8 +33,8 @@ void add_empty_groups(const MergedProbes& probes, std::vector<std::string>& warn
 
 void add_welded(const MergedProbes& probes, std::vector<std::string>& warnings) {
     if (2 * probes.welded_count() <= probes.sources.size()) return;
-    warnings.push_back(text(probes.welded_count(), " of ", probes.sources.size(),
-                            " probes were welded to others (is a group there twice?)"));
+    warnings.push_back(str_cat(probes.welded_count(), " of ", probes.sources.size(),
+                               " probes were welded to others (is a group there twice?)"));
 }
 
 double size_of(const std::vector<glm::dvec3>& positions) {
@@ -51,10 +51,10 @@ void add_flat(const MergedProbes& probes, Dimension dimension, std::vector<std::
     if (!is_plane && dimension != Dimension::Line) return;
     const double meant = kMeantFlat * size_of(probes.positions);
     if (detail::measure_spread(probes.positions, meant).dimension <= dimension) return;
-    warnings.push_back(text(probes.positions.size(), " probes lie ",
-                            is_plane ? "in one plane" : "on one line", " (thinner than ",
-                            rounded(2.0 * flatness(probes)), " m): the volume is made of ",
-                            is_plane ? "triangles" : "segments"));
+    warnings.push_back(str_cat(probes.positions.size(), " probes lie ",
+                               is_plane ? "in one plane" : "on one line", " (thinner than ",
+                               rounded(2.0 * flatness(probes)), " m): the volume is made of ",
+                               is_plane ? "triangles" : "segments"));
 }
 
 }  // namespace

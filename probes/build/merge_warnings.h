@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "probes/build/merge.h"
+#include <tetralight/probes/build/merge.h>
 
 namespace tetralight {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/tetgen.h"
+#include <tetralight/probes/build/tetgen.h>
 
 #include <algorithm>
 #include <array>
@@ -7,12 +7,12 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "base/text.h"
-#include "probes/build/detail/cgal.h"
-#include "probes/build/detail/check_tetrahedra.h"
-#include "probes/build/detail/child_process.h"
-#include "probes/build/detail/spread.h"
-#include "probes/build/tetgen/stream.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/detail/cgal.h>
+#include <tetralight/probes/build/detail/check_tetrahedra.h>
+#include <tetralight/probes/build/detail/child_process.h>
+#include <tetralight/probes/build/detail/spread.h>
+#include <tetralight/probes/build/tetgen/stream.h>
 
 namespace tetralight {
 namespace {
@@ -64,22 +64,22 @@ Status check_output(Bytes output, uint64_t position_count) {
     const uint64_t count = header_of(output).count;
     const uint64_t limit = position_count * (position_count - 3) / 2;  // of any tetrahedralization
     if (count > std::min<uint64_t>(limit, kNoIndex / 4)) {
-        return Error{text("its output has ", count, " tetrahedra over ", position_count,
-                          " probes: more than there can be")};
+        return Error{str_cat("its output has ", count, " tetrahedra over ", position_count,
+                             " probes: more than there can be")};
     }
     if (output.size() <= sizeof(StreamHeader) + count * sizeof(StreamTetrahedron)) return Ok{};
-    return Error{text("its output goes on after the ", count, " tetrahedra that it began with")};
+    return Error{str_cat("its output goes on after the ", count, " tetrahedra that it began with")};
 }
 
 Result<std::vector<Cell>> cells_of(Bytes output) {
     if (output.size() < sizeof(StreamHeader)) {
-        return Error{text("its output ends after ", output.size(), " bytes")};
+        return Error{str_cat("its output ends after ", output.size(), " bytes")};
     }
     const uint64_t count = header_of(output).count;
     const Bytes payload = output.subspan(sizeof(StreamHeader));
     if (payload.size() != count * sizeof(Cell)) {
-        return Error{text("its output ends after ", payload.size() / sizeof(Cell), " of ", count,
-                          " tetrahedra")};
+        return Error{str_cat("its output ends after ", payload.size() / sizeof(Cell), " of ", count,
+                             " tetrahedra")};
     }
     std::vector<Cell> cells(count);
     if (count > 0) std::memcpy(cells.data(), payload.data(), payload.size());

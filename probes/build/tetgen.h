@@ -4,8 +4,8 @@
 #include <chrono>
 #include <string>
 
-#include "base/result.h"
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/build/tetrahedralize.h>
 
 namespace tetralight {
 

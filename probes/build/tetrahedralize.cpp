@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/probes/build/tetrahedralize.h>
 
 #include <utility>
 
-#include "probes/build/detail/canonical_cells.h"
-#include "probes/build/detail/cgal.h"
-#include "probes/build/detail/delaunay.h"
-#include "probes/build/detail/spread.h"
+#include <tetralight/probes/build/detail/canonical_cells.h>
+#include <tetralight/probes/build/detail/cgal.h>
+#include <tetralight/probes/build/detail/delaunay.h>
+#include <tetralight/probes/build/detail/spread.h>
 
 namespace tetralight {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/validate.h"
+#include <tetralight/probes/build/validate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <limits>
 #include <span>
 
-#include "base/text.h"
-#include "probes/build/detail/cgal.h"
-#include "probes/build/detail/spread.h"
-#include "probes/compact_probes.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/detail/cgal.h>
+#include <tetralight/probes/build/detail/spread.h>
+#include <tetralight/probes/compact_probes.h>
 
 namespace tetralight {
 namespace {
@@ -186,7 +186,7 @@ void check_cells(Validator validator, size_t cell_count) {
 std::vector<std::string> ValidationReport::problems() const {
     std::vector<std::string> lines;
     const auto add = [&](uint32_t count, const char* one, const char* many) {
-        if (count > 0) lines.push_back(text(count, " ", count == 1 ? one : many));
+        if (count > 0) lines.push_back(str_cat(count, " ", count == 1 ? one : many));
     };
     add(inverted_cells, "cell is inverted or has no volume",
         "cells are inverted or have no volume");
@@ -201,7 +201,7 @@ std::vector<std::string> ValidationReport::problems() const {
         "compact probes differ from their floats");
     const double tolerance = 1e-9 * std::abs(hull_measure) + measure_rounding;
     if (std::abs(cell_measure - hull_measure) > tolerance) {
-        lines.push_back(text("the cells fill ", cell_measure, " of the hull's ", hull_measure));
+        lines.push_back(str_cat("the cells fill ", cell_measure, " of the hull's ", hull_measure));
     }
     return lines;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/volume_builder.h"
+#include <tetralight/probes/build/volume_builder.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "base/text.h"
-#include "probes/build/detail/canonical_cells.h"
-#include "probes/build/detail/delaunay.h"
-#include "probes/build/detail/spread.h"
-#include "probes/build/make_probe_volume.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/detail/canonical_cells.h>
+#include <tetralight/probes/build/detail/delaunay.h>
+#include <tetralight/probes/build/detail/spread.h>
+#include <tetralight/probes/build/make_probe_volume.h>
 
 namespace tetralight {
 namespace {
@@ -39,7 +39,7 @@ VolumeBuilder& VolumeBuilder::operator=(VolumeBuilder&&) noexcept = default;
 
 Status VolumeBuilder::add_group(ProbeGroup group) {
     if (std::ranges::find(groups_, group.name, &ProbeGroup::name) != groups_.end()) {
-        return Error{text("group \"", group.name, "\": there are two groups of this name")};
+        return Error{str_cat("group \"", group.name, "\": there are two groups of this name")};
     }
     const auto alone = merge(std::span(&group, 1), settings_);
     if (!alone) return alone.error();
@@ -49,7 +49,8 @@ Status VolumeBuilder::add_group(ProbeGroup group) {
 
 Status VolumeBuilder::remove_group(std::string_view name) {
     const auto group = std::ranges::find(groups_, name, &ProbeGroup::name);
-    if (group == groups_.end()) return Error{text("group \"", name, "\": there is no such group")};
+    if (group == groups_.end())
+        return Error{str_cat("group \"", name, "\": there is no such group")};
     groups_.erase(group);
     return Ok{};
 }

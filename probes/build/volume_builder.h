@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/result.h"
-#include "probes/build/merge.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/build/merge.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

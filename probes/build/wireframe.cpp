@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/wireframe.h"
+#include <tetralight/probes/build/wireframe.h>
 
 #include <algorithm>
 #include <iterator>
 #include <span>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -54,10 +54,10 @@ Wireframe make_wireframe(const ProbeVolumeView& volume) {
 std::string obj_text(const Wireframe& wireframe) {
     std::string out = "# Tetralight: the probes of a volume and the edges between them\n";
     for (const glm::dvec3& p : wireframe.positions)
-        out += text("v ", p.x, ' ', p.y, ' ', p.z, '\n');
+        out += str_cat("v ", p.x, ' ', p.y, ' ', p.z, '\n');
     const auto add = [&](const char* group, const std::vector<ProbeEdge>& edges) {
-        out += text("g ", group, '\n');
-        for (const auto [a, b] : edges) out += text("l ", a + 1, ' ', b + 1, '\n');
+        out += str_cat("g ", group, '\n');
+        for (const auto [a, b] : edges) out += str_cat("l ", a + 1, ' ', b + 1, '\n');
     };
     add("cells", wireframe.inner_edges);
     add("hull", wireframe.hull_edges);
@@ -65,16 +65,16 @@ std::string obj_text(const Wireframe& wireframe) {
 }
 
 std::string ply_text(const Wireframe& wireframe) {
-    std::string out = text(
+    std::string out = str_cat(
         "ply\nformat ascii 1.0\ncomment Tetralight: the probes of a volume and the edges between "
         "them\nelement vertex ",
         wireframe.positions.size(),
         "\nproperty double x\nproperty double y\nproperty double z\nelement edge ",
         wireframe.inner_edges.size() + wireframe.hull_edges.size(),
         "\nproperty int vertex1\nproperty int vertex2\nproperty uchar hull\nend_header\n");
-    for (const glm::dvec3& p : wireframe.positions) out += text(p.x, ' ', p.y, ' ', p.z, '\n');
-    for (const auto [a, b] : wireframe.inner_edges) out += text(a, ' ', b, " 0\n");
-    for (const auto [a, b] : wireframe.hull_edges) out += text(a, ' ', b, " 1\n");
+    for (const glm::dvec3& p : wireframe.positions) out += str_cat(p.x, ' ', p.y, ' ', p.z, '\n');
+    for (const auto [a, b] : wireframe.inner_edges) out += str_cat(a, ' ', b, " 0\n");
+    for (const auto [a, b] : wireframe.hull_edges) out += str_cat(a, ' ', b, " 1\n");
     return out;
 }
 

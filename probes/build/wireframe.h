@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "probes/probe_volume.h"
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/batch_queries.h"
+#include <tetralight/probes/detail/batch_queries.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "probes/detail/cell_corners.h"
-#include "probes/detail/closest_hull_point.h"
-#include "probes/detail/hull_walk.h"
-#include "probes/detail/walk.h"
-#include "probes/is_finite.h"
-#include "probes/morton_order.h"
+#include <tetralight/probes/detail/cell_corners.h>
+#include <tetralight/probes/detail/closest_hull_point.h>
+#include <tetralight/probes/detail/hull_walk.h>
+#include <tetralight/probes/detail/walk.h>
+#include <tetralight/probes/is_finite.h>
+#include <tetralight/probes/morton_order.h>
 
 namespace tetralight::detail {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "probes/detail/query_kernels.h"
-#include "probes/interpolate.h"
+#include <tetralight/probes/detail/query_kernels.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight::detail {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each kind of processor: Highway includes this file again and again.
-#include "probes/detail/vector_kernels.h"
+#include <tetralight/probes/detail/vector_kernels.h>
 
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "probes/detail/blend_kernel.cpp"
+#define HWY_TARGET_INCLUDE <tetralight/probes/detail/blend_kernel.cpp>
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "probes/detail/blend_probes.h"
-#include "probes/detail/write_answer.h"
+#include <tetralight/probes/detail/blend_probes.h>
+#include <tetralight/probes/detail/write_answer.h>
 
 HWY_BEFORE_NAMESPACE();
 

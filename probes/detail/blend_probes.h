@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "probes/compact_probes.h"
-#include "probes/interpolate.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight::detail {
 

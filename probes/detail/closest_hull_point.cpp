@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/closest_hull_point.h"
+#include <tetralight/probes/detail/closest_hull_point.h>
 
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "probes/detail/cell_corners.h"
+#include <tetralight/probes/detail/cell_corners.h>
 
 namespace tetralight::detail {
 namespace {

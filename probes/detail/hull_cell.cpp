@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/hull_cell.h"
+#include <tetralight/probes/detail/hull_cell.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each kind of processor: Highway includes this file again and again.
-#include "probes/detail/vector_kernels.h"
+#include <tetralight/probes/detail/vector_kernels.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "probes/detail/hull_kernel.cpp"
+#define HWY_TARGET_INCLUDE <tetralight/probes/detail/hull_kernel.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "probes/detail/hull_cell.h"
+#include <tetralight/probes/detail/hull_cell.h>
 
 HWY_BEFORE_NAMESPACE();
 

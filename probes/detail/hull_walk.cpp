@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/hull_walk.h"
+#include <tetralight/probes/detail/hull_walk.h>
 
-#include "probes/detail/walk.h"
+#include <tetralight/probes/detail/walk.h>
 
 namespace tetralight::detail {
 namespace {

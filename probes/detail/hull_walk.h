@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "probes/detail/query_kernels.h"
+#include <tetralight/probes/detail/query_kernels.h>
 
 namespace tetralight::detail {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <type_traits>
 
-#include "base/result.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_volume.h>
 
 // Layout of a `.probes` file, version 1:
 //

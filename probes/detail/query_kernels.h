@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <span>
 
-#include "probes/locate.h"
-#include "probes/probe_volume.h"
-#include "probes/query_output.h"
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/probe_volume.h>
+#include <tetralight/probes/query_output.h>
 
 // The inner loops of a batch: walking through tetrahedra, weights in hull cells, and blending
 // probes. Each exists as plain C++ (the scalar twin) and, where Highway is found, as vector code

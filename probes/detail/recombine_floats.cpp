@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/half.h"
-#include "probes/detail/recombine_kernel.h"
+#include <tetralight/probes/detail/half.h>
+#include <tetralight/probes/detail/recombine_kernel.h>
 
 namespace tetralight::detail {
 

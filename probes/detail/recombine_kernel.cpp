@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each kind of processor: Highway includes this file again and again.
-#include "probes/detail/recombine_kernel.h"
+#include <tetralight/probes/detail/recombine_kernel.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "probes/detail/recombine_kernel.cpp"
+#define HWY_TARGET_INCLUDE <tetralight/probes/detail/recombine_kernel.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/blend_probes.h"
-#include "probes/detail/hull_cell.h"
-#include "probes/detail/query_kernels.h"
-#include "probes/detail/walk.h"
-#include "probes/detail/write_answer.h"
+#include <tetralight/probes/detail/blend_probes.h>
+#include <tetralight/probes/detail/hull_cell.h>
+#include <tetralight/probes/detail/query_kernels.h>
+#include <tetralight/probes/detail/walk.h>
+#include <tetralight/probes/detail/write_answer.h>
 
 namespace tetralight::detail {
 namespace {

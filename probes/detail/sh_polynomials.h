@@ -4,7 +4,7 @@
 #include <array>
 #include <glm/mat3x3.hpp>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 // The basis functions of probes/sh.h as the polynomials that they are.
 

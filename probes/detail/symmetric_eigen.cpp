@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/symmetric_eigen.h"
+#include <tetralight/probes/detail/symmetric_eigen.h>
 
 #include <cmath>
 #include <glm/matrix.hpp>

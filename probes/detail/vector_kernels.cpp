@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/vector_kernels.h"
+#include <tetralight/probes/detail/vector_kernels.h>
 
 namespace tetralight::detail {
 

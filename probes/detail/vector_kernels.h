@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "probes/detail/query_kernels.h"
+#include <tetralight/probes/detail/query_kernels.h>
 
 // The vector code of `QueryKernels`, one file each, for the widest vectors of this processor.
 

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/verify_text.h"
+#include <tetralight/probes/detail/verify_text.h>
 
 #include <algorithm>
 #include <string>
 
-#include "base/json_text.h"
-#include "base/text.h"
-#include "base/utf8.h"
-#include "probes/probe_volume.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/json_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
 namespace {
 
 Error section_error(std::string_view section, const std::string& what) {
-    return {text("section \"", section, "\": ", what)};
+    return {str_cat("section \"", section, "\": ", what)};
 }
 
 }  // namespace
@@ -25,7 +26,7 @@ Status check_names(std::string_view section, std::string_view names) {
     const auto lines = split_names(names);
     const auto bad = std::ranges::find_if_not(lines, is_utf8);
     if (bad == lines.end()) return Ok{};
-    return section_error(section, text("name ", bad - lines.begin(), " is not UTF-8"));
+    return section_error(section, str_cat("name ", bad - lines.begin(), " is not UTF-8"));
 }
 
 Status check_sorted_names(std::string_view section, std::string_view names) {
@@ -34,8 +35,8 @@ Status check_sorted_names(std::string_view section, std::string_view names) {
     for (size_t i = 1; i < lines.size(); ++i) {
         if (lines[i - 1] < lines[i]) continue;
         const bool is_same = lines[i - 1] == lines[i];
-        return section_error(section, text("name ", i, " \"", lines[i], "\" ",
-                                           is_same ? "stands twice" : "is not in sorted order"));
+        return section_error(section, str_cat("name ", i, " \"", lines[i], "\" ",
+                                              is_same ? "stands twice" : "is not in sorted order"));
     }
     return Ok{};
 }
@@ -43,7 +44,7 @@ Status check_sorted_names(std::string_view section, std::string_view names) {
 Status check_metadata(std::string_view metadata) {
     if (metadata.empty()) return Ok{};
     const auto status = check_json_object(metadata);
-    return status ? status : section_error("metadata", status.error().message);
+    return status ? status : section_error("metadata", error_text(status.error()));
 }
 
 }  // namespace tetralight::detail

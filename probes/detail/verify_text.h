@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 // What docs/file_format.md says of the sections that hold text. Errors name the section.
 

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <string>
 
-#include "base/text.h"
-#include "probes/detail/verify_layers.h"
-#include "probes/detail/verify_text.h"
-#include "probes/is_finite.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/detail/verify_layers.h>
+#include <tetralight/probes/detail/verify_text.h>
+#include <tetralight/probes/is_finite.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight {
 namespace {
@@ -37,7 +37,7 @@ bool is_finite(const CompactProbe& probe) {
 
 Status check_count(const char* name, size_t count, size_t expected, bool is_optional) {
     if (count == expected || (is_optional && count == 0)) return Ok{};
-    return Error{text("section \"", name, "\": ", count, " elements instead of ", expected)};
+    return Error{str_cat("section \"", name, "\": ", count, " elements instead of ", expected)};
 }
 
 Error info_error(const std::string& what) {
@@ -50,19 +50,19 @@ Status check_dimension(const ProbeVolumeView& v) {
     if (v.info.inner_cell_count == 0) return Ok{};
     const auto count = 4 - std::ranges::count(v.cells[0].vertices, kNoIndex);
     if (count == cell_vertex_count(v.info.dimension)) return Ok{};
-    return info_error(text("dimension ", static_cast<uint32_t>(v.info.dimension),
-                           " does not go with cells of ", count, " vertices"));
+    return info_error(str_cat("dimension ", static_cast<uint32_t>(v.info.dimension),
+                              " does not go with cells of ", count, " vertices"));
 }
 
 Status check_counts(const ProbeVolumeView& v) {
     const size_t probes = v.positions.size();
     if (v.info.dimension > Dimension::Space) {
         return info_error(
-            text("dimension ", static_cast<uint32_t>(v.info.dimension), " is unknown"));
+            str_cat("dimension ", static_cast<uint32_t>(v.info.dimension), " is unknown"));
     }
     if (v.info.inner_cell_count > v.cells.size()) {
-        return info_error(text("tetrahedron count ", v.info.inner_cell_count, " is more than the ",
-                               v.cells.size(), " cells"));
+        return info_error(str_cat("tetrahedron count ", v.info.inner_cell_count,
+                                  " is more than the ", v.cells.size(), " cells"));
     }
     if (auto status = check_dimension(v); !status) return status;
     const size_t hull_cells = v.cells.size() - v.info.inner_cell_count;
@@ -85,7 +85,7 @@ Status check_each(const char* name, std::span<const T> elements, const char* wha
                   Predicate is_good) {
     for (size_t i = 0; i < elements.size(); ++i) {
         if (!is_good(elements[i])) {
-            return Error{text("section \"", name, "\": element ", i, ": ", what)};
+            return Error{str_cat("section \"", name, "\": element ", i, ": ", what)};
         }
     }
     return Ok{};
@@ -99,7 +99,7 @@ Status check_numbers(const ProbeVolumeView& v) {
     };
     const auto plausible = [](const ProbeHealth& health) {
         return std::isfinite(health.standard_error) && health.standard_error >= 0.0f &&
-               health.surface_distance >= 0.0f && is_finite(health.capture_offset);
+               health.surface_distance >= 0.0f && is_finite(health.virtual_offset);
     };
     const size_t ray_count =
         static_cast<size_t>(std::max(cell_vertex_count(v.info.dimension) - 1, 0));
@@ -116,10 +116,10 @@ Status check_numbers(const ProbeVolumeView& v) {
     }
     if (v.info.seed_cube.scale < 0.0) {
         return info_error(
-            text("the cube of the seeds has ", v.info.seed_cube.scale, " steps a metre"));
+            str_cat("the cube of the seeds has ", v.info.seed_cube.scale, " steps a metre"));
     }
     if (!v.compact.empty() && !(v.info.compact_scale > 0.0f && v.info.compact_scale < 1e38f)) {
-        return info_error(text("scale ", v.info.compact_scale, " of compact probes"));
+        return info_error(str_cat("scale ", v.info.compact_scale, " of compact probes"));
     }
     for (const Status& status :
          {check_each("positions", v.positions, "is not finite", finite),
@@ -136,7 +136,7 @@ Status check_numbers(const ProbeVolumeView& v) {
 }
 
 Error cell_error(size_t cell, const std::string& what) {
-    return {text("section \"cells\": cell ", cell, ": ", what)};
+    return {str_cat("section \"cells\": cell ", cell, ": ", what)};
 }
 
 /// A neighbor shares all vertices but one with the cell, and lists the cell as its neighbor.
@@ -174,7 +174,7 @@ struct CellShape {
 /// be.
 std::string index_problem(const char* what, uint32_t index, bool is_used, size_t count) {
     if (is_used ? index < count : index == kNoIndex) return {};
-    return text(what, " ", index, " is out of range (", is_used ? count : 0, ")");
+    return str_cat(what, " ", index, " is out of range (", is_used ? count : 0, ")");
 }
 
 Status check_cell(const ProbeVolumeView& v, uint32_t index) {
@@ -189,7 +189,7 @@ Status check_cell(const ProbeVolumeView& v, uint32_t index) {
                 index_problem("neighbor", cell.neighbors[i], shape.has_neighbor(i), v.cells.size());
         }
         if (problem.empty() && shape.has_neighbor(i) && !is_neighbor(v, index, i)) {
-            problem = text("cell ", cell.neighbors[i], " is not its neighbor");
+            problem = str_cat("cell ", cell.neighbors[i], " is not its neighbor");
         }
         if (!problem.empty()) return cell_error(index, problem);
     }

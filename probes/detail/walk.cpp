@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/detail/walk.h"
+#include <tetralight/probes/detail/walk.h>
 
 #include <algorithm>
 #include <bit>
@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "probes/detail/cell_corners.h"
-#include "probes/detail/hull_cell.h"
+#include <tetralight/probes/detail/cell_corners.h>
+#include <tetralight/probes/detail/hull_cell.h>
 
 namespace tetralight::detail {
 namespace {

@@ -7,8 +7,8 @@
 #include <glm/vec4.hpp>
 #include <optional>
 
-#include "probes/locate.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
 

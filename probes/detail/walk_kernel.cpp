@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each kind of processor: Highway includes this file again and again.
-#include "probes/detail/vector_kernels.h"
+#include <tetralight/probes/detail/vector_kernels.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "probes/detail/walk_kernel.cpp"
+#define HWY_TARGET_INCLUDE <tetralight/probes/detail/walk_kernel.cpp>
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "probes/detail/walk.h"
+#include <tetralight/probes/detail/walk.h>
 
 HWY_BEFORE_NAMESPACE();
 
@@ -71,7 +71,7 @@ HWY_INLINE Vec4 signed_volumes(const Corners& corners) {
 
 /// Combines the lanes two by two; the result is in all lanes.
 template <class Op>
-HWY_INLINE Vec4 across(Vec4 v, Op op) {
+HWY_INLINE Vec4 reduce_lanes(Vec4 v, Op op) {
     const Double4 wide;
     const Vec4 halves = op(v, hn::SwapAdjacentBlocks(v));
     return op(halves, hn::Reverse2(wide, halves));
@@ -107,7 +107,7 @@ class StreamWalk {
             load_corners(positions_, cell, hn::Set(wide, block_.x[query_]),
                          hn::Set(wide, block_.y[query_]), hn::Set(wide, block_.z[query_]));
         const Vec4 volumes = signed_volumes(corners);
-        const Vec4 smallest = across(volumes, [](Vec4 a, Vec4 b) { return hn::Min(a, b); });
+        const Vec4 smallest = reduce_lanes(volumes, [](Vec4 a, Vec4 b) { return hn::Min(a, b); });
         const bool is_inside = (hn::GetLane(smallest) >= 0.0) & write_location(corners, volumes);
         const intptr_t face = hn::FindFirstTrue(wide, hn::Eq(volumes, smallest));
         const uint32_t next = cell.neighbors[static_cast<size_t>(face) & 3];
@@ -153,7 +153,7 @@ class StreamWalk {
     HWY_INLINE bool write_location(const Corners& corners, Vec4 volumes) {
         const Double4 wide;
         const hn::FixedTag<float, 4> narrow;
-        const Vec4 sum = across(volumes, [](Vec4 a, Vec4 b) { return hn::Add(a, b); });
+        const Vec4 sum = reduce_lanes(volumes, [](Vec4 a, Vec4 b) { return hn::Add(a, b); });
         const Vec4 weights = hn::Add(hn::Div(volumes, sum), hn::Zero(wide));
         CellLocation& location = block_.location[query_];
         location.cell = cell_;
@@ -164,7 +164,7 @@ class StreamWalk {
             hn::Add(hn::Add(hn::Mul(corners.x, corners.x), hn::Mul(corners.y, corners.y)),
                     hn::Mul(corners.z, corners.z));
         const double square =
-            hn::GetLane(across(squares, [](Vec4 a, Vec4 b) { return hn::Max(a, b); }));
+            hn::GetLane(reduce_lanes(squares, [](Vec4 a, Vec4 b) { return hn::Max(a, b); }));
         const double total = hn::GetLane(sum);
         return (total > 0.0) & (total * total > kSliverRounding * (square * square * square));
     }

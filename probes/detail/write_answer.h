@@ -4,8 +4,8 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
-#include "probes/packed_sh.h"
-#include "probes/query_output.h"
+#include <tetralight/probes/packed_sh.h>
+#include <tetralight/probes/query_output.h>
 
 namespace tetralight::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/detail/c_arrays.h"
+#include <tetralight/runtime/detail/c_arrays.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +20,11 @@ tetralight_status finish(const CallError& wrong, tetralight_error* error) {
 
 CallError check_aligned(const char* name, const void* pointer, size_t alignment) {
     if (reinterpret_cast<uintptr_t>(pointer) % alignment == 0) return {};
-    return {TETRALIGHT_BAD_POINTER, text(name, " is not aligned to ", alignment, " bytes")};
+    return {TETRALIGHT_BAD_POINTER, str_cat(name, " is not aligned to ", alignment, " bytes")};
 }
 
 CallError check_place(const char* name, const void* pointer, size_t alignment) {
-    if (!pointer) return {TETRALIGHT_BAD_POINTER, text(name, " is NULL")};
+    if (!pointer) return {TETRALIGHT_BAD_POINTER, str_cat(name, " is NULL")};
     return check_aligned(name, pointer, alignment);
 }
 
@@ -32,7 +32,7 @@ CallError check_memory(const char* what, size_t bytes) {
     // `volatile`: compilers may leave out memory that is not used.
     void* volatile memory = ::operator new(bytes, std::nothrow);
     if (!memory)
-        return {TETRALIGHT_OUT_OF_MEMORY, text("no memory for ", what, ": ", bytes, " bytes")};
+        return {TETRALIGHT_OUT_OF_MEMORY, str_cat("no memory for ", what, ": ", bytes, " bytes")};
     ::operator delete(memory);
     return {};
 }
@@ -45,7 +45,7 @@ CallError check_floats(const char* name, const float* floats, size_t count) {
 CallError check_finite(const char* name, std::span<const float> floats) {
     for (size_t i = 0; i < floats.size(); ++i) {
         if (std::isfinite(floats[i])) continue;
-        return {TETRALIGHT_BAD_VALUE, text(name, '[', i, "] is not finite: ", floats[i])};
+        return {TETRALIGHT_BAD_VALUE, str_cat(name, '[', i, "] is not finite: ", floats[i])};
     }
     return {};
 }
@@ -58,15 +58,15 @@ CallError check_array(const char* name, const tetralight_const_array& array, siz
     const bool is_gap = stride != element.size;
     if (stride < element.size || stride % element.alignment != 0 ||
         (is_gap && gaps == Gaps::Refused)) {
-        return {TETRALIGHT_BAD_VALUE,
-                text(name, " has a stride of ", stride, " bytes, and elements of ", element.size)};
+        return {TETRALIGHT_BAD_VALUE, str_cat(name, " has a stride of ", stride,
+                                              " bytes, and elements of ", element.size)};
     }
     const bool is_long =
         array.size >= element.size && (array.size - element.size) / stride + 1 >= count;
     if (is_long) return {};
     return {TETRALIGHT_SHORT_BUFFER,
-            text(name, " is ", array.size, " bytes long, too short for ", count, " elements of ",
-                 element.size, " bytes, ", stride, " bytes apart")};
+            str_cat(name, " is ", array.size, " bytes long, too short for ", count, " elements of ",
+                    element.size, " bytes, ", stride, " bytes apart")};
 }
 
 CallError check_array(const char* name, const tetralight_array& array, size_t count,

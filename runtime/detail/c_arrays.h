@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
-#include "base/text.h"
-#include "runtime/tetralight.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/runtime/tetralight.h>
 
 // What C callers hand in, checked before it is touched.
 

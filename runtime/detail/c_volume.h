@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "probes/probe_file.h"
-#include "runtime/tetralight.h"
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/runtime/tetralight.h>
 
 /// What the C API's handle holds: a file, and the light that took the place of the file's.
 struct tetralight_volume {

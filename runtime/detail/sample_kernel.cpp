@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once for each kind of processor: Highway includes this file again and again.
-#include "runtime/detail/sample_kernel.h"
+#include <tetralight/runtime/detail/sample_kernel.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "runtime/detail/sample_kernel.cpp"
+#define HWY_TARGET_INCLUDE <tetralight/runtime/detail/sample_kernel.cpp>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/detail/read_request.h"
+#include <tetralight/server/detail/read_request.h>
 
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::server {
 namespace {
@@ -50,12 +50,13 @@ std::optional<Problem> problem_of_head(const Settings& settings, const Session& 
                                        const error_code& error) {
     if (error == http::error::header_limit) {
         return Problem{431, "header_too_large", "the request's head is too large", "head",
-                       text("more than ", settings.max_header_bytes, " bytes")};
+                       str_cat("more than ", settings.max_header_bytes, " bytes")};
     }
     if (session.is_late) {
-        return Problem{408, "too_slow",
-                       text("the request's head did not come in ", settings.header_seconds, " s"),
-                       "head", beginning(session.buffer)};
+        return Problem{
+            408, "too_slow",
+            str_cat("the request's head did not come in ", settings.header_seconds, " s"), "head",
+            beginning(session.buffer)};
     }
     if (error == http::error::end_of_stream || error == http::error::partial_message ||
         !is_http_error(error)) {
@@ -120,10 +121,11 @@ net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settin
     }
     const auto too_large = [&](const std::string& size) {
         return refusal({413, "too_large",
-                        text("the body is larger than ", plan.body_limit, " bytes"), "body", size});
+                        str_cat("the body is larger than ", plan.body_limit, " bytes"), "body",
+                        size});
     };
     const auto length = parser.content_length();
-    if (length && *length > plan.body_limit) co_return too_large(text(*length, " bytes"));
+    if (length && *length > plan.body_limit) co_return too_large(str_cat(*length, " bytes"));
     parser.body_limit(plan.body_limit);  // for chunks
     beast::tcp_stream& stream = session.stream;
     error_code error;
@@ -154,17 +156,18 @@ net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settin
         if (is_to_file &&
             ::write(request.body_file.value(), body.data(), count) != static_cast<ssize_t>(count)) {
             co_return refusal({507, "disk_full", "the body could not be stored", "body",
-                               text(request.body_size, " bytes")});
+                               str_cat(request.body_size, " bytes")});
         }
     }
     if (is_to_file) body.clear();
-    const std::string came = text(request.body_size, " bytes");
+    const std::string came = str_cat(request.body_size, " bytes");
     if (error == http::error::body_limit) co_return too_large("more than " + came);
     reading.is_whole = !error;
     if (session.is_late) {
-        reading.refused = Problem{
-            408, "too_slow",
-            text("no 64 KiB of the body came in ", settings.transfer_seconds, " s"), "body", came};
+        reading.refused =
+            Problem{408, "too_slow",
+                    str_cat("no 64 KiB of the body came in ", settings.transfer_seconds, " s"),
+                    "body", came};
     } else if (is_http_error(error) && error != http::error::partial_message &&
                error != http::error::end_of_stream) {
         reading.refused =

@@ -5,10 +5,10 @@
 #include <boost/beast/http/parser.hpp>
 #include <optional>
 
-#include "server/detail/session.h"
-#include "server/http.h"
-#include "server/problem.h"
-#include "server/settings.h"
+#include <tetralight/server/detail/session.h>
+#include <tetralight/server/http.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/settings.h>
 
 namespace tetralight::server {
 

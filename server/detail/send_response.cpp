@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/detail/send_response.h"
+#include <tetralight/server/detail/send_response.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <span>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::server {
 namespace {
@@ -23,7 +23,7 @@ void append_header(std::string& head, std::string_view name, std::string_view va
 /// The text before the body.
 std::string head_of(const Request& request, const Response& response, bool keeps_open) {
     std::string head =
-        text("HTTP/1.1 ", response.status, " ", reason_phrase(response.status), "\r\n");
+        str_cat("HTTP/1.1 ", response.status, " ", reason_phrase(response.status), "\r\n");
     if (!response.content_type.empty()) append_header(head, "Content-Type", response.content_type);
     append_header(head, "X-Request-Id", request.id);
     for (const auto& [name, value] : response.headers) append_header(head, name, value);

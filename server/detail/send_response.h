@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "server/detail/session.h"
-#include "server/http.h"
+#include <tetralight/server/detail/session.h>
+#include <tetralight/server/http.h>
 
 namespace tetralight::server {
 

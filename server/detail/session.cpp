@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/detail/session.h"
+#include <tetralight/server/detail/session.h>
 
 #include <poll.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/bake_probes.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ BakeSettings few_samples(uint32_t thread_count = 0) {
 BakedProbes bake(const Scene& scene, const std::vector<glm::dvec3>& positions,
                  const BakeSettings& settings = few_samples()) {
     auto baked = bake_probes(scene, positions, settings);
-    EXPECT_TRUE(baked) << baked.error().message;
+    EXPECT_TRUE(baked) << error_text(baked.error());
     return std::move(*baked);
 }
 
@@ -152,7 +153,7 @@ TEST(BakeProbes, CallbackThatReturnsFalseCancels) {
     const auto baked = bake_probes(busy_scene(), positions, few_samples(),
                                    [](const BakeProgress&) { return false; });
     ASSERT_FALSE(baked);
-    EXPECT_EQ(baked.error().message, "cancelled");
+    EXPECT_EQ(error_text(baked.error()), "cancelled");
 }
 
 TEST(BakeProbes, ProgressGrowsAndReachesTheTotal) {
@@ -185,7 +186,7 @@ TEST(BakeProbes, NoSamplesAreAnError) {
     settings.sample_count = 0;
     const auto baked = bake_probes(Scene{}, {}, settings);
     ASSERT_FALSE(baked);
-    EXPECT_EQ(baked.error().message, "samples: 0 is not a number of directions");
+    EXPECT_EQ(error_text(baked.error()), "samples: 0 is not a number of directions");
 }
 
 TEST(BakeProbes, APositionThatIsNotFiniteIsAnErrorThatNamesTheProbe) {
@@ -193,7 +194,7 @@ TEST(BakeProbes, APositionThatIsNotFiniteIsAnErrorThatNamesTheProbe) {
         const std::vector<glm::dvec3> positions = {{0, 0, 0}, {1, 2, 3}, {0, bad, 1}};
         const auto baked = bake_probes(Scene{}, positions, few_samples());
         ASSERT_FALSE(baked);
-        const std::string& message = baked.error().message;
+        const std::string& message = error_text(baked.error());
         EXPECT_EQ(message.find("probe 2: position is not finite (0, "), 0u) << message;
     }
 }
@@ -205,8 +206,8 @@ TEST(BakeProbes, LightThatFloatsDoNotHoldIsAnErrorThatNamesTheProbe) {
     const auto baked = bake_probes(scene, positions, {});
     ASSERT_FALSE(baked);
     EXPECT_TRUE(
-        baked.error().message.starts_with("probe 1 at (0.01, 0, 0): its light is too bright"))
-        << baked.error().message;
+        error_text(baked.error()).starts_with("probe 1 at (0.01, 0, 0): its light is too bright"))
+        << error_text(baked.error());
 }
 
 TEST(BakeProbes, NamesALightWhoseIntensityIsNoNumber) {
@@ -215,7 +216,8 @@ TEST(BakeProbes, NamesALightWhoseIntensityIsNoNumber) {
     const glm::dvec3 position(0.0);
     const auto baked = bake_probes(scene, std::span(&position, 1), {});
     ASSERT_FALSE(baked);
-    EXPECT_EQ(baked.error().message, "light 0 \"light\": intensity nan is negative or not finite");
+    EXPECT_EQ(error_text(baked.error()),
+              "light 0 \"light\": intensity nan is negative or not finite");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/bake_statistics.h"
+#include <tetralight/bake/bake_statistics.h>
 
 #include <gtest/gtest.h>
 

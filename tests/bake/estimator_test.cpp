@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "bake/image/srgb.h"
-#include "bake/probe_estimator.h"
-#include "bake/sampling.h"
+#include <tetralight/bake/image/srgb.h>
+#include <tetralight/bake/probe_estimator.h>
+#include <tetralight/bake/sampling/sampling.h>
 #include "tests/support/scenes.h"
 
 // What probes gather on average, by many independent estimates.
@@ -32,7 +32,7 @@ Measured measure(const Scene& scene, const glm::dvec3& position, const PathSetti
     const DirectionSet set(directions);
     std::array<double, kShCoefficientCount> sum{}, squares{};
     for (uint32_t trial = 0; trial < trials; ++trial) {
-        const ProbeEstimate probe = estimate_probe(tracer, traced->traced_from_world(position),
+        const ProbeEstimate probe = estimate_probe(tracer, traced->render_from_world(position),
                                                    probe_key(trial, position), set);
         for (size_t i = 0; i < sum.size(); ++i) {
             const double value = probe.radiance.coefficients[i].x;
@@ -96,10 +96,10 @@ TEST(Estimator, DrawingEmittersAndMeetingThemHaveTheSameMean) {
     for (const uint32_t bounces : {0u, 1u, 4u}) {
         const glm::dvec3 position(0.6, 1.2, 0.4);
         const Measured directions =
-            measure(scene, position, {bounces, 0.0f, LightStrategy::Directions}, 4096);
+            measure(scene, position, {bounces, 0.0f, LightStrategy::BsdfOnly}, 4096);
         const Measured emitters =
-            measure(scene, position, {bounces, 0.0f, LightStrategy::Emitters}, 4096);
-        const Measured both = measure(scene, position, {bounces, 0.0f, LightStrategy::Both}, 4096);
+            measure(scene, position, {bounces, 0.0f, LightStrategy::LightOnly}, 4096);
+        const Measured both = measure(scene, position, {bounces, 0.0f, LightStrategy::Mis}, 4096);
         expect_same_mean(directions, emitters);
         expect_same_mean(directions, both);
         EXPECT_LT(both.error[0], emitters.error[0]);
@@ -286,7 +286,7 @@ TEST(Estimator, ClampDarkensReflectedLightAlone) {
     test::add_sun(scene, LightMode::Mixed, glm::vec3(1000.0f));
     const auto traced = TraceScene::make_static(scene);
     const PathTracer tracer(scene, *traced, {4, 2.0f});
-    const PathSample sample = tracer.trace({{0, 1, 0}, {0, -1, 0}}, PathNumbers(1, 0));
+    const PathSample sample = tracer.trace({{0, 1, 0}, {0, -1, 0}}, Sampler(1, 0));
     EXPECT_FLOAT_EQ(sample.radiance.x, 9.0f);
 }
 

@@ -9,7 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "bake/bake_probes.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
 
@@ -34,7 +35,7 @@ RadianceSh bake(const Scene& scene, const glm::dvec3& position, uint32_t sample_
     settings.sample_count = sample_count;
     settings.bounces = bounces;
     const auto baked = bake_probes(scene, std::span(&position, 1), settings);
-    EXPECT_TRUE(baked) << baked.error().message;
+    EXPECT_TRUE(baked) << error_text(baked.error());
     return baked->radiance[0];
 }
 

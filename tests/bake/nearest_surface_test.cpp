@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "bake/detail/closest_point.h"
-#include "bake/ray_caster.h"
-#include "bake/survey.h"
+#include <tetralight/bake/probe_visibility.h>
+#include <tetralight/bake/rays/detail/closest_point.h>
+#include <tetralight/bake/rays/ray_caster.h>
 #include "tests/support/random_probes.h"
 #include "tests/support/solids.h"
 
@@ -66,11 +66,11 @@ TEST(RayCaster, WithoutTrianglesThereIsNoNearestPoint) {
 template <class Inside>
 double agreement(const Scene& scene, Inside is_inside) {
     const auto positions = test::random_positions(4000, 5, 2.0);
-    const auto surroundings = survey(scene, positions);
-    EXPECT_TRUE(surroundings);
+    const auto visibility = probe_visibility(scene, positions);
+    EXPECT_TRUE(visibility);
     size_t agreeing = 0, inside = 0;
     for (size_t i = 0; i < positions.size(); ++i) {
-        agreeing += (*surroundings)[i].is_inside() == is_inside(positions[i]);
+        agreeing += (*visibility)[i].is_inside() == is_inside(positions[i]);
         inside += is_inside(positions[i]);
     }
     EXPECT_GT(inside, positions.size() / 20);
@@ -98,15 +98,15 @@ TEST(Survey, MeasuresTheDistanceToTheNearestSurface) {
     Scene ball;
     test::add_mesh(ball, test::diffuse(glm::vec3(0.5f)), test::sphere_mesh(1.5, 200));
     const auto positions = test::random_positions(300, 6, 3.0);
-    const auto surroundings = survey(ball, positions);
-    ASSERT_TRUE(surroundings);
+    const auto visibility = probe_visibility(ball, positions);
+    ASSERT_TRUE(visibility);
     for (size_t i = 0; i < positions.size(); ++i) {
         // Chords of π/200 of the circumference are 1.5 · (π/400)² / 2 · 2 inside of it.
-        EXPECT_NEAR((*surroundings)[i].surface_distance, std::abs(glm::length(positions[i]) - 1.5),
+        EXPECT_NEAR((*visibility)[i].surface_distance, std::abs(glm::length(positions[i]) - 1.5),
                     5e-4);
     }
     const glm::dvec3 origin(0.0);
-    EXPECT_EQ((*survey(Scene{}, std::span(&origin, 1)))[0].surface_distance,
+    EXPECT_EQ((*probe_visibility(Scene{}, std::span(&origin, 1)))[0].surface_distance,
               std::numeric_limits<float>::infinity());
 }
 

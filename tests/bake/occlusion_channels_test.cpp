@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/occlusion_channels.h"
+#include <tetralight/bake/occlusion_channels.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "bake/light_volume.h"
+#include <tetralight/bake/lights/light_volume.h>
 
 namespace tetralight {
 namespace {

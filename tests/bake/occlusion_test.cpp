@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/occlusion.h"
+#include <tetralight/bake/occlusion.h>
 
 #include <gtest/gtest.h>
 
@@ -19,15 +19,15 @@ class Occlusion {
 
     [[nodiscard]] float visibility(const Light& light, const glm::dvec3& position,
                                    uint64_t key = 1) const {
-        return light_visibility(tracer_, traced_.traced_from_world(light),
-                                traced_.traced_from_world(position), key);
+        return light_visibility(tracer_, traced_.render_from_world(light),
+                                traced_.render_from_world(position), key);
     }
 
     [[nodiscard]] glm::vec4 of(const std::vector<Light>& lights, const OcclusionLights& owners,
                                const glm::dvec3& position) const {
         std::vector<Light> traced;
-        for (const Light& light : lights) traced.push_back(traced_.traced_from_world(light));
-        return probe_occlusion(tracer_, traced, owners, traced_.traced_from_world(position), 1);
+        for (const Light& light : lights) traced.push_back(traced_.render_from_world(light));
+        return probe_occlusion(tracer_, traced, owners, traced_.render_from_world(position), 1);
     }
 
   private:

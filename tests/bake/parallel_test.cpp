@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/parallel.h"
+#include <tetralight/bake/parallel.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/path_tracer.h"
+#include <tetralight/bake/path_tracer.h>
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,7 @@ PathSample trace(const Scene& scene, glm::vec3 origin, glm::vec3 direction, uint
     const auto traced = TraceScene::make_static(scene);
     EXPECT_TRUE(traced);
     const PathTracer tracer(scene, *traced, {bounces});
-    return tracer.trace({traced->traced_from_world(glm::dvec3(origin)), direction},
-                        PathNumbers(1, 2));
+    return tracer.trace({traced->render_from_world(glm::dvec3(origin)), direction}, Sampler(1, 2));
 }
 
 /// A wide floor of albedo 1/2 at y = 0, and nothing else.
@@ -113,7 +112,7 @@ bool is_lit(const Scene& scene, glm::vec3 position) {
     const auto traced = TraceScene::make_static(scene);
     const PathTracer tracer(scene, *traced, {});
     const LightSample sample = sample_light(tracer.baked_lights()[0], position, {0.5f, 0.5f});
-    return !tracer.is_blocked(position, sample);
+    return !tracer.occluded(position, sample);
 }
 
 TEST(PathTracer, LightIsBlockedByWhatStandsBeforeItOnly) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/project_environment.h"
+#include <tetralight/bake/project_environment.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/round_plan.h"
+#include <tetralight/bake/round_plan.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -27,14 +28,14 @@ std::vector<uint64_t> rounds(const RoundPlan& plan) {
 }
 
 /// A probe after one round whose relative standard error is this.
-ProbeTally with_error(const RoundPlan& plan, double error) {
-    ProbeTally tally;
-    tally.direction_count = plan.directions_of(0);
-    tally.round_count = 1;
-    const auto count = static_cast<double>(tally.direction_count);
-    tally.radiance_sum[0].x = count;
-    tally.variance_sum = std::pow(error * count * 3.14159265358979, 2.0);
-    return tally;
+ProbeAccumulator with_error(const RoundPlan& plan, double error) {
+    ProbeAccumulator accumulator;
+    accumulator.direction_count = plan.directions_of(0);
+    accumulator.round_count = 1;
+    const auto count = static_cast<double>(accumulator.direction_count);
+    accumulator.radiance_sum[0].x = count;
+    accumulator.variance_sum = std::pow(error * count * 3.14159265358979, 2.0);
+    return accumulator;
 }
 
 TEST(RoundPlan, WithoutATargetThereIsOneRoundOfEightEstimates) {
@@ -80,7 +81,7 @@ TEST(RoundPlan, AProbeIsDoneBelowTheTargetOrAtTheMaximum) {
     EXPECT_FALSE(plan.is_done({}));
     EXPECT_FALSE(plan.is_done(with_error(plan, 0.0101)));
     EXPECT_TRUE(plan.is_done(with_error(plan, 0.0099)));
-    ProbeTally last = with_error(plan, 0.5);
+    ProbeAccumulator last = with_error(plan, 0.5);
     last.round_count = 2;
     EXPECT_TRUE(plan.is_done(last));
 }
@@ -101,12 +102,12 @@ TEST(RoundPlan, ExpectsErrorsToFallWithTheRootOfTheDirections) {
 }
 
 TEST(RoundPlan, RefusesSettingsThatMeanNothing) {
-    EXPECT_EQ(RoundPlan::check(settings(0)).error().message,
+    EXPECT_EQ(error_text(RoundPlan::check(settings(0)).error()),
               "samples: 0 is not a number of directions");
-    EXPECT_EQ(RoundPlan::check(settings(1, -1.0)).error().message,
+    EXPECT_EQ(error_text(RoundPlan::check(settings(1, -1.0)).error()),
               "target error: -1 is not a share");
     EXPECT_FALSE(RoundPlan::check(settings(1, std::nan(""))));
-    EXPECT_EQ(RoundPlan::check(settings(1024, 0.01, 1000)).error().message,
+    EXPECT_EQ(error_text(RoundPlan::check(settings(1024, 0.01, 1000)).error()),
               "max samples: 1000 are fewer than the 1024 of the first round");
     EXPECT_TRUE(RoundPlan::check(settings(1024, 0.0, 1000)));  // no rounds, no maximum
 }

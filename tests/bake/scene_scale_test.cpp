@@ -4,7 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bake/bake_probes.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/scenes.h"
 
 // The same scene at other sizes and places has the same light.
@@ -42,7 +43,7 @@ struct Placed {
         BakeSettings settings;
         settings.sample_count = kSamples;
         const auto baked = bake_probes(scene, std::span(&position, 1), settings);
-        EXPECT_TRUE(baked) << baked.error().message;
+        EXPECT_TRUE(baked) << error_text(baked.error());
         return baked->radiance[0];
     }
 };

@@ -5,7 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "bake/bake_probes.h"
+#include <tetralight/bake/bake_probes.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/scenes.h"
 
 namespace tetralight {
@@ -20,7 +21,7 @@ RadianceSh bake(const Scene& scene, uint32_t bounces = 3) {
     settings.sample_count = 1 << 14;
     settings.bounces = bounces;
     const auto baked = bake_probes(scene, std::span(&position, 1), settings);
-    EXPECT_TRUE(baked) << baked.error().message;
+    EXPECT_TRUE(baked) << error_text(baked.error());
     return baked->radiance[0];
 }
 

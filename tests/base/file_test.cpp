@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/file.h>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -75,7 +76,7 @@ TEST_F(FileTest, KeepsTheOldFileWhenWritingFails) {
     const std::string missing = path("a") + "/b";  // "a" is no folder
     const auto status = write_file(missing, bytes("new"));
     ASSERT_FALSE(status);
-    EXPECT_NE(status.error().message.find(missing), std::string::npos);
+    EXPECT_NE(error_text(status.error()).find(missing), std::string::npos);
     EXPECT_EQ(characters(*read_file(path("a"))), "old");
     EXPECT_EQ(file_count(), 1u);
 }
@@ -102,7 +103,7 @@ TEST_F(FileTest, WritesToADeviceInPlace) {
 }
 
 TEST_F(FileTest, NamesWhatCannotBeRead) {
-    EXPECT_NE(read_file(path("none")).error().message.find(path("none")), std::string::npos);
+    EXPECT_NE(error_text(read_file(path("none")).error()).find(path("none")), std::string::npos);
     EXPECT_FALSE(read_file(folder_.string()));
     EXPECT_FALSE(MappedFile::open(folder_.string()));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/file_writer.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/file_writer.h>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -68,7 +69,7 @@ TEST_F(FileWriterTest, RefusesLinksThatLeadInACircle) {
     fs::create_symlink("loop", loop);
     const auto writer = FileWriter::open(loop);
     ASSERT_FALSE(writer);
-    EXPECT_EQ(writer.error().message,
+    EXPECT_EQ(error_text(writer.error()),
               loop + ": cannot write (its symbolic links lead in a circle)");
     EXPECT_TRUE(fs::is_symlink(loop));
 }
@@ -107,7 +108,7 @@ TEST_F(FileWriterTest, PassesOverANameThatIsTaken) {
 TEST_F(FileWriterTest, NamesWhatCannotBeWritten) {
     const auto writer = FileWriter::open(target() + "/b");  // "a" is no folder
     ASSERT_FALSE(writer);
-    EXPECT_NE(writer.error().message.find(target() + "/b: cannot write"), std::string::npos);
+    EXPECT_NE(error_text(writer.error()).find(target() + "/b: cannot write"), std::string::npos);
     auto full = FileWriter::open("/dev/full");
     ASSERT_TRUE(full);
     EXPECT_FALSE(write(*full, "no room"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/json_text.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/json_text.h>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ TEST(JsonText, TakesObjects) {
           R"({"":-0.5e+3,"a":0,"b":1E5,"c":2e-1,"d":[],"e":[1 , 2]})",
           R"({"a":"\"\\\/\b\f\n\r\t\u00e4[[[[","\u0000":1})", "{\"\xc3\xa4\":1}"}) {
         const auto status = check_json_object(json);
-        EXPECT_TRUE(status) << json << ": " << status.error().message;
+        EXPECT_TRUE(status) << json << ": " << error_text(status.error());
     }
 }
 
@@ -62,14 +63,14 @@ TEST(JsonText, RefusesWhatIsNoObject) {
     }
     const auto status = check_json_object("{\"a\":tru}");
     ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().message, "is not a JSON object (byte 5)");
+    EXPECT_EQ(error_text(status.error()), "is not a JSON object (byte 5)");
 }
 
 TEST(JsonText, LimitsHowDeepObjectsNest) {
     EXPECT_TRUE(check_json_object(nested(64)));
     const auto status = check_json_object(nested(65));
     ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().message, "JSON is nested deeper than 64");
+    EXPECT_EQ(error_text(status.error()), "JSON is nested deeper than 64");
 }
 
 TEST(JsonText, BracketsInStringsDoNotNest) {

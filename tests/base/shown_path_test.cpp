@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/shown_path.h"
+#include <tetralight/base/shown_path.h>
 
 #include <gtest/gtest.h>
 
-#include "base/utf8.h"
+#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/utf8.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/utf8.h>
 
 #include <gtest/gtest.h>
 
@@ -26,10 +27,10 @@ TEST(Utf8, RefusesOverlongFormsSurrogatesAndWhatIsCutOff) {
 TEST(Utf8, RefusesNamesWithControlCharactersOrOtherBytes) {
     EXPECT_TRUE(check_characters("Lampe \xc3\xa4"));
     for (const char* name : {"a\nb", "a\tb", "\x7f"}) {
-        EXPECT_EQ(check_characters(name).error().message,
+        EXPECT_EQ(error_text(check_characters(name).error()),
                   "the name holds a line break or another control character");
     }
-    EXPECT_EQ(check_characters("\xff").error().message, "the name is not UTF-8");
+    EXPECT_EQ(error_text(check_characters("\xff").error()), "the name is not UTF-8");
 }
 
 }  // namespace

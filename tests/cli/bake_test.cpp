@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <numbers>
 
-#include "bake/image/write_image.h"
+#include <tetralight/bake/image/write_image.h>
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "probes/probe_file.h"
+#include <tetralight/probes/probe_file.h>
 #include "tests/cli/command_fixture.h"
 
 namespace tetralight::test {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "bake/image/read_image.h"
+#include <tetralight/bake/image/read_image.h>
 
 namespace tetralight::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/descriptor.h"
+#include <tetralight/base/descriptor.h>
 
 namespace tetralight::test {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 #include "tests/cli/query_fixture.h"
 
 namespace tetralight::test {
@@ -23,8 +23,8 @@ TEST_F(QueryInput, MeansTheSameInEveryFormat) {
     const auto positions = random_positions(1000);
     std::string lines, array, objects, json_lines;
     for (const glm::vec3& p : positions) {
-        lines += text(p.x, " ", p.y, " ", p.z, "\n");
-        const std::string triple = text("[", p.x, ", ", p.y, ",", p.z, "]");
+        lines += str_cat(p.x, " ", p.y, " ", p.z, "\n");
+        const std::string triple = str_cat("[", p.x, ", ", p.y, ",", p.z, "]");
         array += (array.empty() ? "[" : ",\n ") + triple;
         objects += (objects.empty() ? "[" : ",") + (R"({"position": )" + triple + "}");
         json_lines += triple + "\n";
@@ -86,7 +86,7 @@ TEST_F(QueryInput, OfTextHasBlanksOrOneCommaBetweenNumbers) {
                              "0 \xef\xbb\xbf"
                              "1 0"}) {
         EXPECT_EQ(message_of("p.txt", std::string(line) + "\n"),
-                  text("tetralight: p.txt:1: \"", line, "\" is not x y z"));
+                  str_cat("tetralight: p.txt:1: \"", line, "\" is not x y z"));
     }
 }
 
@@ -143,7 +143,7 @@ TEST_F(QueryInput, IsRefusedByLineAndValueWhenJsonLinesAreMalformed) {
     };
     for (const auto& [line, reason] : kMalformed) {
         EXPECT_EQ(message_of("p.jsonl", std::string("\n") + line + "\n"),
-                  text("tetralight: p.jsonl:2: ", reason));
+                  str_cat("tetralight: p.jsonl:2: ", reason));
     }
     EXPECT_EQ(message_of("p.jsonl", "[1, 2,, 3]\n")
                   .find("tetralight: p.jsonl:1: parse error at "
@@ -162,7 +162,7 @@ TEST_F(QueryInput, IsRefusedByPositionAndValueWhenJsonIsMalformed) {
         {"null", "is not an array of positions (null)"},
     };
     for (const auto& [input, reason] : kMalformed) {
-        EXPECT_EQ(message_of("p.json", input), text("tetralight: p.json: ", reason));
+        EXPECT_EQ(message_of("p.json", input), str_cat("tetralight: p.json: ", reason));
     }
     EXPECT_TRUE(contains(message_of("p.json", ""), "p.json: parse error at line 1, column 1"));
     const CommandResult cut = run({"query", "v.probes", "--from", "json"}, "[[1, 2, 3],\n[1, 2,");

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <functional>
 
-#include "probes/interpolate.h"
-#include "probes/probe_file.h"
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/cli/query_fixture.h"
 
 namespace tetralight::test {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "probes/probe_file.h"
+#include <tetralight/probes/probe_file.h>
 #include "tests/cli/query_fixture.h"
 
 namespace tetralight::test {

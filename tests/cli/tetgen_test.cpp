@@ -2,7 +2,7 @@
 // tetralight tetrahedralize --backend tetgen
 #include <stdlib.h>
 
-#include "probes/probe_file.h"
+#include <tetralight/probes/probe_file.h>
 #include "tests/cli/command_fixture.h"
 #include "tests/support/fake_program.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 
-#include "probes/compact_probes.h"
-#include "probes/probe_file.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/cli/command_fixture.h"
 #include "tests/support/random_probes.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv_atlas.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/lppv/lppv_atlas.h>
 
 #include <gtest/gtest.h>
 
@@ -214,7 +215,7 @@ TEST(LppvAtlas, SaysWhenItIsFullAndUsesRoomAgain) {
     const uint32_t second = *atlas.add(grid, LppvQuality::Low, LppvRefresh::Automatic);
     const auto third = atlas.add(grid, LppvQuality::Low, LppvRefresh::Automatic);
     ASSERT_FALSE(third);
-    EXPECT_EQ(third.error().message,
+    EXPECT_EQ(error_text(third.error()),
               "the atlas has no room for 8 x 8 x 8 texels; 1024 of 1024 are in use");
     atlas.remove(second);
     EXPECT_EQ(atlas.size(), 1u);

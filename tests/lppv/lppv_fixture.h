@@ -5,7 +5,8 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "lppv/lppv.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/lppv/lppv.h>
 #include "tests/support/property_volume.h"
 
 namespace tetralight::test {
@@ -32,7 +33,7 @@ inline LppvGrid grid_in_box(glm::uvec3 resolution, const glm::dvec3& scale, doub
     settings.resolution = resolution;
     settings.placement = placement;
     auto grid = make_lppv_grid({world_from_object, std::span(&cube, 1)}, settings);
-    EXPECT_TRUE(grid) << grid.error().message;
+    EXPECT_TRUE(grid) << error_text(grid.error());
     return *grid;
 }
 

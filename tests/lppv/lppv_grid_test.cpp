@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv_grid.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/lppv/lppv_grid.h>
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ Result<LppvGrid> grid_of_cube(const glm::dmat4& world_from_object, const LppvSet
 
 std::string error_of(const LppvSettings& settings, const LppvPart& part = kUnitCube) {
     const auto grid = make_lppv_grid({glm::dmat4(1.0), std::span(&part, 1)}, settings);
-    return grid ? "" : grid.error().message;
+    return grid ? "" : error_text(grid.error());
 }
 
 LppvSettings with_resolution(glm::uvec3 resolution) {
@@ -150,7 +151,7 @@ TEST(LppvGrid, ObjectsScaledToNothingAreFine) {
     for (const glm::dvec3 scale : {glm::dvec3(4, 0, 2), glm::dvec3(0, 0, 2), glm::dvec3(0.0)}) {
         const glm::dmat4 world_from_object = placed({1, 2, 3}, 40.0, scale);
         const auto grid = grid_of_cube(world_from_object, with_resolution({2, 2, 2}));
-        ASSERT_TRUE(grid) << grid.error().message;
+        ASSERT_TRUE(grid) << error_text(grid.error());
         for (uint32_t i = 0; i < 8; ++i) {
             const glm::uvec3 point(i & 1, (i >> 1) & 1, i >> 2);
             const glm::dvec4 corner(glm::dvec3(point) - 0.5, 1.0);
@@ -204,14 +205,14 @@ TEST(LppvGrid, RefusesTransformsThatHaveNoSpace) {
     askew[1] = {1.0, 1e-14, 0.0, 0.0};
     const auto flattened = grid_of_cube(askew, {});
     ASSERT_FALSE(flattened);
-    EXPECT_NE(flattened.error().message.find("flattens it askew"), std::string::npos);
+    EXPECT_NE(error_text(flattened.error()).find("flattens it askew"), std::string::npos);
     glm::dmat4 broken(1.0);
     broken[3].x = kNan;
     EXPECT_FALSE(grid_of_cube(broken, {}));
     glm::dmat4 perspective(1.0);
     perspective[2].w = 1.0;
     EXPECT_EQ(
-        grid_of_cube(perspective, {}).error().message,
+        error_text(grid_of_cube(perspective, {}).error()),
         "transform of the object is not affine: its last row is (0, 0, 1, 1), not (0, 0, 0, 1)");
     EXPECT_FALSE(make_lppv_grid({}, {}));  // no parts
 }

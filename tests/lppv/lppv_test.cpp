@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/lppv/lppv.h>
 
 #include <gtest/gtest.h>
 
@@ -168,7 +169,7 @@ TEST(Lppv, RefusesAMaskOfAnotherLength) {
     const auto lppv = make_lppv(volume.view(), grid_in_box({2, 2, 2}, glm::dvec3(1.0), 0.0),
                                 {.validity = validity});
     ASSERT_FALSE(lppv);
-    EXPECT_EQ(lppv.error().message, "validity has 7 values, but the grid has 8 points");
+    EXPECT_EQ(error_text(lppv.error()), "validity has 7 values, but the grid has 8 points");
 }
 
 TEST(Lppv, WithoutProbesIsAmbient) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/lppv_texture.h"
+#include <tetralight/lppv/lppv_texture.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/sparse_lppv.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/lppv/sparse_lppv.h>
 
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ TEST(SparseBlocks, RefusesTooManyPointsAndSaysHowMany) {
     SparseBlocks blocks(0.001);
     const auto status = blocks.add_box(glm::dvec3(-1.0), glm::dvec3(1.0));
     ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().message,
+    EXPECT_EQ(error_text(status.error()),
               "a sparse grid of 8096384512 points or more is too large: 16777216 are the most");
     EXPECT_FALSE(blocks.add_box(glm::dvec3(std::numeric_limits<double>::quiet_NaN()), {}));
     EXPECT_FALSE(blocks.add_box(glm::dvec3(1e9), glm::dvec3(1e9)));

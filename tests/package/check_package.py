@@ -36,13 +36,13 @@ def run(command, folder, prefix):
 
 
 def check_headers(prefix):
-    include = Path(prefix) / "include/tetralight"
+    include = Path(prefix) / "include"
     headers = sorted(str(p.relative_to(include)) for p in include.rglob("*.h"))
     assert len(headers) > 20, headers
     with tempfile.TemporaryDirectory() as folder:
         for header in headers:
             source = Path(folder) / "one.cpp"
-            source.write_text(f'#include "{header}"\n#include "{header}"\n')
+            source.write_text(f'#include <{header}>\n#include <{header}>\n')
             run(["c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wconversion", "-Werror",
                  f"-I{include}", str(source)], folder, prefix)
     print(f"{len(headers)} headers")

@@ -2,7 +2,8 @@
 // Writes the volume that consumers of the package open: package_volume FILE
 #include <cstdio>
 
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/property_volume.h"
 
 int main(int argc, char** argv) {
@@ -22,6 +23,6 @@ int main(int argc, char** argv) {
         }
     }
     const auto status = write_probe_file(argv[1], volume.view());
-    if (!status) std::fprintf(stderr, "%s\n", status.error().message.c_str());
+    if (!status) std::fprintf(stderr, "%s\n", error_text(status.error()).c_str());
     return status ? 0 : 1;
 }

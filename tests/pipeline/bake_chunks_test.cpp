@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/bake_chunks.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_chunks.h>
 
 #include <fstream>
 
@@ -25,9 +26,9 @@ class BakeChunks : public test::PartFixture {
     uint64_t finish() const {
         PreparedBake prepared = prepare();
         const auto baked = bake_in_chunks(scene, prepared, chunks);
-        EXPECT_TRUE(baked) << baked.error().message;
-        const BakedVolume volume =
-            finish_bake(std::move(prepared), baked->partial.tallies, baked->partial.split_rows);
+        EXPECT_TRUE(baked) << error_text(baked.error());
+        const BakedVolume volume = finish_bake(std::move(prepared), baked->partial.accumulators,
+                                               baked->partial.split_rows);
         EXPECT_EQ(probe_file_bytes(volume.volume.view()), whole());
         return baked->earlier_ray_count;
     }
@@ -58,7 +59,7 @@ TEST_F(BakeChunks, CancelledOnesGoOnWithWhatIsFinished) {
         bake_in_chunks(scene, prepare(), chunks,
                        [](const BakeProgress& progress) { return progress.probes_done < 20; });
     ASSERT_FALSE(cancelled);
-    EXPECT_EQ(cancelled.error().message, "cancelled");
+    EXPECT_EQ(error_text(cancelled.error()), "cancelled");
     EXPECT_EQ(files().size(), 1u);
     EXPECT_GT(finish(), 0u);
 }
@@ -103,7 +104,7 @@ TEST_F(BakeChunks, ThatCannotBeWrittenAreAnError) {
     std::ofstream(chunks) << "a file";
     const auto baked = bake_in_chunks(scene, prepare(), chunks);
     ASSERT_FALSE(baked);
-    EXPECT_EQ(baked.error().message.find(chunks + ": cannot make the folder"), 0u);
+    EXPECT_EQ(error_text(baked.error()).find(chunks + ": cannot make the folder"), 0u);
 }
 
 }  // namespace

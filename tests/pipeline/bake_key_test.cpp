@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/bake_key.h"
+#include <tetralight/pipeline/bake_key.h>
 
 #include <functional>
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/bake_volume.h"
+#include <tetralight/pipeline/bake_volume.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "probes/interpolate.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/probe_groups.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
@@ -32,7 +33,7 @@ BakeVolumeSettings with(const BakeSettings& settings) {
 BakedVolume bake(const Scene& scene, const std::vector<ProbeGroup>& groups,
                  const BakeSettings& settings = few_samples()) {
     auto baked = bake_volume(scene, groups, with(settings));
-    EXPECT_TRUE(baked) << baked.error().message;
+    EXPECT_TRUE(baked) << error_text(baked.error());
     return std::move(*baked);
 }
 
@@ -91,7 +92,7 @@ TEST(BakeVolume, VolumeIsWholeAndLitLikeItsProbes) {
     const BakedVolume baked = bake(room(), three_groups());
     const ProbeVolume& volume = baked.volume;
     const Status status = verify(volume.view());
-    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_TRUE(status) << error_text(status.error());
     const auto light = bake_probes(room(), volume.exact_positions, few_samples());
     ASSERT_TRUE(light);
     for (size_t i = 0; i < volume.irradiance.size(); ++i) {
@@ -175,11 +176,11 @@ TEST(BakeVolume, PassesErrorsOn) {
                                            make_group("a", {{1, 0, 0}})};
     const auto baked = bake_volume(Scene{}, twice, {});
     ASSERT_FALSE(baked);
-    EXPECT_EQ(baked.error().message, "group \"a\": there are two groups of this name");
+    EXPECT_EQ(error_text(baked.error()), "group \"a\": there are two groups of this name");
     const auto cancelled = bake_volume(room(), three_groups(), with(few_samples()),
                                        [](const BakeProgress&) { return false; });
     ASSERT_FALSE(cancelled);
-    EXPECT_EQ(cancelled.error().message, "cancelled");
+    EXPECT_EQ(error_text(cancelled.error()), "cancelled");
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/dering_probes.h"
+#include <tetralight/pipeline/dering_probes.h>
 
 #include <gtest/gtest.h>
 
-#include "pipeline/bake_volume.h"
-#include "probes/compact_probes.h"
-#include "probes/sh_minimum.h"
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/sh_minimum.h>
 #include "tests/support/scenes.h"
 
 namespace tetralight {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/dilate_probes.h"
+#include <tetralight/pipeline/dilate_probes.h>
 
 #include <gtest/gtest.h>
 
-#include "probes/build/make_probe_volume.h"
+#include <tetralight/probes/build/make_probe_volume.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "bake/project_environment.h"
-#include "pipeline/bake_volume.h"
-#include "probes/probe_file.h"
-#include "probes/recombine.h"
-#include "probes/relight.h"
-#include "probes/sh_minimum.h"
+#include <tetralight/bake/project_environment.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/recombine.h>
+#include <tetralight/probes/relight.h>
+#include <tetralight/probes/sh_minimum.h>
 #include "tests/support/probe_groups.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
@@ -68,9 +69,9 @@ std::vector<ProbeGroup> groups() {
 
 ProbeVolume bake(const Scene& scene, const BakeVolumeSettings& settings) {
     auto baked = bake_volume(scene, groups(), settings);
-    EXPECT_TRUE(baked) << baked.error().message;
+    EXPECT_TRUE(baked) << error_text(baked.error());
     const Status status = verify(baked->volume.view());
-    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_TRUE(status) << error_text(status.error());
     return std::move(baked->volume);
 }
 

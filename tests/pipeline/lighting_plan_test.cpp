@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/lighting_plan.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/lighting_plan.h>
 
 #include <gtest/gtest.h>
 
@@ -27,14 +28,14 @@ Scene make_scene() {
 
 LightingPlan plan_of(const std::vector<std::string>& layers, const Scene& scene = make_scene()) {
     auto plan = plan_lighting(scene, {MixedLighting::Indirect, layers});
-    EXPECT_TRUE(plan) << plan.error().message;
+    EXPECT_TRUE(plan) << error_text(plan.error());
     return plan ? std::move(*plan) : LightingPlan{};
 }
 
 std::string error_of(const std::vector<std::string>& layers) {
     const auto plan = plan_lighting(make_scene(), {MixedLighting::Indirect, layers});
     EXPECT_FALSE(plan);
-    return plan ? "" : plan.error().message;
+    return plan ? "" : error_text(plan.error());
 }
 
 using Names = std::vector<std::string>;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/lppv_object.h"
+#include <tetralight/pipeline/lppv_object.h>
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "pipeline/lppv_validity.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/lppv_validity.h>
 #include "tests/support/scenes.h"
 
 namespace tetralight {
@@ -61,9 +62,9 @@ TEST(LppvObject, FindsAllThatMoveAndAsk) {
 
 TEST(LppvObject, NamesNodesThatAreNotThereOnce) {
     Scene scene = make_ship();
-    EXPECT_EQ(find_object(scene, "boat").error().message, "there is no node \"boat\"");
+    EXPECT_EQ(error_text(find_object(scene, "boat").error()), "there is no node \"boat\"");
     scene.nodes[3].name = "mast";
-    EXPECT_EQ(find_object(scene, "mast").error().message, "there are several nodes \"mast\"");
+    EXPECT_EQ(error_text(find_object(scene, "mast").error()), "there are several nodes \"mast\"");
 }
 
 TEST(LppvObject, ErrorsOfItsGridNameTheNode) {
@@ -71,7 +72,7 @@ TEST(LppvObject, ErrorsOfItsGridNameTheNode) {
     settings.density = 100.0;
     const auto grid = make_object_grid(*find_object(make_ship(), "ship"), settings);
     ASSERT_FALSE(grid);
-    EXPECT_EQ(grid.error().message.find("node \"ship\": a grid of 200 x 900 x 200 points"), 0u);
+    EXPECT_EQ(error_text(grid.error()).find("node \"ship\": a grid of 200 x 900 x 200 points"), 0u);
 }
 
 TEST(LppvValidity, PointsInSolidsAreInvalid) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/merge_parts.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/merge_parts.h>
 
 #include "tests/pipeline/part_fixture.h"
 
@@ -11,12 +12,12 @@ class MergeParts : public test::PartFixture {
     [[nodiscard]] std::string error_of(const std::vector<std::string>& paths) const {
         const auto merged = merge_parts(paths);
         EXPECT_FALSE(merged);
-        return merged ? "" : merged.error().message;
+        return merged ? "" : error_text(merged.error());
     }
 
     void expect_whole(const std::vector<std::string>& paths) const {
         const auto merged = merge_parts(paths);
-        ASSERT_TRUE(merged) << merged.error().message;
+        ASSERT_TRUE(merged) << error_text(merged.error());
         EXPECT_EQ(probe_file_bytes(merged->volume.view()), whole());
     }
 };
@@ -80,7 +81,7 @@ TEST_F(MergeParts, RefusesUnfinishedParts) {
     const PreparedBake prepared = prepare();
     PartialBake partial = bake(prepared, {0, kProbeCount});
     partial.is_finished = false;
-    partial.tallies[7] = {};
+    partial.accumulators[7] = {};
     ASSERT_TRUE(write_part(path("a"), prepared, partial));
     EXPECT_EQ(error_of({path("a")}),
               path("a") + ": is not finished (34 of 35 probes have light); --resume its bake");

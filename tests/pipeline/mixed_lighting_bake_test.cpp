@@ -5,8 +5,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "pipeline/bake_volume.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/probe_groups.h"
 #include "tests/support/scenes.h"
 
@@ -46,7 +47,7 @@ ProbeVolume bake(const Scene& scene, MixedLighting mode, uint32_t bounces = 3) {
     settings.lighting.mixed_lighting = mode;
     const std::vector<ProbeGroup> groups{test::make_group("probes", kProbes)};
     auto baked = bake_volume(scene, groups, settings);
-    EXPECT_TRUE(baked) << baked.error().message;
+    EXPECT_TRUE(baked) << error_text(baked.error());
     EXPECT_TRUE(verify(baked->volume.view()));
     return std::move(baked->volume);
 }
@@ -104,7 +105,7 @@ TEST(MixedLightingBake, OcclusionKnowsWhichLightItIsOf) {
     const std::vector<ProbeGroup> groups{
         test::make_group("probes", {{1, 1, 1}, {-1.0, 0.2, 0.9}, {-1, 2.4, 0.9}, {0, 1, 2}})};
     const auto baked = bake_volume(scene, groups, settings);
-    ASSERT_TRUE(baked) << baked.error().message;
+    ASSERT_TRUE(baked) << error_text(baked.error());
     const ProbeVolume& volume = baked->volume;
     ASSERT_EQ(volume.occlusion.size(), 4u);
     for (size_t i = 0; i < 4; ++i) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What adjustment volumes change of a bake.
-#include "pipeline/override_probes.h"
+#include <tetralight/pipeline/override_probes.h>
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "pipeline/bake_volume.h"
-#include "pipeline/merge_parts.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/pipeline/merge_parts.h>
 #include "tests/pipeline/part_fixture.h"
 #include "tests/support/probe_groups.h"
 #include "tests/support/scenes.h"
@@ -94,7 +95,7 @@ TEST(OverrideProbes, AForcedlyValidProbeStaysInGeometry) {
     const ProbeVolume kept = bake(scene);
     ASSERT_NE(find(kept, kDeep), kNoIndex);
     EXPECT_EQ(kept.validity[find(kept, kDeep)], 1.0f);
-    EXPECT_EQ(kept.health[find(kept, kDeep)].capture_offset, glm::vec3(0.0f));
+    EXPECT_EQ(kept.health[find(kept, kDeep)].virtual_offset, glm::vec3(0.0f));
 }
 
 TEST(OverrideProbes, AForcedlyInvalidProbeIsLeftOutOfFreeSpace) {
@@ -125,7 +126,7 @@ TEST_F(OverriddenParts, JoinToTheBytesOfOneBake) {
     scene.probe_adjustments = {half};
     const std::string a = bake_part("a", {0, 12}), b = bake_part("b", {12, kProbeCount});
     const auto merged = merge_parts({a, b});
-    ASSERT_TRUE(merged) << merged.error().message;
+    ASSERT_TRUE(merged) << error_text(merged.error());
     EXPECT_EQ(probe_file_bytes(merged->volume.view()), whole());
 }
 

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_tallies.h"
-#include "pipeline/partial_bake.h"
-#include "probes/probe_file.h"
+#include <tetralight/bake/bake_accumulators.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/partial_bake.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
 
@@ -38,24 +39,25 @@ class PartFixture : public testing::Test {
 
     [[nodiscard]] PreparedBake prepare() const {
         auto prepared = prepare_bake(scene, groups, {{}, settings, {}, {}, lighting});
-        EXPECT_TRUE(prepared) << prepared.error().message;
+        EXPECT_TRUE(prepared) << error_text(prepared.error());
         return std::move(*prepared);
     }
 
     /// Bakes a range to its end.
     [[nodiscard]] PartialBake bake(const PreparedBake& prepared, ProbeRange range) const {
-        PartialBake partial{range, std::vector<ProbeTally>(range.count()), true};
+        PartialBake partial{range, std::vector<ProbeAccumulator>(range.count()), true};
         const auto positions =
             std::span(prepared.capture_positions).subspan(range.begin, range.count());
         const BakeSettings& with_plan = prepared.settings.bake;
-        const SplitLayout layout(with_plan.plan);
+        const LightGroupLayout layout(with_plan.plan);
         partial.split_rows.resize(layout.size() * range.count());
-        SplitRows split{partial.split_rows, prepared.volume.occlusion_lights};
+        LightGroupRows split{partial.split_rows, prepared.volume.occlusion_lights};
         if (layout.has_occlusion) {
             split.occlusion_lights = split.occlusion_lights.subspan(range.begin, range.count());
         }
-        const Status status = bake_tallies(scene, positions, with_plan, partial.tallies, {}, split);
-        EXPECT_TRUE(status) << status.error().message;
+        const Status status =
+            bake_accumulators(scene, positions, with_plan, partial.accumulators, {}, split);
+        EXPECT_TRUE(status) << error_text(status.error());
         return partial;
     }
 
@@ -63,7 +65,7 @@ class PartFixture : public testing::Test {
     std::string bake_part(const std::string& name, ProbeRange range) const {
         const PreparedBake prepared = prepare();
         const Status status = write_part(path(name), prepared, bake(prepared, range));
-        EXPECT_TRUE(status) << status.error().message;
+        EXPECT_TRUE(status) << error_text(status.error());
         return path(name);
     }
 

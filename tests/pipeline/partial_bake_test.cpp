@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/partial_bake.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/partial_bake.h>
 
 #include <atomic>
 #include <cmath>
@@ -21,18 +22,18 @@ class PartialBakes : public test::PartFixture {
         EXPECT_TRUE(write_part(path("bad"), prepared, partial));
         const auto part = read_part(path("bad"));
         EXPECT_FALSE(part);
-        return part ? "" : part.error().message;
+        return part ? "" : error_text(part.error());
     }
 };
 
 TEST_F(PartialBakes, ReadsBackWhatWasWritten) {
     const PreparedBake prepared = prepare();
     PartialBake partial = bake(prepared, {3, 9});
-    partial.tallies[2] = {};
+    partial.accumulators[2] = {};
     partial.is_finished = false;
     ASSERT_TRUE(write_part(path("part"), prepared, partial));
     const auto part = read_part(path("part"));
-    ASSERT_TRUE(part) << part.error().message;
+    ASSERT_TRUE(part) << error_text(part.error());
     EXPECT_EQ(part->partial, partial);
     EXPECT_EQ(part->partial.begun_count(), 5u);
     EXPECT_EQ(part->prepared.key, prepared.key);
@@ -42,39 +43,39 @@ TEST_F(PartialBakes, ReadsBackWhatWasWritten) {
 
 TEST_F(PartialBakes, InterruptedAndResumedGivesTheBytesOfOneBake) {
     PreparedBake prepared = prepare();
-    PartialBake partial{{0, kProbeCount}, std::vector<ProbeTally>(kProbeCount), false};
+    PartialBake partial{{0, kProbeCount}, std::vector<ProbeAccumulator>(kProbeCount), false};
     std::atomic<int> reports = 0;
     const BakeHooks hooks{.progress = [&](const BakeProgress&) { return ++reports < 2; }};
     settings.thread_count = 1;
-    static_cast<void>(
-        bake_tallies(scene, prepared.capture_positions, settings, partial.tallies, hooks));
+    static_cast<void>(bake_accumulators(scene, prepared.capture_positions, settings,
+                                        partial.accumulators, hooks));
     ASSERT_TRUE(write_part(path("part"), prepared, partial));
 
     auto part = read_part(path("part"));
-    ASSERT_TRUE(part) << part.error().message;
-    auto& tallies = part->partial.tallies;
-    ASSERT_TRUE(bake_tallies(scene, prepared.capture_positions, settings, tallies));
-    const BakedVolume baked = finish_bake(std::move(prepared), tallies);
+    ASSERT_TRUE(part) << error_text(part.error());
+    auto& accumulators = part->partial.accumulators;
+    ASSERT_TRUE(bake_accumulators(scene, prepared.capture_positions, settings, accumulators));
+    const BakedVolume baked = finish_bake(std::move(prepared), accumulators);
     EXPECT_EQ(probe_file_bytes(baked.volume.view()), whole());
 }
 
 TEST_F(PartialBakes, IsAProbeFileWithoutLight) {
     const auto file = open_probe_file(bake_part("part", {3, 9}));
-    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_TRUE(file) << error_text(file.error());
     EXPECT_EQ(file->view().probe_count(), kProbeCount);
     EXPECT_TRUE(file->view().irradiance.empty());
 }
 
 TEST_F(PartialBakes, RefusesTalliesThatNoRoundsLeave) {
     const std::string where = path("bad") + ": the tally of probe 4 is not in range";
-    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].radiance_sum[8].z = NAN; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].variance_sum = -1.0; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].variance_sum = INFINITY; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].direction_count = 127; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].behind_count = 129; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].round_count = 2; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.tallies[1].round_count = ~uint64_t{0}; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.tallies[1] = {}; }), where);  // of a finished part
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].radiance_sum[8].z = NAN; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].variance_sum = -1.0; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].variance_sum = INFINITY; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].direction_count = 127; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].behind_count = 129; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].round_count = 2; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].round_count = ~uint64_t{0}; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1] = {}; }), where);  // of a finished part
 }
 
 TEST_F(PartialBakes, RefusesRangesThatAreNone) {

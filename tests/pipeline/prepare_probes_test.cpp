@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/prepare_probes.h"
+#include <tetralight/pipeline/prepare_probes.h>
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "pipeline/bake_volume.h"
-#include "probes/build/validate.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/probes/build/validate.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/probe_groups.h"
 #include "tests/support/scenes.h"
 
@@ -73,7 +74,7 @@ TEST(PrepareProbes, LeavesOutWhatHasNoWayOutAndSaysSo) {
 TEST(PrepareProbes, VolumesWithoutSomeOfTheirProbesAreSound) {
     const ProbeVolume volume = bake({}).volume;
     const Status status = verify(volume.view());
-    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_TRUE(status) << error_text(status.error());
     EXPECT_TRUE(validate(volume.view()).problems().empty());
 }
 
@@ -84,7 +85,7 @@ TEST(PrepareProbes, GathersLightOutsideForProbesThatAreJustInside) {
     EXPECT_EQ(volume.exact_positions[probe], kShallow);  // it stays
     // Through the top, 0.1 away, and 2 % of the 0.83 to the next probe of its group beyond.
     const double spacing = glm::distance(kShallow, kDeep);
-    const glm::vec3 offset = volume.health[probe].capture_offset;
+    const glm::vec3 offset = volume.health[probe].virtual_offset;
     EXPECT_LT(glm::distance(offset, {0, 0.1 + 0.02 * spacing, 0}), 1e-4);
     EXPECT_EQ(volume.validity[probe], 1.0f);
     EXPECT_GT(volume.irradiance[probe].coefficients[0].r, 1.0f);
@@ -104,7 +105,7 @@ TEST(PrepareProbes, MovesNoProbeFartherThanItsShareOfTheSpacing) {
 TEST(PrepareProbes, LetsAProbeThatIsAloneGoAsFarAsTheSceneIsLarge) {
     const BakedVolume baked = bake({}, {make_group("alone", {kDeep})});
     EXPECT_EQ(baked.report.moved_count, 1u);
-    EXPECT_GT(baked.volume.health[0].capture_offset.y, 0.9f);
+    EXPECT_GT(baked.volume.health[0].virtual_offset.y, 0.9f);
 }
 
 TEST(PrepareProbes, MeasuresTheDistanceFromTheProbeToTheNearestSurface) {

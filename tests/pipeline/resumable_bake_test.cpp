@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/resumable_bake.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/resumable_bake.h>
 
 #include <fstream>
 
@@ -15,7 +16,7 @@ class ResumableBake : public test::PartFixture {
     const ProbeRange all{0, kProbeCount};
 
     void expect_whole(PreparedBake prepared, const RangeBake& baked) const {
-        const BakedVolume volume = finish_bake(std::move(prepared), baked.partial.tallies);
+        const BakedVolume volume = finish_bake(std::move(prepared), baked.partial.accumulators);
         EXPECT_EQ(probe_file_bytes(volume.volume.view()), whole());
     }
 
@@ -29,7 +30,7 @@ class ResumableBake : public test::PartFixture {
                 EXPECT_GT(run, 0);
                 return std::move(*baked);
             }
-            EXPECT_EQ(baked.error().message, "cancelled");
+            EXPECT_EQ(error_text(baked.error()), "cancelled");
             EXPECT_TRUE(std::filesystem::exists(file));
         }
     }
@@ -61,7 +62,7 @@ TEST_F(ResumableBake, IsKeptOnItsWay) {
     EXPECT_TRUE(baked->is_kept);
     EXPECT_EQ(baked->warning, "");
     const auto part = read_part(path("kept"));
-    ASSERT_TRUE(part) << part.error().message;
+    ASSERT_TRUE(part) << error_text(part.error());
     EXPECT_GT(part->partial.begun_count(), 0u);
     EXPECT_FALSE(part->partial.is_finished);
 }
@@ -78,18 +79,18 @@ TEST_F(ResumableBake, RefusesWhatIsKeptOfAnotherBakeOrRange) {
     static_cast<void>(bake_part("kept", {3, 9}));
     const auto other_range = bake_range(scene, prepare(), {3, 10}, {path("kept"), true});
     ASSERT_FALSE(other_range);
-    EXPECT_EQ(other_range.error().message,
+    EXPECT_EQ(error_text(other_range.error()),
               path("kept") + ": is of probes 3..9, not of probes 3..10");
     settings.seed = 1;
     const auto other_bake = bake_range(scene, prepare(), {3, 9}, {path("kept"), true});
     ASSERT_FALSE(other_bake);
-    EXPECT_EQ(other_bake.error().message.find(path("kept") + ": is of another bake"), 0u);
+    EXPECT_EQ(error_text(other_bake.error()).find(path("kept") + ": is of another bake"), 0u);
 }
 
 TEST_F(ResumableBake, RefusesARangeBeyondTheProbes) {
     const auto baked = bake_range(scene, prepare(), {30, 36}, {});
     ASSERT_FALSE(baked);
-    EXPECT_EQ(baked.error().message, "probes 30..36: there are 35 probes");
+    EXPECT_EQ(error_text(baked.error()), "probes 30..36: there are 35 probes");
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/reuse_probes.h"
+#include <tetralight/pipeline/reuse_probes.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "pipeline/bake_chunks.h"
-#include "probes/recombine.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_chunks.h>
+#include <tetralight/probes/recombine.h>
 #include "tests/pipeline/part_fixture.h"
 
 namespace tetralight {
@@ -32,13 +33,13 @@ class ReuseProbes : public test::PartFixture {
 
     [[nodiscard]] ProbeVolume bake_all() const {
         auto baked = bake_volume(scene, groups, all);
-        EXPECT_TRUE(baked) << baked.error().message;
+        EXPECT_TRUE(baked) << error_text(baked.error());
         return std::move(baked->volume);
     }
 
     [[nodiscard]] PreparedBake prepare_all() const {
         auto prepared = prepare_bake(scene, groups, all);
-        EXPECT_TRUE(prepared) << prepared.error().message;
+        EXPECT_TRUE(prepared) << error_text(prepared.error());
         return std::move(*prepared);
     }
 
@@ -60,15 +61,15 @@ class ReuseProbes : public test::PartFixture {
     [[nodiscard]] BakedVolume bake_rest(const ProbeVolume& old, const std::string& chunks = "") {
         PreparedBake prepared = prepare_all();
         const Status status = reuse_probes(old.view(), prepared);
-        EXPECT_TRUE(status) << status.error().message;
+        EXPECT_TRUE(status) << error_text(status.error());
         const PreparedBake others = bake_of_others(prepared);
         const auto count = static_cast<uint32_t>(others.capture_positions.size());
         EXPECT_EQ(count + prepared.reused.count(), prepared.capture_positions.size());
         const auto baked = chunks.empty() ? bake_range(scene, others, {0, count}, {})
                                           : bake_in_chunks(scene, others, chunks);
-        EXPECT_TRUE(baked) << baked.error().message;
+        EXPECT_TRUE(baked) << error_text(baked.error());
         const PartialBake part = spread_others(prepared, baked->partial);
-        return finish_bake(std::move(prepared), part.tallies, part.split_rows);
+        return finish_bake(std::move(prepared), part.accumulators, part.split_rows);
     }
 
     /// Edits a few times, each time from the volume before; gives the probes that were re-used.
@@ -90,7 +91,7 @@ class ReuseProbes : public test::PartFixture {
     [[nodiscard]] std::string refusal(const ProbeVolume& old) const {
         PreparedBake prepared = prepare_all();
         const Status status = reuse_probes(old.view(), prepared);
-        return status ? "" : status.error().message;
+        return status ? "" : error_text(status.error());
     }
 
     BakeVolumeSettings all;

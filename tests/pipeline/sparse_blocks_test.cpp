@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/sparse_blocks.h"
+#include <tetralight/pipeline/sparse_blocks.h>
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,9 @@
 // Bakes with layers, transfer and occlusion give the same bytes for ranges, threads and resume.
 #include <fstream>
 
-#include "pipeline/merge_parts.h"
-#include "pipeline/resumable_bake.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/merge_parts.h>
+#include <tetralight/pipeline/resumable_bake.h>
 #include "tests/pipeline/part_fixture.h"
 
 namespace tetralight {
@@ -31,7 +32,7 @@ TEST_F(SplitParts, GiveTheBytesOfOneBakeInAnyOrderAndOnAnyThreads) {
     EXPECT_EQ(whole(), expected);
     const std::string a = bake_part("a", {0, 12}), b = bake_part("b", {12, kProbeCount});
     const auto merged = merge_parts({b, a});
-    ASSERT_TRUE(merged) << merged.error().message;
+    ASSERT_TRUE(merged) << error_text(merged.error());
     EXPECT_EQ(probe_file_bytes(merged->volume.view()), expected);
 }
 
@@ -43,11 +44,12 @@ TEST_F(SplitParts, GoOnWithWhatWasKept) {
         scene, prepared, {0, kProbeCount}, keeping,
         [&](const BakeProgress& progress) { return progress.probes_done < 10 || ++calls > 1000; });
     if (!baked) {  // cancelled on its way, and kept
-        EXPECT_EQ(baked.error().message, "cancelled");
+        EXPECT_EQ(error_text(baked.error()), "cancelled");
         baked = bake_range(scene, prepared, {0, kProbeCount}, keeping);
     }
-    ASSERT_TRUE(baked) << baked.error().message;
-    const auto finished = finish_bake(prepare(), baked->partial.tallies, baked->partial.split_rows);
+    ASSERT_TRUE(baked) << error_text(baked.error());
+    const auto finished =
+        finish_bake(prepare(), baked->partial.accumulators, baked->partial.split_rows);
     EXPECT_EQ(probe_file_bytes(finished.volume.view()), whole());
 }
 
@@ -56,7 +58,7 @@ TEST_F(SplitParts, ReadBackWhatWasWritten) {
     const PartialBake partial = bake(prepared, {3, 9});
     ASSERT_TRUE(write_part(path("part"), prepared, partial));
     const auto part = read_part(path("part"));
-    ASSERT_TRUE(part) << part.error().message;
+    ASSERT_TRUE(part) << error_text(part.error());
     EXPECT_EQ(part->partial, partial);
     EXPECT_EQ(part->prepared.volume.layers, prepared.volume.layers);
     EXPECT_EQ(part->prepared.volume.layer_names, prepared.volume.layer_names);
@@ -70,7 +72,7 @@ TEST_F(SplitParts, RefuseRowsThatAreMissingOrNotFinite) {
         EXPECT_TRUE(write_part(path("part"), prepared, partial));
         const auto part = read_part(path("part"));
         EXPECT_FALSE(part);
-        return part ? "" : part.error().message;
+        return part ? "" : error_text(part.error());
     };
     partial.split_rows[partial.split_rows.size() / 6 + 3] = std::numeric_limits<double>::infinity();
     EXPECT_EQ(error_of(), path("part") + ": what the light of probe 4 is split into is not finite");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/write_lppv.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/write_lppv.h>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -82,7 +83,7 @@ TEST(WriteLppv, AFullDiskLeavesNothing) {
                             LppvFileKind::Dds, LppvFileKind::Ktx2}) {
         const auto status = write_lppv("/dev/full", lppv, {kind});
         ASSERT_FALSE(status);
-        EXPECT_NE(status.error().message.find("/dev/full: cannot write"), std::string::npos);
+        EXPECT_NE(error_text(status.error()).find("/dev/full: cannot write"), std::string::npos);
     }
 }
 

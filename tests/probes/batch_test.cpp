@@ -7,8 +7,9 @@
 #include <limits>
 #include <thread>
 
-#include "probes/compact_probes.h"
-#include "probes/detail/batch_queries.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/detail/batch_queries.h>
 #include "tests/support/probe_families.h"
 
 namespace tetralight {
@@ -154,8 +155,8 @@ TEST_F(BatchTest, AShortSpanIsAnErrorThatSaysBothLengths) {
     const auto expect_error = [&](const InterpolationBatch& wrong, const char* length) {
         const auto report = interpolate(volume.view(), wrong);
         ASSERT_FALSE(report);
-        EXPECT_NE(report.error().message.find(length), std::string::npos);
-        EXPECT_NE(report.error().message.find("1023"), std::string::npos);
+        EXPECT_NE(error_text(report.error()).find(length), std::string::npos);
+        EXPECT_NE(error_text(report.error()).find("1023"), std::string::npos);
     };
     InterpolationBatch wrong = batch();
     wrong.irradiance = std::span(answers.irradiance).first(1000);

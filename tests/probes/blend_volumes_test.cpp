@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/blend_volumes.h"
+#include <tetralight/probes/blend_volumes.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "probes/compact_probes.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/layered_volume.h"
 
 namespace tetralight {
@@ -36,7 +37,7 @@ void give_occlusion(ProbeVolume& volume, float value) {
 std::string error_of(const ProbeVolume& a, const ProbeVolume& b, float t) {
     const auto blended = blend(a.view(), b.view(), t);
     EXPECT_FALSE(blended);
-    return blended ? "" : blended.error().message;
+    return blended ? "" : error_text(blended.error());
 }
 
 TEST(BlendVolumes, BlendsLightAmbientAndOcclusion) {
@@ -44,7 +45,7 @@ TEST(BlendVolumes, BlendsLightAmbientAndOcclusion) {
     give_occlusion(a, 1.0f);
     give_occlusion(b, 0.0f);
     const auto blended = blend(a.view(), b.view(), 0.25f);
-    ASSERT_TRUE(blended) << blended.error().message;
+    ASSERT_TRUE(blended) << error_text(blended.error());
     for (size_t i = 0; i < 15; ++i) {
         EXPECT_EQ(blended->irradiance[i], 0.75f * a.irradiance[i] + 0.25f * b.irradiance[i]);
         EXPECT_EQ(blended->occlusion[i], glm::vec4(0.75f));
@@ -77,7 +78,7 @@ TEST(BlendVolumes, OcclusionOfOneScenarioAloneIsKeptForItsLights) {
     ProbeVolume b = scenario(3.0f, {1, 0, 0});
     give_occlusion(b, 0.5f);
     const auto blended = blend(a.view(), b.view(), 0.5f);
-    ASSERT_TRUE(blended) << blended.error().message;
+    ASSERT_TRUE(blended) << error_text(blended.error());
     EXPECT_EQ(blended->occlusion, b.occlusion);
     EXPECT_EQ(blended->occlusion_lights[0][1], 1u);  // the second light now
     EXPECT_EQ(blended->light_states[1].channel, 1u);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/compact_probes.h"
+#include <tetralight/probes/compact_probes.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "probes/probe_file.h"
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <limits>
 
-#include "base/text.h"
-#include "probes/interpolate.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/interpolate.h>
 #include "tests/support/adversarial_positions.h"
 #include "tests/support/property.h"
 #include "tests/support/property_volume.h"
@@ -109,17 +109,18 @@ TEST_P(Continuity, LightHasNoJumpAcrossFacesHullAndGroupBorders) {
                         ++thin_count;
                         continue;
                     }
-                    RC_FAIL(text("(", p.x, ", ", p.y, ", ", p.z, "): from cell ", found,
-                                 " and from cell ", neighbor, " of ", volume.cells.size(),
-                                 " the light differs by ", jump));
+                    RC_FAIL(str_cat("(", p.x, ", ", p.y, ", ", p.z, "): from cell ", found,
+                                    " and from cell ", neighbor, " of ", volume.cells.size(),
+                                    " the light differs by ", jump));
                 }
                 largest = std::max(largest, jump);
             }
         }
     });
     RecordProperty("largest_jump", std::to_string(largest));
-    std::cout << text(family.name, ": largest jump ", largest, " at ", pair_count,
-                      " borders, and more at ", thin_count, " that are as thin as float steps\n");
+    std::cout << str_cat(family.name, ": largest jump ", largest, " at ", pair_count,
+                         " borders, and more at ", thin_count,
+                         " that are as thin as float steps\n");
 }
 
 /// A function with slopes of 1 in units of the volume's extent.
@@ -149,8 +150,8 @@ TEST_P(Continuity, LinearLightIsExactInsideTheHull) {
             largest = std::max(largest, error);
         }
     });
-    std::cout << text(family.name, ": linear light is off by ", largest * 0x1p23,
-                      " steps of a float at most\n");
+    std::cout << str_cat(family.name, ": linear light is off by ", largest * 0x1p23,
+                         " steps of a float at most\n");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Continuity, testing::Range<size_t>(0, test::sized_families().size()),

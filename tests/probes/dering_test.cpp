@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/dering.h"
+#include <tetralight/probes/dering.h>
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "probes/compact_probes.h"
-#include "probes/sh_minimum.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/sh_minimum.h>
 #include "tests/support/random_light.h"
 
 namespace tetralight {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/distant_light.h"
+#include <tetralight/probes/distant_light.h>
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 #include "tests/support/random_light.h"
 
 namespace tetralight {

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "probes/build/validate.h"
-#include "probes/interpolate.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/validate.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/probe_families.h"
 
 namespace tetralight {
@@ -55,7 +56,7 @@ std::vector<glm::vec3> adversarial_positions(const ProbeVolume& volume, uint64_t
 TEST_P(Families, AreSoundAndValid) {
     for_each_volume([](const ProbeVolume& volume, uint64_t) {
         const auto status = verify(volume.view());
-        EXPECT_TRUE(status) << status.error().message;
+        EXPECT_TRUE(status) << error_text(status.error());
         for (const std::string& problem : validate(volume.view()).problems()) {
             ADD_FAILURE() << problem;
         }

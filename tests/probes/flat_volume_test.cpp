@@ -4,9 +4,10 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "probes/build/validate.h"
-#include "probes/interpolate.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/validate.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {
@@ -40,7 +41,7 @@ glm::vec3 light_at(const ProbeVolume& volume, const glm::dvec3& world) {
 void expect_sound(const ProbeVolume& volume, Dimension dimension) {
     EXPECT_EQ(volume.info.dimension, dimension);
     const auto status = verify(volume.view());
-    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_TRUE(status) << error_text(status.error());
     for (const std::string& problem : validate(volume.view()).problems()) ADD_FAILURE() << problem;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/interpolate.h"
+#include <tetralight/probes/interpolate.h>
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
-#include "probes/compact_probes.h"
-#include "probes/detail/batch_queries.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/detail/batch_queries.h>
 #include "tests/support/adversarial_positions.h"
 #include "tests/support/property_volume.h"
 #include "tests/support/sized_families.h"

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/live_light.h"
+#include <tetralight/probes/live_light.h>
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
 
-#include "probes/compact_probes.h"
-#include "probes/interpolate.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/interpolate.h>
 #include "tests/support/layered_volume.h"
 
 namespace tetralight {
@@ -34,7 +35,7 @@ TEST(LiveLight, BeginsWithTheLightOfTheVolume) {
     ProbeVolume volume = constant_layers(50);
     volume.layers[1].weight = 0.5f;
     const auto live = LiveLight::make(volume.view());
-    ASSERT_TRUE(live) << live.error().message;
+    ASSERT_TRUE(live) << error_text(live.error());
     const auto reading = live->read();
     EXPECT_EQ(light_of(reading.view(), 7), 6.0f);
     EXPECT_EQ(reading.view().layers[1].weight, 0.5f);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/locate.h"
+#include <tetralight/probes/locate.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "probes/interpolate.h"
+#include <tetralight/probes/interpolate.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/mixed_lighting.h"
+#include <tetralight/probes/mixed_lighting.h>
 
 #include <gtest/gtest.h>
 

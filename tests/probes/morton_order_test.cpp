@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/morton_order.h"
+#include <tetralight/probes/morton_order.h>
 
 #include <gtest/gtest.h>
 

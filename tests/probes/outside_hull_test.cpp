@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "probes/interpolate.h"
+#include <tetralight/probes/interpolate.h>
 #include "tests/support/probe_families.h"
 
 namespace tetralight {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/probe_file.h"
+#include <tetralight/probes/probe_file.h>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "probes/detail/probe_file_layout.h"
-#include "probes/interpolate.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/detail/probe_file_layout.h>
+#include <tetralight/probes/interpolate.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {
@@ -55,7 +56,7 @@ class ProbeFileTest : public testing::Test {
 TEST_F(ProbeFileTest, ReadsBackEverySection) {
     ASSERT_TRUE(write_probe_file(path, volume.view()));
     const auto file = open_probe_file(path);
-    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_TRUE(file) << error_text(file.error());
     EXPECT_EQ(probe_file_bytes(file->view()), probe_file_bytes(volume.view()));
     EXPECT_EQ(file->view().info, volume.info);
     EXPECT_EQ(file->view().light_names, volume.light_names);
@@ -88,7 +89,7 @@ TEST_F(ProbeFileTest, KeepsSectionsBesideTheVolume) {
     const ExtraSection extra[] = {{"numbers", std::as_bytes(std::span(numbers)), 4}, {"none", {}}};
     ASSERT_TRUE(write_probe_file(path, volume.view(), extra));
     const auto file = open_probe_file(path);
-    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_TRUE(file) << error_text(file.error());
     EXPECT_EQ(probe_file_bytes(file->view()), probe_file_bytes(volume.view()));
     const auto bytes = file->section_bytes("numbers", 4);
     ASSERT_TRUE(bytes && bytes->size() == 12);
@@ -100,7 +101,7 @@ TEST_F(ProbeFileTest, KeepsSectionsBesideTheVolume) {
 TEST_F(ProbeFileTest, AnEmptyVolumeIsAFileToo) {
     ASSERT_TRUE(write_probe_file(path, ProbeVolume{}.view()));
     const auto file = open_probe_file(path);
-    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_TRUE(file) << error_text(file.error());
     EXPECT_EQ(file->view().probe_count(), 0u);
 }
 
@@ -150,7 +151,7 @@ TEST_F(ProbeFileTest, SkipsSectionsItDoesNotKnow) {
     header->checksum = detail::header_checksum(*header, {entries, header->section_count});
     write(bytes);
     const auto file = open_probe_file(path);
-    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_TRUE(file) << error_text(file.error());
     EXPECT_TRUE(file->view().sky.empty());
 }
 
@@ -160,7 +161,7 @@ TEST_F(ProbeFileTest, NamesThePathAndTheSection) {
     write(bytes);
     const auto file = open_probe_file(path);
     ASSERT_FALSE(file);
-    EXPECT_EQ(file.error().message, path + ": section \"sky\" is corrupt (wrong checksum)");
+    EXPECT_EQ(error_text(file.error()), path + ": section \"sky\" is corrupt (wrong checksum)");
 }
 
 TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/recombine.h"
+#include <tetralight/probes/recombine.h>
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,13 @@
 #include <limits>
 #include <thread>
 
-#include "probes/compact_probes.h"
-#include "probes/dering.h"
-#include "probes/detail/half.h"
-#include "probes/detail/recombine_kernel.h"
-#include "probes/probe_file.h"
-#include "probes/sh_minimum.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/dering.h>
+#include <tetralight/probes/detail/half.h>
+#include <tetralight/probes/detail/recombine_kernel.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/sh_minimum.h>
 #include "tests/support/layered_volume.h"
 
 #ifdef TETRALIGHT_HAS_HIGHWAY
@@ -97,7 +98,7 @@ TEST(Recombine, RefusesBadWeights) {
     const auto error = [&](std::vector<float> weights) {
         const auto status = recombine(volume, weights);
         EXPECT_FALSE(status);
-        return status ? "" : status.error().message;
+        return status ? "" : error_text(status.error());
     };
     EXPECT_EQ(error({1.0f, -0.5f}), "layer \"light:lamp\": weight -0.5 is negative");
     EXPECT_EQ(error({std::nanf(""), 1.0f}), "layer \"sun\": weight nan is no number");
@@ -111,19 +112,19 @@ TEST(Recombine, OfAVolumeWithoutLayersIsAnErrorThatSaysSo) {
     ProbeVolume volume = test::make_lit_volume(test::random_positions(10, 1));
     const auto status = recombine(volume, {});
     ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().message,
+    EXPECT_EQ(error_text(status.error()),
               "the volume holds no layers (bake it with --layers to change its light)");
     const LayerWeight lamp{"lamp", 0.0f};
     const auto weights = layer_weights(volume.view(), std::span(&lamp, 1));
     ASSERT_FALSE(weights);
-    EXPECT_EQ(weights.error().message, "there is no layer \"lamp\"; it holds no layers");
+    EXPECT_EQ(error_text(weights.error()), "there is no layer \"lamp\"; it holds no layers");
 }
 
 TEST(Recombine, NamesLayersInFullOrByWhatIsBehindTheColon) {
     const ProbeVolume volume = make_layered_volume(5, 4);
     const std::vector<LayerWeight> changes{{"lamp", 0.0f}, {"material:neon", 2.0f}, {"sun", 0.5f}};
     const auto weights = layer_weights(volume.view(), changes);
-    ASSERT_TRUE(weights) << weights.error().message;
+    ASSERT_TRUE(weights) << error_text(weights.error());
     EXPECT_EQ(*weights, (std::vector<float>{0.5f, 0.0f, 2.0f, 1.0f}));
 }
 
@@ -132,7 +133,7 @@ TEST(Recombine, ListsTheLayersWhenANameIsMissing) {
     const LayerWeight change{"lantern", 0.0f};
     const auto weights = layer_weights(volume.view(), std::span(&change, 1));
     ASSERT_FALSE(weights);
-    EXPECT_EQ(weights.error().message,
+    EXPECT_EQ(error_text(weights.error()),
               "there is no layer \"lantern\"; it holds \"sun\", \"light:lamp\", \"material:neon\"");
 }
 
@@ -142,7 +143,7 @@ TEST(Recombine, RefusesNamesThatMeanTwoLayers) {
     const LayerWeight change{"neon", 0.0f};
     const auto weights = layer_weights(volume.view(), std::span(&change, 1));
     ASSERT_FALSE(weights);
-    EXPECT_EQ(weights.error().message.find("there are several layers \"neon\""), 0u);
+    EXPECT_EQ(error_text(weights.error()).find("there are several layers \"neon\""), 0u);
 }
 
 TEST(Recombine, RefusesTwoWeightsOfOneLayer) {
@@ -150,7 +151,7 @@ TEST(Recombine, RefusesTwoWeightsOfOneLayer) {
     const std::vector<LayerWeight> changes{{"lamp", 0.0f}, {"light:lamp", 2.0f}};
     const auto weights = layer_weights(volume.view(), changes);
     ASSERT_FALSE(weights);
-    EXPECT_EQ(weights.error().message, "layer \"light:lamp\" is given two weights");
+    EXPECT_EQ(error_text(weights.error()), "layer \"light:lamp\" is given two weights");
 }
 
 TEST(Recombine, LightsAreDimmedByTheirLayer) {

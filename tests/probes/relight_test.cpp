@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/relight.h"
+#include <tetralight/probes/relight.h>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "probes/compact_probes.h"
-#include "probes/dering.h"
-#include "probes/probe_file.h"
-#include "probes/sh_minimum.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/dering.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/sh_minimum.h>
 #include "tests/support/layered_volume.h"
 
 namespace tetralight {
@@ -55,7 +56,7 @@ TEST(Relight, SkyLayerBecomesTheTransferOfTheNewSky) {
     EXPECT_EQ(volume.sky[0], sky);
     EXPECT_EQ(count_wrong_compact_probes(volume.view()), 0u);
     const Status status = verify(volume.view());
-    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_TRUE(status) << error_text(status.error());
 }
 
 TEST(Relight, KeepsTheWeightsAndDimsTheAmbientLight) {
@@ -121,12 +122,12 @@ TEST(Relight, ProbesFreeOfRingingAreNeverNegative) {
 
 TEST(Relight, SaysWhatIsMissing) {
     ProbeVolume volume = make_volume();
-    const auto sky_error = [&] { return relight_sky(volume, {}).error().message; };
+    const auto sky_error = [&] { return error_text(relight_sky(volume, {}).error()); };
     DistantLight bad;
     bad.coefficients[3].y = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(relight_sky(volume, bad).error().message, "the sky is not finite");
+    EXPECT_EQ(error_text(relight_sky(volume, bad).error()), "the sky is not finite");
     volume.light_states[0].layer = kNoIndex;
-    EXPECT_EQ(relight_sun(volume, {0, -1, 0}, glm::vec3(1.0f)).error().message,
+    EXPECT_EQ(error_text(relight_sun(volume, {0, -1, 0}, glm::vec3(1.0f)).error()),
               "layer \"sun\" holds 0 suns; only one alone can be moved");
     volume.layer_names = "sun\nclouds\nrest\n";
     EXPECT_EQ(sky_error(), "the volume holds no layer \"sky\" to relight");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/sh_minimum.h"
+#include <tetralight/probes/sh_minimum.h>
 
 #include <gtest/gtest.h>
 

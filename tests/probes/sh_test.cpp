@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 
 #include <gtest/gtest.h>
 

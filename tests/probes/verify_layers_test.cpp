@@ -4,7 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/layered_volume.h"
 
 // What opening a file verifies of the sections of mixed lighting, layers and transfer.
@@ -29,12 +30,12 @@ std::string error_after(const std::function<void(ProbeVolume&)>& change) {
     change(volume);
     const Status status = verify(volume.view());
     EXPECT_FALSE(status);
-    return status ? "" : status.error().message;
+    return status ? "" : error_text(status.error());
 }
 
 TEST(VerifyLayers, AcceptsWhatIsRight) {
     const Status status = verify(make_volume().view());
-    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_TRUE(status) << error_text(status.error());
 }
 
 TEST(VerifyLayers, RefusesCountsThatDoNotAgree) {

@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace tetralight {
 namespace {
@@ -18,34 +19,47 @@ const fs::path kRoot = TETRALIGHT_SOURCE_DIR;
 
 using Folders = std::set<std::string>;
 
-/// What each folder may include beside itself.
-const std::map<std::string, Folders> kMayInclude = [] {
-    std::map<std::string, Folders> table{
-        {"base", {}},
-        {"probes", {"base"}},
-        {"probes/build/tetgen", {}},
-        {"probes/build", {"base", "probes", "probes/build/tetgen"}},
-        {"lppv", {"base", "probes"}},
-        {"lppv/vdb", {"base", "probes", "lppv"}},
-        {"runtime", {"base", "probes", "lppv"}},
-        {"bake/image", {"base"}},
-        {"bake/scene", {"base", "probes", "bake/image"}},
-        {"bake", {"base", "probes", "bake/scene", "bake/image"}},
-        {"bake/placement", {"base", "probes", "probes/build", "bake", "bake/scene", "bake/image"}},
-        {"examples", {"base", "probes", "lppv", "runtime"}},
-    };
-    Folders all{"base",    "probes",     "probes/build", "lppv", "lppv/vdb",
-                "runtime", "bake/image", "bake/scene",   "bake", "bake/placement"};
-    table["pipeline"] = all;
-    all.insert("pipeline");
-    table["runtime/gl"] = all;
-    table["server"] = {"base", "probes"};
-    all.insert("server");
-    all.insert("runtime/gl");
-    table["cli"] = all;
-    table["bench"] = all;
+/// The words of a table's cell, or of a list: "`bake/rays`, base" are bake/rays and base.
+std::vector<std::string> folders_in(const std::string& cell) {
+    const std::regex name("[a-z]+(?:/[a-z]+)*");
+    std::vector<std::string> found;
+    for (std::sregex_iterator it(cell.begin(), cell.end(), name), end; it != end; ++it) {
+        found.push_back(it->str());
+    }
+    return found;
+}
+
+/// What a row's second cell names: folders, or "everything above", perhaps "but" some.
+Folders allowed_by(const std::string& cell, const Folders& above) {
+    const std::string everything = "everything above";
+    const std::string list = cell.substr(0, cell.find(';'));
+    if (!list.starts_with(everything)) {
+        const auto named = folders_in(list);
+        return {named.begin(), named.end()};
+    }
+    Folders allowed = above;
+    for (const std::string& left_out : folders_in(list.substr(everything.size()))) {
+        allowed.erase(left_out);
+    }
+    return allowed;
+}
+
+/// The table in docs/architecture.md: what each folder may include beside itself.
+std::map<std::string, Folders> read_folder_table() {
+    std::ifstream page(kRoot / "docs/architecture.md");
+    const std::regex row("^\\| `([a-z/]+)` \\| ([^|]*) \\|.*");
+    std::map<std::string, Folders> table;
+    Folders above;
+    std::smatch match;
+    for (std::string line; std::getline(page, line);) {
+        if (!std::regex_match(line, match, row)) continue;
+        table[match[1]] = allowed_by(match[2], above);
+        above.insert(match[1]);
+    }
     return table;
-}();
+}
+
+const std::map<std::string, Folders> kMayInclude = read_folder_table();
 
 /// The folder of the table that a path from the root lies in; empty for none.
 std::string folder_of(const fs::path& path) {
@@ -55,10 +69,10 @@ std::string folder_of(const fs::path& path) {
     return {};
 }
 
-/// Calls `visit(file, included)` for each #include "..." of our own folders.
+/// Calls `visit(file, included)` for each #include <tetralight/...>.
 template <class Visit>
 void for_each_include(Visit visit) {
-    const std::regex include("^\\s*#include \"([^\"]+)\"");
+    const std::regex include("^\\s*#\\s*include\\s*<tetralight/([^>]+)>");
     for (const auto& [folder, allowed] : kMayInclude) {
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
             const fs::path file = fs::relative(entry.path(), kRoot);
@@ -92,17 +106,51 @@ TEST(Layers, DetailHeadersStayInTheirFolder) {
     });
 }
 
-TEST(Layers, TheTableHasNoCycle) {
+TEST(Layers, OwnHeadersAreIncludedUnderTheirPrefix) {
+    const std::regex quoted("^\\s*#\\s*include\\s*\"([^\"]+)\"");
     for (const auto& [folder, allowed] : kMayInclude) {
-        for (const std::string& lower : allowed) {
-            EXPECT_FALSE(kMayInclude.at(lower).contains(folder)) << folder << " and " << lower;
+        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+            const fs::path extension = entry.path().extension();
+            if (extension != ".h" && extension != ".cpp") continue;
+            std::ifstream stream(entry.path());
+            std::smatch match;
+            for (std::string line; std::getline(stream, line);) {
+                EXPECT_FALSE(std::regex_search(line, match, quoted))
+                    << entry.path() << " includes " << match[1];
+            }
         }
     }
 }
 
+TEST(Layers, TheTableNamesFoldersThatExist) {
+    EXPECT_GT(kMayInclude.size(), 15u);
+    for (const auto& [folder, allowed] : kMayInclude) {
+        EXPECT_TRUE(fs::is_directory(kRoot / folder)) << folder;
+        for (const std::string& lower : allowed) {
+            EXPECT_TRUE(kMayInclude.contains(lower)) << folder << " may include " << lower;
+        }
+    }
+}
+
+/// Whether `from` may include `to`, over any number of folders between them.
+bool reaches(const std::string& from, const std::string& to, Folders& seen) {
+    for (const std::string& lower : kMayInclude.at(from)) {
+        if (lower == to) return true;
+        if (seen.insert(lower).second && reaches(lower, to, seen)) return true;
+    }
+    return false;
+}
+
+TEST(Layers, TheTableHasNoCycle) {
+    for (const auto& [folder, allowed] : kMayInclude) {
+        Folders seen;
+        EXPECT_FALSE(reaches(folder, folder, seen)) << folder << " may include itself";
+    }
+}
+
 TEST(Layers, EverySourceSaysItsLicenceFirst) {
-    for (const char* top : {"base", "probes", "lppv", "runtime", "bake", "pipeline", "server",
-                            "cli", "bench", "examples", "tests"}) {
+    for (const char* top : {"base", "probes", "lppv", "runtime", "bake", "pipeline", "render",
+                            "server", "cli", "bench", "examples", "tests"}) {
         for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
             const fs::path extension = entry.path().extension();
             if (extension != ".h" && extension != ".cpp") continue;

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "runtime/tetralight.h"
+#include <tetralight/runtime/tetralight.h>
 
 enum { kCount = 1023 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each row of the table in docs/embed.md: the numbers that an engine gets, evaluated by the formula
 // of its own shaders at a normal in its own axes, are the light that we have there.
-#include "runtime/engine_sh.h"
+#include <tetralight/runtime/engine_sh.h>
 
 #include <gtest/gtest.h>
 

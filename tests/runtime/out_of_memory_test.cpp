@@ -8,9 +8,9 @@
 #include <fstream>
 #include <memory>
 
-#include "probes/probe_file.h"
-#include "probes/recombine.h"
-#include "runtime/tetralight.h"
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/recombine.h>
+#include <tetralight/runtime/tetralight.h>
 #include "tests/support/property_volume.h"
 #include "tests/support/temp_folder.h"
 

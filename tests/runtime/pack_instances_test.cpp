@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/pack_instances.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/runtime/pack_instances.h>
 
 #include <gtest/gtest.h>
 
@@ -202,7 +203,7 @@ TEST(PackInstances, RefusesAnswersOverEachOtherAndAtOddAddresses) {
     const auto error_of = [&](const ShOutput& packed, const OcclusionOutput& lit) {
         const auto report = pack_instances(
             volume.view(), {.positions = positions, .packed = packed, .occlusion = lit});
-        return report ? std::string() : report.error().message;
+        return report ? std::string() : error_text(report.error());
     };
     EXPECT_EQ(error_of(strided(bytes, ShFormat::Packed, 112), occlusion), "");
     EXPECT_EQ(error_of(strided(bytes, ShFormat::Packed, 108), occlusion),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/probe_shading.h"
+#include <tetralight/runtime/probe_shading.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/runtime_lights.h"
+#include <tetralight/runtime/runtime_lights.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/sample_normals.h"
+#include <tetralight/runtime/sample_normals.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/shade.h"
+#include <tetralight/runtime/shade.h>
 
 #include <gtest/gtest.h>
 

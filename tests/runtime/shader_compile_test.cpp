@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "runtime/shader_library.h"
+#include <tetralight/runtime/shader_library.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/shader_library.h"
+#include <tetralight/runtime/shader_library.h>
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "probes/interpolate.h"
-#include "runtime/shader_volume.h"
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/runtime/shader_volume.h>
 #include "tests/support/property_volume.h"
 #include "tests/support/sized_families.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shader's query, compiled as C++, against the queries of the CPU.
-#include "runtime/shader_query.h"
+#include <tetralight/runtime/shader_query.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "probes/interpolate.h"
+#include <tetralight/probes/interpolate.h>
 #include "tests/runtime/shader_query_cases.h"
 
 namespace tetralight {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/shader_volume.h"
+#include <tetralight/runtime/shader_volume.h>
 
 #include <gtest/gtest.h>
 
-#include "probes/compact_probes.h"
-#include "runtime/shader_query.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/runtime/shader_query.h>
 #include "tests/support/property_volume.h"
 
 namespace tetralight {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstring>
 
-#include "probes/compact_probes.h"
-#include "probes/interpolate.h"
-#include "probes/probe_file.h"
-#include "probes/recombine.h"
-#include "runtime/tetralight.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/recombine.h>
+#include <tetralight/runtime/tetralight.h>
 #include "tests/support/property_volume.h"
 #include "tests/support/temp_folder.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "lppv/lppv_texture.h"
-#include "probes/probe_file.h"
-#include "runtime/tetralight.h"
+#include <tetralight/lppv/lppv_texture.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/runtime/tetralight.h>
 #include "tests/lppv/lppv_fixture.h"
 #include "tests/support/temp_folder.h"
 

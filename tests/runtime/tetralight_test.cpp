@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "runtime/tetralight.h"
+#include <tetralight/runtime/tetralight.h>
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 #include <thread>
 
-#include "probes/interpolate.h"
-#include "probes/probe_file.h"
-#include "runtime/shader_volume.h"
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/runtime/shader_volume.h>
 #include "tests/runtime/c_api_consumer.h"
 #include "tests/support/property_volume.h"
 #include "tests/support/temp_folder.h"

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "bake/sampling.h"
-#include "probes/sh.h"
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/probes/sh.h>
 
 // How well sets of directions integrate the light of a sphere.
 

@@ -4,8 +4,8 @@
 #include <random>
 #include <string>
 
-#include "probes/compact_probes.h"
-#include "probes/recombine.h"
+#include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/recombine.h>
 #include "tests/support/random_light.h"
 #include "tests/support/random_probes.h"
 

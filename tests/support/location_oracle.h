@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "probes/build/detail/cgal.h"
-#include "probes/detail/cell_corners.h"
-#include "probes/locate.h"
+#include <tetralight/probes/build/detail/cgal.h>
+#include <tetralight/probes/detail/cell_corners.h>
+#include <tetralight/probes/locate.h>
 
 namespace tetralight::test {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "probes/probe_group.h"
+#include <tetralight/probes/probe_group.h>
 
 namespace tetralight::test {
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "probes/sh.h"
+#include <tetralight/probes/sh.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight::test {

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "probes/build/make_probe_volume.h"
+#include <tetralight/probes/build/make_probe_volume.h>
 
 namespace tetralight::test {
 

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <utility>
 
-#include "bake/scene/scene.h"
+#include <tetralight/bake/scene/scene.h>
 
 // Small scenes whose light has a closed form.
 

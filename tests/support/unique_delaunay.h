@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <span>
 
-#include "probes/build/detail/cgal.h"
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/probes/build/detail/cgal.h>
+#include <tetralight/probes/build/tetrahedralize.h>
 
 namespace tetralight::test {
 

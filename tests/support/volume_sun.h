@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "probes/no_index.h"
-#include "probes/probe_volume.h"
+#include <tetralight/probes/no_index.h>
+#include <tetralight/probes/probe_volume.h>
 #include "tests/support/scenes.h"
 
 namespace tetralight::test {

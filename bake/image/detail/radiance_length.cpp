@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/detail/radiance_length.h"
+#include <tetralight/bake/image/detail/radiance_length.h>
 
 #include <string_view>
 

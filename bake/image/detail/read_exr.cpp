@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/detail/read_exr.h"
+#include <tetralight/bake/image/detail/read_exr.h>
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -12,8 +12,8 @@
 #include <exception>
 #include <new>
 
-#include "bake/image/read_image.h"
-#include "base/text.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -30,9 +30,9 @@ Result<ChannelNames> find_channels(const Imf::ChannelList& channels) {
                                    : ChannelNames{"R", "G", "B"};
     for (const char* name : names) {
         const Imf::Channel* channel = channels.findChannel(name);
-        if (channel == nullptr) return Error{text("has no channel ", name)};
+        if (channel == nullptr) return Error{str_cat("has no channel ", name)};
         if (channel->xSampling != 1 || channel->ySampling != 1) {
-            return Error{text("channel ", name, " is subsampled, which is not supported")};
+            return Error{str_cat("channel ", name, " is subsampled, which is not supported")};
         }
     }
     return names;
@@ -43,8 +43,8 @@ Result<ImageF> make_image(const Imath::Box2i& window) {
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
     if (width <= 0 || height <= 0) return Error{"is empty"};
     if (static_cast<uint64_t>(width) > kMaxImagePixels / static_cast<uint64_t>(height)) {
-        return Error{text(width, " x ", height, " pixels are more than the largest size (",
-                          kMaxImagePixels, " pixels)")};
+        return Error{str_cat(width, " x ", height, " pixels are more than the largest size (",
+                             kMaxImagePixels, " pixels)")};
     }
     ImageF image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
     image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
@@ -84,7 +84,7 @@ Result<ImageF> read_exr(const std::string& path) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{text(path, ": cannot read OpenEXR image (", exception.what(), ")")};
+        return Error{str_cat(path, ": cannot read OpenEXR image (", exception.what(), ")")};
     }
 }
 

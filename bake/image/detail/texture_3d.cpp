@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/detail/texture_3d.h"
+#include <tetralight/bake/image/detail/texture_3d.h>
 
-#include "base/assert.h"
-#include "base/text.h"
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 
@@ -11,8 +11,8 @@ Status check_texture(const std::string& path, const Texture3dView& texture) {
     TETRALIGHT_ASSERT(texture.texels.size() == texels * texel_bytes(texture.format),
                       "a texture has width * height * depth texels");
     if (texels > 0) return Ok{};
-    return Error{text(path, ": cannot write a texture of ", texture.width, " x ", texture.height,
-                      " x ", texture.depth, " texels")};
+    return Error{str_cat(path, ": cannot write a texture of ", texture.width, " x ", texture.height,
+                         " x ", texture.depth, " texels")};
 }
 
 }  // namespace tetralight::detail

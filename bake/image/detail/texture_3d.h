@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bake/image/texture_3d.h"
+#include <tetralight/bake/image/texture_3d.h>
 
 namespace tetralight::detail {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/glb_container.h"
+#include <tetralight/bake/scene/detail/glb_container.h>
 
 #include <cstdint>
 #include <cstring>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -25,13 +25,13 @@ uint32_t read_u32(Bytes bytes, size_t offset) {
 /// Length of the chunk whose header lies at `offset`.
 Result<size_t> chunk_length(Bytes bytes, size_t offset) {
     if (bytes.size() - offset < kChunkHeaderSize) {
-        return Error{text("is cut off in the chunk header at byte ", offset)};
+        return Error{str_cat("is cut off in the chunk header at byte ", offset)};
     }
     const size_t length = read_u32(bytes, offset);
     const size_t left = bytes.size() - offset - kChunkHeaderSize;
     if (length <= left) return length;
-    return Error{text("is cut off: the chunk at byte ", offset, " has ", length, " bytes, ", left,
-                      " are left")};
+    return Error{str_cat("is cut off: the chunk at byte ", offset, " has ", length, " bytes, ",
+                         left, " are left")};
 }
 
 }  // namespace
@@ -43,10 +43,10 @@ bool is_glb(Bytes bytes) {
 Result<Bytes> glb_json(Bytes bytes) {
     if (bytes.size() < kGlbHeaderSize) return Error{"is cut off in the GLB header"};
     const uint32_t version = read_u32(bytes, 4);
-    if (version != kGlbVersion) return Error{text("GLB version ", version, " is not supported")};
+    if (version != kGlbVersion) return Error{str_cat("GLB version ", version, " is not supported")};
     const size_t length = read_u32(bytes, 8);
     if (length != bytes.size()) {
-        return Error{text("has ", bytes.size(), " bytes, its header says ", length)};
+        return Error{str_cat("has ", bytes.size(), " bytes, its header says ", length)};
     }
     const auto json_length = chunk_length(bytes, kGlbHeaderSize);
     if (!json_length) return json_length.error();

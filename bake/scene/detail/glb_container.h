@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 namespace tetralight::detail {
 

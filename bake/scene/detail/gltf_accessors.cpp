@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_accessors.h"
+#include <tetralight/bake/scene/detail/gltf_accessors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -52,13 +52,13 @@ Result<std::vector<std::byte>> gather(const GltfDocument& document, uint32_t vie
     const GltfBufferView& view = document.buffer_views[view_index];
     const uint64_t stride = view.byte_stride == 0 ? run.element_size : view.byte_stride;
     if (stride < run.element_size) {
-        return Error{text("byteStride ", stride, " of buffer view ", view_index,
-                          " is less than an element's ", run.element_size, " bytes")};
+        return Error{str_cat("byteStride ", stride, " of buffer view ", view_index,
+                             " is less than an element's ", run.element_size, " bytes")};
     }
     const uint64_t end = run.byte_offset + (run.count - 1) * stride + run.element_size;
     if (end > view.byte_length) {
-        return Error{text("bytes ", run.byte_offset, " to ", end, " are outside of buffer view ",
-                          view_index, " (", view.byte_length, " bytes)")};
+        return Error{str_cat("bytes ", run.byte_offset, " to ", end, " are outside of buffer view ",
+                             view_index, " (", view.byte_length, " bytes)")};
     }
     const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
     const std::byte* source = buffer.data() + view.byte_offset + run.byte_offset;
@@ -91,11 +91,11 @@ Status replace_sparse(const GltfDocument& document, const GltfAccessor& accessor
                       std::span<std::byte> packed) {
     const GltfSparse& sparse = *accessor.sparse;
     if (sparse.count == 0 || sparse.count > accessor.count) {
-        return Error{text("sparse count ", sparse.count, " is not in 1 to ", accessor.count)};
+        return Error{str_cat("sparse count ", sparse.count, " is not in 1 to ", accessor.count)};
     }
     if (!is_index_type(sparse.index_component_type)) {
-        return Error{text("sparse indices: component type ", sparse.index_component_type,
-                          " is not supported")};
+        return Error{str_cat("sparse indices: component type ", sparse.index_component_type,
+                             " is not supported")};
     }
     const uint64_t element_size = packed.size() / accessor.count;
     const uint64_t index_size = component_size(sparse.index_component_type);
@@ -109,8 +109,8 @@ Status replace_sparse(const GltfDocument& document, const GltfAccessor& accessor
         const uint32_t index =
             unsigned_at(&(*indices)[i * index_size], sparse.index_component_type);
         if (index >= accessor.count) {
-            return Error{
-                text("sparse index ", index, " is out of range (", accessor.count, " elements)")};
+            return Error{str_cat("sparse index ", index, " is out of range (", accessor.count,
+                                 " elements)")};
         }
         std::memcpy(&packed[index * element_size], &(*values)[i * element_size], element_size);
     }
@@ -130,8 +130,8 @@ Result<std::vector<std::byte>> packed_elements(const GltfDocument& document,
         if (!gathered) return gathered.error();
         packed = std::move(*gathered);
     } else if (accessor.count > kMaxZeroElements) {
-        return Error{text(accessor.count, " elements without a buffer view are more than ",
-                          kMaxZeroElements)};
+        return Error{str_cat(accessor.count, " elements without a buffer view are more than ",
+                             kMaxZeroElements)};
     } else {
         packed.resize(accessor.count * element_size);
     }
@@ -171,11 +171,11 @@ float float_at(const std::byte* bytes, uint32_t component_type, bool is_normaliz
 
 Status check_float_type(const GltfAccessor& accessor, int component_count) {
     if (accessor.component_count != static_cast<uint32_t>(component_count)) {
-        return Error{text("is not of type VEC", component_count)};
+        return Error{str_cat("is not of type VEC", component_count)};
     }
     const bool is_known = component_size(accessor.component_type) != 0;
     if (is_known && accessor.component_type != kUnsignedInt) return Ok{};
-    return Error{text("component type ", accessor.component_type, " is not supported here")};
+    return Error{str_cat("component type ", accessor.component_type, " is not supported here")};
 }
 
 template <class Vector>
@@ -193,7 +193,7 @@ Result<std::vector<Vector>> decode_vectors(const GltfDocument& document,
             const float value = float_at(bytes, accessor.component_type, accessor.is_normalized);
             if (!std::isfinite(value)) {
                 return Error{
-                    text("element ", i, " is not finite (component ", axis, " is ", value, ")")};
+                    str_cat("element ", i, " is not finite (component ", axis, " is ", value, ")")};
             }
             vectors[i][axis] = value;
             bytes += component_size(accessor.component_type);
@@ -205,7 +205,7 @@ Result<std::vector<Vector>> decode_vectors(const GltfDocument& document,
 template <class Vector>
 Result<std::vector<Vector>> read_vectors(const GltfDocument& document, uint32_t accessor_index) {
     auto vectors = decode_vectors<Vector>(document, document.accessors[accessor_index]);
-    if (!vectors) return vectors.error().in(text("accessor ", accessor_index));
+    if (!vectors) return vectors.error().in(str_cat("accessor ", accessor_index));
     return vectors;
 }
 
@@ -237,8 +237,8 @@ Result<std::vector<glm::vec4>> read_colors(const GltfDocument& document, uint32_
     for (size_t i = 0; i < colors.size(); ++i) {
         for (int channel = 0; channel < 4; ++channel) {
             if (colors[i][channel] >= 0.0f) continue;
-            return Error{text("accessor ", accessor_index, ": element ", i, " is negative (",
-                              colors[i][channel], ")")};
+            return Error{str_cat("accessor ", accessor_index, ": element ", i, " is negative (",
+                                 colors[i][channel], ")")};
         }
     }
     return colors;
@@ -246,11 +246,11 @@ Result<std::vector<glm::vec4>> read_colors(const GltfDocument& document, uint32_
 
 Result<std::vector<uint32_t>> read_indices(const GltfDocument& document, uint32_t accessor_index) {
     const GltfAccessor& accessor = document.accessors[accessor_index];
-    const std::string place = text("accessor ", accessor_index);
+    const std::string place = str_cat("accessor ", accessor_index);
     if (accessor.component_count != 1) return Error{place + ": is not of type SCALAR"};
     if (!is_index_type(accessor.component_type)) {
-        return Error{text(place, ": component type ", accessor.component_type,
-                          " is not supported for indices")};
+        return Error{str_cat(place, ": component type ", accessor.component_type,
+                             " is not supported for indices")};
     }
     const auto packed = packed_elements(document, accessor);
     if (!packed) return packed.error().in(place);

@@ -7,8 +7,8 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "bake/scene/detail/gltf_document.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/base/result.h>
 
 // Accessors read to plain arrays: floats as they stand, 8- and 16-bit integers as
 // KHR_mesh_quantization defines them (normalized or not). Messages name the accessor.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_cameras.h"
+#include <tetralight/bake/scene/detail/gltf_cameras.h>
 
 #include <glm/geometric.hpp>
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "bake/scene/detail/gltf_document.h"
-#include "bake/scene/detail/gltf_nodes.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_nodes.h>
 
 namespace tetralight::detail {
 

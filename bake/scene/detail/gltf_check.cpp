@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_check.h"
+#include <tetralight/bake/scene/detail/gltf_check.h>
 
 #include <algorithm>
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
 
-#include "bake/scene/detail/gltf_rules.h"
-#include "bake/scene/detail/gltf_uri.h"
-#include "base/json_text.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_rules.h>
+#include <tetralight/bake/scene/detail/gltf_uri.h>
+#include <tetralight/base/json_text.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -30,14 +30,14 @@ Status check_version(const json& document) {
     const json* version = find_json(document, "asset/version");
     if (version == nullptr || !version->is_string()) return Error{"asset.version is missing"};
     if (version->get_ref<const std::string&>().starts_with("2.")) return Ok{};
-    return Error{text("asset.version ", shown_json(*version), " is not supported (2.x is)")};
+    return Error{str_cat("asset.version ", shown_json(*version), " is not supported (2.x is)")};
 }
 
 Status check_required_extensions(const json& document) {
     const json* required = find_json(document, "extensionsRequired");
     if (required == nullptr) return Ok{};
     if (!required->is_array()) {
-        return Error{text("extensionsRequired is not an array (", shown_json(*required), ")")};
+        return Error{str_cat("extensionsRequired is not an array (", shown_json(*required), ")")};
     }
     for (const json& extension : *required) {
         const bool is_supported =
@@ -45,7 +45,7 @@ Status check_required_extensions(const json& document) {
             std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions),
                       extension.get_ref<const std::string&>()) != std::end(kSupportedExtensions);
         if (is_supported) continue;
-        return Error{text("required extension ", shown_json(extension), " is not supported")};
+        return Error{str_cat("required extension ", shown_json(extension), " is not supported")};
     }
     return Ok{};
 }
@@ -56,7 +56,7 @@ Status check_default_scene(const json& document) {
     const json* scenes = find_json(document, "scenes");
     const size_t count = scenes == nullptr ? 0 : scenes->size();
     if (scene->is_number_unsigned() && scene->get<uint64_t>() < count) return Ok{};
-    return Error{text("scene ", shown_json(*scene), " is out of range (", count, " scenes)")};
+    return Error{str_cat("scene ", shown_json(*scene), " is out of range (", count, " scenes)")};
 }
 
 Status check_uri(const json& element) {
@@ -74,10 +74,10 @@ Status check_buffers(const json& document, GltfContainer container) {
         const json& buffer = (*buffers)[i];
         const bool is_embedded = container == GltfContainer::Glb && i == 0;
         if (!buffer.contains("uri") && !is_embedded)
-            return Error{text("buffer ", i, ": has no uri")};
-        if (buffer["byteLength"] == 0) return Error{text("buffer ", i, ": byteLength is 0")};
+            return Error{str_cat("buffer ", i, ": has no uri")};
+        if (buffer["byteLength"] == 0) return Error{str_cat("buffer ", i, ": byteLength is 0")};
         const auto uri = check_uri(buffer);
-        if (!uri) return uri.error().in(text("buffer ", i));
+        if (!uri) return uri.error().in(str_cat("buffer ", i));
     }
     return Ok{};
 }
@@ -87,7 +87,7 @@ Status check_image_uris(const json& document) {
     if (images == nullptr) return Ok{};
     for (size_t i = 0; i < images->size(); ++i) {
         const auto uri = check_uri((*images)[i]);
-        if (!uri) return uri.error().in(text("image ", i));
+        if (!uri) return uri.error().in(str_cat("image ", i));
     }
     return Ok{};
 }
@@ -101,10 +101,11 @@ Status check_buffer_views(const json& document) {
         const uint64_t buffer_length = document["buffers"][buffer]["byteLength"].get<uint64_t>();
         const uint64_t offset = size_or(view, "byteOffset", 0);
         const uint64_t length = size_or(view, "byteLength", 0);
-        if (length == 0) return Error{text("buffer view ", i, ": byteLength is 0")};
+        if (length == 0) return Error{str_cat("buffer view ", i, ": byteLength is 0")};
         if (offset + length > buffer_length) {  // both < 2^32
-            return Error{text("buffer view ", i, ": bytes ", offset, " to ", offset + length,
-                              " are outside of buffer ", buffer, " (", buffer_length, " bytes)")};
+            return Error{str_cat("buffer view ", i, ": bytes ", offset, " to ", offset + length,
+                                 " are outside of buffer ", buffer, " (", buffer_length,
+                                 " bytes)")};
         }
     }
     return Ok{};
@@ -130,7 +131,7 @@ Status check_gltf_json(std::string_view json_text, GltfContainer container) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{text("is not glTF (", json_error_reason(exception), ")")};
+        return Error{str_cat("is not glTF (", json_error_reason(exception), ")")};
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_document.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
 
 #include <exception>
 #include <limits>
@@ -7,12 +7,13 @@
 #include <span>
 #include <string_view>
 
-#include "bake/scene/detail/glb_container.h"
-#include "bake/scene/detail/gltf_check.h"
-#include "bake/scene/detail/gltf_model.h"
-#include "bake/scene/detail/gltf_uri.h"
-#include "base/file.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/glb_container.h>
+#include <tetralight/bake/scene/detail/gltf_check.h>
+#include <tetralight/bake/scene/detail/gltf_model.h>
+#include <tetralight/bake/scene/detail/gltf_uri.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -31,7 +32,7 @@ bool read_buffer_file(std::vector<unsigned char>* out, std::string* error, const
                       void*) {
     const auto bytes = read_file(path);
     if (!bytes) {
-        *error = bytes.error().message;
+        *error = error_text(bytes.error());
         return false;
     }
     const auto* first = reinterpret_cast<const unsigned char*>(bytes->data());
@@ -78,7 +79,7 @@ Result<tinygltf::Model> parse_model(Bytes bytes, const std::string& folder) {
 
 Result<GltfDocument> parse_document(Bytes bytes, const std::string& path) {
     if (bytes.size() > std::numeric_limits<uint32_t>::max()) {
-        return Error{text(bytes.size(), " bytes are too many for a glTF file")};
+        return Error{str_cat(bytes.size(), " bytes are too many for a glTF file")};
     }
     const auto container = is_glb(bytes) ? GltfContainer::Glb : GltfContainer::Gltf;
     const auto json = container == GltfContainer::Glb ? glb_json(bytes) : Result<Bytes>(bytes);
@@ -103,12 +104,12 @@ Result<GltfDocument> read_gltf_document(const std::string& path) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{text(path, ": cannot parse glTF (", exception.what(), ")")};
+        return Error{str_cat(path, ": cannot parse glTF (", exception.what(), ")")};
     }
 }
 
 std::string gltf_place(const char* kind, size_t index, const std::string& name) {
-    return name.empty() ? text(kind, " ", index) : text(kind, " ", index, " \"", name, "\"");
+    return name.empty() ? str_cat(kind, " ", index) : str_cat(kind, " ", index, " \"", name, "\"");
 }
 
 }  // namespace tetralight::detail

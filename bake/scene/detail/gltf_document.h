@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/scene.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
 
 // What a glTF file says, as plain values and before it is interpreted. Indices are in range or
 // kNoIndex, where the file leaves them out; numbers are finite; buffer views lie in their buffers.

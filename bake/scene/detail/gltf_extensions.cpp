@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_extensions.h"
+#include <tetralight/bake/scene/detail/gltf_extensions.h>
 
 #include <cmath>
 #include <limits>

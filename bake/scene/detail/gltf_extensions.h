@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "bake/scene/detail/gltf_model.h"
+#include <tetralight/bake/scene/detail/gltf_model.h>
 
 // What extensions and extras of tinygltf's elements say.
 

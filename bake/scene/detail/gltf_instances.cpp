@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_instances.h"
+#include <tetralight/bake/scene/detail/gltf_instances.h>
 
-#include "bake/scene/detail/gltf_accessors.h"
-#include "bake/scene/detail/gltf_transform.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_accessors.h>
+#include <tetralight/bake/scene/detail/gltf_transform.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -23,7 +23,7 @@ Result<size_t> instance_count(const GltfDocument& document, const GltfAttributes
         if (attribute == attributes.end()) continue;
         const size_t own = document.accessors[attribute->second].count;
         if (count != 0 && own != count) {
-            return Error{text(name, " has ", own, " elements, another attribute has ", count)};
+            return Error{str_cat(name, " has ", own, " elements, another attribute has ", count)};
         }
         count = own;
     }
@@ -82,8 +82,8 @@ Result<std::vector<glm::dmat4>> read_transforms(const GltfDocument& document,
         transforms.push_back(placed.world_from_node * node_from_instance);
         const bool is_finite = is_finite_affine(transforms.back());
         if (is_finite && is_invertible(transforms.back())) continue;
-        return Error{text("EXT_mesh_gpu_instancing: transform ", i, " is not ",
-                          is_finite ? "invertible" : "finite")};
+        return Error{str_cat("EXT_mesh_gpu_instancing: transform ", i, " is not ",
+                             is_finite ? "invertible" : "finite")};
     }
     return transforms;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_light_extras.h"
+#include <tetralight/bake/scene/detail/gltf_light_extras.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -13,7 +13,7 @@ Result<LightMode> mode_from(const std::string& mode) {
     if (mode == "mixed") return LightMode::Mixed;
     if (mode == "baked") return LightMode::Baked;
     if (mode == "realtime") return LightMode::Realtime;
-    return Error{text("extras.mode \"", mode, "\" is not \"mixed\", \"baked\" or \"realtime\"")};
+    return Error{str_cat("extras.mode \"", mode, "\" is not \"mixed\", \"baked\" or \"realtime\"")};
 }
 
 Result<LightFalloff> falloff_from(const std::string& falloff) {
@@ -21,17 +21,17 @@ Result<LightFalloff> falloff_from(const std::string& falloff) {
     if (falloff == "inverse-square-range") return LightFalloff::InverseSquareRange;
     if (falloff == "linear") return LightFalloff::Linear;
     if (falloff == "legacy") return LightFalloff::Legacy;
-    return Error{text("extras.falloff \"", falloff,
-                      "\" is not \"gltf\", \"inverse-square-range\", \"linear\" or \"legacy\"")};
+    return Error{str_cat("extras.falloff \"", falloff,
+                         "\" is not \"gltf\", \"inverse-square-range\", \"linear\" or \"legacy\"")};
 }
 
 /// A number ≥ 0, or `otherwise`.
 Result<float> number_from(const std::optional<double>& value, const char* name, float otherwise) {
     if (!value) return otherwise;
     const auto number = static_cast<float>(*value);
-    if (std::isnan(*value)) return Error{text("extras.", name, " is not a number")};
+    if (std::isnan(*value)) return Error{str_cat("extras.", name, " is not a number")};
     if (number >= 0.0f && std::isfinite(number)) return number;
-    return Error{text("extras.", name, " ", *value, " is negative or too large")};
+    return Error{str_cat("extras.", name, " ", *value, " is negative or too large")};
 }
 
 Status apply_mode(const GltfLightExtras& extras, Light& light) {
@@ -52,7 +52,7 @@ Status apply_falloff(const GltfLightExtras& extras, Light& light) {
     const bool is_distant = light.type == LightType::Directional;
     if (is_distant) return Error{"extras.falloff is not for directional lights"};
     if (light.falloff == LightFalloff::Gltf || light.range > 0.0f) return Ok{};
-    return Error{text("extras.falloff \"", *extras.falloff, "\" needs a range > 0")};
+    return Error{str_cat("extras.falloff \"", *extras.falloff, "\" needs a range > 0")};
 }
 
 Status apply_size(const GltfLightExtras& extras, Light& light) {
@@ -67,7 +67,8 @@ Status apply_size(const GltfLightExtras& extras, Light& light) {
     if (!radius) return radius.error();
     const auto angle = number_from(extras.angle_degrees, "angle", 0.0f);
     if (!angle) return angle.error();
-    if (*angle > 180.0f) return Error{text("extras.angle ", *angle, " is more than 180 degrees")};
+    if (*angle > 180.0f)
+        return Error{str_cat("extras.angle ", *angle, " is more than 180 degrees")};
     light.radius = is_distant ? *angle / 360.0f * std::numbers::pi_v<float> : *radius;
     return Ok{};
 }
@@ -95,7 +96,7 @@ Status apply_shape(const GltfLightExtras& extras, Light& light) {
     if (*extras.shape == "rectangle") return apply_rectangle(extras, light);
     if (*extras.shape != "disc") {
         return Error{
-            text("extras.shape \"", *extras.shape, "\" is neither \"rectangle\" nor \"disc\"")};
+            str_cat("extras.shape \"", *extras.shape, "\" is neither \"rectangle\" nor \"disc\"")};
     }
     if (light.radius == 0.0f) return Error{"extras.shape \"disc\" needs a radius > 0"};
     light.type = LightType::Disc;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_lights.h"
+#include <tetralight/bake/scene/detail/gltf_lights.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "bake/scene/detail/gltf_light_extras.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_light_extras.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -21,13 +21,14 @@ std::optional<LightType> type_from(const std::string& type) {
 }
 
 Status read_intensity(const GltfLight& source, Light& light) {
-    if (source.intensity < 0.0) return Error{text("intensity ", source.intensity, " is negative")};
+    if (source.intensity < 0.0)
+        return Error{str_cat("intensity ", source.intensity, " is negative")};
     for (int channel = 0; channel < 3; ++channel) {
         const double color = source.color[channel];
-        if (color < 0.0) return Error{text("color ", color, " is negative")};
+        if (color < 0.0) return Error{str_cat("color ", color, " is negative")};
         light.intensity[channel] = static_cast<float>(color * source.intensity);
         if (std::isfinite(light.intensity[channel])) continue;
-        return Error{text("intensity is not finite (", color, " * ", source.intensity, ")")};
+        return Error{str_cat("intensity is not finite (", color, " * ", source.intensity, ")")};
     }
     return Ok{};
 }
@@ -35,7 +36,7 @@ Status read_intensity(const GltfLight& source, Light& light) {
 Status read_range(const GltfLight& source, Light& light) {
     light.range = static_cast<float>(source.range);
     if (source.range >= 0.0 && std::isfinite(light.range)) return Ok{};
-    return Error{text("range ", source.range, " is negative or too large")};
+    return Error{str_cat("range ", source.range, " is negative or too large")};
 }
 
 /// Exporters write equal angles for a cone with a hard edge, and a right angle rounded up to float.
@@ -46,8 +47,8 @@ Status read_cone(const GltfLight& source, Light& light) {
     const double outer = source.outer_cone_radians;
     const bool is_cone = inner >= 0.0 && inner <= outer && outer > 0.0;
     if (!is_cone || outer > kRightAngle + kRounding) {
-        return Error{
-            text("cone angles ", inner, " and ", outer, " are not 0 <= inner <= outer <= pi / 2")};
+        return Error{str_cat("cone angles ", inner, " and ", outer,
+                             " are not 0 <= inner <= outer <= pi / 2")};
     }
     light.cos_inner_cone = static_cast<float>(std::cos(std::min(inner, kRightAngle)));
     light.cos_outer_cone = static_cast<float>(std::cos(std::min(outer, kRightAngle)));
@@ -60,13 +61,13 @@ Status place_light(const glm::dmat4& world_from_node, Light& light) {
     light.position = glm::vec3(world_from_node[3]);
     for (int axis = 0; axis < 3; ++axis) {
         if (std::isfinite(light.position[axis])) continue;
-        return Error{text("position is too far away (", world_from_node[3][axis], ")")};
+        return Error{str_cat("position is too far away (", world_from_node[3][axis], ")")};
     }
     if (light.type == LightType::Point) return Ok{};
     const glm::dvec3 direction = -glm::dvec3(world_from_node[2]);
     const double length = glm::length(direction);
     if (!(length > 0.0) || !std::isfinite(length)) {
-        return Error{text("direction is undefined: its node is scaled to ", length)};
+        return Error{str_cat("direction is undefined: its node is scaled to ", length)};
     }
     light.direction = glm::vec3(direction / length);
     if (light.type != LightType::Rectangle) return Ok{};
@@ -107,7 +108,7 @@ Result<GltfLights> read_lights(const GltfDocument& document, std::span<const Glt
         const auto type = type_from(source.type);
         if (!type) {
             result.warnings.push_back(
-                text(place, ": type \"", source.type, "\" is not known; left out"));
+                str_cat(place, ": type \"", source.type, "\" is not known; left out"));
             continue;
         }
         const auto light = read_light(source, *type, placed, node);

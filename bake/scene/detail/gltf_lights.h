@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/detail/gltf_document.h"
-#include "bake/scene/detail/gltf_nodes.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_nodes.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight::detail {
 

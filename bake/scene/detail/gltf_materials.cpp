@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_materials.h"
+#include <tetralight/bake/scene/detail/gltf_materials.h>
 
 #include <cmath>
 
-#include "bake/scene/detail/gltf_textures.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_textures.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -13,7 +13,7 @@ constexpr uint32_t kUvSetCount = 2;
 
 Result<float> factor_from(double value, const char* name) {
     if (value >= 0.0 && value <= 1.0) return static_cast<float>(value);
-    return Error{text(name, " ", value, " is not in 0 to 1")};
+    return Error{str_cat(name, " ", value, " is not in 0 to 1")};
 }
 
 Result<glm::vec4> base_color_from(const GltfMaterial& source) {
@@ -28,16 +28,16 @@ Result<glm::vec4> base_color_from(const GltfMaterial& source) {
 
 Result<glm::vec3> emission_from(const GltfMaterial& source) {
     if (source.emissive_strength < 0.0) {
-        return Error{text("emissiveStrength ", source.emissive_strength, " is negative")};
+        return Error{str_cat("emissiveStrength ", source.emissive_strength, " is negative")};
     }
     glm::vec3 emission{};
     for (int channel = 0; channel < 3; ++channel) {
         const double factor = source.emissive_factor[channel];
-        if (factor < 0.0) return Error{text("emissiveFactor ", factor, " is negative")};
+        if (factor < 0.0) return Error{str_cat("emissiveFactor ", factor, " is negative")};
         emission[channel] = static_cast<float>(factor * source.emissive_strength);
         if (std::isfinite(emission[channel])) continue;
         return Error{
-            text("emission is not finite (", factor, " * ", source.emissive_strength, ")")};
+            str_cat("emission is not finite (", factor, " * ", source.emissive_strength, ")")};
     }
     return emission;
 }
@@ -46,7 +46,7 @@ Result<AlphaMode> alpha_mode_from(const std::string& mode) {
     if (mode == "OPAQUE") return AlphaMode::Opaque;
     if (mode == "MASK") return AlphaMode::Mask;
     if (mode == "BLEND") return AlphaMode::Blend;
-    return Error{text("alphaMode \"", mode, "\" is not OPAQUE, MASK or BLEND")};
+    return Error{str_cat("alphaMode \"", mode, "\" is not OPAQUE, MASK or BLEND")};
 }
 
 bool is_finite(const glm::mat3& matrix) {
@@ -62,10 +62,10 @@ bool is_finite(const glm::mat3& matrix) {
 Result<TextureUse> texture_use_from(TextureUse use, const char* name, GltfTextureReader& reader) {
     if (use.texture == kNoIndex) return use;
     if (use.uv_set >= kUvSetCount) {
-        return Error{text(name, ": texCoord ", use.uv_set, " is not supported (0 and 1 are)")};
+        return Error{str_cat(name, ": texCoord ", use.uv_set, " is not supported (0 and 1 are)")};
     }
     if (!is_finite(use.image_from_mesh)) {
-        return Error{text(name, ": KHR_texture_transform is not finite")};
+        return Error{str_cat(name, ": KHR_texture_transform is not finite")};
     }
     const auto texture = reader.read(use.texture);
     if (!texture) return texture.error().in(name);
@@ -95,7 +95,7 @@ Status read_textures(const GltfMaterial& source, GltfTextureReader& reader, Mate
 Result<bool> bakes_emission_from(const std::string& word) {
     if (word == "baked") return true;
     if (word == "none") return false;
-    return Error{text("extras.bake_emission \"", word, "\" is neither \"none\" nor \"baked\"")};
+    return Error{str_cat("extras.bake_emission \"", word, "\" is neither \"none\" nor \"baked\"")};
 }
 
 Status read_factors(const GltfMaterial& source, Material& material) {
@@ -129,7 +129,7 @@ Result<Material> read_material(const GltfMaterial& source, GltfTextureReader& re
     material.alpha_mode = *alpha_mode;
     material.alpha_cutoff = static_cast<float>(source.alpha_cutoff);
     if (!(source.alpha_cutoff >= 0.0) || !std::isfinite(material.alpha_cutoff)) {
-        return Error{text("alphaCutoff ", source.alpha_cutoff, " is negative or too large")};
+        return Error{str_cat("alphaCutoff ", source.alpha_cutoff, " is negative or too large")};
     }
     const auto textures = read_textures(source, reader, material);
     if (!textures) return textures.error();

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_meshes.h"
+#include <tetralight/bake/scene/detail/gltf_meshes.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "bake/scene/detail/gltf_accessors.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_accessors.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -27,7 +27,7 @@ Result<std::vector<uint32_t>> read_corners(const GltfDocument& document,
     if (!corners) return corners.error();
     for (const uint32_t index : *corners) {
         if (index < vertex_count) continue;
-        return Error{text("index ", index, " is out of range (", vertex_count, " vertices)")};
+        return Error{str_cat("index ", index, " is out of range (", vertex_count, " vertices)")};
     }
     return corners;
 }
@@ -55,7 +55,7 @@ std::vector<uint32_t> triangles_from_fan(const std::vector<uint32_t>& corners) {
 
 Result<std::vector<uint32_t>> triangles_from(std::vector<uint32_t> corners, uint32_t mode) {
     if (corners.size() < 3 || (mode == kTriangles && corners.size() % 3 != 0)) {
-        return Error{text(corners.size(), " corners do not make whole triangles")};
+        return Error{str_cat(corners.size(), " corners do not make whole triangles")};
     }
     if (mode == kTriangleStrip) return triangles_from_strip(corners);
     if (mode == kTriangleFan) return triangles_from_fan(corners);
@@ -88,7 +88,7 @@ size_t remove_flat_triangles(Mesh& mesh) {
 Status check_count(size_t count, const char* attribute, const Mesh& mesh) {
     if (count == mesh.positions.size()) return Ok{};
     return Error{
-        text(attribute, " has ", count, " elements, POSITION has ", mesh.positions.size())};
+        str_cat(attribute, " has ", count, " elements, POSITION has ", mesh.positions.size())};
 }
 
 Status read_vertex_colors(const GltfDocument& document, const GltfAttributes& attributes,
@@ -149,9 +149,9 @@ Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshe
     size_t flat_count = 0;
     for (size_t i = 0; i < source.primitives.size(); ++i) {
         const GltfPrimitive& primitive = source.primitives[i];
-        const std::string place = text("primitive ", i);
+        const std::string place = str_cat("primitive ", i);
         if (primitive.mode > kTriangleFan) {
-            return Error{text(place, ": mode ", primitive.mode, " is not known")};
+            return Error{str_cat(place, ": mode ", primitive.mode, " is not known")};
         }
         if (primitive.mode < kTriangles) continue;  // points and lines reflect no light
         auto mesh = read_primitive(document, primitive);
@@ -165,7 +165,7 @@ Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshe
         const std::string place = gltf_place("mesh", result.meshes_of.size() - 1, source.name);
         const char* triangles = flat_count == 1 ? " triangle" : " triangles";
         result.warnings.push_back(
-            text(place, ": ", flat_count, triangles, " without area left out"));
+            str_cat(place, ": ", flat_count, triangles, " without area left out"));
     }
     return Ok{};
 }

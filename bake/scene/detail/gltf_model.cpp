@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #define TINYGLTF_IMPLEMENTATION
-#include "bake/scene/detail/gltf_model.h"
+#include <tetralight/bake/scene/detail/gltf_model.h>
 
 #include <span>
 
-#include "bake/scene/detail/gltf_extensions.h"
-#include "bake/scene/detail/gltf_transform.h"
+#include <tetralight/bake/scene/detail/gltf_extensions.h>
+#include <tetralight/bake/scene/detail/gltf_transform.h>
 
 namespace tetralight::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <fstream>  // tiny_gltf.h needs it and leaves it out with TINYGLTF_NO_FS
 #include <string>
 
-#include "bake/scene/detail/gltf_document.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
 
 // The only header that knows tinygltf, for the two files that use it. It parses and decodes base64;
 // files are read, images are decoded and everything is checked by our own code.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_nodes.h"
+#include <tetralight/bake/scene/detail/gltf_nodes.h>
 
 #include <map>
 #include <string>
 
-#include "bake/scene/detail/gltf_transform.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_transform.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -19,8 +19,8 @@ Result<std::vector<uint32_t>> find_parents(const GltfDocument& document) {
     for (uint32_t node = 0; node < document.nodes.size(); ++node) {
         for (const uint32_t child : document.nodes[node].children) {
             if (parents[child] != kNoIndex) {
-                return Error{text(node_place(document, child), ": has two parents, nodes ",
-                                  parents[child], " and ", node)};
+                return Error{str_cat(node_place(document, child), ": has two parents, nodes ",
+                                     parents[child], " and ", node)};
             }
             parents[child] = node;
         }
@@ -53,8 +53,8 @@ Result<LightProbeUsage> usage_from(const std::string& word) {
     if (word == "off") return LightProbeUsage::Off;
     if (word == "blend") return LightProbeUsage::Blend;
     if (word == "proxy_volume") return LightProbeUsage::ProxyVolume;
-    return Error{
-        text("extras.light_probes is \"", word, "\", not \"off\", \"blend\" or \"proxy_volume\"")};
+    return Error{str_cat("extras.light_probes is \"", word,
+                         "\", not \"off\", \"blend\" or \"proxy_volume\"")};
 }
 
 /// The roots of the scene; without a scene, all nodes that have no parent.
@@ -70,8 +70,8 @@ Result<std::vector<uint32_t>> find_roots(const GltfDocument& document,
     std::vector<bool> is_root(parents.size(), false);
     for (const uint32_t node : *document.scene_roots) {
         if (parents[node] != kNoIndex) {
-            return Error{text(node_place(document, node),
-                              ": is a root of the scene and a child of node ", parents[node])};
+            return Error{str_cat(node_place(document, node),
+                                 ": is a root of the scene and a child of node ", parents[node])};
         }
         if (is_root[node]) return Error{node_place(document, node) + ": stands twice in the scene"};
         is_root[node] = true;
@@ -171,10 +171,10 @@ Result<std::vector<SceneNode>> scene_nodes(const GltfDocument& document,
         const std::string& anchor = *document.nodes[nodes[i].anchored_by].probe_anchor;
         const auto found = positions.find(anchor);
         if (found == positions.end() || found->second == kNoIndex) {
-            return Error{text(node_place(document, nodes[i].anchored_by),
-                              ": extras.probe_anchor is \"", anchor, "\", ",
-                              found == positions.end() ? "which no node is called"
-                                                       : "which several nodes are called")};
+            return Error{str_cat(node_place(document, nodes[i].anchored_by),
+                                 ": extras.probe_anchor is \"", anchor, "\", ",
+                                 found == positions.end() ? "which no node is called"
+                                                          : "which several nodes are called")};
         }
         result[i].probe_anchor = found->second;
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_probe_adjustments.h"
+#include <tetralight/bake/scene/detail/gltf_probe_adjustments.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -16,12 +16,12 @@ std::optional<float> to_float(const std::optional<double>& number) {
 Result<ProbeAdjustment> converted(const GltfAdjustment& extras, const glm::dmat4& placed) {
     const bool is_box = extras.shape == "box";
     if (!is_box && extras.shape != "sphere") {
-        return Error{text("extras.probe_adjustment.shape \"", extras.shape,
-                          "\" is not \"box\" or \"sphere\"")};
+        return Error{str_cat("extras.probe_adjustment.shape \"", extras.shape,
+                             "\" is not \"box\" or \"sphere\"")};
     }
     if (is_box ? extras.radius.has_value() : extras.size.has_value()) {
-        return Error{text("extras.probe_adjustment: ", is_box ? "radius" : "size",
-                          " does not fit the shape")};
+        return Error{str_cat("extras.probe_adjustment: ", is_box ? "radius" : "size",
+                             " does not fit the shape")};
     }
     ProbeAdjustment adjustment;
     adjustment.shape = is_box ? AdjustmentShape::Box : AdjustmentShape::Sphere;
@@ -48,7 +48,7 @@ Result<std::vector<ProbeAdjustment>> read_gltf_probe_adjustments(
         if (!node.probe_adjustment) continue;
         auto adjustment = converted(*node.probe_adjustment, placed.world_from_node);
         if (!adjustment) return adjustment.error().in(gltf_place("node", placed.node, node.name));
-        adjustment->name = node.name.empty() ? text("node ", placed.node) : node.name;
+        adjustment->name = node.name.empty() ? str_cat("node ", placed.node) : node.name;
         if (auto status = check(*adjustment); !status) return status.error();
         adjustments.push_back(std::move(*adjustment));
     }

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "bake/scene/detail/gltf_document.h"
-#include "bake/scene/detail/gltf_nodes.h"
-#include "bake/scene/probe_adjustment.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_nodes.h>
+#include <tetralight/bake/scene/probe_adjustment.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight::detail {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_probe_groups.h"
+#include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 
-#include "bake/scene/detail/gltf_accessors.h"
-#include "bake/scene/detail/probe_group_check.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_accessors.h>
+#include <tetralight/bake/scene/detail/probe_group_check.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -26,7 +26,7 @@ Result<std::vector<glm::dvec3>> read_points(const GltfDocument& document,
     for (const uint32_t index : *indices) {
         if (index >= positions->size()) {
             return Error{
-                text("index ", index, " is out of range (", positions->size(), " vertices)")};
+                str_cat("index ", index, " is out of range (", positions->size(), " vertices)")};
         }
         points.emplace_back((*positions)[index]);
     }
@@ -44,7 +44,7 @@ Result<std::vector<glm::dvec3>> read_mesh_points(const GltfDocument& document,
         const auto points = read_points(document, mesh.primitives[i]);
         if (!points) {
             return points.error()
-                .in(text("primitive ", i))
+                .in(str_cat("primitive ", i))
                 .in(gltf_place("mesh", mesh_index, mesh.name));
         }
         all.insert(all.end(), points->begin(), points->end());
@@ -83,7 +83,7 @@ Result<GltfProbeGroups> read_gltf_probe_groups(const GltfDocument& document,
         const GltfNode& node = document.nodes[placed.node];
         if (!node.is_probe_group) continue;
         if (node.name.empty()) {
-            return Error{text("node ", placed.node, ": is a probe group and has no name")};
+            return Error{str_cat("node ", placed.node, ": is a probe group and has no name")};
         }
         auto group = read_group(document, placed, result.is_probe);
         if (!group) return group.error().in(gltf_place("node", placed.node, node.name));

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_rules.h"
+#include <tetralight/bake/scene/detail/gltf_rules.h>
 
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "bake/scene/detail/gltf_document.h"
-#include "bake/scene/detail/gltf_schema.h"
-#include "base/text.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_schema.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -25,7 +25,8 @@ class Checker {
             const json* elements = find_json(document_, section.path);
             if (elements == nullptr) continue;
             if (!elements->is_array()) {
-                return Error{text(section.name, " is not an array (", shown_json(*elements), ")")};
+                return Error{
+                    str_cat(section.name, " is not an array (", shown_json(*elements), ")")};
             }
             const auto status = check_elements(*elements, section.element, section.rules);
             if (!status) return status;
@@ -49,7 +50,7 @@ class Checker {
 
     [[nodiscard]] Status check_element(const json& element, std::span<const GltfRule> rules) const {
         if (!element.is_object())
-            return Error{text("is not an object (", shown_json(element), ")")};
+            return Error{str_cat("is not an object (", shown_json(element), ")")};
         for (const GltfRule& rule : rules) {
             const auto status = check_rule(element, rule);
             if (!status) return status;
@@ -66,13 +67,13 @@ class Checker {
         if (!parent->is_object()) {
             if (path.substr(0, slash) == "extras") return Ok{};  // anything may stand there
             return Error{
-                text(path.substr(0, slash), " is not an object (", shown_json(*parent), ")")};
+                str_cat(path.substr(0, slash), " is not an object (", shown_json(*parent), ")")};
         }
         const std::string_view key = is_nested ? path.substr(slash + 1) : path;
         const auto value = parent->find(std::string(key));
-        if (value != parent->end()) return check_value(*value, rule, text(path));
+        if (value != parent->end()) return check_value(*value, rule, str_cat(path));
         if (rule.need == GltfNeed::Optional) return Ok{};
-        return Error{text(path, " is missing")};
+        return Error{str_cat(path, " is missing")};
     }
 
     [[nodiscard]] Status check_value(const json& value, const GltfRule& rule,
@@ -110,7 +111,7 @@ class Checker {
     [[nodiscard]] static Status checked(bool is_right, const json& value, const std::string& name,
                                         const char* wanted) {
         if (is_right) return Ok{};
-        return Error{text(name, " is not ", wanted, " (", shown_json(value), ")")};
+        return Error{str_cat(name, " is not ", wanted, " (", shown_json(value), ")")};
     }
 
     [[nodiscard]] size_t target_count(std::string_view target) const {
@@ -127,15 +128,15 @@ class Checker {
         if (!value.is_number_integer()) return checked(false, value, name, "an index");
         const size_t count = target_count(rule.target);
         if (value.is_number_unsigned() && value.get<uint64_t>() < count) return Ok{};
-        return Error{
-            text(name, " ", shown_json(value), " is out of range (", count, " ", rule.target, ")")};
+        return Error{str_cat(name, " ", shown_json(value), " is out of range (", count, " ",
+                             rule.target, ")")};
     }
 
     [[nodiscard]] Status check_indices(const json& values, bool is_right_container,
                                        const GltfRule& rule, const std::string& name) const {
         if (!is_right_container) return checked(false, values, name, "a list of indices");
         for (const auto& [key, value] : values.items()) {
-            const auto status = check_index(value, rule, text(name, " ", key));
+            const auto status = check_index(value, rule, str_cat(name, " ", key));
             if (!status) return status;
         }
         return Ok{};
@@ -153,7 +154,7 @@ class Checker {
                               std::all_of(value.begin(), value.end(),
                                           [](const json& number) { return number.is_number(); });
         return checked(is_right, value, name,
-                       text("an array of ", rule.length, " numbers").c_str());
+                       str_cat("an array of ", rule.length, " numbers").c_str());
     }
 
     const json& document_;

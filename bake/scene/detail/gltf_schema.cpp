@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_schema.h"
+#include <tetralight/bake/scene/detail/gltf_schema.h>
 
 namespace tetralight::detail {
 namespace {

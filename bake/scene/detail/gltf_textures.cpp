@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_textures.h"
+#include <tetralight/bake/scene/detail/gltf_textures.h>
 
 #include <span>
 
-#include "bake/image/read_image.h"
-#include "bake/scene/detail/gltf_uri.h"
-#include "base/file.h"
-#include "base/text.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/scene/detail/gltf_uri.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -24,14 +24,14 @@ Result<TextureWrap> wrap_from(uint32_t code, const char* name) {
         case kClampToEdge:
             return TextureWrap::ClampToEdge;
         default:
-            return Error{text(name, " ", code, " is not a wrap mode")};
+            return Error{str_cat(name, " ", code, " is not a wrap mode")};
     }
 }
 
 Status set_wrap_modes(const GltfDocument& document, uint32_t sampler_index, Texture& texture) {
     if (sampler_index == kNoIndex) return Ok{};
     const GltfSampler& sampler = document.samplers[sampler_index];
-    const std::string place = text("sampler ", sampler_index);
+    const std::string place = str_cat("sampler ", sampler_index);
     const auto wrap_u = wrap_from(sampler.wrap_s, "wrapS");
     if (!wrap_u) return wrap_u.error().in(place);
     const auto wrap_v = wrap_from(sampler.wrap_t, "wrapT");
@@ -49,7 +49,7 @@ Result<Image8> decode_file(const GltfDocument& document, const GltfImage& image,
     const std::string path = folder_of(document.path) + *relative;
     const auto bytes = read_file(path);
     if (!bytes) return bytes.error().in(place);
-    return decode_image8(*bytes, text(place, ": ", path));
+    return decode_image8(*bytes, str_cat(place, ": ", path));
 }
 
 Result<Image8> decode(const GltfDocument& document, uint32_t image_index) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/detail/gltf_document.h"
-#include "base/result.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/base/result.h>
 
 namespace tetralight::detail {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_uri.h"
+#include <tetralight/bake/scene/detail/gltf_uri.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
@@ -45,7 +45,7 @@ Result<std::string> relative_path_from_uri(std::string_view uri) {
     const bool is_plain = path.find_first_of(std::string_view(":\\\0", 3)) == std::string::npos;
     if (path.empty() || path.front() == '/' || !is_plain || has_parent_step(path)) {
         return Error{
-            text("uri \"", uri.substr(0, 80), "\" is not a path below the scene's folder")};
+            str_cat("uri \"", uri.substr(0, 80), "\" is not a path below the scene's folder")};
     }
     return path;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 namespace tetralight::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/vdb/detail/memory_stream.h"
+#include <tetralight/lppv/vdb/detail/memory_stream.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/vdb/detail/vdb_uuid.h"
+#include <tetralight/lppv/vdb/detail/vdb_uuid.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 
-#include "probes/content_hash.h"
+#include <tetralight/probes/content_hash.h>
 
 namespace tetralight::detail {
 namespace {

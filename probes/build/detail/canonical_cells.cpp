@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/canonical_cells.h"
+#include <tetralight/probes/build/detail/canonical_cells.h>
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "probes/build/detail/cell_sorter.h"
-#include "probes/build/detail/hull_cells.h"
+#include <tetralight/probes/build/detail/cell_sorter.h>
+#include <tetralight/probes/build/detail/hull_cells.h>
 
 namespace tetralight::detail {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/probes/build/tetrahedralize.h>
 
 namespace tetralight::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/cell_sorter.h"
+#include <tetralight/probes/build/detail/cell_sorter.h>
 
 #include <algorithm>
 #include <numeric>

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "probes/probe_volume.h"
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
 

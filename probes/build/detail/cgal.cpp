@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Links CGAL 2D triangulations (GPL-3.0-or-later).
-#include "probes/build/detail/cgal.h"
+#include <tetralight/probes/build/detail/cgal.h>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/check_tetrahedra.h"
+#include <tetralight/probes/build/detail/check_tetrahedra.h>
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "base/text.h"
-#include "probes/build/detail/canonical_cells.h"
-#include "probes/build/validate.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/detail/canonical_cells.h>
+#include <tetralight/probes/build/validate.h>
 
 namespace tetralight::detail {
 namespace {
@@ -36,13 +36,13 @@ Status check_indices(const std::vector<Cell>& cells, size_t position_count) {
     for (size_t i = 0; i < cells.size(); ++i) {
         for (const uint32_t vertex : cells[i].vertices) {
             if (vertex < position_count) continue;
-            return Error{text("tetrahedron ", i, ": vertex ", vertex, " is out of range (",
-                              position_count, ")")};
+            return Error{str_cat("tetrahedron ", i, ": vertex ", vertex, " is out of range (",
+                                 position_count, ")")};
         }
         for (const uint32_t neighbor : cells[i].neighbors) {
             if (neighbor < cells.size() || neighbor == kNoIndex) continue;
-            return Error{text("tetrahedron ", i, ": neighbor ", neighbor, " is out of range (",
-                              cells.size(), ")")};
+            return Error{str_cat("tetrahedron ", i, ": neighbor ", neighbor, " is out of range (",
+                                 cells.size(), ")")};
         }
     }
     return Ok{};
@@ -53,7 +53,7 @@ Status check_neighbors(const std::vector<Cell>& cells) {
         for (int corner = 0; corner < 4; ++corner) {
             const uint32_t neighbor = cells[i].neighbors[corner];
             if (neighbor == kNoIndex || is_across(cells[i], i, corner, cells[neighbor])) continue;
-            return Error{text("tetrahedra ", i, " and ", neighbor, " are no neighbors")};
+            return Error{str_cat("tetrahedra ", i, " and ", neighbor, " are no neighbors")};
         }
     }
     return Ok{};
@@ -66,7 +66,7 @@ Status check_all_used(const std::vector<Cell>& cells, size_t position_count) {
     }
     const auto count = std::ranges::count(is_used, false);
     if (count == 0) return Ok{};
-    return Error{text("left out ", count, " of ", position_count, " probes")};
+    return Error{str_cat("left out ", count, " of ", position_count, " probes")};
 }
 
 /// Whether the hull is one closed surface without a hole, which only a convex polyhedron's is when

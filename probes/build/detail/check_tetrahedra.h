@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base/result.h"
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/base/result.h>
+#include <tetralight/probes/build/tetrahedralize.h>
 
 namespace tetralight::detail {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/child_process.h"
+#include <tetralight/probes/build/detail/child_process.h>
 
-#include "base/text.h"
-#include "probes/build/detail/child_streams.h"
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/detail/child_streams.h>
 
 #include <poll.h>
 #include <signal.h>
@@ -50,10 +50,10 @@ class Process {
     [[nodiscard]] std::string problem() const {
         if (WIFSIGNALED(status_)) {
             const int signal = WTERMSIG(status_);
-            return text("ended by signal ", signal, " (", ::strsignal(signal), ")");
+            return str_cat("ended by signal ", signal, " (", ::strsignal(signal), ")");
         }
         const int code = WEXITSTATUS(status_);
-        return code == 0 ? "" : text("ended with exit code ", code);
+        return code == 0 ? "" : str_cat("ended with exit code ", code);
     }
 
   private:
@@ -98,7 +98,7 @@ class Listener {
             if (has_ended && !*heard) return Ok{};
             if (Clock::now() >= deadline) {
                 const std::chrono::duration<double> limit = command_.time_limit;
-                return Error{text("did not end within ", limit.count(), " s")};
+                return Error{str_cat("did not end within ", limit.count(), " s")};
             }
             if (!*heard) wait();
         }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 namespace tetralight::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/child_streams.h"
+#include <tetralight/probes/build/detail/child_streams.h>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -10,12 +10,12 @@
 #include <cstring>
 #include <utility>
 
-#include "base/text.h"
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 
 Error system_error(const std::string& what) {
-    return {text("cannot ", what, " (", std::strerror(errno), ")")};
+    return {str_cat("cannot ", what, " (", std::strerror(errno), ")")};
 }
 
 Descriptor::Descriptor(int descriptor) : descriptor_(descriptor) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/result.h"
+#include <tetralight/base/result.h>
 
 // What a child process reads from and writes to.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Links CGAL 3D triangulations (GPL-3.0-or-later).
-#include "probes/build/detail/delaunay.h"
+#include <tetralight/probes/build/detail/delaunay.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
@@ -14,8 +14,8 @@
 #include <numeric>
 #include <utility>
 
-#include "probes/build/detail/cell_sorter.h"
-#include "probes/build/detail/position_table.h"
+#include <tetralight/probes/build/detail/cell_sorter.h>
+#include <tetralight/probes/build/detail/position_table.h>
 
 namespace tetralight::detail {
 namespace {

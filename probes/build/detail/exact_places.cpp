@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/exact_places.h"
+#include <tetralight/probes/build/detail/exact_places.h>
 
 #include <algorithm>
 #include <cmath>

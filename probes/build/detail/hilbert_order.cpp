@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/hilbert_order.h"
+#include <tetralight/probes/build/detail/hilbert_order.h>
 
 #include <algorithm>
 #include <compare>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "probes/hilbert.h"
+#include <tetralight/probes/hilbert.h>
 
 namespace tetralight::detail {
 namespace {

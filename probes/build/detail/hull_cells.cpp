@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/hull_cells.h"
+#include <tetralight/probes/build/detail/hull_cells.h>
 
 #include <algorithm>
 #include <span>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "probes/probe_volume.h"
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "probes/build/detail/lattice.h"
+#include <tetralight/probes/build/detail/lattice.h>
 
 namespace tetralight::detail {
 

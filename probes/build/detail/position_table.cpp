@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/position_table.h"
+#include <tetralight/probes/build/detail/position_table.h>
 
 #include <bit>
 
-#include "probes/no_index.h"
+#include <tetralight/probes/no_index.h>
 
 namespace tetralight::detail {
 namespace {

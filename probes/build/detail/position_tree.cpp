@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/position_tree.h"
+#include <tetralight/probes/build/detail/position_tree.h>
 
 #include <algorithm>
 #include <array>

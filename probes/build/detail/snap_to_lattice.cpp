@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/snap_to_lattice.h"
+#include <tetralight/probes/build/detail/snap_to_lattice.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "probes/build/detail/exact_places.h"
-#include "probes/build/detail/lattice_fit.h"
+#include <tetralight/probes/build/detail/exact_places.h>
+#include <tetralight/probes/build/detail/lattice_fit.h>
 
 namespace tetralight::detail {
 namespace {
@@ -34,9 +34,9 @@ struct NearerTo {
 };
 
 /// Positions seen from the one in their middle.
-class Surroundings {
+class ProbeVisibility {
   public:
-    explicit Surroundings(Positions positions) : positions_(positions) {
+    explicit ProbeVisibility(Positions positions) : positions_(positions) {
         glm::dvec3 low = positions[0];
         glm::dvec3 high = positions[0];
         for (const glm::dvec3& p : positions) {
@@ -95,8 +95,8 @@ std::optional<Lattice> find_lattice(Positions positions) {
         float_step = std::max({float_step, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
     float_step *= 0x1p-23;
-    const Surroundings surroundings(positions);
-    const std::vector<glm::dvec3> first = surroundings.nearest(kFirstCount);
+    const ProbeVisibility visibility(positions);
+    const std::vector<glm::dvec3> first = visibility.nearest(kFirstCount);
     LatticeFit fit(first);
     const auto is_near = [&] {
         const double tolerance = std::min(float_step, 1e-3 * shortest_step(fit.lattice()));
@@ -105,14 +105,14 @@ std::optional<Lattice> find_lattice(Positions positions) {
     if (!fit.fit(first) || !is_near()) return {};
 
     double square = glm::dot(first.back(), first.back());
-    double beyond = surroundings.square_beyond(square);
+    double beyond = visibility.square_beyond(square);
     while (std::isfinite(beyond)) {
         square = std::max(4.0 * square, beyond);
-        if (!fit.fit(surroundings.within(square)) || !is_near()) return {};
-        beyond = surroundings.square_beyond(square);
+        if (!fit.fit(visibility.within(square)) || !is_near()) return {};
+        beyond = visibility.square_beyond(square);
     }
     Lattice lattice = fit.lattice();
-    lattice.origin += surroundings.middle();
+    lattice.origin += visibility.middle();
     return lattice;
 }
 

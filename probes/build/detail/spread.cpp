@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/spread.h"
+#include <tetralight/probes/build/detail/spread.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "probes/build/detail/snap_to_lattice.h"
+#include <tetralight/probes/build/detail/snap_to_lattice.h>
 
 namespace tetralight::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/weld.h"
+#include <tetralight/probes/build/detail/weld.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "probes/build/detail/local_origin.h"
-#include "probes/build/detail/position_tree.h"
+#include <tetralight/probes/build/detail/local_origin.h>
+#include <tetralight/probes/build/detail/position_tree.h>
 
 namespace tetralight::detail {
 namespace {

@@ -15,7 +15,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "probes/build/tetgen/stream.h"
+#include <tetralight/probes/build/tetgen/stream.h>
 
 namespace {
 

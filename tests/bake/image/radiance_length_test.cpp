@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/detail/radiance_length.h"
+#include <tetralight/bake/image/detail/radiance_length.h>
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "bake/image/read_image.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {
@@ -22,7 +23,7 @@ std::string run_length_hdr() {
 TEST(RadianceLength, RunLengthLinesAreWhole) {
     const TempFolder folder;
     const auto read = read_hdr_image(folder.write("rle.hdr", run_length_hdr()));
-    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_TRUE(read) << error_text(read.error());
     EXPECT_EQ(read->image.pixels, std::vector<glm::vec3>(16, glm::vec3(2.0f, 1.0f, 0.5f)));
 }
 

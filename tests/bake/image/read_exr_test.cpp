@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/detail/read_exr.h"
+#include <tetralight/bake/image/detail/read_exr.h>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "bake/image/read_image.h"
-#include "bake/image/write_image.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {
@@ -49,7 +50,7 @@ TEST(ReadExr, TakesLuminanceAloneAsGrey) {
     const TempFolder folder;
     const auto path = folder.write("y.exr", one_channel_exr('Y', {kHalfOne, kHalfTwo}));
     const auto image = detail::read_exr(path);
-    ASSERT_TRUE(image) << image.error().message;
+    ASSERT_TRUE(image) << error_text(image.error());
     EXPECT_EQ(image->pixels, (std::vector{glm::vec3(1.0f), glm::vec3(2.0f)}));
 }
 
@@ -58,7 +59,7 @@ TEST(ReadExr, NamesTheChannelThatIsMissing) {
     const auto path = folder.write("r.exr", one_channel_exr('R', {kHalfOne, kHalfTwo}));
     const auto image = detail::read_exr(path);
     ASSERT_FALSE(image);
-    EXPECT_EQ(image.error().message, path + ": has no channel G");
+    EXPECT_EQ(error_text(image.error()), path + ": has no channel G");
 }
 
 TEST(ReadExr, RejectsAWindowThatIsTooLarge) {
@@ -69,7 +70,7 @@ TEST(ReadExr, RejectsAWindowThatIsTooLarge) {
     file.replace(box + 8, 8, std::string(reinterpret_cast<const char*>(last), 8));
     const auto image = detail::read_exr(folder.write("large.exr", file));
     ASSERT_FALSE(image);
-    EXPECT_NE(image.error().message.find("large.exr"), std::string::npos);
+    EXPECT_NE(error_text(image.error()).find("large.exr"), std::string::npos);
 }
 
 TEST(ReadExr, RejectsEveryTruncation) {
@@ -80,7 +81,7 @@ TEST(ReadExr, RejectsEveryTruncation) {
         const auto path = folder.write("cut.exr", std::span(whole).first(length));
         const auto image = read_hdr_image(path);
         ASSERT_FALSE(image) << length;
-        EXPECT_TRUE(image.error().message.starts_with(path)) << image.error().message;
+        EXPECT_TRUE(error_text(image.error()).starts_with(path)) << error_text(image.error());
     }
 }
 

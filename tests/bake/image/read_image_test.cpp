@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/read_image.h"
+#include <tetralight/bake/image/read_image.h>
 
 #include <gtest/gtest.h>
 
-#include "bake/image/write_image.h"
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {
@@ -27,7 +28,7 @@ std::string radiance_hdr(std::string_view size, std::string_view rgbe) {
 TEST(DecodeImage8, RejectsWhatIsNoPngOrJpeg) {
     const auto image = decode_image8(bytes_of("GIF89a"), "photo.gif");
     ASSERT_FALSE(image);
-    EXPECT_EQ(image.error().message, "photo.gif: is neither a PNG nor a JPEG image");
+    EXPECT_EQ(error_text(image.error()), "photo.gif: is neither a PNG nor a JPEG image");
 }
 
 TEST(DecodeImage8, RejectsEveryTruncationOfAPng) {
@@ -35,7 +36,7 @@ TEST(DecodeImage8, RejectsEveryTruncationOfAPng) {
     for (size_t length = 0; length < png.size() - 4; ++length) {  // the last 4 are a checksum
         const auto image = decode_image8(std::span(png).first(length), "cut.png");
         ASSERT_FALSE(image) << length;
-        EXPECT_TRUE(image.error().message.starts_with("cut.png: "));
+        EXPECT_TRUE(error_text(image.error()).starts_with("cut.png: "));
     }
 }
 
@@ -46,7 +47,7 @@ TEST(DecodeImage8, RejectsASizeAboveTheCapBeforeDecoding) {
     for (size_t i = 0; i < sizeof size; ++i) png[kWidthOffset + i] = std::byte{size[i]};
     const auto image = decode_image8(png, "bomb.png");
     ASSERT_FALSE(image);
-    EXPECT_EQ(image.error().message,
+    EXPECT_EQ(error_text(image.error()),
               "bomb.png: 32768 x 32768 pixels are more than the largest size (268435456 pixels)");
 }
 
@@ -56,7 +57,7 @@ TEST(ReadHdrImage, DecodesRadianceRgbe) {
     const std::string rgbe("\x80\x40\x20\x82\x00\x00\x00\x00", 8);
     const auto path = folder.write("a.hdr", radiance_hdr("-Y 1 +X 2", rgbe));
     const auto read = read_hdr_image(path);
-    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_TRUE(read) << error_text(read.error());
     EXPECT_EQ(read->image.width, 2u);
     EXPECT_EQ(read->image.pixels, (std::vector<glm::vec3>{{2.0f, 1.0f, 0.5f}, {0, 0, 0}}));
 }
@@ -74,7 +75,7 @@ TEST(ReadHdrImage, RejectsARadianceSizeAboveTheCap) {
     const auto path = folder.write("large.hdr", radiance_hdr("-Y 100000 +X 100000", ""));
     const auto read = read_hdr_image(path);
     ASSERT_FALSE(read);
-    EXPECT_NE(read.error().message.find("100000 x 100000 pixels"), std::string::npos);
+    EXPECT_NE(error_text(read.error()).find("100000 x 100000 pixels"), std::string::npos);
 }
 
 TEST(ReadHdrImage, RejectsACutOffRadianceFile) {
@@ -82,7 +83,7 @@ TEST(ReadHdrImage, RejectsACutOffRadianceFile) {
     const auto path = folder.write("cut.hdr", radiance_hdr("-Y 4 +X 2", "\x80\x40\x20\x82"));
     const auto read = read_hdr_image(path);
     ASSERT_FALSE(read);
-    EXPECT_TRUE(read.error().message.starts_with(path));
+    EXPECT_TRUE(error_text(read.error()).starts_with(path));
 }
 
 TEST(ReadHdrImage, RejectsOtherFiles) {
@@ -90,13 +91,13 @@ TEST(ReadHdrImage, RejectsOtherFiles) {
     const auto path = folder.write("a.hdr", "hello");
     const auto read = read_hdr_image(path);
     ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().message, path + ": is neither a Radiance .hdr nor an OpenEXR image");
+    EXPECT_EQ(error_text(read.error()), path + ": is neither a Radiance .hdr nor an OpenEXR image");
 }
 
 TEST(ReadHdrImage, NamesAFileThatIsMissing) {
     const auto read = read_hdr_image("/nowhere/sky.hdr");
     ASSERT_FALSE(read);
-    EXPECT_NE(read.error().message.find("/nowhere/sky.hdr"), std::string::npos);
+    EXPECT_NE(error_text(read.error()).find("/nowhere/sky.hdr"), std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/srgb.h"
+#include <tetralight/bake/image/srgb.h>
 
 #include <gtest/gtest.h>
 

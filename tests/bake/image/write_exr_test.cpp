@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "bake/image/read_image.h"
-#include "bake/image/write_image.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/image/write_image.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/image/write_layered_exr.h"
+#include <tetralight/bake/image/write_layered_exr.h>
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

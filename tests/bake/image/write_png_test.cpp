@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "bake/image/read_image.h"
-#include "bake/image/write_image.h"
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {
@@ -25,14 +26,14 @@ TEST(WritePng, PixelsComeBack) {
 TEST(WritePng, RejectsAnEmptyImage) {
     const auto status = write_png("/tmp/never.png", {});
     ASSERT_FALSE(status);
-    EXPECT_EQ(status.error().message, "/tmp/never.png: cannot write an image of 0 x 0 pixels");
+    EXPECT_EQ(error_text(status.error()), "/tmp/never.png: cannot write an image of 0 x 0 pixels");
 }
 
 TEST(WritePng, NamesAFolderThatIsMissing) {
     const TempFolder folder;
     const auto status = write_png(folder.path("none/a.png"), Image8{1, 1, {{1, 2, 3, 4}}});
     ASSERT_FALSE(status);
-    EXPECT_NE(status.error().message.find("none/a.png"), std::string::npos);
+    EXPECT_NE(error_text(status.error()).find("none/a.png"), std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/adaptive_grid.h"
+#include <tetralight/bake/placement/adaptive_grid.h>
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "bake/placement/affine_dimension.h"
+#include <tetralight/bake/placement/affine_dimension.h>
+#include <tetralight/base/error_text.h>
 #include "tests/bake/placement/grid_support.h"
 
 namespace tetralight {
@@ -97,7 +98,7 @@ TEST(AdaptiveGrid, InterruptedItHasTheResultOfTheLastRound) {
             seen.push_back(progress);
             return progress.round < 3;
         });
-    ASSERT_TRUE(grid) << grid.error().message;
+    ASSERT_TRUE(grid) << error_text(grid.error());
     EXPECT_EQ(grid->adaptive->end, AdaptiveEnd::Interrupted);
     EXPECT_EQ(grid->adaptive->round_count, 3u);
     EXPECT_EQ(grid->probe_count(), seen.back().probe_count);
@@ -107,7 +108,7 @@ TEST(AdaptiveGrid, InterruptedAtOnceItHasNone) {
     const auto grid = make_probe_grid(two_rooms(), adaptive(500, 1e-4),
                                       [](const AdaptiveProgress&) { return false; });
     ASSERT_FALSE(grid);
-    EXPECT_EQ(grid.error().message, "interrupted");
+    EXPECT_EQ(error_text(grid.error()), "interrupted");
 }
 
 TEST(AdaptiveGrid, OutOfTimeItKeepsWhatItHas) {
@@ -118,7 +119,7 @@ TEST(AdaptiveGrid, OutOfTimeItKeepsWhatItHas) {
     if (grid) {
         EXPECT_EQ(grid->adaptive->end, AdaptiveEnd::TimeOver);
     } else {
-        EXPECT_EQ(grid.error().message, "out of time before there was a result");
+        EXPECT_EQ(error_text(grid.error()), "out of time before there was a result");
     }
 }
 
@@ -222,7 +223,7 @@ TEST(AdaptiveGrid, WithoutAPlaceToMeasureItReportsNoError) {
     for (const double x : {1.0, 2.0, 3.0, 4.0}) probes.push_back({{x, 1, 0}});
     const auto report = refine_grid(input, {}, probes, {}, {});
     ASSERT_FALSE(report);
-    EXPECT_EQ(report.error().message,
+    EXPECT_EQ(error_text(report.error()),
               "the bounds have no free place off surfaces to measure light at");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/candidate_count.h"
+#include <tetralight/bake/placement/candidate_count.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ constexpr uint64_t kAnyNumber = std::numeric_limits<uint64_t>::max();
 constexpr uint64_t kGigabyte = 1'000'000'000;
 
 std::string message(const Status& status) {
-    return status ? "" : status.error().message;
+    return status ? "" : error_text(status.error());
 }
 
 TEST(CandidateCount, AllowsUpToTheLimit) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/candidates.h"
+#include <tetralight/bake/placement/candidates.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ CandidateRule rule_for(const Box& bounds, double spacing) {
 std::vector<glm::dvec3> layers_over(const Scene& scene, const CandidateRule& rule) {
     const auto traced = TraceScene::make_static(scene);
     const auto found = layer_candidates(*traced, rule);
-    EXPECT_TRUE(found) << found.error().message;
+    EXPECT_TRUE(found) << error_text(found.error());
     return *found;
 }
 
@@ -78,7 +79,7 @@ TEST(LayerCandidates, ASceneWithoutAFloorIsAnError) {
     const auto traced = TraceScene::make_static(scene);
     const auto found = layer_candidates(*traced, rule_for({{-2, 0, -2}, {2, 3, 2}}, 2.0));
     ASSERT_FALSE(found);
-    EXPECT_EQ(found.error().message,
+    EXPECT_EQ(error_text(found.error()),
               "there is no floor, or no room above it in the bounds, in any of 4 columns");
 }
 

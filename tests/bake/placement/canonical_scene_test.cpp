@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/canonical_scene.h"
+#include <tetralight/bake/placement/canonical_scene.h>
 
 #include <gtest/gtest.h>
 

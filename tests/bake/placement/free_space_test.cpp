@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/free_space.h"
+#include <tetralight/bake/placement/free_space.h>
 
 #include <gtest/gtest.h>
 
@@ -143,7 +143,7 @@ TEST(FreeSpace, AmongFrontsOfOtherSolidsItIsStillInside) {
         }
     }
     const auto traced = TraceScene::make_static(scene);
-    const Surroundings around = look_around(*traced, glm::vec3(0.0f));
+    const ProbeVisibility around = probe_visibility_at(*traced, glm::vec3(0.0f));
     EXPECT_FALSE(around.is_inside());
     EXPECT_GT(around.behind_share, 0.0f);
     EXPECT_EQ(place_probe(*traced, glm::dvec3(0.0), {}).fate, Fate::Inside);

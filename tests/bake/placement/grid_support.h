@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "bake/placement/probe_grid.h"
+#include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/scenes.h"
 
 // What the tests of the generator share.
@@ -24,13 +25,13 @@ inline ProbeGridSettings settings_for(const Box& bounds, double spacing) {
 
 inline ProbeGrid grid_of(const Scene& scene, const ProbeGridSettings& settings) {
     auto grid = make_probe_grid(scene, settings);
-    EXPECT_TRUE(grid) << grid.error().message;
+    EXPECT_TRUE(grid) << error_text(grid.error());
     return grid ? std::move(*grid) : ProbeGrid{};
 }
 
 inline std::string error_of(const Scene& scene, const ProbeGridSettings& settings) {
     const auto grid = make_probe_grid(scene, settings);
-    return grid ? "(no error)" : grid.error().message;
+    return grid ? "(no error)" : error_text(grid.error());
 }
 
 inline std::vector<glm::dvec3> positions_of(const ProbeGrid& grid) {

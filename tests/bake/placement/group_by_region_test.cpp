@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/group_by_region.h"
+#include <tetralight/bake/placement/group_by_region.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/lattice.h"
+#include <tetralight/bake/placement/lattice.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -61,7 +62,7 @@ TEST(Lattice, AFlatAxisHasOneLayer) {
 TEST(Lattice, TenBillionProbesAreRefusedWithTheNumber) {
     const auto lattice = make_lattice({{0, 0, 0}, {1e4, 1e3, 1e3}}, glm::dvec3(1.0), 10'000'000);
     ASSERT_FALSE(lattice);
-    EXPECT_EQ(lattice.error().message,
+    EXPECT_EQ(error_text(lattice.error()),
               "a grid of 10000000000 probes is more than the limit of 10000000");
 }
 

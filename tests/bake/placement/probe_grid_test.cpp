@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/placement/probe_grid.h"
+#include <tetralight/bake/placement/probe_grid.h>
 
 #include <gtest/gtest.h>
 

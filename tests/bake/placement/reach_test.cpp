@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/placement/space_map.h"
+#include <tetralight/bake/placement/space_map.h>
 #include "tests/bake/placement/grid_support.h"
 
 namespace tetralight {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts that the adaptive mode is made of.
-#include "bake/placement/refine_cells.h"
+#include <tetralight/bake/placement/refine_cells.h>
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "bake/placement/free_space.h"
-#include "bake/placement/light_difference.h"
-#include "bake/placement/remove_probes.h"
-#include "bake/placement/sensors.h"
+#include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/light_difference.h>
+#include <tetralight/bake/placement/remove_probes.h>
+#include <tetralight/bake/placement/sensors.h>
 #include "tests/bake/placement/grid_support.h"
 
 namespace tetralight {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/check_lights.h"
+#include <tetralight/bake/scene/check_lights.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ std::string error_of(const Light& light) {
     scene.lights = {Light{}, light};
     scene.light_names = {"sun", "lamp"};
     const Status status = check_lights(scene);
-    return status ? "(no error)" : status.error().message;
+    return status ? "(no error)" : error_text(status.error());
 }
 
 TEST(CheckLights, NamesTheLightAndTheValue) {
@@ -32,7 +33,7 @@ TEST(CheckLights, NamesAreOneLine) {
         scene.light_names = {name};
         const Status status = check_lights(scene);
         ASSERT_FALSE(status) << name;
-        EXPECT_EQ(status.error().message,
+        EXPECT_EQ(error_text(status.error()),
                   "light 0 \"" + std::string(name) +
                       "\": the name holds a line break or another control character");
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_accessors.h"
+#include <tetralight/bake/scene/detail/gltf_accessors.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ constexpr int kUnsignedShort = 5123;
 /// Positions of the scene's first mesh.
 std::vector<glm::vec3> positions_of(const GltfBuilder& gltf) {
     const auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     return scene ? scene->meshes[0].positions : std::vector<glm::vec3>();
 }
 

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/scene/read_gltf.h"
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {
@@ -100,7 +101,7 @@ struct GltfBuilder {
     [[nodiscard]] std::string error() const {
         const auto scene = read();
         if (scene) return "(no error)";
-        const std::string& message = scene.error().message;
+        const std::string& message = error_text(scene.error());
         return message.substr(std::min(message.find("scene.glb"), message.size()));
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_cameras.h"
+#include <tetralight/bake/scene/detail/gltf_cameras.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ using Json = nlohmann::json;
 
 std::vector<Camera> cameras_of(const GltfBuilder& gltf) {
     const auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     return scene ? scene->cameras : std::vector<Camera>();
 }
 
@@ -75,7 +76,7 @@ GltfBuilder with_sky(const Json& radiance) {
 
 TEST(GltfSky, IsTheEnvironmentsRadiance) {
     const auto scene = with_sky({0.5, 1, 2}).read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->environment, (Environment{{0.5f, 1.0f, 2.0f}, {}, 0.0f}));
 }
 

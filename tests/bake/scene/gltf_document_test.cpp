@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_document.h"
+#include <tetralight/bake/scene/detail/gltf_document.h>
 
 #include <gtest/gtest.h>
 
-#include "bake/image/write_image.h"
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/error_text.h>
 #include "tests/bake/scene/gltf_builder.h"
 
 namespace tetralight {
@@ -42,13 +43,13 @@ std::string error_of(const std::string& bytes, const std::string& name = "scene.
     const TempFolder folder;
     const auto scene = read_gltf(folder.write(name, bytes));
     if (scene) return "(no error)";
-    const std::string& message = scene.error().message;
+    const std::string& message = error_text(scene.error());
     return message.substr(std::min(message.find(name), message.size()));
 }
 
 TEST(GltfDocument, WholeSceneIsRead) {
     const auto scene = whole_scene().read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->instances.size(), 2u);
     EXPECT_EQ(scene->lights.size(), 1u);
     EXPECT_EQ(scene->textures.size(), 1u);
@@ -80,7 +81,7 @@ TEST(GltfDocument, NoFlippedByteCrashes) {
             std::string bytes = whole;
             bytes[i] = static_cast<char>(bytes[i] ^ flip);
             const auto scene = read_gltf(folder.write("scene.glb", bytes));
-            EXPECT_TRUE(scene || !scene.error().message.empty());
+            EXPECT_TRUE(scene || !error_text(scene.error()).empty());
         }
     }
 }
@@ -102,7 +103,7 @@ TEST(GltfDocument, ReadsTextWithAnExternalBuffer) {
     gltf.json["buffers"] = {{{"uri", "data%201.bin"}, {"byteLength", gltf.binary.size()}}};
     folder.write("data 1.bin", gltf.binary);
     const auto scene = read_gltf(folder.write("scene.gltf", gltf.json.dump()));
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->meshes[0].positions[1], glm::vec3(1, 0, 0));
 }
 
@@ -135,9 +136,9 @@ TEST(GltfDocument, BufferFileThatIsTooShortIsAnError) {
     folder.write("short.bin", "only this");
     const auto scene = read_gltf(folder.write("scene.gltf", gltf.json.dump()));
     ASSERT_FALSE(scene);
-    EXPECT_NE(scene.error().message.find("short.bin, requestedBytes 36, but got 9"),
+    EXPECT_NE(error_text(scene.error()).find("short.bin, requestedBytes 36, but got 9"),
               std::string::npos)
-        << scene.error().message;
+        << error_text(scene.error());
 }
 
 TEST(GltfDocument, RejectsPathsOutOfTheFolder) {
@@ -154,7 +155,8 @@ TEST(GltfDocument, RejectsPathsOutOfTheFolder) {
 TEST(GltfDocument, MissingFileIsNamed) {
     const auto scene = read_gltf("/nowhere/scene.glb");
     ASSERT_FALSE(scene);
-    EXPECT_EQ(scene.error().message, "/nowhere/scene.glb: cannot open (No such file or directory)");
+    EXPECT_EQ(error_text(scene.error()),
+              "/nowhere/scene.glb: cannot open (No such file or directory)");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_instances.h"
+#include <tetralight/bake/scene/detail/gltf_instances.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ GltfBuilder instanced(const std::function<Json(GltfBuilder&)>& attributes) {
 
 std::vector<MeshInstance> instances_of(const GltfBuilder& gltf) {
     const auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     return scene ? scene->instances : std::vector<MeshInstance>();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_lights.h"
+#include <tetralight/bake/scene/detail/gltf_lights.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ GltfBuilder lamp(Json light, Json node = Json::object()) {
 /// The one light of a scene; a default one, and a failed test, where there is none.
 Light light_of(const GltfBuilder& gltf) {
     const auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     if (!scene || scene->lights.size() != 1) return {};
     return scene->lights[0];
 }
@@ -167,14 +168,14 @@ TEST(GltfLights, NamesAreTheNodesElseTheLights) {
     GltfBuilder gltf = lamp({{"type", "point"}, {"name", "bulb"}});
     gltf.add_root({{"extensions", GltfBuilder::light_extension(0)}});
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->light_names, (std::vector<std::string>{"lamp", "bulb"}));
     EXPECT_EQ(scene->lights.size(), 2u);
 }
 
 TEST(GltfLights, UnknownTypeIsLeftOutWithAWarning) {
     const auto scene = lamp({{"type", "area"}, {"name", "panel"}}).read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_TRUE(scene->lights.empty());
     ASSERT_EQ(scene->warnings.size(), 1u);
     EXPECT_TRUE(scene->warnings[0].ends_with(

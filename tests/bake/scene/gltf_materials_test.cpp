@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_materials.h"
+#include <tetralight/bake/scene/detail/gltf_materials.h>
 
 #include <gtest/gtest.h>
 
-#include "bake/image/write_image.h"
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/error_text.h>
 #include "tests/bake/scene/gltf_builder.h"
 
 namespace tetralight {
@@ -23,7 +24,7 @@ GltfBuilder painted(Json material) {
 /// The first material of a scene; a default one, and a failed test, where there is none.
 Material material_of(const GltfBuilder& gltf) {
     const auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     if (!scene || scene->materials.empty()) return {};
     return scene->materials[0];
 }
@@ -129,7 +130,7 @@ TEST(GltfMaterials, MeshesWithoutMaterialShareOneDefault) {
     gltf.add_triangle();
     gltf.add_triangle();
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     ASSERT_EQ(scene->materials.size(), 2u);
     EXPECT_EQ(scene->materials[1].base_color, glm::vec4(1.0f));
     EXPECT_EQ(scene->meshes[0].material, 0u);
@@ -139,7 +140,7 @@ TEST(GltfMaterials, MeshesWithoutMaterialShareOneDefault) {
 
 TEST(GltfMaterials, NoDefaultIsAddedWhereNoneIsNeeded) {
     const auto scene = painted({{"name", "clay"}}).read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->materials.size(), 1u);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_meshes.h"
+#include <tetralight/bake/scene/detail/gltf_meshes.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ GltfBuilder zigzag_scene(int mode) {
 
 Indices indices_of(const GltfBuilder& gltf) {
     const auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     if (!scene || scene->meshes.size() != 1) return {};
     return scene->meshes[0].indices;
 }
@@ -33,7 +34,7 @@ TEST(GltfMeshes, TrianglesWithoutIndicesTakeVerticesInOrder) {
     GltfBuilder gltf;
     gltf.add_root({{"mesh", gltf.add_triangle()}});
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->meshes[0].positions,
               (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     EXPECT_EQ(scene->meshes[0].indices, (Indices{0, 1, 2}));
@@ -72,7 +73,7 @@ TEST(GltfMeshes, FanTurnsAboutItsFirstCorner) {
 TEST(GltfMeshes, PointsAndLinesAreLeftOut) {
     for (const int mode : {0, 1, 2, 3}) {
         const auto scene = zigzag_scene(mode).read();
-        ASSERT_TRUE(scene) << scene.error().message;
+        ASSERT_TRUE(scene) << error_text(scene.error());
         EXPECT_TRUE(scene->meshes.empty());
         EXPECT_TRUE(scene->instances.empty());
         EXPECT_TRUE(scene->warnings.empty());
@@ -87,7 +88,7 @@ TEST(GltfMeshes, NormalsAndBothUvSets) {
     attributes["TEXCOORD_0"] = gltf.add_floats({0, 0, 1, 0, 0, 1}, "VEC2");
     attributes["TEXCOORD_1"] = gltf.add_floats({5, 6, 7, 8, 9, 10}, "VEC2");
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->meshes[0].normals, (std::vector<glm::vec3>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}));
     EXPECT_EQ(scene->meshes[0].uvs[0], (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}));
     EXPECT_EQ(scene->meshes[0].uvs[1], (std::vector<glm::vec2>{{5, 6}, {7, 8}, {9, 10}}));
@@ -100,7 +101,7 @@ TEST(GltfMeshes, VertexColorsHaveThreeOrFourChannels) {
     auto& clear = gltf.primitive(gltf.add_triangle())["attributes"];
     clear["COLOR_0"] = gltf.add_floats({1, 0, 0, 0.5f, 0, 1, 0, 1, 0, 0, 1, 0}, "VEC4");
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->meshes[0].colors,
               (std::vector<glm::vec4>{{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 0.5f, 1}}));
     EXPECT_EQ(scene->meshes[1].colors,
@@ -113,9 +114,10 @@ TEST(GltfMeshes, NegativeVertexColorsAreNamed) {
     attributes["COLOR_0"] = gltf.add_floats({1, 0, 0, 0, -0.5f, 0, 0, 0, 1}, "VEC3");
     const auto scene = gltf.read();
     ASSERT_FALSE(scene);
-    EXPECT_NE(scene.error().message.find("COLOR_0"), std::string::npos) << scene.error().message;
-    EXPECT_NE(scene.error().message.find("element 1 is negative (-0.5)"), std::string::npos)
-        << scene.error().message;
+    EXPECT_NE(error_text(scene.error()).find("COLOR_0"), std::string::npos)
+        << error_text(scene.error());
+    EXPECT_NE(error_text(scene.error()).find("element 1 is negative (-0.5)"), std::string::npos)
+        << error_text(scene.error());
 }
 
 TEST(GltfMeshes, EachPrimitiveBecomesAMesh) {
@@ -124,7 +126,7 @@ TEST(GltfMeshes, EachPrimitiveBecomesAMesh) {
     gltf.json["meshes"][mesh]["primitives"].push_back(gltf.primitive(mesh));
     gltf.add_root({{"mesh", mesh}});
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->meshes.size(), 2u);
     ASSERT_EQ(scene->instances.size(), 2u);
     EXPECT_EQ(scene->instances[1].mesh, 1u);
@@ -140,7 +142,7 @@ TEST(GltfMeshes, TrianglesWithoutAreaAreLeftOutAndCounted) {
         std::vector<uint16_t>{0, 3, 1, 0, 1, 2, 0, 2, 4, 2, 2, 1}, "SCALAR", 5123);
     gltf.add_root({{"mesh", mesh}});
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->meshes[0].indices, (Indices{0, 1, 2}));
     ASSERT_EQ(scene->warnings.size(), 1u);
     EXPECT_TRUE(scene->warnings[0].ends_with(
@@ -152,7 +154,7 @@ TEST(GltfMeshes, ThinAndTinyTrianglesStay) {
     gltf.add_root({{"mesh", gltf.add_mesh({0, 0, 0, 1e-12f, 0, 0, 0, 1e-12f, 0})}});
     gltf.add_root({{"mesh", gltf.add_mesh({0, 0, 0, 1000, 0, 0, 0, 1e-4f, 0})}});
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->meshes.size(), 2u);
     EXPECT_TRUE(scene->warnings.empty());
 }
@@ -163,7 +165,7 @@ TEST(GltfMeshes, OneWarningCountsAllPrimitivesOfAMesh) {
     gltf.json["meshes"][mesh]["primitives"].push_back(gltf.primitive(mesh));
     gltf.add_root({{"mesh", mesh}});
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_TRUE(scene->meshes.empty());
     EXPECT_TRUE(scene->instances.empty());
     ASSERT_EQ(scene->warnings.size(), 1u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_nodes.h"
+#include <tetralight/bake/scene/detail/gltf_nodes.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ const double kHalf = std::sqrt(0.5);
 /// The scene of a builder; a default one, and a failed test, where it cannot be read.
 Scene scene_of(const GltfBuilder& gltf) {
     auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     return scene ? std::move(*scene) : Scene{};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_probe_groups.h"
+#include <tetralight/bake/scene/detail/gltf_probe_groups.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ const Json kIsGroup = {{"light_probe_group", true}};
 
 Scene scene_of(const GltfBuilder& gltf) {
     auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     return scene ? std::move(*scene) : Scene{};
 }
 
@@ -120,7 +121,7 @@ TEST(GltfProbeGroups, AGroupMayHaveNoProbes) {
     GltfBuilder gltf;
     gltf.add_root({{"name", "hall"}, {"extras", kIsGroup}});
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     ASSERT_EQ(scene->probe_groups.size(), 1u);
     EXPECT_TRUE(scene->probe_groups[0].positions.empty());
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_rules.h"
+#include <tetralight/bake/scene/detail/gltf_rules.h>
 
 #include <gtest/gtest.h>
 
-#include "bake/scene/detail/gltf_schema.h"
+#include <tetralight/bake/scene/detail/gltf_schema.h>
+#include <tetralight/base/error_text.h>
 #include "tests/bake/scene/gltf_builder.h"
 
 namespace tetralight {
@@ -44,7 +45,7 @@ GltfBuilder linked_scene() {
 
 TEST(GltfRules, LinkedSceneIsRead) {
     const auto scene = linked_scene().read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
 }
 
 /// JSON pointers of all indices in linked_scene().

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/detail/gltf_textures.h"
+#include <tetralight/bake/scene/detail/gltf_textures.h>
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "bake/image/write_image.h"
+#include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/error_text.h>
 #include "tests/bake/scene/gltf_builder.h"
 
 namespace tetralight {
@@ -45,7 +46,7 @@ Json& base_color_texture(GltfBuilder& gltf) {
 
 Scene scene_of(const GltfBuilder& gltf) {
     auto scene = gltf.read();
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     return scene ? std::move(*scene) : Scene{};
 }
 
@@ -62,7 +63,7 @@ TEST(GltfTextures, ReadsAFileBesideTheScene) {
     const GltfBuilder gltf = textured({{"uri", "red%20bricks.png"}});
     ASSERT_TRUE(write_png(folder.path("red bricks.png"), kImage));
     const auto scene = read_gltf(folder.write("scene.glb", gltf.glb()));
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->textures[0].image, kImage);
 }
 

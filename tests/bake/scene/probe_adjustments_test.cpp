@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "bake/scene/probe_adjustments_json.h"
+#include <tetralight/bake/scene/probe_adjustments_json.h>
+#include <tetralight/base/error_text.h>
 #include "tests/bake/scene/gltf_builder.h"
 #include "tests/support/temp_folder.h"
 
@@ -16,13 +17,13 @@ Result<std::vector<ProbeAdjustment>> read(const std::string& text) {
     const TempFolder folder;
     auto result = read_probe_adjustments(folder.write("a.json", std::as_bytes(std::span(text))));
     if (result) return result;
-    const std::string& message = result.error().message;
+    const std::string& message = error_text(result.error());
     return Error{message.substr(message.find("a.json: ") + 8)};
 }
 
 std::string error_of(const std::string& text) {
     const auto result = read(text);
-    return result ? "(no error)" : result.error().message;
+    return result ? "(no error)" : error_text(result.error());
 }
 
 std::string one(const std::string& keys) {
@@ -34,7 +35,7 @@ TEST(ProbeAdjustments, AreReadFromJson) {
         {"name": "a", "shape": "box", "center": [1, 2, 3], "size": [2, 4, 6], "forbid": true},
         {"name": "b", "shape": "sphere", "radius": 2, "spacing": 0.5, "validity": 1,
          "intensity": 0.25}]})");
-    ASSERT_TRUE(all) << all.error().message;
+    ASSERT_TRUE(all) << error_text(all.error());
     ASSERT_EQ(all->size(), 2u);
     EXPECT_EQ((*all)[0].forbids_probes, true);
     EXPECT_TRUE(contains((*all)[0], {1.9, 3.9, 5.9}));
@@ -97,7 +98,7 @@ TEST(ProbeAdjustments, AreReadFromGltfNodes) {
          {"extras",
           {{"probe_adjustment", {{"shape", "box"}, {"size", {4, 3, 4}}, {"forbid", true}}}}}});
     const auto scene = gltf.read();
-    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene) << error_text(scene.error());
     ASSERT_EQ(scene->probe_adjustments.size(), 1u);
     const ProbeAdjustment& cellar = scene->probe_adjustments[0];
     EXPECT_EQ(cellar.name, "cellar");
@@ -112,7 +113,7 @@ TEST(ProbeAdjustments, OfGltfNodesAreCheckedToo) {
         GltfBuilder gltf;
         gltf.add_root({{"name", "cellar"}, {"extras", {{"probe_adjustment", extras}}}});
         const auto scene = gltf.read();
-        return scene ? std::string("(no error)") : scene.error().message;
+        return scene ? std::string("(no error)") : error_text(scene.error());
     };
     const auto has = [](const std::string& message, const char* part) {
         return message.find(part) != std::string::npos;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/probe_groups_gltf.h"
+#include <tetralight/bake/scene/probe_groups_gltf.h>
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bake/scene/read_gltf.h"
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/error_text.h>
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {
@@ -14,9 +15,9 @@ namespace {
 std::vector<ProbeGroup> read_back(const std::vector<ProbeGroup>& groups) {
     const TempFolder folder;
     const auto status = write_probe_groups_glb(folder.path("g.glb"), groups);
-    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_TRUE(status) << error_text(status.error());
     const auto scene = read_gltf(folder.path("g.glb"));
-    EXPECT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene) << error_text(scene.error());
     EXPECT_TRUE(scene->warnings.empty());
     return scene->probe_groups;
 }
@@ -73,7 +74,7 @@ TEST(ProbeGroupsGltf, RefusesWhatIsNoListOfGroups) {
     const auto status =
         write_probe_groups_glb(path, std::vector{ProbeGroup{"\xff", glm::dmat4(1.0), {{0, 0, 0}}}});
     ASSERT_FALSE(status);
-    EXPECT_NE(status.error().message.find("not UTF-8"), std::string::npos);
+    EXPECT_NE(error_text(status.error()).find("not UTF-8"), std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/probe_groups_json.h"
+#include <tetralight/bake/scene/probe_groups_json.h>
+#include <tetralight/base/error_text.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -18,7 +19,7 @@ std::string error_of(std::string_view text) {
     const TempFolder folder;
     const auto groups = read_probe_groups(folder.write("groups.json", text));
     if (groups) return "(no error)";
-    const std::string& message = groups.error().message;
+    const std::string& message = error_text(groups.error());
     return message.substr(std::min(message.find("groups.json"), message.size()));
 }
 
@@ -48,7 +49,7 @@ TEST(ProbeGroupsJson, ReadsWhatIsWritten) {
         {"yard", glm::dmat4(1.0), {{1.0, 2.0, 3.0}}, false}};
     ASSERT_TRUE(write_probe_groups(folder.path("g.json"), groups));
     const auto read = read_probe_groups(folder.path("g.json"));
-    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_TRUE(read) << error_text(read.error());
     EXPECT_EQ(*read, groups);
 }
 
@@ -76,7 +77,7 @@ TEST(ProbeGroupsJson, OddDoublesComeBackBitForBit) {
                                              false}};
     ASSERT_TRUE(write_probe_groups(folder.path("g.json"), groups));
     const auto read = read_probe_groups(folder.path("g.json"));
-    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_TRUE(read) << error_text(read.error());
     for (size_t i = 0; i < 3; ++i) {
         EXPECT_TRUE(is_same_bits((*read)[0].positions[i], groups[0].positions[i])) << i;
     }
@@ -98,7 +99,7 @@ TEST(ProbeGroupsJson, TransformIsColumnMajor) {
         folder.write("g.json", hall_with(R"("transform": [1,0,0,0, 0,1,0,0, 0,0,1,0, 7,8,9,1],
                                 "positions": [[0, 0, 0]])"));
     const auto groups = read_probe_groups(path);
-    ASSERT_TRUE(groups) << groups.error().message;
+    ASSERT_TRUE(groups) << error_text(groups.error());
     EXPECT_EQ((*groups)[1].world_from_group[3], glm::dvec4(7, 8, 9, 1));
 }
 
@@ -165,10 +166,10 @@ INSTANTIATE_TEST_SUITE_P(All, ProbeGroupsJsonRejects, testing::ValuesIn(kRejecti
 TEST(ProbeGroupsJson, GroupsAndTheirProbesMayBeMissing) {
     const TempFolder folder;
     const auto none = read_probe_groups(folder.write("none.json", R"({"groups": []})"));
-    ASSERT_TRUE(none) << none.error().message;
+    ASSERT_TRUE(none) << error_text(none.error());
     EXPECT_TRUE(none->empty());
     const auto two = read_probe_groups(folder.write("two.json", hall_with(R"("positions": [])")));
-    ASSERT_TRUE(two) << two.error().message;
+    ASSERT_TRUE(two) << error_text(two.error());
     EXPECT_TRUE((*two)[1].positions.empty());
 }
 
@@ -204,7 +205,7 @@ TEST(ProbeGroupsJson, DeepNestingIsAnError) {
 TEST(ProbeGroupsJson, MissingFileIsNamed) {
     const auto groups = read_probe_groups("/nowhere/g.json");
     ASSERT_FALSE(groups);
-    EXPECT_NE(groups.error().message.find("/nowhere/g.json"), std::string::npos);
+    EXPECT_NE(error_text(groups.error()).find("/nowhere/g.json"), std::string::npos);
 }
 
 TEST(ProbeGroupsJson, WriterRefusesWhatReaderWouldRefuse) {
@@ -223,7 +224,7 @@ TEST(ProbeGroupsJson, WriterNamesAPositionThatIsNotFinite) {
     const auto status = write_probe_groups(folder.path("g.json"), groups);
     ASSERT_FALSE(status);
     EXPECT_EQ(
-        status.error().message,
+        error_text(status.error()),
         folder.path("g.json") + ": group \"hall\": probe 0: position is not finite (nan, 0, 1)");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/surface_color.h"
+#include <tetralight/bake/scene/surface_color.h>
 
 #include <gtest/gtest.h>
 

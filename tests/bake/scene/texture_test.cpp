@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bake/scene/texture.h"
+#include <tetralight/bake/scene/texture.h>
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "bake/image/srgb.h"
+#include <tetralight/bake/image/srgb.h>
 
 namespace tetralight {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/box_packing.h"
+#include <tetralight/lppv/detail/box_packing.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/half.h"
+#include <tetralight/lppv/detail/half.h>
 
 #include <gtest/gtest.h>
 

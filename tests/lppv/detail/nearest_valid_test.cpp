@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/nearest_valid.h"
+#include <tetralight/lppv/detail/nearest_valid.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/detail/serpentine.h"
+#include <tetralight/lppv/detail/serpentine.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lppv/vdb/write_vdb.h"
+#include <tetralight/lppv/vdb/write_vdb.h>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,7 +8,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "base/text.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
 #include "tests/lppv/lppv_fixture.h"
 #include "tests/lppv/vdb/read_vdb.h"
 #include "tests/support/temp_folder.h"
@@ -132,7 +133,7 @@ TEST(WriteVdb, GivesTheSameBytesOnAnyThreads) {
     const TempFolder folder;
     const Lppv lppv = make_test_lppv();
     for (const uint32_t threads : {1u, 2u}) {
-        const std::string name = folder.path(text(threads));
+        const std::string name = folder.path(str_cat(threads));
         ASSERT_TRUE(write_vdb(name + ".vdb", lppv, VdbPrecision::Half, threads));
         ASSERT_TRUE(write_nvdb(name + ".nvdb", lppv, threads));
     }
@@ -212,7 +213,7 @@ TEST(WriteVdb, AFullDiskLeavesTheOldFile) {
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
     ASSERT_FALSE(vdb);
     ASSERT_FALSE(nvdb);
-    EXPECT_NE(vdb.error().message.find("a.vdb: cannot write"), std::string::npos);
+    EXPECT_NE(error_text(vdb.error()).find("a.vdb: cannot write"), std::string::npos);
     EXPECT_EQ(read_file(path)->size(), 3u);
     const auto left = std::filesystem::directory_iterator(folder.path(""));
     EXPECT_EQ(std::distance(begin(left), end(left)), 1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/carry_light.h"
+#include <tetralight/probes/build/carry_light.h>
 
 #include <gtest/gtest.h>
 
-#include "probes/probe_file.h"
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/group_spacing.h"
+#include <tetralight/probes/build/group_spacing.h>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/hull_rays.h"
+#include <tetralight/probes/build/hull_rays.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "probes/detail/hull_cell.h"
+#include <tetralight/probes/detail/hull_cell.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {

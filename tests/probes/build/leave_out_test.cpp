@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/leave_out.h"
+#include <tetralight/probes/build/leave_out.h>
 
 #include <gtest/gtest.h>
 
-#include "probes/build/make_probe_volume.h"
-#include "probes/build/validate.h"
-#include "probes/probe_file.h"
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/build/validate.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/make_probe_volume.h"
+#include <tetralight/probes/build/make_probe_volume.h>
 
 #include <gtest/gtest.h>
 
-#include "probes/build/quality.h"
-#include "probes/build/validate.h"
-#include "probes/probe_file.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/quality.h>
+#include <tetralight/probes/build/validate.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/support/probe_families.h"
 
 namespace tetralight {
@@ -14,7 +15,7 @@ namespace {
 TEST(MakeProbeVolume, IsSoundAndValid) {
     const ProbeVolume volume = test::make_lit_volume(test::random_positions(1000, 1));
     const auto status = verify(volume.view());
-    EXPECT_TRUE(status) << status.error().message;
+    EXPECT_TRUE(status) << error_text(status.error());
     EXPECT_TRUE(validate(volume.view()).problems().empty());
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/make_seeds.h"
+#include <tetralight/probes/build/make_seeds.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "probes/locate.h"
+#include <tetralight/probes/locate.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/merge.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/merge.h>
 
 #include <gtest/gtest.h>
 
@@ -131,7 +132,7 @@ TEST(Merge, NamesTheProbeThatIsNotFinite) {
     const ProbeGroup group = make_group("hall", {{0, 0, 0}, {0, std::nan(""), 1}});
     const auto merged = merge(std::span(&group, 1));
     ASSERT_FALSE(merged);
-    EXPECT_EQ(merged.error().message,
+    EXPECT_EQ(error_text(merged.error()),
               "group \"hall\": probe 1: position is not finite (0, nan, 1)");
 }
 
@@ -149,7 +150,7 @@ TEST(Merge, RefusesNamesThatAreMissingDoubleOrBroken) {
     const auto twice =
         merge(std::vector{make_group("a", {}), make_group("b", {}), make_group("a", {})});
     ASSERT_FALSE(twice);
-    EXPECT_EQ(twice.error().message, "group \"a\": there are two groups of this name");
+    EXPECT_EQ(error_text(twice.error()), "group \"a\": there are two groups of this name");
 }
 
 TEST(Merge, OfNothingIsNothing) {

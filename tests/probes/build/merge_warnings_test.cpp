@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/merge_warnings.h"
+#include <tetralight/probes/build/merge_warnings.h>
 
 #include <gtest/gtest.h>
 
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/probes/build/tetrahedralize.h>
 #include "tests/support/probe_groups.h"
 #include "tests/support/random_probes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/quality.h"
+#include <tetralight/probes/build/quality.h>
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What happens when the program behaves badly: it is a shell script here. How TetGen itself does is
 // in tetgen/.
-#include "probes/build/tetgen.h"
+#include <tetralight/probes/build/tetgen.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "base/text.h"
-#include "probes/build/detail/delaunay.h"
-#include "probes/build/tetgen/stream.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/detail/delaunay.h>
+#include <tetralight/probes/build/tetgen/stream.h>
 #include "tests/support/fake_program.h"
 #include "tests/support/probe_families.h"
 
@@ -35,7 +36,7 @@ class Tetgen : public testing::Test {
     static std::string error(const std::string& program) {
         const auto result = tetrahedralize_with_tetgen(kPositions, 0.0, {program});
         EXPECT_FALSE(result);
-        return result ? "" : result.error().message;
+        return result ? "" : error_text(result.error());
     }
 
     [[nodiscard]] std::string script_error(const std::string& commands) const {
@@ -55,7 +56,7 @@ class Tetgen : public testing::Test {
 TEST_F(Tetgen, TakesTheCellsOfTheProgram) {
     const auto result =
         tetrahedralize_with_tetgen(kPositions, 0.0, {programs_.writer("fake", bytes_of(kCells))});
-    ASSERT_TRUE(result) << result.error().message;
+    ASSERT_TRUE(result) << error_text(result.error());
     EXPECT_EQ(*result, tetrahedralize(kPositions));
 }
 
@@ -97,7 +98,7 @@ TEST_F(Tetgen, SurvivesAProgramThatIsNotThere) {
 TEST_F(Tetgen, SurvivesAProgramThatHangs) {
     const TetgenProgram program{programs_.script("fake", "exec sleep 50"),
                                 std::chrono::milliseconds(100)};
-    EXPECT_EQ(tetrahedralize_with_tetgen(kPositions, 0.0, program).error().message,
+    EXPECT_EQ(error_text(tetrahedralize_with_tetgen(kPositions, 0.0, program).error()),
               "fake: did not end within 0.1 s");
 }
 
@@ -112,17 +113,18 @@ TEST_F(Tetgen, RefusesGarbage) {
 TEST_F(Tetgen, RefusesOutputThatIsTooShort) {
     EXPECT_EQ(script_error("exit 0"), "fake: its output ends after 0 bytes");
     std::vector<std::byte> bytes = bytes_of(kCells);
-    const std::string of_all = text(" of ", kCells.size(), " tetrahedra");
+    const std::string of_all = str_cat(" of ", kCells.size(), " tetrahedra");
     bytes.pop_back();
-    EXPECT_EQ(output_error(bytes), text("fake: its output ends after ", kCells.size() - 1, of_all));
+    EXPECT_EQ(output_error(bytes),
+              str_cat("fake: its output ends after ", kCells.size() - 1, of_all));
     EXPECT_EQ(output_error(std::span(bytes).first(16)), "fake: its output ends after 0" + of_all);
     EXPECT_EQ(output_error(std::span(bytes).first(15)), "fake: its output ends after 15 bytes");
     EXPECT_EQ(output_error(std::span(bytes).first(3)), "fake: its output ends after 3 bytes");
 }
 
 TEST_F(Tetgen, RefusesOutputThatGoesOn) {
-    const std::string message = text("fake: its output goes on after the ", kCells.size(),
-                                     " tetrahedra that it began with");
+    const std::string message = str_cat("fake: its output goes on after the ", kCells.size(),
+                                        " tetrahedra that it began with");
     EXPECT_EQ(error(programs_.writer("fake", bytes_of(kCells), "echo")), message);
     EXPECT_EQ(error(programs_.writer("fake", bytes_of(kCells), "exec cat /dev/zero")), message);
 }
@@ -130,8 +132,8 @@ TEST_F(Tetgen, RefusesOutputThatGoesOn) {
 TEST_F(Tetgen, RefusesMoreTetrahedraThanThereCanBe) {
     for (const uint64_t count : {uint64_t{44'551}, uint64_t{1} << 59, ~uint64_t{0}}) {
         EXPECT_EQ(output_error(bytes_of({tetgen::kTetrahedraMagic, count}, kCells)),
-                  text("fake: its output has ", count,
-                       " tetrahedra over 300 probes: more than there can be"));
+                  str_cat("fake: its output has ", count,
+                          " tetrahedra over 300 probes: more than there can be"));
     }
 }
 
@@ -167,7 +169,7 @@ TEST_F(Tetgen, NeverSeesFlatSets) {
         std::vector<glm::dvec3>(5, glm::dvec3(1, 2, 3))};
     for (const auto& positions : sets) {
         const auto result = tetrahedralize_with_tetgen(positions, 0.0, none);
-        ASSERT_TRUE(result) << result.error().message;
+        ASSERT_TRUE(result) << error_text(result.error());
         EXPECT_EQ(*result, tetrahedralize(positions));
     }
     const auto thin = test::moved(test::random_positions(200, 1), {1, 1, 1e-3}, {});

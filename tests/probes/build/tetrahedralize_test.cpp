@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/tetrahedralize.h"
+#include <tetralight/probes/build/tetrahedralize.h>
 
 #include <gtest/gtest.h>
 

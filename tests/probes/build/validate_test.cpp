@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/validate.h"
+#include <tetralight/probes/build/validate.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/volume_builder.h"
+#include <tetralight/probes/build/volume_builder.h>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "probes/build/make_probe_volume.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/make_probe_volume.h>
 #include "tests/support/probe_families.h"
 #include "tests/support/probe_groups.h"
 
@@ -145,12 +146,13 @@ TEST(VolumeBuilder, ChangesNothingAfterAnError) {
     VolumeBuilder builder;
     ASSERT_TRUE(builder.add_group(make_group("a", test::random_positions(50, 3))));
     const ProbeVolume before = builder.build();
-    EXPECT_EQ(builder.add_group(make_group("b", {{0, 0, 0}, {0, std::nan(""), 0}})).error().message,
-              "group \"b\": probe 1: position is not finite (0, nan, 0)");
-    EXPECT_EQ(builder.add_group(make_group("a", {{0, 0, 0}})).error().message,
+    EXPECT_EQ(
+        error_text(builder.add_group(make_group("b", {{0, 0, 0}, {0, std::nan(""), 0}})).error()),
+        "group \"b\": probe 1: position is not finite (0, nan, 0)");
+    EXPECT_EQ(error_text(builder.add_group(make_group("a", {{0, 0, 0}})).error()),
               "group \"a\": there are two groups of this name");
     EXPECT_FALSE(builder.add_group(make_group("", {{0, 0, 0}})));
-    EXPECT_EQ(builder.remove_group("b").error().message, "group \"b\": there is no such group");
+    EXPECT_EQ(error_text(builder.remove_group("b").error()), "group \"b\": there is no such group");
     EXPECT_EQ(builder.groups().size(), 1u);
     EXPECT_EQ(builder.build(), before);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/wireframe.h"
+#include <tetralight/probes/build/wireframe.h>
 
 #include <gtest/gtest.h>
 

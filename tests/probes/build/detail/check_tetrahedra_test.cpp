@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/check_tetrahedra.h"
+#include <tetralight/probes/build/detail/check_tetrahedra.h>
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,8 @@
 #include <glm/common.hpp>
 #include <random>
 
-#include "probes/build/detail/delaunay.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/detail/delaunay.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight::detail {
@@ -20,7 +21,7 @@ const std::vector<glm::dvec3> kCorners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1
 std::string problem(const std::vector<Cell>& cells, std::span<const glm::dvec3> positions) {
     const auto result = check_tetrahedra(cells, positions);
     EXPECT_FALSE(result);
-    return result ? "" : result.error().message;
+    return result ? "" : error_text(result.error());
 }
 
 /// Takes tetrahedra away; their neighbors have nothing there.
@@ -47,7 +48,7 @@ TEST(CheckTetrahedra, TakesWhatIsDelaunayInWhateverOrder) {
         std::rotate(cell.neighbors.begin(), cell.neighbors.begin() + 1, cell.neighbors.begin() + 3);
     }
     const auto result = check_tetrahedra(cells, positions);
-    ASSERT_TRUE(result) << result.error().message;
+    ASSERT_TRUE(result) << error_text(result.error());
     EXPECT_EQ(*result, expected);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/child_process.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/detail/child_process.h>
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -42,7 +43,7 @@ class ChildProcess : public testing::Test {
     [[nodiscard]] std::string output(const std::string& commands,
                                      const std::string& input = "") const {
         const auto bytes = run(commands, input);
-        EXPECT_TRUE(bytes) << bytes.error().message;
+        EXPECT_TRUE(bytes) << error_text(bytes.error());
         return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size())
                      : "";
     }
@@ -51,7 +52,7 @@ class ChildProcess : public testing::Test {
                                     std::chrono::milliseconds limit = 60s) const {
         const auto bytes = run(commands, "", limit);
         EXPECT_FALSE(bytes) << commands;
-        return bytes ? "" : bytes.error().message;
+        return bytes ? "" : error_text(bytes.error());
     }
 
     test::FakePrograms programs_;
@@ -97,7 +98,7 @@ TEST_F(ChildProcess, NamesTheExitCodeAndTheLastLineOfStderr) {
 
 TEST_F(ChildProcess, NamesAProgramThatCannotStart) {
     const auto message = [](const std::string& program) {
-        return run_program(program).error().message;
+        return error_text(run_program(program).error());
     };
     EXPECT_EQ(message("/nowhere/program"),
               "program: cannot start /nowhere/program (No such file or directory)");
@@ -129,7 +130,7 @@ TEST_F(ChildProcess, EndsAProgramWhoseOutputIsRefused) {
             return output.size() < 100'000 ? Status(Ok{}) : Error{"too much"};
         }};
     const auto begin = Clock::now();
-    EXPECT_EQ(run_child(command, {}).error().message, "child: too much");
+    EXPECT_EQ(error_text(run_child(command, {}).error()), "child: too much");
     EXPECT_LT(Clock::now() - begin, 20s);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/lattice.h"
+#include <tetralight/probes/build/detail/lattice.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/local_origin.h"
+#include <tetralight/probes/build/detail/local_origin.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/position_table.h"
+#include <tetralight/probes/build/detail/position_table.h>
 
 #include <gtest/gtest.h>
 
-#include "probes/no_index.h"
+#include <tetralight/probes/no_index.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight::detail {

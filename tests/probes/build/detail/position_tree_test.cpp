@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/position_tree.h"
+#include <tetralight/probes/build/detail/position_tree.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "probes/build/detail/hilbert_order.h"
+#include <tetralight/probes/build/detail/hilbert_order.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight::detail {

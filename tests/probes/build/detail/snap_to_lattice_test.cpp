@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/snap_to_lattice.h"
+#include <tetralight/probes/build/detail/snap_to_lattice.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "probes/build/detail/cgal.h"
+#include <tetralight/probes/build/detail/cgal.h>
 #include "tests/support/probe_families.h"
 
 namespace tetralight::detail {

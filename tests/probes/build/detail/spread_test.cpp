@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/spread.h"
+#include <tetralight/probes/build/detail/spread.h>
 
 #include <gtest/gtest.h>
 

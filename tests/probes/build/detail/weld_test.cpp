@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "probes/build/detail/weld.h"
+#include <tetralight/probes/build/detail/weld.h>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 
-#include "probes/build/detail/hilbert_order.h"
+#include <tetralight/probes/build/detail/hilbert_order.h>
 #include "tests/support/probe_families.h"
 
 namespace tetralight::detail {

@@ -8,8 +8,9 @@
 #include <cmath>
 #include <set>
 
-#include "probes/build/tetgen.h"
-#include "probes/build/validate.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/tetgen.h>
+#include <tetralight/probes/build/validate.h>
 #include "tests/support/probe_families.h"
 #include "tests/support/unique_delaunay.h"
 
@@ -29,7 +30,7 @@ MergedProbes merged(std::vector<glm::dvec3> positions) {
 void expect_agreement(const MergedProbes& probes) {
     const auto ours = tetrahedralize(probes.positions, flatness(probes));
     const auto theirs = tetrahedralize_with_tetgen(probes.positions, flatness(probes), kTetgen);
-    ASSERT_TRUE(theirs) << theirs.error().message;
+    ASSERT_TRUE(theirs) << error_text(theirs.error());
     ASSERT_EQ(theirs->dimension, ours.dimension);
     if (ours.dimension != Dimension::Space || test::is_unique_delaunay(ours, probes.positions)) {
         EXPECT_EQ(*theirs, ours);
@@ -133,7 +134,7 @@ TEST(TetgenBackends, AgreeOnThinNeedlesOrSayThatTetGenFailed) {
             if (theirs) {
                 EXPECT_EQ(*theirs, tetrahedralize(needle));
             } else {
-                EXPECT_TRUE(theirs.error().message.starts_with("tetralight-tetgen: "));
+                EXPECT_TRUE(error_text(theirs.error()).starts_with("tetralight-tetgen: "));
             }
         }
     }

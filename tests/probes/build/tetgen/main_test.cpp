@@ -5,8 +5,9 @@
 #include <array>
 #include <cstring>
 
-#include "probes/build/detail/child_process.h"
-#include "probes/build/tetgen/stream.h"
+#include <tetralight/base/error_text.h>
+#include <tetralight/probes/build/detail/child_process.h>
+#include <tetralight/probes/build/tetgen/stream.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {
@@ -32,7 +33,7 @@ Result<std::vector<std::byte>> run(std::span<const glm::dvec3> positions) {
 TEST(TetgenMain, WritesOneTetrahedronPositivelyOriented) {
     const std::vector<glm::dvec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const auto output = run(positions);
-    ASSERT_TRUE(output) << output.error().message;
+    ASSERT_TRUE(output) << error_text(output.error());
     ASSERT_EQ(output->size(), sizeof(StreamHeader) + sizeof(StreamTetrahedron));
     StreamTetrahedron tetrahedron;
     std::memcpy(&tetrahedron, output->data() + sizeof(StreamHeader), sizeof tetrahedron);
@@ -49,10 +50,10 @@ TEST(TetgenMain, WritesOneTetrahedronPositivelyOriented) {
 TEST(TetgenMain, RefusesInputThatIsNoPositions) {
     const std::string prefix = "tetralight-tetgen: ended with exit code 1: ";
     const auto positions = test::random_positions(10, 1);
-    EXPECT_EQ(run({}, {}).error().message, prefix + "stdin holds no positions of this version");
-    EXPECT_EQ(run({tetgen::kPositionsMagic, 11}, positions).error().message,
+    EXPECT_EQ(error_text(run({}, {}).error()), prefix + "stdin holds no positions of this version");
+    EXPECT_EQ(error_text(run({tetgen::kPositionsMagic, 11}, positions).error()),
               prefix + "stdin ends within the positions");
-    EXPECT_EQ(run({tetgen::kPositionsMagic, uint64_t{1} << 62}, positions).error().message,
+    EXPECT_EQ(error_text(run({tetgen::kPositionsMagic, uint64_t{1} << 62}, positions).error()),
               prefix + "too many positions for TetGen");
 }
 
@@ -67,8 +68,8 @@ TEST(TetgenMain, EndsWithAnErrorWhereTetGenCannotGoOn) {
                                   test::random_positions(2, 1), test::random_positions(3, 1)}) {
         const auto output = run(positions);
         ASSERT_FALSE(output) << positions.size();
-        EXPECT_TRUE(output.error().message.starts_with("tetralight-tetgen: ended "))
-            << output.error().message;
+        EXPECT_TRUE(error_text(output.error()).starts_with("tetralight-tetgen: ended "))
+            << error_text(output.error());
     }
 }
 

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/bake_accumulators.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include <tetralight/bake/occlusion.h>
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/path_tracer.h>
+#include <tetralight/bake/probe_estimator.h>
+#include <tetralight/bake/rays/memory_estimate.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/round_plan.h>
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/is_finite.h>
+#include <tetralight/probes/sh.h>
+
+namespace tetralight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Status check_positions(std::span<const glm::dvec3> positions) {
+    for (size_t i = 0; i < positions.size(); ++i) {
+        const glm::dvec3& p = positions[i];
+        if (!is_finite(p)) {
+            return Error{
+                str_cat("probe ", i, ": position is not finite (", p.x, ", ", p.y, ", ", p.z, ")")};
+        }
+    }
+    return Ok{};
+}
+
+/// Light that floats hold.
+Status check_light(std::span<const glm::dvec3> positions,
+                   std::span<const ProbeAccumulator> accumulators) {
+    for (size_t i = 0; i < accumulators.size(); ++i) {
+        const IrradianceSh irradiance = irradiance_from_radiance(accumulators[i].radiance());
+        const auto is_good = [](const glm::vec3& c) { return is_finite(c); };
+        if (std::ranges::all_of(irradiance.coefficients, is_good)) continue;
+        const glm::dvec3& p = positions[i];
+        return Error{
+            str_cat("probe ", i, " at (", p.x, ", ", p.y, ", ", p.z,
+                    "): its light is too bright for floats; a light, an emission or the sky "
+                    "is far out of range")};
+    }
+    return Ok{};
+}
+
+/// What to bake, and where to.
+struct Work {
+    const TraceScene& traced;
+    const PathTracer& tracer;
+    std::span<const glm::dvec3> positions;
+    std::span<ProbeAccumulator> accumulators;
+    const LightGroupRows& split;
+    /// In render space.
+    std::vector<Light> lights;
+};
+
+/// Whether a probe's occlusion is part of an estimate: the first one's.
+bool has_occlusion(const LightGroupLayout& layout, uint64_t round, uint32_t number) {
+    return layout.has_occlusion && round == 0 && number == 0;
+}
+
+class TallyBaker {
+  public:
+    TallyBaker(const Work& work, const BakeSettings& settings, const BakeHooks& hooks)
+        : work_(work),
+          settings_(settings),
+          plan_(settings),
+          layout_(settings.plan),
+          hooks_(hooks),
+          progress_(hooks.progress, work.positions.size()) {
+        for (const ProbeAccumulator& accumulator : work.accumulators) {
+            progress_.begin_with(accumulator.direction_count,
+                                 plan_.expected_directions(accumulator),
+                                 plan_.is_done(accumulator));
+        }
+    }
+
+    Status run() {
+        for (std::vector<uint32_t> probes = next_round(); !probes.empty(); probes = next_round()) {
+            const uint64_t round = work_.accumulators[probes[0]].round_count;
+            const size_t step = probes_at_once(round);
+            for (size_t begin = 0; begin < probes.size(); begin += step) {
+                const size_t count = std::min(step, probes.size() - begin);
+                bake_round(std::span(probes).subspan(begin, count), round);
+                if (progress_.is_cancelled()) return Error{"cancelled"};
+                if (is_time_over(round)) return Ok{};
+                save_now_and_then();
+            }
+        }
+        progress_.finish();
+        return Ok{};
+    }
+
+  private:
+    /// The probes that have had the fewest rounds of those that need one more.
+    [[nodiscard]] std::vector<uint32_t> next_round() const {
+        std::vector<uint32_t> probes;
+        uint64_t round = ~uint64_t{0};
+        for (uint32_t i = 0; i < work_.accumulators.size(); ++i) {
+            const ProbeAccumulator& accumulator = work_.accumulators[i];
+            if (accumulator.round_count > round || plan_.is_done(accumulator)) continue;
+            if (accumulator.round_count < round) probes.clear();
+            round = accumulator.round_count;
+            probes.push_back(i);
+        }
+        return probes;
+    }
+
+    /// Some seconds of work, and a few megabytes of estimates.
+    [[nodiscard]] size_t probes_at_once(uint64_t round) const {
+        constexpr uint64_t kDirections = 1u << 20;
+        return std::clamp<size_t>(kDirections / plan_.directions_of(round), 16, 4096);
+    }
+
+    void bake_round(std::span<const uint32_t> probes, uint64_t round) {
+        const uint32_t estimates_each = plan_.estimates_of(round);
+        std::vector<ProbeEstimate> estimates(probes.size() * estimates_each);
+        std::vector<std::atomic<uint32_t>> missing(probes.size());
+        for (auto& count : missing) count.store(estimates_each, std::memory_order_relaxed);
+        progress_.set_worst_error(worst_error_beside(probes));
+        // The first estimates may have one direction more than the last ones.
+        const DirectionSet first(plan_.directions_of_estimate(round, 0));
+        const DirectionSet last(plan_.directions_of_estimate(round, estimates_each - 1));
+
+        parallel_for(estimates.size(), settings_.thread_count, [&](size_t item) {
+            if (progress_.is_cancelled() || is_time_over(round)) return;
+            const size_t place = item / estimates_each;
+            const auto number = static_cast<uint32_t>(item - place * estimates_each);
+            const bool is_first = plan_.directions_of_estimate(round, number) == first.size();
+            estimates[item] = estimate(probes[place], round, number, is_first ? first : last);
+            if (missing[place].fetch_sub(1, std::memory_order_acq_rel) == 1) {
+                const auto all =
+                    std::span(estimates).subspan(place * estimates_each, estimates_each);
+                end_round(probes[place], all);
+            }
+            progress_.add_rays(estimates[item].ray_count);
+        });
+    }
+
+    [[nodiscard]] ProbeEstimate estimate(uint32_t probe, uint64_t round, uint32_t number,
+                                         const DirectionSet& directions) const {
+        const glm::dvec3& position = work_.positions[probe];
+        const glm::vec3 origin = work_.traced.render_from_world(position);
+        const uint64_t key = estimate_key(probe_key(settings_.seed, position), round, number);
+        ProbeEstimate estimate = estimate_probe(work_.tracer, origin, key, directions);
+        if (has_occlusion(layout_, round, number)) {
+            const glm::vec4 occlusion = probe_occlusion(
+                work_.tracer, work_.lights, work_.split.occlusion_lights[probe], origin, key);
+            for (int i = 0; i < 4; ++i) estimate.split.push_back(occlusion[i]);
+        }
+        return estimate;
+    }
+
+    void end_round(uint32_t probe, std::span<const ProbeEstimate> estimates) {
+        ProbeAccumulator& accumulator = work_.accumulators[probe];
+        add_split(probe, accumulator.round_count, estimates);
+        const uint64_t expected_before = plan_.expected_directions(accumulator);
+        const uint64_t directions_before = accumulator.direction_count;
+        accumulator.add_round(estimates);
+        progress_.add_round({.directions = accumulator.direction_count - directions_before,
+                             .expected = plan_.expected_directions(accumulator),
+                             .expected_before = expected_before,
+                             .is_first = accumulator.round_count == 1,
+                             .is_done = plan_.is_done(accumulator),
+                             .standard_error = accumulator.standard_error()});
+    }
+
+    void add_split(uint32_t probe, uint64_t round, std::span<const ProbeEstimate> estimates) {
+        const auto row = work_.split.rows.subspan(probe * layout_.size(), layout_.size());
+        const size_t summed = layout_.occlusion_begin();
+        for (const ProbeEstimate& estimate : estimates) {
+            const auto weight = static_cast<double>(estimate.direction_count);
+            for (size_t i = 0; i < summed; ++i) {
+                row[i] += weight * static_cast<double>(estimate.split[i]);
+            }
+        }
+        if (!has_occlusion(layout_, round, 0)) return;
+        for (size_t i = summed; i < row.size(); ++i) {
+            row[i] = static_cast<double>(estimates[0].split[i]);
+        }
+    }
+
+    /// Of the probes that are not among `probes`, which are sorted.
+    [[nodiscard]] float worst_error_beside(std::span<const uint32_t> probes) const {
+        float worst = 0.0f;
+        auto next = probes.begin();
+        for (uint32_t i = 0; i < work_.accumulators.size(); ++i) {
+            if (next != probes.end() && *next == i) {
+                ++next;
+            } else {
+                worst = std::max(worst, work_.accumulators[i].standard_error());
+            }
+        }
+        return worst;
+    }
+
+    /// A volume without the first round would have holes.
+    [[nodiscard]] bool is_time_over(uint64_t round) const {
+        if (settings_.time_budget_seconds == 0.0 || round == 0) return false;
+        return std::chrono::duration<double>(Clock::now() - start_).count() >
+               settings_.time_budget_seconds;
+    }
+
+    void save_now_and_then() {
+        const auto now = Clock::now();
+        if (!hooks_.save || now - last_save_ < save_interval_) return;
+        hooks_.save();
+        last_save_ = Clock::now();
+        // Large volumes take their time to write; the bake is to go on for most of it.
+        save_interval_ = std::max(save_interval_, 20 * (last_save_ - now));
+    }
+
+    const Work work_;
+    const BakeSettings& settings_;
+    const RoundPlan plan_;
+    const LightGroupLayout layout_;
+    const BakeHooks& hooks_;
+    ProgressReporter progress_;
+    const Clock::time_point start_ = Clock::now();
+    Clock::time_point last_save_ = start_;
+    Clock::duration save_interval_ = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(hooks_.save_seconds));
+};
+
+}  // namespace
+
+Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positions,
+                         const BakeSettings& settings, std::span<ProbeAccumulator> accumulators,
+                         const BakeHooks& hooks, const LightGroupRows& split) {
+    TETRALIGHT_ASSERT(accumulators.size() == positions.size(), "one tally for each position");
+    const LightGroupLayout layout(settings.plan);
+    TETRALIGHT_ASSERT(split.rows.size() == layout.size() * positions.size(),
+                      "one row for each position when the plan splits light");
+    TETRALIGHT_ASSERT(!layout.has_occlusion || split.occlusion_lights.size() == positions.size(),
+                      "lights of the occlusion for each position");
+    if (auto status = RoundPlan::check(settings); !status) return status;
+    if (auto status = check_positions(positions); !status) return status;
+    if (auto status =
+            check_bake_memory(estimate_bake_memory(scene, positions.size(), layout.size()));
+        !status) {
+        return status.error();
+    }
+    const auto traced = TraceScene::make_static(scene, settings.surfaces);
+    if (!traced) return traced.error();
+    const PathTracer tracer(scene, *traced, {settings.bounces, settings.clamp}, settings.plan);
+    std::vector<Light> lights;
+    for (const Light& light : scene.lights) lights.push_back(traced->render_from_world(light));
+    const Work work{*traced, tracer, positions, accumulators, split, std::move(lights)};
+    const auto status = TallyBaker(work, settings, hooks).run();
+    return status ? check_light(positions, accumulators) : status;
+}
+
+}  // namespace tetralight

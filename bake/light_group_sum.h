@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include <tetralight/bake/light_plan.h>
+#include <tetralight/bake/path_light_groups.h>
+
+namespace tetralight {
+
+/// Sums of what one estimate finds of each part of the light, as a row of `LightGroupLayout`.
+class LightGroupSum {
+  public:
+    explicit LightGroupSum(const LightGroupLayout& layout)
+        : layout_(layout), sums_(layout.size(), 0.0) {}
+
+    [[nodiscard]] bool is_empty() const { return sums_.empty(); }
+
+    /// A path from the probe in a direction.
+    void add(glm::vec3 direction, const PathLightGroups& split, double weight);
+
+    /// Light of one layer from a direction; none when it is no layer.
+    void add(glm::vec3 direction, uint32_t layer, glm::vec3 radiance, double weight);
+
+    [[nodiscard]] std::vector<float> values() const { return {sums_.begin(), sums_.end()}; }
+
+  private:
+    void add_exit(glm::vec3 direction, const PathLightGroups::Exit& exit, double weight);
+
+    LightGroupLayout layout_;
+    std::vector<double> sums_;
+};
+
+}  // namespace tetralight

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include <tetralight/bake/lights/emissive_triangles.h>
+#include <tetralight/bake/lights/environment_sampler.h>
+#include <tetralight/bake/lights/light_tree.h>
+#include <tetralight/bake/lights/punctual_lights.h>
+#include <tetralight/bake/lights/sample_light.h>
+#include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/sampling/sobol.h>
+#include <tetralight/bake/scene/scene.h>
+
+namespace tetralight {
+
+/// Kinds of emitters that are drawn from apart, as their light does not compare before shadows are
+/// known.
+enum class EmitterKind { Sun, PunctualLight, Triangle, Sky };
+
+/// All that shines in a scene, to be sampled. Traced space.
+class Emitters {
+  public:
+    /// Lights count as bounces see them, `indirect_multiplier` included. Keeps references.
+    Emitters(const Scene& scene, const TraceScene& traced);
+
+    [[nodiscard]] bool has(EmitterKind kind) const noexcept;
+
+    /// Light of one emitter of a kind that the scene has, drawn at random; shadows left out.
+    [[nodiscard]] LightSample sample(EmitterKind kind, const ShadingPoint& shading_point,
+                                     Sampler& numbers) const noexcept;
+
+    /// Density per steradian with which `sample` draws what a ray from the shading point met by
+    /// chance: a triangle, or the sky in a direction. 0 = never.
+    [[nodiscard]] float pdf(const ShadingPoint& shading_point, const Surface& met) const noexcept {
+        return triangles_.pdf(shading_point, met);
+    }
+
+    [[nodiscard]] float pdf(glm::vec3 sky_direction) const noexcept {
+        return sky_.pdf(sky_direction);
+    }
+
+  private:
+    [[nodiscard]] LightSample sample_sky(glm::vec2 u) const noexcept;
+
+    const Environment& environment_;
+    PunctualLights punctual_lights_;
+    EmissiveTriangles triangles_;
+    EnvironmentSampler sky_;
+};
+
+}  // namespace tetralight

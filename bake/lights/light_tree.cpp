@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/lights/light_tree.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include <tetralight/base/contract.h>
+
+namespace tetralight {
+
+using detail::splat, detail::Float4, detail::max4, detail::min4, detail::sqrt4;
+
+namespace {
+
+/// Rounding of a cosine; what is this near to its limit counts as within it.
+constexpr float kSlack = 1e-4f;
+
+/// Importance never falls below this share for being slanted, so that no sample weighs too much.
+constexpr float kLeastCosine = 0.01f;
+
+/// Keeps sums of importances finite.
+constexpr float kMostImportance = 1e30f;
+
+float sine_of(float cosine) {
+    return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
+}
+
+Float4 sine_of(Float4 cosine) {
+    return sqrt4(max4(splat(1.0f) - cosine * cosine, splat(0.0f)));
+}
+
+}  // namespace
+
+void LightTree::set_lane(Node& node, uint32_t lane, const LightBounds& bounds) {
+    const glm::vec3 half_size = 0.5f * (bounds.high - bounds.low);
+    const glm::vec3 center = bounds.low + half_size;
+    node.center_x[lane] = center.x;
+    node.center_y[lane] = center.y;
+    node.center_z[lane] = center.z;
+    node.radius[lane] = glm::length(half_size);
+    node.axis_x[lane] = bounds.axis.x;
+    node.axis_y[lane] = bounds.axis.y;
+    node.axis_z[lane] = bounds.axis.z;
+    // A cone of all directions holds each of them, whatever the rounding.
+    node.cos_axes[lane] = bounds.cos_axes > -1.0f ? bounds.cos_axes : -2.0f;
+    node.sin_axes[lane] = sine_of(bounds.cos_axes);
+    node.cos_emission[lane] = bounds.cos_emission - kSlack;
+    node.back[lane] = bounds.is_two_sided ? -1.0f : 1.0f;
+    node.power[lane] = bounds.power;
+    node.reach[lane] = (bounds.reach + glm::length(half_size)) * (1.0f + kSlack);
+}
+
+/// Without branches, for four children at a time. Angles are known by cosine and sine: that of
+/// max(0, a − b) has the cosine 1 where cos a > cos b, else cos a cos b + sin a sin b.
+detail::Float4 LightTree::importance(const Node& node, const ShadingPoint& shading_point) noexcept {
+    const glm::vec3 position = shading_point.position, normal = shading_point.normal;
+    const Float4 x = splat(position.x) - node.center_x;
+    const Float4 y = splat(position.y) - node.center_y;
+    const Float4 z = splat(position.z) - node.center_z;
+    const Float4 distance = sqrt4(x * x + y * y + z * z);
+    const Float4 inverse = splat(1.0f) / distance;
+    const Float4 radius = node.radius;
+    const Float4 sin_box = min4(radius * inverse, splat(1.0f));
+    const Float4 cos_box = sine_of(sin_box);
+
+    const Float4 axis = node.axis_x * x + node.axis_y * y + node.axis_z * z;
+    const Float4 ahead = axis * inverse;
+    const Float4 cos_out = max4(ahead, ahead * node.back);
+    const Float4 sin_out = sine_of(cos_out);
+    const Float4 cone_cos = node.cos_axes, cone_sin = node.sin_axes;
+    const Float4 cos_axes = cos_out * cone_cos + sin_out * cone_sin;
+    const Float4 sin_axes = sin_out * cone_cos - cos_out * cone_sin;
+    const Float4 off_axes = cos_axes * cos_box + sin_axes * sin_box;
+    const auto is_ahead = (cos_out > cone_cos) | (cos_axes > cos_box);
+    const Float4 leaving = is_ahead ? splat(1.0f) : off_axes;
+
+    Float4 arriving = splat(1.0f);
+    if (normal != glm::vec3(0.0f)) {
+        const Float4 height = splat(-normal.x) * x + splat(-normal.y) * y + splat(-normal.z) * z;
+        const Float4 cos_in = height * inverse;
+        const Float4 off_normal = cos_in * cos_box + sine_of(cos_in) * sin_box;
+        arriving = cos_in > cos_box ? splat(1.0f) : off_normal;
+    }
+    const Float4 least = splat(kLeastCosine), power = node.power;
+    const Float4 slanted = max4(leaving, least) * max4(arriving, least);
+    const auto is_useful =
+        (distance <= node.reach) & (leaving >= node.cos_emission) & (arriving >= splat(-kSlack));
+    const Float4 afar = is_useful ? power * inverse * inverse * slanted : splat(0.0f);
+    // Near the box any direction is possible, and distance means little.
+    const Float4 size = max4(radius, splat(1e-15f));
+    const Float4 nearby = power / (size * size);
+    return min4(distance > radius ? afar : nearby, splat(kMostImportance));
+}
+
+struct LightTree::Item {
+    uint32_t emitter;
+    LightBounds bounds;
+    glm::vec3 center;
+};
+
+/// Splits emitters in two by the smallest cost, over twelve slices of each axis, until each is
+/// alone (pbrt-4, BVHLightSampler::buildBVH). Two splits in turn make one node.
+class LightTree::Builder {
+  public:
+    explicit Builder(LightTree& tree) : tree_(tree) {}
+
+    /// Makes the node of these items, which are split at `depth`, and returns its number.
+    uint32_t build(std::span<Item> items, uint64_t turns, uint32_t depth) {
+        const auto number = static_cast<uint32_t>(tree_.nodes_.size());
+        tree_.nodes_.emplace_back();
+        if (items.size() == 1) {
+            add_lane(number, 0, items, turns, depth);
+            return number;
+        }
+        const size_t first_count = split(items, depth);
+        add_half(number, 0, items.first(first_count), turns, depth);
+        add_half(number, 2, items.subspan(first_count), turns, depth);
+        return number;
+    }
+
+  private:
+    /// Two lanes, or one for an item that is alone.
+    void add_half(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t turns,
+                  uint32_t depth) {
+        if (items.size() == 1) return add_lane(node, lane, items, turns, depth);
+        const size_t first_count = split(items, depth + 1);
+        add_lane(node, lane, items.first(first_count), turns, depth);
+        add_lane(node, lane + 1, items.subspan(first_count), turns, depth);
+    }
+
+    void add_lane(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t turns,
+                  uint32_t depth) {
+        turns |= uint64_t{lane} << depth;
+        LightBounds bounds;
+        for (const Item& item : items) bounds = union_of(bounds, item.bounds);
+        const bool is_emitter = items.size() == 1;
+        const uint32_t emitter = items[0].emitter;
+        if (is_emitter) tree_.bit_trails_[emitter] = turns;
+        const uint32_t child = is_emitter ? emitter : build(items, turns, depth + 2);
+        set_lane(tree_.nodes_[node], lane, bounds);
+        tree_.nodes_[node].child[lane] = child;
+        tree_.nodes_[node].is_emitter[lane] = is_emitter;
+    }
+
+    static constexpr int kSlices = 12;
+    /// From here on halves have the same number of emitters, so that 2^32 fit into 64 turns.
+    static constexpr uint32_t kBalancedDepth = 32;
+
+    struct Split {
+        float cost = std::numeric_limits<float>::infinity();
+        int axis = -1;
+        int slice = 0;
+    };
+
+    /// Sorts the items in two and returns how many are in the first part.
+    static size_t split(std::span<Item> items, uint32_t depth) {
+        glm::vec3 low = items[0].center, high = low;
+        for (const Item& item : items) {
+            low = glm::min(low, item.center);
+            high = glm::max(high, item.center);
+        }
+        Split best;
+        if (depth < kBalancedDepth) {
+            for (int axis = 0; axis < 3; ++axis) try_axis(items, axis, low, high, best);
+        }
+        if (best.axis < 0) return halve(items, low, high);
+        const auto middle = std::stable_partition(
+            items.begin(), items.end(),
+            [&](const Item& item) { return slice_of(item, best.axis, low, high) <= best.slice; });
+        return static_cast<size_t>(middle - items.begin());
+    }
+
+    static int slice_of(const Item& item, int axis, glm::vec3 low, glm::vec3 high) {
+        const float share = (item.center[axis] - low[axis]) / (high[axis] - low[axis]);
+        return std::min(static_cast<int>(share * kSlices), kSlices - 1);
+    }
+
+    static void try_axis(std::span<const Item> items, int axis, glm::vec3 low, glm::vec3 high,
+                         Split& best) {
+        const glm::vec3 size = high - low;
+        if (!(size[axis] > 0.0f)) return;
+        std::array<LightBounds, kSlices> slices;
+        for (const Item& item : items) {
+            LightBounds& slice = slices[slice_of(item, axis, low, high)];
+            slice = union_of(slice, item.bounds);
+        }
+        std::array<LightBounds, kSlices> after;  // all slices beyond one
+        for (int i = kSlices - 2; i >= 0; --i) after[i] = union_of(after[i + 1], slices[i + 1]);
+        LightBounds before;
+        // Long thin boxes are cut across.
+        const float shape = std::max({size.x, size.y, size.z}) / size[axis];
+        for (int i = 0; i < kSlices - 1; ++i) {
+            before = union_of(before, slices[i]);
+            if (before.power <= 0.0f || after[i].power <= 0.0f) continue;
+            const float cost = shape * (split_cost(before) + split_cost(after[i]));
+            if (cost < best.cost) best = {cost, axis, i};
+        }
+    }
+
+    static size_t halve(std::span<Item> items, glm::vec3 low, glm::vec3 high) {
+        const glm::vec3 size = high - low;
+        const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+        std::stable_sort(items.begin(), items.end(), [axis](const Item& a, const Item& b) {
+            return a.center[axis] < b.center[axis];
+        });
+        return items.size() / 2;
+    }
+
+    LightTree& tree_;
+};
+
+LightTree::LightTree(std::span<const LightBounds> emitters) : bit_trails_(emitters.size()) {
+    TETRALIGHT_ASSERT(emitters.size() < kNoIndex, "emitters are counted in 32 bits");
+    std::vector<Item> items;
+    for (uint32_t i = 0; i < emitters.size(); ++i) {
+        const LightBounds& e = emitters[i];
+        if (e.power > 0.0f) items.push_back({i, e, 0.5f * (e.low + e.high)});
+    }
+    if (items.empty()) return;
+    Builder(*this).build(items, 0, 0);
+}
+
+std::optional<LightTree::Choice> LightTree::sample(const ShadingPoint& shading_point,
+                                                   double u) const noexcept {
+    if (nodes_.empty()) return std::nullopt;
+    double probability = 1.0;
+    for (uint32_t node = 0;;) {
+        const Float4 shares = importance(nodes_[node], shading_point);
+        const float total = (shares[0] + shares[1]) + (shares[2] + shares[3]);
+        if (!(total > 0.0f)) return std::nullopt;
+        double rest = u * total;
+        uint32_t lane = kNoIndex;  // the last one with a share takes what rounding leaves over
+        for (uint32_t i = 0; i < kLanes; ++i) {
+            if (!(shares[i] > 0.0f)) continue;
+            if (lane != kNoIndex) rest -= shares[lane];
+            lane = i;
+            if (rest < shares[i]) break;
+        }
+        const double share = shares[lane];
+        u = std::clamp(rest / share, 0.0, 1.0);
+        probability *= share / total;
+        if (nodes_[node].is_emitter[lane]) {
+            return Choice{nodes_[node].child[lane], static_cast<float>(probability)};
+        }
+        node = nodes_[node].child[lane];
+    }
+}
+
+float LightTree::probability(const ShadingPoint& shading_point, uint32_t emitter) const noexcept {
+    if (nodes_.empty()) return 0.0f;
+    double probability = 1.0;
+    uint64_t turns = bit_trails_[emitter];
+    for (uint32_t node = 0;; turns >>= 2) {
+        const Float4 shares = importance(nodes_[node], shading_point);
+        const float total = (shares[0] + shares[1]) + (shares[2] + shares[3]);
+        if (!(total > 0.0f)) return 0.0f;
+        const uint32_t lane = turns & 3;
+        probability *= static_cast<double>(shares[lane]) / total;
+        if (nodes_[node].is_emitter[lane]) {
+            const bool is_found = nodes_[node].child[lane] == emitter;
+            return is_found ? static_cast<float>(probability) : 0.0f;
+        }
+        node = nodes_[node].child[lane];
+    }
+}
+
+}  // namespace tetralight

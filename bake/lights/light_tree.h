@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <tetralight/bake/lights/detail/float4.h>
+#include <tetralight/bake/lights/light_bounds.h>
+#include <tetralight/probes/no_index.h>
+
+namespace tetralight {
+
+/// Who receives light: a position and, for surfaces, a unit normal; zero = from everywhere.
+struct ShadingPoint {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f};
+};
+
+/// Draws one of many emitters about as often as its light at a shading point is of all light there,
+/// in logarithmic time: a tree of bounds, in which each turn is drawn by importance, an estimate of
+/// what leaves the bounds and reaches the shading point, shadows left out. It is positive unless
+/// they can send nothing. (Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights with
+/// Adaptive Tree Splitting", section 4.)
+class LightTree {
+  public:
+    struct Choice {
+        uint32_t emitter = kNoIndex;  ///< number in what the tree was made of
+        float probability = 0.0f;
+    };
+
+    LightTree() = default;
+
+    /// Emitters without power are never drawn.
+    explicit LightTree(std::span<const LightBounds> emitters);
+
+    [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
+
+    /// The emitter for `u` uniform in [0, 1); none when the turns lead to emitters of no use here.
+    [[nodiscard]] std::optional<Choice> sample(const ShadingPoint& shading_point,
+                                               double u) const noexcept;
+
+    /// Probability with which `sample` draws an emitter. The sum over all is at most 1.
+    [[nodiscard]] float probability(const ShadingPoint& shading_point,
+                                    uint32_t emitter) const noexcept;
+
+  private:
+    static constexpr uint32_t kLanes = 4;
+
+    using Lanes = detail::Float4;
+
+    /// Four children, each property of all of them side by side, so that importance is found for
+    /// four at a time.
+    struct Node {
+        Lanes center_x{}, center_y{}, center_z{};
+        Lanes radius{};  ///< of the sphere around the box
+        Lanes axis_x{}, axis_y{}, axis_z{};
+        Lanes cos_axes{}, sin_axes{}, cos_emission{};
+        Lanes back{};                          ///< −1: shines from both sides alike; 1: does not
+        Lanes power{};                         ///< 0: no child
+        Lanes reach{};                         ///< of the center
+        std::array<uint32_t, kLanes> child{};  ///< number of a node, or of an emitter
+        std::array<bool, kLanes> is_emitter{};
+    };
+
+    static void set_lane(Node& node, uint32_t lane, const LightBounds& bounds);
+    static detail::Float4 importance(const Node& node, const ShadingPoint& shading_point) noexcept;
+
+    struct Item;
+    class Builder;
+
+    /// The way from the root to each emitter: lanes, two bits each, the first in the lowest bits.
+    std::vector<uint64_t> bit_trails_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace tetralight

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/lights/punctual_lights.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace tetralight {
+namespace {
+
+/// What a sun can give a shading point: never 0 where part of its disc is above the horizon.
+float sun_importance(const Light& sun, const ShadingPoint& shading_point) {
+    const float power = power_of(sun.intensity);
+    if (shading_point.normal == glm::vec3(0.0f)) return power;
+    const float margin = std::sin(std::min(sun.radius, 1.57f)) + 1e-4f;
+    return power * std::max(0.0f, margin - glm::dot(shading_point.normal, sun.direction));
+}
+
+/// Half of what the box of a light's shape measures along each axis.
+glm::vec3 half_size(const Light& light) {
+    if (light.type != LightType::Rectangle) return glm::vec3(light.radius);
+    const glm::vec3 across = glm::cross(light.direction, light.tangent);
+    return 0.5f * (glm::abs(light.tangent) * light.width + glm::abs(across) * light.height);
+}
+
+}  // namespace
+
+LightBounds light_bounds_of(const Light& light) noexcept {
+    LightBounds bounds;
+    bounds.low = light.position - half_size(light);
+    bounds.high = light.position + half_size(light);
+    bounds.power = power_of(light.intensity);
+    if (light.range > 0.0f) bounds.reach = light.range;
+    const bool is_inverse_square =
+        light.falloff == LightFalloff::Gltf || light.falloff == LightFalloff::InverseSquareRange;
+    // The others do not grow near the light: half way out they are about as they are on average.
+    if (!is_inverse_square && light.range > 0.0f) bounds.power *= 0.25f * light.range * light.range;
+    if (light.type == LightType::Point) return bounds;
+    bounds.axis = light.direction;
+    bounds.cos_axes = 1.0f;
+    bounds.cos_emission = 0.0f;
+    if (light.type == LightType::Spot) bounds.cos_emission = light.cos_outer_cone;
+    return bounds;
+}
+
+PunctualLights::PunctualLights(std::span<const Light> lights) {
+    std::vector<LightBounds> bounds;
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
+        if (!(power_of(light.intensity) > 0.0f)) continue;
+        if (light.type == LightType::Directional) {
+            suns_.push_back(light);
+            sun_sources_.push_back(i);
+        } else {
+            local_.push_back(light);
+            local_sources_.push_back(i);
+            bounds.push_back(light_bounds_of(light));
+        }
+    }
+    tree_ = LightTree(bounds);
+}
+
+LightSample PunctualLights::sample_sun(const ShadingPoint& shading_point,
+                                       Sampler& numbers) const noexcept {
+    float choice = 0.0f;
+    if (suns_.size() > 1) {
+        choice = numbers.next();
+    } else {
+        numbers.skip();
+    }
+    float total = 0.0f;
+    for (const Light& sun : suns_) total += sun_importance(sun, shading_point);
+    float rest = choice * total;
+    for (size_t i = 0; i < suns_.size(); ++i) {
+        const Light& sun = suns_[i];
+        const float own = sun_importance(sun, shading_point);
+        if (!(own > 0.0f)) continue;
+        rest -= own;
+        if (rest >= 0.0f) continue;
+        LightSample sample = sample_light(sun, shading_point.position, numbers.next2());
+        if (own != total) sample.irradiance *= total / own;
+        sample.source = sun_sources_[i];
+        return sample;
+    }
+    numbers.skip();
+    return {};
+}
+
+LightSample PunctualLights::sample_local(const ShadingPoint& shading_point,
+                                         Sampler& numbers) const noexcept {
+    const double choice = numbers.next_fine();
+    const glm::vec2 u = numbers.next2();
+    const auto chosen = tree_.sample(shading_point, choice);
+    if (!chosen) return {};
+    LightSample sample = sample_light(local_[chosen->emitter], shading_point.position, u);
+    sample.irradiance /= chosen->probability;
+    sample.source = local_sources_[chosen->emitter];
+    return sample;
+}
+
+}  // namespace tetralight

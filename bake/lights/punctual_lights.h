@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tetralight/bake/lights/light_tree.h>
+#include <tetralight/bake/lights/sample_light.h>
+#include <tetralight/bake/sampling/sobol.h>
+#include <tetralight/probes/light.h>
+
+namespace tetralight {
+
+/// Bounds of what a point, spot, rectangle or disc light sends. Precondition: not directional.
+[[nodiscard]] LightBounds light_bounds_of(const Light& light) noexcept;
+
+/// Draws one of many lights and a point of its shape, about as often as it matters: directional
+/// lights among themselves by irradiance, the others by a light tree.
+class PunctualLights {
+  public:
+    PunctualLights() = default;
+    /// Lights without intensity are never drawn; `LightSample::source` counts them too.
+    explicit PunctualLights(std::span<const Light> lights);
+
+    [[nodiscard]] bool has_suns() const { return !suns_.empty(); }
+
+    [[nodiscard]] bool has_local() const { return !tree_.is_empty(); }
+
+    /// Light of one directional light. Takes two pairs of numbers.
+    [[nodiscard]] LightSample sample_sun(const ShadingPoint& shading_point,
+                                         Sampler& numbers) const noexcept;
+
+    /// Light of one other light. Takes two pairs of numbers.
+    [[nodiscard]] LightSample sample_local(const ShadingPoint& shading_point,
+                                           Sampler& numbers) const noexcept;
+
+  private:
+    std::vector<Light> suns_;
+    std::vector<Light> local_;
+    std::vector<uint32_t> sun_sources_;  // where they stand among all lights
+    std::vector<uint32_t> local_sources_;
+    LightTree tree_;  // of `local_`
+};
+
+}  // namespace tetralight

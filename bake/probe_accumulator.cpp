@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/probe_accumulator.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace tetralight {
+namespace {
+
+using Coefficients = std::array<glm::dvec3, kShCoefficientCount>;
+
+/// Σ A_l² c_i² over nine RGB coefficients: 4π times the mean square over all normals.
+double irradiance_square(const Coefficients& radiance) {
+    constexpr double kPi = std::numbers::pi;
+    constexpr double kBandFactors[] = {kPi, 2.0 * kPi / 3.0, kPi / 4.0};
+    double sum = 0.0;
+    for (int i = 0; i < kShCoefficientCount; ++i) {
+        const double factor = kBandFactors[i == 0 ? 0 : i < 4 ? 1 : 2];
+        sum += factor * factor * glm::dot(radiance[i], radiance[i]);
+    }
+    return sum;
+}
+
+Coefficients weighted_sum(std::span<const ProbeEstimate> estimates) {
+    Coefficients sum{};
+    for (const ProbeEstimate& estimate : estimates) {
+        for (int i = 0; i < kShCoefficientCount; ++i) {
+            sum[i] += static_cast<double>(estimate.direction_count) *
+                      glm::dvec3(estimate.radiance.coefficients[i]);
+        }
+    }
+    return sum;
+}
+
+/// Of the mean of estimates x_k with n_k directions: Σ n_k/N |x_k − mean|² / (K − 1), which is
+/// unbiased when the variance of an estimate goes as 1/n_k.
+double variance_of_mean(std::span<const ProbeEstimate> estimates, const Coefficients& sum,
+                        double direction_count) {
+    double variance = 0.0;
+    for (const ProbeEstimate& estimate : estimates) {
+        Coefficients difference;
+        for (int i = 0; i < kShCoefficientCount; ++i) {
+            difference[i] =
+                glm::dvec3(estimate.radiance.coefficients[i]) - sum[i] / direction_count;
+        }
+        variance += estimate.direction_count / direction_count * irradiance_square(difference);
+    }
+    return variance / static_cast<double>(estimates.size() - 1);
+}
+
+}  // namespace
+
+void ProbeAccumulator::add_round(std::span<const ProbeEstimate> estimates) noexcept {
+    const Coefficients sum = weighted_sum(estimates);
+    uint64_t directions = 0;
+    for (const ProbeEstimate& estimate : estimates) {
+        directions += estimate.direction_count;
+        behind_count += estimate.behind_count;
+        ray_count += estimate.ray_count;
+    }
+    for (int i = 0; i < kShCoefficientCount; ++i) radiance_sum[i] += sum[i];
+    if (estimates.size() > 1) {
+        const auto count = static_cast<double>(directions);
+        variance_sum += count * count * variance_of_mean(estimates, sum, count);
+    }
+    direction_count += directions;
+    ++round_count;
+}
+
+RadianceSh ProbeAccumulator::radiance() const noexcept {
+    RadianceSh mean;
+    if (direction_count == 0) return mean;
+    for (int i = 0; i < kShCoefficientCount; ++i) {
+        mean.coefficients[i] = glm::vec3(radiance_sum[i] / static_cast<double>(direction_count));
+    }
+    return mean;
+}
+
+float ProbeAccumulator::validity() const noexcept {
+    if (direction_count == 0) return 1.0f;
+    return static_cast<float>(1.0 - static_cast<double>(behind_count) /
+                                        static_cast<double>(direction_count));
+}
+
+float ProbeAccumulator::standard_error() const noexcept {
+    const double square = irradiance_square(radiance_sum);  // both are N² times what they stand for
+    return square > 0.0 ? static_cast<float>(std::sqrt(variance_sum / square)) : 0.0f;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/rays/memory_estimate.h>
+
+#include <tetralight/bake/scene/surface_color.h>
+#include <tetralight/base/str_cat.h>
+
+namespace tetralight {
+namespace {
+
+/// Embree 3, medium quality: indices, a tree with its own copy of the corners, and what builds it.
+constexpr uint64_t kBytesPerTriangle = 300;
+/// A vertex in render space, ours and Embree's.
+constexpr uint64_t kBytesPerVertex = 24;
+/// Bounds, their tree, and what builds it.
+constexpr uint64_t kBytesPerEmissiveTriangle = 350;
+/// A cumulated share, and the integrals that it is made from.
+constexpr uint64_t kBytesPerSkyTexel = 12;
+/// Light as radiance and irradiance, compact, health, positions: 450 bytes; about 6.8 tetrahedra of
+/// 32 bytes; CGAL's vertices and cells while it builds them.
+constexpr uint64_t kBytesPerProbe = 450 + 7 * 32 + 1500;
+
+/// A sum in double while it is baked, a float in the volume and one in its file.
+constexpr uint64_t kBytesPerSplitNumber = 8 + 4 + 4;
+
+bool emits(const Material& material) {
+    return material.bakes_emission && emission_source(material).factor != glm::vec3(0.0f);
+}
+
+}  // namespace
+
+BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count, size_t split_numbers) {
+    BakeMemory memory;
+    memory.probe_count = probe_count;
+    uint64_t vertex_count = 0, emissive_count = 0;
+    for (const MeshInstance& instance : scene.instances) {
+        if (!instance.contributes_gi) continue;
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        memory.triangle_count += mesh.indices.size() / 3;
+        vertex_count += mesh.positions.size();
+        if (emits(scene.materials[mesh.material])) emissive_count += mesh.indices.size() / 3;
+    }
+    memory.light_bytes = emissive_count * kBytesPerEmissiveTriangle +
+                         scene.environment.image.pixels.size() * kBytesPerSkyTexel;
+    memory.scene_bytes = memory.triangle_count * kBytesPerTriangle + vertex_count * kBytesPerVertex;
+    memory.probe_bytes = probe_count * (kBytesPerProbe + split_numbers * kBytesPerSplitNumber);
+    return memory;
+}
+
+Status check_bake_memory(const BakeMemory& memory, uint64_t limit_bytes) {
+    if (memory.total_bytes() <= limit_bytes) return Ok{};
+    return Error{str_cat("the bake needs about ", gigabytes(memory.total_bytes()), " of memory (",
+                         memory.triangle_count, " triangles ",
+                         gigabytes(memory.scene_bytes + memory.light_bytes), ", ",
+                         memory.probe_count, " probes ", gigabytes(memory.probe_bytes), "), ",
+                         gigabytes(limit_bytes), " are free")};
+}
+
+}  // namespace tetralight

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/rays/trace_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include <tetralight/bake/rays/memory_estimate.h>
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bake/scene/check_lights.h>
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/str_cat.h>
+
+namespace tetralight {
+namespace {
+
+/// A mirrored instance turns its triangles over: glTF then swaps what is front.
+std::vector<uint32_t> mirrored(std::vector<uint32_t> indices) {
+    for (size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
+    return indices;
+}
+
+/// Cofactors of the linear part: they turn normals right under any scale, and keep them on the
+/// front side of mirrored instances when the sign of the determinant is taken out.
+glm::mat3 normal_from_mesh(const MeshInstance& instance) {
+    const glm::dmat3 m(instance.world_from_mesh);
+    const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
+                               glm::cross(m[0], m[1]));
+    double largest = 0.0;
+    for (int i = 0; i < 3; ++i) largest = std::max(largest, glm::length(cofactors[i]));
+    return largest > 0.0 ? glm::mat3(cofactors / largest) : glm::mat3(0.0f);
+}
+
+MeshPoint hit_point(const Mesh& mesh, bool is_mirrored, const RayHit& hit) {
+    const glm::vec2 b = hit.barycentric;
+    return mesh_point(mesh, hit.primitive, is_mirrored ? glm::vec2(b.y, b.x) : b);
+}
+
+glm::vec3 shading_normal(const MeshPoint& point, const glm::mat3& from_mesh,
+                         glm::vec3 geometric_normal) {
+    if (point.mesh->normals.empty()) return geometric_normal;
+    const glm::vec3 normal = from_mesh * point.blend(point.mesh->normals);
+    const float length = glm::length(normal);
+    return length > 0.0f ? normal / length : geometric_normal;
+}
+
+/// How far off a triangle a ray may start or end by rounding, when no coordinate of its corners is
+/// larger than `extent`. Corners, positions and origins are rounded to half a step of float, 2^-24
+/// of their size; Embree takes corners relative to the origin and multiplies them, which adds a few
+/// times as much. On random triangles of any size 2^-23 still hits one in 300 of the rays that
+/// graze; at 2^-21 only those meet their own triangle that graze it by less than the rounding of
+/// their direction.
+float error_bound(float extent) {
+    return extent * 0x1p-21f;
+}
+
+float largest_coordinate(glm::vec3 position) {
+    return std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+}
+
+/// Rays multiply three lengths, which overflow beyond.
+constexpr double kFarthest = 1e12;
+
+/// A mesh's vertices around the origin of render space. Error: one is too far away.
+Result<std::vector<glm::vec3>> traced_positions(const Mesh& mesh, const MeshInstance& instance,
+                                                const glm::dvec3& origin) {
+    std::vector<glm::vec3> positions;
+    positions.reserve(mesh.positions.size());
+    for (const glm::vec3& position : mesh.positions) {
+        const glm::dvec3 offset = world_position(instance, position) - origin;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (std::abs(offset[axis]) <= kFarthest) continue;
+            return Error{str_cat("vertex ", positions.size(), " is ", std::abs(offset[axis]),
+                                 " m away from the middle of the scene; rays reach ", kFarthest)};
+        }
+        positions.emplace_back(offset);
+    }
+    return positions;
+}
+
+/// Takes the hit from the triangle's corners instead of the ray, whose error grows with its length
+/// (Wächter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection").
+void place_surface(const MeshPoint& point, const std::vector<glm::vec3>& corners,
+                   Surface& surface) {
+    const glm::vec3* triangle[3];
+    float extent = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+        triangle[i] = &corners[point.corners[i]];
+        extent = std::max(extent, largest_coordinate(*triangle[i]));
+    }
+    // From one corner, so that weights whose sum is not quite 1 move it within the triangle only.
+    const glm::dvec3 first(*triangle[0]);
+    const glm::dvec3 position = first +
+                                (glm::dvec3(*triangle[1]) - first) * double{point.weights.y} +
+                                (glm::dvec3(*triangle[2]) - first) * double{point.weights.z};
+    surface.position = glm::vec3(position);
+    surface.error_bound = error_bound(extent);
+}
+
+/// Share of rays that stop at a point.
+float opacity(const Scene& scene, const MeshPoint& point) {
+    const Material& material = scene.materials[point.mesh->material];
+    if (material.alpha_mode == AlphaMode::Opaque) return 1.0f;
+    const float alpha = base_color(scene, point).a;
+    if (material.alpha_mode == AlphaMode::Blend) return std::clamp(alpha, 0.0f, 1.0f);
+    return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
+}
+
+/// What a hit is on: its triangle, or the edge or corner that it lies on, by position. A ray
+/// through an edge hits the triangles on both sides of it, and has to find one surface there.
+uint64_t key_of_place(const RayHit& hit, const MeshPoint& point,
+                      const std::vector<glm::vec3>& positions) {
+    constexpr float kOnEdge = 1e-5f;
+    uint64_t key = 0;
+    int corner_count = 0;
+    for (int i = 0; i < 3; ++i) {
+        if (!(point.weights[i] > kOnEdge)) continue;
+        key += probe_key(0, glm::dvec3(positions[point.corners[i]]));
+        ++corner_count;
+    }
+    return corner_count < 3 ? key : (uint64_t{hit.geometry} << 32 | hit.primitive);
+}
+
+/// A number in [0, 1) that depends on the ray and the place only.
+float hash_of(const Ray& ray, uint64_t place_key) {
+    const uint64_t origin_key = probe_key(place_key, glm::dvec3(ray.origin));
+    return RandomStream(probe_key(origin_key, glm::dvec3(ray.direction)), 0).next();
+}
+
+}  // namespace
+
+Result<TraceScene> TraceScene::make(const Scene& scene, const Selection& selection) {
+    return make_from(scene, selection, std::make_unique<State>());
+}
+
+Result<TraceScene> TraceScene::make_static(const Scene& scene, const SurfaceSettings& surfaces) {
+    if (auto status = check_lights(scene); !status) return status.error();
+    if (auto status = check_bake_memory(estimate_bake_memory(scene, 0)); !status)
+        return status.error();
+    auto state = std::make_unique<State>();
+    state->surfaces = surfaces;
+    state->emission = Emission::Baked;
+    const auto is_static = [](const MeshInstance& instance) { return instance.contributes_gi; };
+    return make_from(scene, is_static, std::move(state));
+}
+
+Result<TraceScene> TraceScene::make_from(const Scene& scene, const Selection& selection,
+                                         std::unique_ptr<State> state) {
+    state->scene = &scene;
+    state->origin = scene_middle(scene, selection);
+
+    RayCaster caster({&TraceScene::stops_at, state.get()});
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const MeshInstance& instance = scene.instances[i];
+        if (!selection(instance) || scene.meshes[instance.mesh].indices.empty()) continue;
+        Placed placed = place(scene, i);
+        auto positions = traced_positions(*placed.mesh, instance, state->origin);
+        if (!positions)
+            return positions.error().in(str_cat("instance ", i, " \"", instance.name, '"'));
+        placed.positions = std::move(*positions);
+        const auto& indices = placed.mesh->indices;
+        const bool is_opaque = placed.material->alpha_mode == AlphaMode::Opaque;
+        caster.add_triangles(placed.positions, placed.is_mirrored ? mirrored(indices) : indices,
+                             is_opaque ? RayCaster::Filtered::No : RayCaster::Filtered::Yes);
+        state->placed.push_back(std::move(placed));
+    }
+    if (auto status = caster.commit(); !status) return status.error();
+    return TraceScene(std::move(state), std::move(caster));
+}
+
+glm::vec3 TraceScene::shadow_target(const EmitterPoint& point, glm::vec3 seen_from) {
+    float extent = largest_coordinate(seen_from);
+    for (const glm::vec3& corner : point.corners) {
+        extent = std::max(extent, largest_coordinate(corner));
+    }
+    return point.position + error_bound(extent) * point.normal;
+}
+
+Light TraceScene::render_from_world(Light light) const {
+    light.position = render_from_world(glm::dvec3(light.position));
+    return light;
+}
+
+TraceScene::Placed TraceScene::place(const Scene& scene, uint32_t index) {
+    const MeshInstance& instance = scene.instances[index];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const bool is_mirrored = glm::determinant(glm::dmat3(instance.world_from_mesh)) < 0.0;
+    return {index,
+            &mesh,
+            &scene.materials[mesh.material],
+            normal_from_mesh(instance) * (is_mirrored ? -1.0f : 1.0f),
+            is_mirrored,
+            {}};
+}
+
+bool TraceScene::stops_at(const void* context, const Ray& ray, const RayHit& hit) {
+    const State& state = *static_cast<const State*>(context);
+    const Placed& placed = state.placed[hit.geometry];
+    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, hit);
+    const float share = opacity(*state.scene, point);
+    if (share <= 0.0f || share >= 1.0f) return share > 0.0f;
+    return hash_of(ray, key_of_place(hit, point, placed.positions)) < share;
+}
+
+std::optional<Surface> TraceScene::intersect(const Ray& ray, Detail detail) const {
+    const std::optional<RayHit> hit = caster_.intersect(ray);
+    if (!hit) return std::nullopt;
+    const Scene& scene = *state_->scene;
+    const Placed& placed = state_->placed[hit->geometry];
+    const Material& material = *placed.material;
+    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, *hit);
+
+    Surface surface;
+    place_surface(point, placed.positions, surface);
+    surface.geometric_normal = glm::normalize(hit->normal);
+    if (detail == Detail::Full) {
+        surface.shading_normal =
+            shading_normal(point, placed.normal_from_mesh, surface.geometric_normal);
+    }
+    surface.albedo = adjusted_albedo(diffuse_reflectivity(scene, point), state_->surfaces);
+    if (takes_emission(*state_, material)) surface.emission = emitted_radiance(scene, point);
+    surface.instance = placed.instance;
+    surface.geometry = hit->geometry;
+    surface.primitive = hit->primitive;
+    if (glm::dot(surface.geometric_normal, ray.direction) > 0.0f) {
+        surface.geometric_normal = -surface.geometric_normal;
+        surface.shading_normal = -surface.shading_normal;
+        surface.is_from_behind = true;
+        surface.is_back_face = !material.is_double_sided;
+    }
+    return surface;
+}
+
+glm::vec3 TraceScene::ray_origin(const SurfaceSide& side, glm::vec3 hit,
+                                 glm::vec3 direction) const {
+    float extent = side.distance;
+    for (const glm::vec3& corner : triangle(side.geometry, side.primitive)) {
+        for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, std::abs(corner[axis]));
+    }
+    return hit + error_bound(extent) * direction;
+}
+
+std::optional<SurfaceSide> TraceScene::intersect_side(const Ray& ray) const {
+    const std::optional<RayHit> hit = caster_.intersect(ray);
+    if (!hit) return std::nullopt;
+    const Placed& placed = state_->placed[hit->geometry];
+    SurfaceSide side{hit->distance, glm::normalize(hit->normal), hit->geometry, hit->primitive};
+    if (glm::dot(side.normal, ray.direction) > 0.0f) {
+        side.normal = -side.normal;
+        side.is_from_behind = true;
+        side.is_back_face = !placed.material->is_double_sided;
+    }
+    return side;
+}
+
+uint32_t TraceScene::triangle_count(uint32_t geometry) const {
+    return static_cast<uint32_t>(state_->placed[geometry].mesh->indices.size() / 3);
+}
+
+std::array<glm::vec3, 3> TraceScene::triangle(uint32_t geometry, uint32_t primitive) const {
+    const Placed& placed = state_->placed[geometry];
+    const uint32_t* corners = &placed.mesh->indices[size_t{primitive} * 3];
+    std::array<glm::vec3, 3> positions{placed.positions[corners[0]], placed.positions[corners[1]],
+                                       placed.positions[corners[2]]};
+    if (placed.is_mirrored) std::swap(positions[1], positions[2]);
+    return positions;
+}
+
+bool TraceScene::is_double_sided(uint32_t geometry) const {
+    return state_->placed[geometry].material->is_double_sided;
+}
+
+bool TraceScene::takes_emission(const State& state, const Material& material) {
+    return material.bakes_emission || state.emission == Emission::All;
+}
+
+bool TraceScene::can_emit(uint32_t geometry) const {
+    const Material& material = *state_->placed[geometry].material;
+    return takes_emission(*state_, material) && emission_source(material).factor != glm::vec3(0.0f);
+}
+
+bool TraceScene::has_varied_emission(uint32_t geometry) const {
+    const Material& material = *state_->placed[geometry].material;
+    const bool has_varied_base = material.base_color_texture.texture != kNoIndex ||
+                                 !state_->placed[geometry].mesh->colors.empty();
+    const bool shows_base = material.is_unlit || material.alpha_mode != AlphaMode::Opaque;
+    return material.emission_texture.texture != kNoIndex || (shows_base && has_varied_base);
+}
+
+glm::vec3 TraceScene::visible_emission(uint32_t geometry, uint32_t primitive,
+                                       glm::vec2 barycentric) const {
+    const Placed& placed = state_->placed[geometry];
+    if (!takes_emission(*state_, *placed.material)) return glm::vec3(0.0f);
+    RayHit hit;
+    hit.primitive = primitive;
+    hit.barycentric = barycentric;
+    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, hit);
+    return emitted_radiance(*state_->scene, point) * opacity(*state_->scene, point);
+}
+
+bool TraceScene::has_blending() const {
+    return std::any_of(state_->placed.begin(), state_->placed.end(), [](const Placed& placed) {
+        return placed.material->alpha_mode == AlphaMode::Blend;
+    });
+}
+
+}  // namespace tetralight

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/base/memory.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include <tetralight/base/str_cat.h>
+
+namespace tetralight {
+namespace {
+
+constexpr uint64_t kUnknown = std::numeric_limits<uint64_t>::max();
+
+/// The number behind a word at the start of a line; without a word the first of the file.
+uint64_t number_in(const char* path, const std::string& word) {
+    std::ifstream file(path);
+    std::string first;
+    uint64_t number = 0;
+    if (word.empty()) return file >> number ? number : kUnknown;
+    while (file >> first) {
+        if (first == word) return file >> number ? number : kUnknown;
+        file.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    }
+    return kUnknown;
+}
+
+/// What is left of the limit of the control group that a container runs in.
+uint64_t free_in_group() {
+    const uint64_t limit = number_in("/sys/fs/cgroup/memory.max", "");  // "max" is no number
+    const uint64_t used = number_in("/sys/fs/cgroup/memory.current", "");
+    if (limit == kUnknown || used == kUnknown) return kUnknown;
+    return limit - std::min(limit, used);
+}
+
+}  // namespace
+
+std::string gigabytes(double bytes) {
+    return str_cat(std::round(bytes / 1e8) / 10.0, " GB");
+}
+
+std::string gigabytes(uint64_t bytes) {
+    return gigabytes(static_cast<double>(bytes));
+}
+
+uint64_t free_memory() {
+    const uint64_t kilobytes = number_in("/proc/meminfo", "MemAvailable:");
+    const uint64_t system = kilobytes > kUnknown / 1024 ? kUnknown : kilobytes * 1024;
+    return std::min(system, free_in_group());
+}
+
+}  // namespace tetralight

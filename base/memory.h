@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace tetralight {
+
+/// Bytes of memory that this process may still allocate: the system's free memory, or what is left
+/// of the limit of its control group. The largest number if the system does not say.
+[[nodiscard]] uint64_t free_memory();
+
+/// "20.3 GB", to a tenth.
+[[nodiscard]] std::string gigabytes(double bytes);
+[[nodiscard]] std::string gigabytes(uint64_t bytes);
+
+}  // namespace tetralight

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/base/system_error.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include <tetralight/base/shown_path.h>
+
+namespace tetralight {
+
+ErrorCode error_code_of_errno(int number) noexcept {
+    switch (number) {
+        case ENOENT:
+        case ENOTDIR:
+            return ErrorCode::NotFound;
+        case ENOSPC:
+        case EDQUOT:
+            return ErrorCode::DiskFull;
+        case EMFILE:
+        case ENFILE:
+        case ENOMEM:
+        case EAGAIN:
+        case ENOBUFS:
+            return ErrorCode::OutOfResources;
+        case EISDIR:
+        case ELOOP:
+        case ENAMETOOLONG:
+        case EINVAL:
+        case EFBIG:
+            return ErrorCode::InvalidArgument;
+        default:
+            return ErrorCode::Unavailable;
+    }
+}
+
+Error system_error(const std::string& path, const char* what) {
+    const int number = errno;
+    return {error_code_of_errno(number),
+            shown_path(path) + ": cannot " + what + " (" + std::strerror(number) + ")"};
+}
+
+}  // namespace tetralight

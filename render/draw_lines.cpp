@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/render/draw_lines.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <utility>
+
+#include <tetralight/bake/parallel.h>
+#include <tetralight/base/contract.h>
+
+namespace tetralight {
+namespace {
+
+/// What is nearer than this to the plane of the eye is cut off.
+constexpr double kNearest = 1e-4;
+
+/// A line is behind a surface when it is this share farther away: probes may lie in a surface.
+constexpr double kDepthTolerance = 2e-3;
+
+/// A line as it stands in the picture: pixels, and depth.
+struct PictureLine {
+    glm::dvec3 a{0.0};
+    glm::dvec3 b{0.0};
+};
+
+/// Cuts off what lies behind the eye.
+std::optional<PictureLine> project(const Projection& projection, const LineSegment& line) {
+    glm::dvec3 a = projection.view_from_world(line[0]);
+    glm::dvec3 b = projection.view_from_world(line[1]);
+    if (a.z > b.z) std::swap(a, b);  // a is the farther one
+    if (!(a.z < -kNearest)) return std::nullopt;
+    if (b.z > -kNearest) b = glm::mix(a, b, (-kNearest - a.z) / (b.z - a.z));
+    return PictureLine{projection.picture_from_view(a), projection.picture_from_view(b)};
+}
+
+/// Draws one line after another, pixel by pixel along its longer side.
+class Pen {
+  public:
+    Pen(Image8& image, const DepthImage& depth, const LineStyle& style)
+        : image_(image), depth_(depth), style_(style) {}
+
+    void draw(const PictureLine& line) {
+        const glm::dvec2 a(line.a), way = glm::dvec2(line.b) - a;
+        const int along = std::abs(way.x) >= std::abs(way.y) ? 0 : 1;
+        const int across = 1 - along;
+        const double length = glm::length(way);
+        if (length == 0.0) return;
+        const double reach = 0.5 * (1.0 + style_.width);
+        const double half_breadth = reach * length / std::abs(way[along]);
+        const auto [first, last] = pixels(std::min(a[along], line.b[along]) - reach,
+                                          std::max(a[along], line.b[along]) + reach, size(along));
+        for (int i = first; i <= last; ++i) {
+            const double middle = a[across] + (i + 0.5 - a[along]) * way[across] / way[along];
+            const auto [low, high] =
+                pixels(middle - half_breadth, middle + half_breadth, size(across));
+            for (int j = low; j <= high; ++j) {
+                along == 0 ? draw_pixel(line, i, j) : draw_pixel(line, j, i);
+            }
+        }
+    }
+
+  private:
+    struct Range {
+        int first = 0;
+        int last = -1;
+    };
+
+    /// The pixels of one axis that a stretch touches.
+    static Range pixels(double low, double high, uint32_t count) {
+        const double last = static_cast<double>(count) - 1.0;
+        return {static_cast<int>(std::clamp(std::floor(low), 0.0, last + 1.0)),
+                static_cast<int>(std::clamp(std::floor(high), -1.0, last))};
+    }
+
+    [[nodiscard]] uint32_t size(int axis) const { return axis == 0 ? image_.width : image_.height; }
+
+    void draw_pixel(const PictureLine& line, int x, int y) {
+        const glm::dvec2 a(line.a), way = glm::dvec2(line.b) - a;
+        const glm::dvec2 pixel(x + 0.5, y + 0.5);
+        const double t = std::clamp(glm::dot(pixel - a, way) / glm::dot(way, way), 0.0, 1.0);
+        const double distance = glm::distance(pixel, a + t * way);
+        const double coverage = std::clamp(0.5 * (1.0 + style_.width) - distance, 0.0, 1.0);
+        if (coverage == 0.0) return;
+        const double depth = 1.0 / glm::mix(1.0 / line.a.z, 1.0 / line.b.z, t);
+        const size_t index = static_cast<size_t>(y) * image_.width + static_cast<size_t>(x);
+        blend(image_.pixels[index], static_cast<float>(coverage) * opacity(index, depth));
+    }
+
+    [[nodiscard]] float opacity(size_t pixel, double depth) const {
+        int seen = 0;
+        for (const float surface : depth_.depths[pixel]) {
+            seen += depth <= static_cast<double>(surface) * (1.0 + kDepthTolerance);
+        }
+        return glm::mix(style_.hidden_opacity, style_.opacity, static_cast<float>(seen) / 4.0f);
+    }
+
+    void blend(std::array<uint8_t, 4>& pixel, float alpha) const {
+        for (int i = 0; i < 3; ++i) {
+            const float old = static_cast<float>(pixel[i]);
+            pixel[i] =
+                static_cast<uint8_t>(std::lround(glm::mix(old, 255.0f * style_.color[i], alpha)));
+        }
+    }
+
+    Image8& image_;
+    const DepthImage& depth_;
+    const LineStyle& style_;
+};
+
+}  // namespace
+
+DepthImage render_depth(const Camera& camera, const RenderSettings& settings,
+                        const TraceDistance& trace) {
+    DepthImage image{settings.width, settings.height, {}};
+    image.depths.resize(size_t{settings.width} * settings.height);
+    const Projection projection(camera, settings.width, settings.height);
+    const glm::dvec3 eye(camera.world_from_camera[3]);
+    parallel_for(settings.height, settings.thread_count, [&](size_t row) {
+        for (uint32_t column = 0; column < settings.width; ++column) {
+            for (int i = 0; i < 4; ++i) {
+                const double y = static_cast<double>(row) + (i / 2 == 0 ? 0.25 : 0.75);
+                const glm::vec3 direction =
+                    projection.direction(column + (i % 2 == 0 ? 0.25 : 0.75), y);
+                const auto distance = static_cast<double>(trace(eye, direction));
+                image.depths[row * settings.width + column][i] =
+                    static_cast<float>(projection.depth(direction, distance));
+            }
+        }
+    });
+    return image;
+}
+
+void draw_lines(Image8& image, const DepthImage& depth, const Camera& camera,
+                std::span<const LineSegment> lines, const LineStyle& style) {
+    TETRALIGHT_ASSERT(image.width == depth.width && image.height == depth.height,
+                      "picture and depth of one size");
+    const Projection projection(camera, image.width, image.height);
+    Pen pen(image, depth, style);
+    for (const LineSegment& line : lines) {
+        const auto projected = project(projection, line);
+        if (projected) pen.draw(*projected);
+    }
+}
+
+}  // namespace tetralight

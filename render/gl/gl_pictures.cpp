@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/render/gl/gl_pictures.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <utility>
+
+namespace tetralight {
+namespace {
+
+constexpr uint32_t kBallSubdivisions = 3;
+
+/// Draws the scene with balls by a member of the renderer.
+template <class Image>
+Result<Image> draw(Renderer& renderer, std::span<const LightBall> balls,
+                   Result<Image> (Renderer::*draw)(const Camera&, const RenderSettings&,
+                                                   std::span<const SphereInstances>),
+                   const Camera& camera, const RenderSettings& settings) {
+    InstanceBuffer instances = make_light_balls(renderer, balls, kBallSubdivisions);
+    SphereInstances crowd{&instances, balls.size(), kBallSubdivisions, kNoIndex, CastsShadows::No};
+    return (renderer.*draw)(camera, settings, std::span(&crowd, 1));
+}
+
+}  // namespace
+
+Result<GlPictures> GlPictures::make(const Scene& scene, const ProbeVolumeView& volume,
+                                    const SceneLight& light) {
+    auto context = OffscreenContext::create();
+    if (!context) return context.error();
+    return make(std::move(*context), scene, volume, light);
+}
+
+Result<GlPictures> GlPictures::make(OffscreenContext context, const Scene& scene,
+                                    const ProbeVolumeView& volume, const SceneLight& light) {
+    auto renderer = Renderer::make(scene, volume, light, {.shadow_map_size = 4096});
+    if (!renderer) return renderer.error();
+    return GlPictures(std::move(context), std::move(*renderer));
+}
+
+PictureSource GlPictures::source() {
+    PictureSource source;
+    source.radiance = [this](const Camera& camera, const RenderSettings& settings,
+                             std::span<const LightBall> balls) {
+        return draw(renderer_, balls, &Renderer::render, camera, settings);
+    };
+    source.depth = [this](const Camera& camera, const RenderSettings& settings,
+                          std::span<const LightBall> balls) {
+        return draw(renderer_, balls, &Renderer::depth, camera, settings);
+    };
+    return source;
+}
+
+InstanceBuffer make_light_balls(const Renderer& renderer, std::span<const LightBall> balls,
+                                uint32_t subdivisions) {
+    InstanceBuffer instances(balls.size());
+    const auto memory = instances.begin_write();
+    for (size_t i = 0; i < balls.size(); ++i) {
+        GlInstance instance;
+        const glm::dvec3 scale(double{balls[i].radius});
+        const glm::dvec3 place = balls[i].center - renderer.origin();
+        set_transform(instance, glm::scale(glm::translate(glm::dmat4(1.0), place), scale));
+        instance.color = glm::vec4(glm::vec3(1.0f / 0.96f), 1.0f);  // 4 % would be mirrored
+        instance.factors = glm::vec4(0.0f);
+        instance.use = ProbeUse::Given;
+        instance.direct = DirectUse::None;
+        instance.material = renderer.sphere_material(subdivisions);
+        instance.is_round = 1;
+        instance.light = pack_sh(balls[i].light);
+        memory[i] = instance;
+    }
+    return instances;
+}
+
+}  // namespace tetralight

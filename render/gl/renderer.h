@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include <tetralight/base/result.h>
+#include <tetralight/render/draw_lines.h>
+#include <tetralight/render/gl/debug_messages.h>
+#include <tetralight/render/gl/instance_buffer.h>
+#include <tetralight/render/gl/proxy_textures.h>
+#include <tetralight/render/gl/render_target.h>
+#include <tetralight/render/gl/renderer_shaders.h>
+#include <tetralight/render/gl/scene_meshes.h>
+#include <tetralight/render/gl/shadow_maps.h>
+#include <tetralight/render/gl/volume_buffers.h>
+#include <tetralight/render/image_renderer.h>
+#include <tetralight/render/scene_light.h>
+
+// A small forward renderer in OpenGL 4.5: what `SceneShader` shows, from the same `SceneLight`, so
+// that the pictures of both agree. A context must be current as long as it lives.
+//
+//     const auto context = OffscreenContext::create();
+//     auto renderer = Renderer::make(scene, volume, *make_scene_light(scene, volume, {}));
+//     const auto radiance = renderer->render(camera, settings, {});  // then develop(*radiance,
+//     ...)
+
+namespace tetralight {
+
+enum class CastsShadows : bool { No, Yes };
+
+/// Spheres to draw with the scene: instances of a unit sphere.
+struct SphereInstances {
+    InstanceBuffer* instances = nullptr;
+    /// The first of them, to be drawn.
+    size_t count = 0;
+    /// 0 to 4: triangles of each are 20 · 4^subdivisions.
+    uint32_t subdivisions = 3;
+    /// Of those that are lit by a proxy volume: index into `SceneLight::proxy_volumes`.
+    uint32_t proxy_volume = kNoIndex;
+    CastsShadows casts_shadows = CastsShadows::Yes;
+};
+
+struct RendererSettings {
+    /// Texels of a shadow map along each side.
+    uint32_t shadow_map_size = 2048;
+    /// Spheres (middle and radius, world space) around all places that crowds reach, for shadows.
+    std::span<const glm::dvec4> crowd_bounds = {};
+};
+
+class Renderer {
+  public:
+    /// `volume` and `scene` are copied to OpenGL. Errors: the driver's.
+    [[nodiscard]] static Result<Renderer> make(const Scene& scene, const ProbeVolumeView& volume,
+                                               const SceneLight& light,
+                                               const RendererSettings& settings = {});
+
+    /// Radiance as `render_view` gives it. `samples_per_axis` 1 is one sample a pixel; else four
+    /// and more.
+    [[nodiscard]] Result<ImageF> render(const Camera& camera, const RenderSettings& settings,
+                                        std::span<const SphereInstances> crowds);
+
+    /// Depth as `render_depth` gives it.
+    [[nodiscard]] Result<DepthImage> depth(const Camera& camera, const RenderSettings& settings,
+                                           std::span<const SphereInstances> crowds);
+
+    /// Draws a frame: shadows, surfaces, sky. `target` is resolved.
+    [[nodiscard]] Status draw(const Camera& camera, const RenderTarget& target,
+                              std::span<const SphereInstances> crowds);
+
+    /// World position of the space that crowds' transforms lead to.
+    [[nodiscard]] const glm::dvec3& origin() const noexcept { return origin_; }
+
+    /// Material of a sphere's instances: white, rough, metallic 1, which the instance's factors
+    /// scale.
+    [[nodiscard]] uint32_t sphere_material(uint32_t subdivisions) const {
+        return meshes_.sphere(subdivisions);
+    }
+
+  private:
+    /// Instances of one mesh that follow each other, with one proxy volume.
+    struct Batch {
+        uint32_t mesh = 0;
+        uint32_t first = 0;
+        uint32_t count = 0;
+        uint32_t proxy_volume = kNoIndex;
+        bool is_mirrored = false;
+        bool moves = false;
+        glm::vec3 middle{0.0f};
+    };
+
+    enum class Pass : uint8_t { Depth, MaskedDepth, Lit, Blended };
+
+    Renderer(const Scene& scene, const ProbeVolumeView& volume, const SceneLight& light,
+             const RendererSettings& settings, RendererShaders shaders, DebugMessages messages);
+
+    void add_instances(const Scene& scene, const SceneLight& light);
+    void draw_shadows(std::span<const SphereInstances> crowds);
+    void draw_depth(const glm::mat4& clip_from_space, std::span<const SphereInstances> crowds);
+    void draw_surfaces(std::span<const SphereInstances> crowds);
+    void draw_blended(const glm::vec3& eye);
+    void draw_batch(const Batch& batch, Pass pass);
+    void draw_crowd(const SphereInstances& crowd, Pass pass);
+    void write_frame(const Camera& camera, const RenderTarget& target);
+    [[nodiscard]] glm::mat4 clip_from_space(const Camera& camera, const RenderTarget& target) const;
+
+    DebugMessages messages_;
+    RendererShaders shaders_;
+    glm::dvec3 origin_;
+    float near_ = 1e-3f;
+    PackedSh sky_{};
+    VolumeBuffers volume_;
+    SceneMeshes meshes_;
+    std::vector<Batch> batches_;
+    std::vector<ProxyTextures> proxies_;
+    InstanceBuffer instances_;
+    ShadowMaps shadows_;
+    GlBuffer frame_;
+};
+
+}  // namespace tetralight

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tetralight/base/result.h>
+#include <tetralight/render/gl/shader_program.h>
+
+namespace tetralight {
+
+/// Bindings of what the renderer's shaders read, beside those of the volume (0 to 4).
+enum RendererBinding : uint32_t {
+    kFrameBinding = 1,  // uniform blocks
+    kProxyBinding = 2,
+    kInstanceBinding = 5,  // storage buffers
+    kMaterialBinding = 6,
+    kLightBinding = 7,
+    kLayerBinding = 8,
+    kBaseColorUnit = 0,  // texture units
+    kFactorsUnit = 1,
+    kEmissionUnit = 2,
+    kShadowUnit = 3,
+    kProxyLightUnit = 4,
+    kProxyOcclusionUnit = 5,
+};
+
+/// Locations of uniforms.
+enum RendererUniform : int32_t { kClipFromSpace = 0, kFirstInstance = 1 };
+
+struct RendererShaders {
+    ShaderProgram depth;         ///< opaque surfaces
+    ShaderProgram masked_depth;  ///< surfaces with holes; blended ones let a share through
+    ShaderProgram lit;
+    ShaderProgram sky;
+};
+
+/// Error: the driver's log.
+[[nodiscard]] Result<RendererShaders> make_renderer_shaders();
+
+}  // namespace tetralight

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <tetralight/bake/scene/scene.h>
+
+namespace tetralight {
+
+/// A unit sphere of 20 · 4^subdivisions triangles: an icosahedron that is cut finer, with normals.
+[[nodiscard]] Mesh make_sphere_mesh(uint32_t subdivisions);
+
+}  // namespace tetralight

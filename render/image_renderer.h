@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+
+#include <tetralight/bake/image/image.h>
+#include <tetralight/bake/scene/scene.h>
+
+namespace tetralight {
+
+/// A camera at `eye` that looks at `target`, with world Y up. Where both are one point it looks
+/// along -Z.
+[[nodiscard]] Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_radians);
+
+/// Where the world is seen in a picture: a pinhole camera with square pixels. Pixels count from the
+/// upper left corner of the picture; the middle of the first pixel is (0.5, 0.5).
+class Projection {
+  public:
+    Projection(const Camera& camera, uint32_t width, uint32_t height);
+
+    /// Unit world direction through a place in the picture.
+    [[nodiscard]] glm::vec3 direction(double x, double y) const;
+
+    /// Right, up and back from the eye.
+    [[nodiscard]] glm::dvec3 view_from_world(const glm::dvec3& position) const;
+
+    /// Pixels right and down of what lies in front of the eye, and its depth: -z.
+    /// Precondition: z < 0.
+    [[nodiscard]] glm::dvec3 picture_from_view(const glm::dvec3& position) const;
+
+    /// Depth of what is seen in a unit direction at a distance.
+    [[nodiscard]] double depth(glm::vec3 direction, double distance) const;
+
+  private:
+    Camera camera_;
+    double width_;
+    double height_;
+    double pixel_size_;  // at depth 1
+};
+
+struct RenderSettings {
+    uint32_t width = 960;
+    uint32_t height = 540;
+    /// Camera rays a pixel, along each axis.
+    uint32_t samples_per_axis = 4;
+    /// Factor before tone mapping; 0 = so that the picture's log-average luminance becomes 0.18.
+    float exposure = 0.0f;
+    /// 0 = all.
+    uint32_t thread_count = 0;
+};
+
+/// Radiance seen from a world position in a unit direction. Called from many threads.
+using TraceView = std::function<glm::vec3(const glm::dvec3& origin, glm::vec3 direction)>;
+
+/// Averages the view's radiance over each pixel, by rays on a regular sub-pixel grid.
+[[nodiscard]] ImageF render_view(const Camera& camera, const RenderSettings& settings,
+                                 const TraceView& trace);
+
+/// The exposure that brings the log-average luminance to middle grey, 0.18.
+[[nodiscard]] float automatic_exposure(const ImageF& radiance);
+
+/// Exposes, tone-maps (Khronos PBR Neutral) and encodes as sRGB.
+[[nodiscard]] Image8 develop(const ImageF& radiance, float exposure);
+
+}  // namespace tetralight

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/render/render_scene.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/locate.h>
+#include <tetralight/runtime/shade.h>
+
+namespace tetralight {
+namespace {
+
+/// A ray through more back faces than this is stuck.
+constexpr int kMaxCulledFaces = 64;
+
+PackedSh light_at(const ProbeVolumeView& volume, const glm::dvec3& position) {
+    const CellLocation location = locate(volume, glm::vec3(position));
+    return pack_sh(interpolate(volume, location).irradiance);
+}
+
+}  // namespace
+
+SceneShader::SceneShader(const Scene& scene, const ProbeVolumeView& volume, SceneLight light,
+                         TraceScene traced, TraceScene moving)
+    : scene_(&scene),
+      volume_(volume),
+      light_(std::move(light)),
+      traced_(std::move(traced)),
+      moving_(std::move(moving)) {
+    for (RuntimeLight& runtime : light_.lights) {
+        runtime.light = traced_.render_from_world(runtime.light);
+    }
+}
+
+Result<SceneShader> SceneShader::make(const Scene& scene, const ProbeVolumeView& volume,
+                                      ProbeLight probes) {
+    auto light = make_scene_light(scene, volume, probes);
+    if (!light) return light.error();
+    return make(scene, volume, std::move(*light));
+}
+
+Result<SceneShader> SceneShader::make(const Scene& scene, const ProbeVolumeView& volume,
+                                      SceneLight light) {
+    auto traced = TraceScene::make(scene, [](const MeshInstance&) { return true; });
+    if (!traced) return traced.error();
+    auto moving = TraceScene::make(
+        scene, [](const MeshInstance& instance) { return !instance.contributes_gi; });
+    if (!moving) return moving.error();
+    return SceneShader(scene, volume, std::move(light), std::move(*traced), std::move(*moving));
+}
+
+PackedSh SceneShader::probe_light(const Surface& surface) const {
+    const InstanceLight& instance = light_.instances[surface.instance];
+    switch (instance.use) {
+        case ProbeUse::Off:
+            break;
+        case ProbeUse::Given:
+            return instance.light;
+        case ProbeUse::ProxyVolume: {
+            const glm::vec3 world(traced_.world_from_render(surface.position));
+            const Lppv& lppv = light_.proxy_volumes[instance.proxy_volume];
+            return pack_sh(sample_lppv(lppv, world).irradiance);
+        }
+        case ProbeUse::EachPoint:
+            return light_at(volume_,
+                            traced_.world_from_render(surface.position +
+                                                      kProbeNormalBias * surface.geometric_normal));
+    }
+    return {};
+}
+
+glm::vec3 SceneShader::direct_term(const Surface& surface) const {
+    const bool moves = !scene_->instances[surface.instance].contributes_gi;
+    const glm::vec3 origin = TraceScene::ray_origin(surface, surface.geometric_normal);
+    const glm::dvec3 world_origin = traced_.world_from_render(origin);
+    glm::vec3 sum(0.0f);
+    for (size_t i = 0; i < light_.lights.size(); ++i) {
+        const RuntimeLight& runtime = light_.lights[i];
+        if (moves && !runtime.lights_moving) continue;
+        glm::vec3 direct = direct_light(runtime.light, surface.position, surface.shading_normal);
+        const bool has_static_shadow = moves && runtime.channel != kNoIndex;
+        direct *= light_.instances[surface.instance].visibility[i];
+        if (direct == glm::vec3(0.0f)) continue;
+        const Illumination arriving = illuminate(runtime.light, surface.position);
+        const bool is_shadowed = occluded(world_origin, arriving.to_light, arriving.distance,
+                                          has_static_shadow ? Casters::Moving : Casters::All);
+        if (!is_shadowed) sum += direct;
+    }
+    return sum;
+}
+
+std::optional<Surface> SceneShader::first_front_face(glm::vec3 origin, glm::vec3 direction) const {
+    std::optional<Surface> surface = traced_.intersect({origin, direction});
+    for (int i = 0; surface && surface->is_back_face && i < kMaxCulledFaces; ++i) {
+        const glm::vec3 behind = TraceScene::ray_origin(*surface, -surface->geometric_normal);
+        surface = traced_.intersect({behind, direction});
+    }
+    return surface;
+}
+
+std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
+                                                      glm::vec3 direction) const {
+    const glm::vec3 traced_origin = traced_.render_from_world(origin);
+    const auto surface = first_front_face(traced_origin, direction);
+    if (!surface) return std::nullopt;
+    const float distance = glm::distance(traced_origin, surface->position);
+    const glm::vec3 reflected = shade_diffuse(surface->albedo, probe_light(*surface),
+                                              surface->shading_normal, direct_term(*surface));
+    const uint32_t material = scene_->meshes[scene_->instances[surface->instance].mesh].material;
+    return Shaded{surface->emission * light_.emission_weights[material] + reflected, distance};
+}
+
+std::optional<float> SceneShader::distance(const glm::dvec3& origin, glm::vec3 direction) const {
+    const glm::vec3 traced_origin = traced_.render_from_world(origin);
+    const auto surface = first_front_face(traced_origin, direction);
+    if (!surface) return std::nullopt;
+    return glm::distance(traced_origin, surface->position);
+}
+
+bool SceneShader::occluded(const glm::dvec3& origin, glm::vec3 direction, float distance,
+                           Casters who) const {
+    const TraceScene& traced = casters(who);
+    return traced.occluded({traced.render_from_world(origin), direction, distance});
+}
+
+glm::vec3 sky_radiance(const ProbeVolumeView& volume, glm::vec3 direction) {
+    return glm::max(evaluate_radiance(radiance_from_irradiance(volume.info.ambient), direction),
+                    glm::vec3(0.0f));
+}
+
+Result<ImageF> render_scene(const Scene& scene, const ProbeVolumeView& volume, const Camera& camera,
+                            const RenderSettings& settings) {
+    const auto shader = SceneShader::make(scene, volume);
+    if (!shader) return shader.error();
+    return render_view(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
+        const auto shaded = shader->shade(origin, direction);
+        return shaded ? shaded->radiance : sky_radiance(volume, direction);
+    });
+}
+
+}  // namespace tetralight

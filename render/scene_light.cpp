@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/render/scene_light.h>
+
+#include <utility>
+
+#include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/pipeline/lppv_object.h>
+#include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/recombine.h>
+
+namespace tetralight {
+namespace {
+
+/// Grid points a metre of a proxy volume.
+constexpr double kProxyDensity = 3.0;
+
+InstanceLight light_mover(const glm::dvec3& anchor, const ProbeVolumeView& volume,
+                          const std::vector<RuntimeLight>& lights) {
+    const CellLocation location = locate(volume, glm::vec3(anchor));
+    InstanceLight result{
+        ProbeUse::Given, pack_sh(interpolate(volume, location).irradiance), kNoIndex, {}};
+    for (const RuntimeLight& light : lights) {
+        result.visibility.push_back(interpolate_visibility(volume, location, light));
+    }
+    return result;
+}
+
+/// Where something that moves takes its light: its anchor, else the centre of its bounds.
+glm::dvec3 light_anchor(const Scene& scene, const MeshInstance& instance, const Box& bounds) {
+    if (instance.node == kNoIndex) return bounds.center();
+    const uint32_t anchor = scene.nodes[instance.node].probe_anchor;
+    if (anchor == kNoIndex) return bounds.center();
+    return glm::dvec3(scene.nodes[anchor].world_from_node[3]);
+}
+
+bool takes_no_probes(const Scene& scene, const MeshInstance& instance) {
+    return instance.node != kNoIndex &&
+           scene.nodes[instance.node].light_probes == LightProbeUsage::Off;
+}
+
+/// What the bake did not see shines as it does.
+std::vector<float> find_emission_weights(const Scene& scene, const ProbeVolumeView& volume) {
+    std::vector<float> weights(scene.materials.size(), 1.0f);
+    if (volume.layers.empty()) return weights;
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& material = scene.materials[i];
+        if (!material.bakes_emission) continue;
+        uint32_t layer = find_layer(volume, "material:" + material.name);
+        if (layer == kNoIndex) layer = find_layer(volume, "emission");
+        if (layer == kNoIndex) layer = find_layer(volume, "rest");
+        if (layer < volume.layers.size()) weights[i] = volume.layers[layer].weight;
+    }
+    return weights;
+}
+
+Status add_proxy_volumes(const Scene& scene, const ProbeVolumeView& volume, SceneLight& light) {
+    for (const SceneObject& object : find_proxy_objects(scene)) {
+        LppvSettings settings;
+        settings.density = kProxyDensity;
+        const auto grid = make_object_grid(object, settings);
+        if (!grid) return grid.error();
+        auto lppv = make_lppv(volume, *grid, {});
+        if (!lppv) return lppv.error();
+        for (const uint32_t index : object.instances) {
+            if (scene.instances[index].contributes_gi) continue;
+            light.instances[index].use = ProbeUse::ProxyVolume;
+            light.instances[index].proxy_volume = static_cast<uint32_t>(light.proxy_volumes.size());
+        }
+        light.proxy_volumes.push_back(std::move(*lppv));
+    }
+    return Ok{};
+}
+
+}  // namespace
+
+Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& volume,
+                                    ProbeLight probes) {
+    SceneLight light;
+    light.lights = runtime_lights(volume);
+    light.emission_weights = find_emission_weights(scene, volume);
+    const bool has_movers = probes == ProbeLight::AsTheScene || probes == ProbeLight::OnePlace;
+    for (const MeshInstance& instance : scene.instances) {
+        InstanceLight& lit = light.instances.emplace_back();
+        const auto bounds = instance_bounds(scene, instance);
+        if (!instance.contributes_gi && bounds) {
+            lit = light_mover(light_anchor(scene, instance, *bounds), volume, light.lights);
+            if (takes_no_probes(scene, instance)) lit.light = pack_sh(volume.info.ambient);
+            if (!has_movers) lit.use = ProbeUse::Off;
+        }
+        if (probes == ProbeLight::Nothing) lit.use = ProbeUse::Off;
+        lit.visibility.resize(light.lights.size(), 1.0f);
+    }
+    if (probes == ProbeLight::AsTheScene) {
+        if (auto status = add_proxy_volumes(scene, volume, light); !status) return status.error();
+    }
+    return light;
+}
+
+}  // namespace tetralight
