@@ -18,9 +18,8 @@ std::string head(const std::string& name, const char* type, const char* help) {
 }  // namespace
 
 void Metrics::add(const Exchange& exchange) {
-    const std::string labels =
-        tetralight::str_cat("route=\"", exchange.route.empty() ? "none" : exchange.route,
-                            "\",status=\"", exchange.status / 100, "xx\"");
+    const std::string labels = str_cat("route=\"", exchange.route.empty() ? "none" : exchange.route,
+                                       "\",status=\"", exchange.status / 100, "xx\"");
     const std::lock_guard lock(mutex_);
     Series& series = series_[labels];
     ++series.count;
@@ -30,14 +29,14 @@ void Metrics::add(const Exchange& exchange) {
     sent_bytes_ += exchange.sent_bytes;
 }
 
-std::string Metrics::str_cat(const std::map<std::string, double>& gauges) const {
+std::string Metrics::text(const std::map<std::string, double>& gauges) const {
     const std::lock_guard lock(mutex_);
     const std::string duration = "request_duration_seconds";
     std::string all = head(duration, "histogram", "Time from the head of a request to its answer.");
     for (const auto& [labels, series] : series_) {
         for (size_t i = 0; i < kBounds.size(); ++i) {
-            all += line(duration + "_bucket",
-                        tetralight::str_cat(labels, ",le=\"", kBounds[i], "\""), series.below[i]);
+            all += line(duration + "_bucket", str_cat(labels, ",le=\"", kBounds[i], "\""),
+                        series.below[i]);
         }
         all += line(duration + "_bucket", labels + ",le=\"+Inf\"", series.count);
         all += line(duration + "_sum", labels, series.seconds);

@@ -168,18 +168,17 @@ TEST(PackInstances, NamesTheArrayThatIsTooShort) {
     ShaderArrays light(5);
     light.arrays[5].resize(3);
     std::vector<glm::vec4> occlusion(4);
-    EXPECT_EQ(pack_instances(volume.view(), {.positions = positions, .arrays = light.spans()})
-                  .error()
-                  .message,
-              "shb_b has room for 3 answers, but there are 5 positions");
+    EXPECT_EQ(
+        error_text(pack_instances(volume.view(), {.positions = positions, .arrays = light.spans()})
+                       .error()),
+        "shb_b has room for 3 answers, but there are 5 positions");
     EXPECT_EQ(light.arrays[0][0], glm::vec4(0.0f)) << "written before all was checked";
     light.arrays[5].resize(5);
-    EXPECT_EQ(
-        pack_instances(volume.view(),
-                       {.positions = positions, .arrays = light.spans(), .occlusion = occlusion})
-            .error()
-            .message,
-        "occlusion has room for 4 answers, but there are 5 positions");
+    EXPECT_EQ(error_text(pack_instances(volume.view(), {.positions = positions,
+                                                        .arrays = light.spans(),
+                                                        .occlusion = occlusion})
+                             .error()),
+              "occlusion has room for 4 answers, but there are 5 positions");
 }
 
 TEST(PackInstances, RefusesOutputsThatMakeNoSense) {
@@ -222,10 +221,10 @@ TEST(PackInstances, RefusesChoicesOutsideTheHullThatAreNone) {
     const auto positions = make_positions(3);
     ShaderArrays light(3);
     const auto error_of = [&](OutsideHull outside) {
-        return pack_instances(volume.view(),
-                              {.positions = positions, .arrays = light.spans(), .outside = outside})
-            .error()
-            .message;
+        return error_text(
+            pack_instances(volume.view(),
+                           {.positions = positions, .arrays = light.spans(), .outside = outside})
+                .error());
     };
     EXPECT_EQ(error_of({static_cast<OutsidePolicy>(9), 1.0f}), "outside has policy 9");
     EXPECT_EQ(error_of({OutsidePolicy::Ambient, -1.0f}), "fade_distance is -1, not a length");
