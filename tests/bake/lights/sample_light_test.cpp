@@ -163,8 +163,7 @@ TEST(SphericalRectangle, SolidAngleOfACubesFaceIsASixthOfTheSphere) {
 
 TEST(SphericalRectangle, EqualPartsAreDrawnEquallyOften) {
     // Cells of the rectangle are drawn as often as their own solid angles say.
-    const glm::dvec3 corner(-0.5, 0.4, 1.0), along(2, 0, 0), reduce_lanes(0, 0, 1.5),
-        eye(0.3, 0.1, -0.2);
+    const glm::dvec3 corner(-0.5, 0.4, 1.0), along(2, 0, 0), across(0, 0, 1.5), eye(0.3, 0.1, -0.2);
     const SphericalRectangle whole(corner, along, across, eye);
     std::array<int, 64> observed{};
     std::array<double, 64> expected{};
