@@ -8,7 +8,10 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "tests/repository/source_files.h"
 
 namespace tetralight {
 namespace {
@@ -69,22 +72,36 @@ std::string folder_of(const fs::path& path) {
     return {};
 }
 
+/// The headers that a file includes with this opening bracket: `<` or `"`.
+std::vector<std::string> includes_of(const fs::path& file, const std::string& bracket) {
+    const std::string text = read_text(file);
+    const std::regex include("(?:^|\\n)[ \\t]*#[ \\t]*include[ \\t]*" + bracket + "([^>\"\\n]+)");
+    std::vector<std::string> headers;
+    for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
+        headers.push_back((*it)[1]);
+    }
+    return headers;
+}
+
+/// Calls `visit(file)` for each source file of the folders in the table, once.
+template <class Visit>
+void for_each_source(Visit visit) {
+    for (const auto& [folder, allowed] : kMayInclude) {
+        for (const fs::path& file : source_files(folder)) {
+            if (folder_of(file) == folder) visit(file);
+        }
+    }
+}
+
 /// Calls `visit(file, included)` for each #include <tetralight/...>.
 template <class Visit>
 void for_each_include(Visit visit) {
-    const std::regex include("^\\s*#\\s*include\\s*<tetralight/([^>]+)>");
-    for (const auto& [folder, allowed] : kMayInclude) {
-        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-            const fs::path file = fs::relative(entry.path(), kRoot);
-            const bool is_source = file.extension() == ".h" || file.extension() == ".cpp";
-            if (!is_source || folder_of(file) != folder) continue;
-            std::ifstream stream(entry.path());
-            std::smatch match;
-            for (std::string line; std::getline(stream, line);) {
-                if (std::regex_search(line, match, include)) visit(file, fs::path(match[1].str()));
-            }
+    const std::string prefix = "tetralight/";
+    for_each_source([&](const fs::path& file) {
+        for (const std::string& header : includes_of(file, "<")) {
+            if (header.starts_with(prefix)) visit(file, fs::path(header.substr(prefix.size())));
         }
-    }
+    });
 }
 
 TEST(Layers, FoldersIncludeOnlyWhatTheTableNames) {
@@ -107,19 +124,17 @@ TEST(Layers, DetailHeadersStayInTheirFolder) {
 }
 
 TEST(Layers, OwnHeadersAreIncludedUnderTheirPrefix) {
-    const std::regex quoted("^\\s*#\\s*include\\s*\"([^\"]+)\"");
-    for (const auto& [folder, allowed] : kMayInclude) {
-        for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-            const fs::path extension = entry.path().extension();
-            if (extension != ".h" && extension != ".cpp") continue;
-            std::ifstream stream(entry.path());
-            std::smatch match;
-            for (std::string line; std::getline(stream, line);) {
-                EXPECT_FALSE(std::regex_search(line, match, quoted))
-                    << entry.path() << " includes " << match[1];
-            }
+    for_each_source([](const fs::path& file) {
+        for (const std::string& header : includes_of(file, "\"")) {
+            ADD_FAILURE() << file << " includes " << header << " in quotes";
         }
-    }
+    });
+}
+
+TEST(Layers, IncludedHeadersExist) {
+    for_each_include([](const fs::path& file, const fs::path& included) {
+        EXPECT_TRUE(fs::exists(kRoot / included)) << file << " includes " << included;
+    });
 }
 
 TEST(Layers, TheTableNamesFoldersThatExist) {
@@ -132,7 +147,7 @@ TEST(Layers, TheTableNamesFoldersThatExist) {
     }
 }
 
-/// Whether `from` may include `to`, over any number of folders between them.
+/// True if `from` may include `to`, directly or through other folders.
 bool reaches(const std::string& from, const std::string& to, Folders& seen) {
     for (const std::string& lower : kMayInclude.at(from)) {
         if (lower == to) return true;
@@ -148,16 +163,21 @@ TEST(Layers, TheTableHasNoCycle) {
     }
 }
 
+TEST(Layers, NoTwoFoldersIncludeEachOther) {
+    std::set<std::pair<std::string, std::string>> edges;
+    for_each_include([&](const fs::path& file, const fs::path& included) {
+        edges.emplace(folder_of(file), folder_of(included));
+    });
+    for (const auto& [from, to] : edges) {
+        EXPECT_TRUE(from == to || !edges.contains({to, from})) << from << " and " << to;
+    }
+}
+
 TEST(Layers, EverySourceSaysItsLicenceFirst) {
-    for (const char* top : {"base", "probes", "lppv", "runtime", "bake", "pipeline", "render",
-                            "server", "cli", "bench", "examples", "tests"}) {
-        for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
-            const fs::path extension = entry.path().extension();
-            if (extension != ".h" && extension != ".cpp") continue;
-            std::ifstream stream(entry.path());
-            std::string line;
-            std::getline(stream, line);
-            EXPECT_EQ(line, "// SPDX-License-Identifier: Apache-2.0") << entry.path();
+    const std::string licence = "// SPDX-License-Identifier: Apache-2.0\n";
+    for (const std::string& folder : source_folders()) {
+        for (const fs::path& file : source_files(folder)) {
+            EXPECT_TRUE(read_text(file).starts_with(licence)) << file;
         }
     }
 }

@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
+#include <vector>
+
+#include "tests/repository/source_files.h"
 
 namespace tetralight {
 namespace {
@@ -14,28 +15,23 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = TETRALIGHT_SOURCE_DIR;
 
-std::string contents(const fs::path& path) {
-    std::ifstream stream(kRoot / path);
-    return (std::ostringstream() << stream.rdbuf()).str();
-}
-
-TEST(Readme, ShowsTheExampleThatIsCompiled) {
-    const std::string readme = contents("README.md");
+TEST(Readme, ShowsTheWholeExample) {
+    const std::string readme = read_text("README.md");
     const std::string fence = "```cpp\n";
     const size_t begin = readme.find(fence) + fence.size();
     const std::string snippet = readme.substr(begin, readme.find("```", begin) - begin);
-    ASSERT_GT(snippet.size(), 100u);
-    EXPECT_NE(contents("examples/minimal/minimal.cpp").find(snippet), std::string::npos);
+    const std::string licence = "// SPDX-License-Identifier: Apache-2.0\n";
+    EXPECT_EQ(read_text("examples/minimal/minimal.cpp"), licence + snippet);
 }
 
 TEST(Readme, LinksAndPicturesExist) {
     const std::regex link("\\]\\(([^)#:]+)\\)");
-    std::vector<fs::path> pages{kRoot / "README.md"};
-    for (const auto& entry : fs::directory_iterator(kRoot / "docs")) {
+    std::vector<fs::path> pages{kRoot / "README.md", kRoot / "CONTRIBUTING.md"};
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
         if (entry.path().extension() == ".md") pages.push_back(entry.path());
     }
     for (const fs::path& page : pages) {
-        const std::string text = contents(page.string());
+        const std::string text = read_text(fs::relative(page, kRoot));
         for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it) {
             EXPECT_TRUE(fs::exists(page.parent_path() / (*it)[1].str()))
                 << page << " links to " << (*it)[1];
