@@ -34,13 +34,13 @@ struct Answer {
 constexpr const char* kShader = R"(
 layout(local_size_x = 64) in;
 layout(std430, binding = 8) readonly buffer Positions { vec4 positions[]; };
-struct Answer { PackedProbe probe; vec4 weights; uvec4 cell; };
+struct Answer { TetralightPackedProbe probe; vec4 weights; uvec4 cell; };
 layout(std430, binding = 9) writeonly buffer Answers { Answer answers[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= uint(positions.length())) return;
-    CellLocation location = locate(positions[i].xyz, 0xffffffffu);
-    answers[i] = Answer(interpolate(location), location.weights, uvec4(location.cell));
+    TetralightCellLocation location = tetralight_locate(positions[i].xyz, 0xffffffffu);
+    answers[i] = Answer(tetralight_interpolate(location), location.weights, uvec4(location.cell));
 }
 )";
 

@@ -34,14 +34,14 @@ struct Shader {
     // clang-format on
 
     explicit Shader(const ShaderVolume& volume) noexcept
-        : tetralight_volume(std::bit_cast<TetralightVolumeFacts>(volume.facts)),
+        : tetralight_volume(std::bit_cast<TetralightVolumeConstants>(volume.constants)),
           tetralight_positions(volume.positions),
           tetralight_light(vectors_of<vec4>(volume.light)),
           tetralight_cells(vectors_of<uvec4>(volume.cells)),
           tetralight_hull_rays(volume.hull_rays),
           tetralight_seeds(volume.seeds) {}
 
-    TetralightVolumeFacts tetralight_volume;
+    TetralightVolumeConstants tetralight_volume;
     std::span<const vec4> tetralight_positions;
     std::span<const vec4> tetralight_light;
     std::span<const uvec4> tetralight_cells;
@@ -52,14 +52,15 @@ struct Shader {
 }  // namespace
 
 CellLocation locate(const ShaderVolume& volume, glm::vec3 position, uint32_t hint) noexcept {
-    const Shader::CellLocation location = Shader(volume).locate(position, hint);
+    const Shader::TetralightCellLocation location =
+        Shader(volume).tetralight_locate(position, hint);
     const bool is_ambient = location.cell == kNoIndex;
     return {location.cell, is_ambient ? 1.0f : 0.0f, location.weights};
 }
 
 PackedProbe interpolate(const ShaderVolume& volume, const CellLocation& location) noexcept {
     return std::bit_cast<PackedProbe>(
-        Shader(volume).interpolate({location.cell, location.weights}));
+        Shader(volume).tetralight_interpolate({location.cell, location.weights}));
 }
 
 }  // namespace tetralight

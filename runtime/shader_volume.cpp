@@ -73,10 +73,10 @@ void add_seeds(const ProbeVolumeView& volume, ShaderVolume& shader) {
         const uint32_t cell = locations[i].cell;
         shader.seeds[i / 4][static_cast<int>(i % 4)] = cell < volume.cells.size() ? cell : 0;
     }
-    shader.facts.seed_low = glm::vec4(grid.low, 0.0f);
-    shader.facts.seed_scale = glm::vec4(voxels_a_metre(grid.voxel.x), voxels_a_metre(grid.voxel.y),
+    shader.constants.seed_min = glm::vec4(grid.low, 0.0f);
+    shader.constants.seed_scale = glm::vec4(voxels_a_metre(grid.voxel.x), voxels_a_metre(grid.voxel.y),
                                         voxels_a_metre(grid.voxel.z), 0.0f);
-    shader.facts.seed_size = glm::uvec4(grid.size, 0);
+    shader.constants.seed_size = glm::uvec4(grid.size, 0);
 }
 
 bool has_cells(const ProbeVolumeView& volume) {
@@ -105,7 +105,7 @@ ShaderCell make_cell(const ProbeVolumeView& volume, const Cell& cell) {
 void add_cells(const ProbeVolumeView& volume, ShaderVolume& shader) {
     shader.cells.reserve(volume.cells.size());
     for (const Cell& cell : volume.cells) shader.cells.push_back(make_cell(volume, cell));
-    const size_t hull_count = volume.cells.size() - shader.facts.counts.z;
+    const size_t hull_count = volume.cells.size() - shader.constants.counts.z;
     shader.hull_rays.assign(std::max<size_t>(1, 3 * hull_count), glm::vec4(0.0f));
     for (size_t i = 0; i < std::min(hull_count, volume.hull_rays.size()); ++i) {
         for (size_t k = 0; k < 3; ++k) {
@@ -123,7 +123,7 @@ void add_probes(const ProbeVolumeView& volume, ShaderVolume& shader) {
     shader.light.reserve(count);
     for (size_t i = 0; i < count; ++i) {
         shader.positions.emplace_back(volume.positions[i], 0.0f);
-        PackedProbe probe{shader.facts.ambient, glm::vec4(1.0f)};
+        PackedProbe probe{shader.constants.ambient, glm::vec4(1.0f)};
         if (is_compact) {
             probe.sh = pack_sh(compact_irradiance(volume.compact[i], volume.info.compact_scale));
             probe.occlusion = compact_occlusion(volume.compact[i]);
@@ -151,20 +151,20 @@ ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
     ShaderVolume shader;
     const glm::dvec3& origin = volume.info.world_origin;
     const TwoFloats x(origin.x), y(origin.y), z(origin.z);
-    shader.facts.origin = {x.whole, y.whole, z.whole, volume.info.extent};
-    shader.facts.origin_rest = {x.rest, y.rest, z.rest, 0.0f};
-    shader.facts.axis = glm::vec4(glm::vec3(volume.info.axis), 0.0f);
-    shader.facts.ambient = pack_sh(volume.info.ambient);
+    shader.constants.origin = {x.whole, y.whole, z.whole, volume.info.extent};
+    shader.constants.origin_rest = {x.rest, y.rest, z.rest, 0.0f};
+    shader.constants.axis = glm::vec4(glm::vec3(volume.info.axis), 0.0f);
+    shader.constants.ambient = pack_sh(volume.info.ambient);
     if (!has_cells(volume)) {
         shader.positions.resize(1);
-        shader.light.resize(1, PackedProbe{shader.facts.ambient, glm::vec4(1.0f)});
+        shader.light.resize(1, PackedProbe{shader.constants.ambient, glm::vec4(1.0f)});
         shader.cells.resize(1);
         shader.hull_rays.resize(1);
         shader.seeds.resize(1);
         return shader;
     }
     const auto cell_count = static_cast<uint32_t>(volume.cells.size());
-    shader.facts.counts = {volume.probe_count(), cell_count,
+    shader.constants.counts = {volume.probe_count(), cell_count,
                            static_cast<uint32_t>(inner_cell_count(volume)),
                            static_cast<uint32_t>(volume.info.dimension)};
     add_probes(volume, shader);

@@ -16,33 +16,34 @@
 // buffers, or textures of 2048 texels a row.
 //
 //     const ShaderVolume volume = make_shader_volume(file->view());
-//     upload(volume.facts); upload(volume.positions); ... // bindings as in query_volume.glsl
+//     upload(volume.constants); upload(volume.positions); ... // bindings as in query_volume.glsl
 //     const CellLocation location = locate(volume, position, kNoIndex);  // runtime/shader_query.h
 
 namespace tetralight {
 
 /// The uniform block `TetralightVolume` (std140; a constant buffer in HLSL).
-struct ShaderVolumeFacts {
+struct ShaderVolumeConstants {
     glm::vec4 origin{0.0f};       ///< xyz: world position of the local origin; w: `extent`
     glm::vec4 origin_rest{0.0f};  ///< xyz: what rounding the origin to floats left out
     glm::vec4 axis{0.0f};         ///< xyz: `VolumeInfo::axis`
-    glm::vec4 seed_low{0.0f};     ///< xyz: lower corner of the seed grid, local
+    glm::vec4 seed_min{0.0f};     ///< xyz: lower corner of the seed grid, local
     glm::vec4 seed_scale{0.0f};   ///< xyz: voxels of the seed grid a metre
     glm::uvec4 seed_size{1};      ///< xyz: voxels along each axis
     glm::uvec4 counts{0};         ///< probes, cells, inner cells, `Dimension`
     PackedSh ambient{};
 
-    bool operator==(const ShaderVolumeFacts&) const = default;
+    bool operator==(const ShaderVolumeConstants&) const = default;
 };
 
-static_assert(sizeof(ShaderVolumeFacts) == 224 && std::is_trivially_copyable_v<ShaderVolumeFacts>);
-static_assert(offsetof(ShaderVolumeFacts, origin_rest) == 16);
-static_assert(offsetof(ShaderVolumeFacts, axis) == 32);
-static_assert(offsetof(ShaderVolumeFacts, seed_low) == 48);
-static_assert(offsetof(ShaderVolumeFacts, seed_scale) == 64);
-static_assert(offsetof(ShaderVolumeFacts, seed_size) == 80);
-static_assert(offsetof(ShaderVolumeFacts, counts) == 96);
-static_assert(offsetof(ShaderVolumeFacts, ambient) == 112);
+static_assert(sizeof(ShaderVolumeConstants) == 224 &&
+              std::is_trivially_copyable_v<ShaderVolumeConstants>);
+static_assert(offsetof(ShaderVolumeConstants, origin_rest) == 16);
+static_assert(offsetof(ShaderVolumeConstants, axis) == 32);
+static_assert(offsetof(ShaderVolumeConstants, seed_min) == 48);
+static_assert(offsetof(ShaderVolumeConstants, seed_scale) == 64);
+static_assert(offsetof(ShaderVolumeConstants, seed_size) == 80);
+static_assert(offsetof(ShaderVolumeConstants, counts) == 96);
+static_assert(offsetof(ShaderVolumeConstants, ambient) == 112);
 
 /// One probe in `ShaderVolume::light`.
 struct PackedProbe {
@@ -68,7 +69,7 @@ static_assert(sizeof(ShaderCell) == 32 && std::is_trivially_copyable_v<ShaderCel
 
 /// The uniform block and the arrays, in the order of their bindings. None is empty.
 struct ShaderVolume {
-    ShaderVolumeFacts facts;
+    ShaderVolumeConstants constants;
     std::vector<glm::vec4> positions;  ///< xyz local, one a probe
     std::vector<PackedProbe> light;    ///< one a probe
     std::vector<ShaderCell> cells;

@@ -325,7 +325,7 @@ tetralight_status tetralight_get_shader_array(const tetralight_shader_volume* ma
     const ShaderVolume& volume = made->volume;
     switch (index) {
         case 0:
-            *array = {&volume.facts, sizeof volume.facts, 0};
+            *array = {&volume.constants, sizeof volume.constants, 0};
             return succeed(error);
         case 1:
             *array = bytes_of(volume.positions);

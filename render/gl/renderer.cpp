@@ -30,12 +30,12 @@ struct Frame {
 
 static_assert(sizeof(Frame) == 96 + sizeof(PackedSh));
 
-/// The volume's facts with its origin in the renderer's space.
+/// The volume's constants with its origin in the renderer's space.
 ShaderVolume moved(ShaderVolume volume, const ProbeVolumeView& view, const glm::dvec3& origin) {
     const glm::dvec3 place = view.info.world_origin - origin;
     const glm::vec3 rounded(place);
-    volume.facts.origin = glm::vec4(rounded, volume.facts.origin.w);
-    volume.facts.origin_rest = glm::vec4(glm::vec3(place - glm::dvec3(rounded)), 0.0f);
+    volume.constants.origin = glm::vec4(rounded, volume.constants.origin.w);
+    volume.constants.origin_rest = glm::vec4(glm::vec3(place - glm::dvec3(rounded)), 0.0f);
     return volume;
 }
 

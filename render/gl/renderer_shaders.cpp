@@ -19,7 +19,7 @@ struct Instance {
     uint material;
     uint is_round;
     vec4 occlusion;
-    PackedSh light;
+    TetralightPackedSh light;
 };
 layout(std430, binding = 5) readonly buffer Instances { Instance instances[]; };
 
@@ -68,8 +68,9 @@ void main() {
     gl_Position = clip_from_space * vec4(position, 1.0);
     normal = dot(mesh_normal, mesh_normal) == 0.0
                  ? vec3(0.0)
-                 : instance_normal(vec3(row_x.x, row_y.x, row_z.x), vec3(row_x.y, row_y.y, row_z.y),
-                                   vec3(row_x.z, row_y.z, row_z.z), mesh_normal);
+                 : tetralight_instance_normal(
+                       vec3(row_x.x, row_y.x, row_z.x), vec3(row_x.y, row_y.y, row_z.y),
+                       vec3(row_x.z, row_y.z, row_z.z), mesh_normal);
     uvs = mesh_uvs;
     color = mesh_color;
 }
@@ -112,7 +113,7 @@ layout(std140, binding = 1) uniform Frame {
     vec4 ahead;
     uvec4 counts;  // lights
     vec4 numbers;  // probe normal bias
-    PackedSh sky;
+    TetralightPackedSh sky;
 };
 )";
 
@@ -131,7 +132,7 @@ struct ShadowLayer {
     vec4 texel;
 };
 layout(std430, binding = 8) readonly buffer ShadowLayers { ShadowLayer shadow_layers[]; };
-layout(std140, binding = 2) uniform Proxy { LppvConstants proxy; };
+layout(std140, binding = 2) uniform Proxy { TetralightLppvConstants proxy; };
 layout(binding = 3) uniform sampler2DArrayShadow shadow_maps;
 layout(binding = 4) uniform sampler3D proxy_light;
 layout(binding = 5) uniform sampler3D proxy_occlusion;
@@ -226,8 +227,9 @@ struct Point {
 vec3 reflected(Point point, vec3 to_light, vec3 irradiance) {
     vec3 diffuse = point.albedo * (max(dot(point.normal, to_light), 0.0) / kPi);
     if (!point.mirrors) return irradiance * diffuse;
-    return irradiance * (diffuse + specular_reflection(point.normal, to_light, point.to_eye,
-                                                       point.f0, point.roughness));
+    vec3 specular = tetralight_specular_reflection(point.normal, to_light, point.to_eye, point.f0,
+                                                   point.roughness);
+    return irradiance * (diffuse + specular);
 }
 
 vec3 direct_light(Point point, vec4 occlusion) {
@@ -241,7 +243,8 @@ vec3 direct_light(Point point, vec4 occlusion) {
         if (!(dot(point.normal, arriving.to_light) > 0.0)) continue;
         if (!(dot(point.flat_normal, arriving.to_light) > 0.0)) continue;
         bool has_static_shadow = moves && lamp.shadow.w >= 0;
-        float visible = has_static_shadow ? probe_occlusion(occlusion, lamp.shadow.w) : 1.0;
+        float visible =
+            has_static_shadow ? tetralight_probe_occlusion(occlusion, lamp.shadow.w) : 1.0;
         visible *= shadow(lamp, has_static_shadow ? lamp.shadow.y : lamp.shadow.x, position,
                           point.flat_normal, arriving.to_light);
         sum += reflected(point, arriving.to_light, arriving.irradiance) * visible;
@@ -249,20 +252,23 @@ vec3 direct_light(Point point, vec4 occlusion) {
     return sum;
 }
 
-PackedSh no_light() {
+TetralightPackedSh no_light() {
     vec4 zero = vec4(0.0);
-    return PackedSh(zero, zero, zero, zero, zero, zero, zero);
+    return TetralightPackedSh(zero, zero, zero, zero, zero, zero, zero);
 }
 
-PackedSh probe_light(vec3 flat_normal, out vec4 occlusion) {
+TetralightPackedSh probe_light(vec3 flat_normal, out vec4 occlusion) {
     occlusion = instances[instance].occlusion;
     uint use = instances[instance].use;
     if (use == 1u) return instances[instance].light;
     if (use == 2u) {
         occlusion *= textureLod(proxy_occlusion, tetralight_lppv_coordinates(proxy, position), 0.0);
-        return sample_lppv_7(proxy_light, proxy, position);
+        return tetralight_sample_lppv_7(proxy_light, proxy, position);
     }
-    if (use == 3u) return interpolate(locate(position + numbers.x * flat_normal, 0xffffffffu)).sh;
+    if (use == 3u) {
+        vec3 biased = position + numbers.x * flat_normal;
+        return tetralight_interpolate(tetralight_locate(biased, 0xffffffffu)).sh;
+    }
     return no_light();
 }
 
@@ -300,12 +306,13 @@ void main() {
     point.albedo = base.rgb * ((1.0 - factors.x) * 0.96) + point.f0 * (0.5 * factors.y);
     point.mirrors = instances[instance].factors.z > 0.0;
     vec4 occlusion;
-    PackedSh light = probe_light(flat_normal, occlusion);
-    vec3 probes = point.albedo * max(sample_sh9(light, unit_normal), vec3(0.0));
+    TetralightPackedSh light = probe_light(flat_normal, occlusion);
+    vec3 probes = point.albedo * max(tetralight_sample_sh9(light, unit_normal), vec3(0.0));
     if (point.mirrors) {
-        vec3 dominant = dominant_direction(light);
-        probes += dominant_irradiance(light, dominant) *
-                  specular_reflection(unit_normal, dominant, point.to_eye, point.f0, factors.y);
+        vec3 dominant = tetralight_dominant_direction(light);
+        probes += tetralight_dominant_irradiance(light, dominant) *
+                  tetralight_specular_reflection(unit_normal, dominant, point.to_eye, point.f0,
+                                                 factors.y);
     }
     radiance.rgb = emission + probes + direct_light(point, occlusion);
 }
@@ -324,7 +331,7 @@ in vec2 place;
 out vec4 radiance;
 void main() {
     vec3 direction = normalize(ahead.xyz + place.x * right.xyz + place.y * up.xyz);
-    radiance = vec4(max(sample_sh9(sky, direction), vec3(0.0)), 1.0);
+    radiance = vec4(max(tetralight_sample_sh9(sky, direction), vec3(0.0)), 1.0);
 }
 )";
 

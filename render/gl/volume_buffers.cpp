@@ -25,20 +25,20 @@ uint32_t make_buffer(const std::vector<Element>& elements) {
 }  // namespace
 
 VolumeBuffers::VolumeBuffers(const ShaderVolume& volume)
-    : facts_(make_buffer(std::as_bytes(std::span(&volume.facts, 1)))),
+    : constants_(make_buffer(std::as_bytes(std::span(&volume.constants, 1)))),
       arrays_{make_buffer(volume.positions), make_buffer(volume.light), make_buffer(volume.cells),
               make_buffer(volume.hull_rays), make_buffer(volume.seeds)} {}
 
 VolumeBuffers::VolumeBuffers(VolumeBuffers&& other) noexcept
-    : facts_(std::exchange(other.facts_, 0)), arrays_(std::exchange(other.arrays_, {})) {}
+    : constants_(std::exchange(other.constants_, 0)), arrays_(std::exchange(other.arrays_, {})) {}
 
 VolumeBuffers::~VolumeBuffers() {
-    glDeleteBuffers(1, &facts_);  // 0 is silently ignored
+    glDeleteBuffers(1, &constants_);  // 0 is silently ignored
     glDeleteBuffers(static_cast<GLsizei>(arrays_.size()), arrays_.data());
 }
 
 void VolumeBuffers::bind() const {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 5, facts_);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 5, constants_);
     for (size_t i = 0; i < arrays_.size(); ++i) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(i), arrays_[i]);
     }

@@ -20,7 +20,7 @@ class VolumeBuffers {
     void bind() const;
 
   private:
-    uint32_t facts_ = 0;
+    uint32_t constants_ = 0;
     std::array<uint32_t, 5> arrays_{};
 };
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sampling proxy volumes: the twin of lppv/lppv_texture.h and lppv/lppv_atlas.h, whose structs these
 // are in std140 and constant buffers. Textures: linear filter, edges clamped, one level. In HLSL a
-// texture is followed by its sampler: sample_lppv_4(volume, volume_sampler, constants, position).
+// texture is followed by its sampler:
+//     tetralight_sample_lppv_4(volume, volume_sampler, constants, world_position)
 //
-//     vec3 light = sample_sh9(sample_lppv_4(volume, constants, world_position), normal);
+//     TetralightPackedSh sh = tetralight_sample_lppv_4(volume, constants, world_position);
+//     vec3 light = tetralight_sample_sh9(sh, normal);
 //     color = albedo * max(light, 0.0);   // light is irradiance / pi
 
-struct LppvConstants {
+struct TetralightLppvConstants {
     mat4 local_from_world;
     vec4 params;  // enabled, in local space, width of a texel, 0
     vec4 low;
@@ -17,7 +19,7 @@ struct LppvConstants {
     vec4 shc;
 };
 
-struct LppvAtlasConstants {
+struct TetralightLppvAtlasConstants {
     mat4 texture_from_world;
     vec4 low;
     vec4 high;
@@ -28,7 +30,7 @@ struct LppvAtlasConstants {
 };
 
 // 0 to 1 from edge to edge of the volume's outer texels.
-vec3 tetralight_lppv_coordinates(LppvConstants c, vec3 world_position) {
+vec3 tetralight_lppv_coordinates(TetralightLppvConstants c, vec3 world_position) {
     vec4 world = vec4(world_position.x, world_position.y, world_position.z, 1.0f);
     vec4 place = c.params.y == 1.0f ? TETRALIGHT_MUL(c.local_from_world, world) : world;
     return (place.xyz - c.low.xyz) * c.size_inverse.xyz;
@@ -36,14 +38,14 @@ vec3 tetralight_lppv_coordinates(LppvConstants c, vec3 world_position) {
 
 // Coordinates in the first slab, half a texel from the slab's sides; y and z are the sampler's to
 // clamp.
-vec3 tetralight_lppv_slab(LppvConstants c, vec3 world_position, float slabs) {
+vec3 tetralight_lppv_slab(TetralightLppvConstants c, vec3 world_position, float slabs) {
     vec3 uvw = tetralight_lppv_coordinates(c, world_position);
     uvw.x = clamp(uvw.x / slabs, 0.5f * c.params.z, 1.0f / slabs - 0.5f * c.params.z);
     return uvw;
 }
 
 // Coordinates in the first slab of an atlas, clamped to the middles of the volume's outer texels.
-vec3 tetralight_atlas_slab(LppvAtlasConstants c, vec3 world_position) {
+vec3 tetralight_atlas_slab(TetralightLppvAtlasConstants c, vec3 world_position) {
     vec4 world = vec4(world_position.x, world_position.y, world_position.z, 1.0f);
     return clamp(TETRALIGHT_MUL(c.texture_from_world, world).xyz, c.low.xyz, c.high.xyz);
 }
@@ -55,10 +57,10 @@ vec4 tetralight_slab(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw, float slab, float s
 
 // Four slabs have s0 as w of SHA, and band 2 is that of the whole object: SHB has 3 s6 as z, and SHA
 // is to hold s0 - s6.
-PackedSh tetralight_four_slabs(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw, vec4 shb_r, vec4 shb_g,
-                               vec4 shb_b, vec4 shc) {
+TetralightPackedSh tetralight_four_slabs(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw, vec4 shb_r,
+                                         vec4 shb_g, vec4 shb_b, vec4 shc) {
     float third = 1.0f / 3.0f;
-    PackedSh sh;
+    TetralightPackedSh sh;
     sh.sha_r = tetralight_slab(TETRALIGHT_PASS_3D(slabs), uvw, 0.0f, 4.0f);
     sh.sha_g = tetralight_slab(TETRALIGHT_PASS_3D(slabs), uvw, 1.0f, 4.0f);
     sh.sha_b = tetralight_slab(TETRALIGHT_PASS_3D(slabs), uvw, 2.0f, 4.0f);
@@ -72,8 +74,8 @@ PackedSh tetralight_four_slabs(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw, vec4 shb_
     return sh;
 }
 
-PackedSh tetralight_seven_slabs(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw) {
-    PackedSh sh;
+TetralightPackedSh tetralight_seven_slabs(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw) {
+    TetralightPackedSh sh;
     sh.sha_r = tetralight_slab(TETRALIGHT_PASS_3D(slabs), uvw, 0.0f, 7.0f);
     sh.sha_g = tetralight_slab(TETRALIGHT_PASS_3D(slabs), uvw, 1.0f, 7.0f);
     sh.sha_b = tetralight_slab(TETRALIGHT_PASS_3D(slabs), uvw, 2.0f, 7.0f);
@@ -85,38 +87,43 @@ PackedSh tetralight_seven_slabs(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw) {
 }
 
 // Light of a texture of four slabs, band 2 included.
-PackedSh sample_lppv_4(TETRALIGHT_TEXTURE_3D(slabs), LppvConstants c, vec3 world_position) {
+TetralightPackedSh tetralight_sample_lppv_4(TETRALIGHT_TEXTURE_3D(slabs), TetralightLppvConstants c,
+                                            vec3 world_position) {
     vec3 uvw = tetralight_lppv_slab(c, world_position, 4.0f);
     return tetralight_four_slabs(TETRALIGHT_PASS_3D(slabs), uvw, c.shb_r, c.shb_g, c.shb_b, c.shc);
 }
 
 // Light of a texture of seven slabs.
-PackedSh sample_lppv_7(TETRALIGHT_TEXTURE_3D(slabs), LppvConstants c, vec3 world_position) {
+TetralightPackedSh tetralight_sample_lppv_7(TETRALIGHT_TEXTURE_3D(slabs), TetralightLppvConstants c,
+                                            vec3 world_position) {
     return tetralight_seven_slabs(TETRALIGHT_PASS_3D(slabs),
                                   tetralight_lppv_slab(c, world_position, 7.0f));
 }
 
 // The last of four slabs: four channels, 1 = lit.
-vec4 sample_lppv_occlusion(TETRALIGHT_TEXTURE_3D(slabs), LppvConstants c, vec3 world_position) {
+vec4 tetralight_sample_lppv_occlusion(TETRALIGHT_TEXTURE_3D(slabs), TetralightLppvConstants c,
+                                      vec3 world_position) {
     vec3 uvw = tetralight_lppv_coordinates(c, world_position);
     uvw.x = max(0.25f * uvw.x + 0.75f, 0.75f + 0.5f * c.params.z);
     return TETRALIGHT_SAMPLE_3D(slabs, uvw);
 }
 
-PackedSh sample_lppv_atlas_4(TETRALIGHT_TEXTURE_3D(atlas), LppvAtlasConstants c,
-                             vec3 world_position) {
+TetralightPackedSh tetralight_sample_lppv_atlas_4(TETRALIGHT_TEXTURE_3D(atlas),
+                                                  TetralightLppvAtlasConstants c,
+                                                  vec3 world_position) {
     vec3 uvw = tetralight_atlas_slab(c, world_position);
     return tetralight_four_slabs(TETRALIGHT_PASS_3D(atlas), uvw, c.shb_r, c.shb_g, c.shb_b, c.shc);
 }
 
-PackedSh sample_lppv_atlas_7(TETRALIGHT_TEXTURE_3D(atlas), LppvAtlasConstants c,
-                             vec3 world_position) {
+TetralightPackedSh tetralight_sample_lppv_atlas_7(TETRALIGHT_TEXTURE_3D(atlas),
+                                                  TetralightLppvAtlasConstants c,
+                                                  vec3 world_position) {
     return tetralight_seven_slabs(TETRALIGHT_PASS_3D(atlas),
                                   tetralight_atlas_slab(c, world_position));
 }
 
-vec4 sample_lppv_atlas_occlusion(TETRALIGHT_TEXTURE_3D(atlas), LppvAtlasConstants c,
-                                 vec3 world_position) {
-    return tetralight_slab(TETRALIGHT_PASS_3D(atlas), tetralight_atlas_slab(c, world_position), 3.0f,
-                           4.0f);
+vec4 tetralight_sample_lppv_atlas_occlusion(TETRALIGHT_TEXTURE_3D(atlas),
+                                            TetralightLppvAtlasConstants c, vec3 world_position) {
+    vec3 uvw = tetralight_atlas_slab(c, world_position);
+    return tetralight_slab(TETRALIGHT_PASS_3D(atlas), uvw, 3.0f, 4.0f);
 }

@@ -2,9 +2,10 @@
 // Locates a position among the probes and blends them, on the GPU: the walk and the cells of
 // probes/locate.h, in floats. Twin in C++: runtime/shader_query.h, which compiles this text.
 //
-//   CellLocation location = locate(world_position, hint);   // hint: the last cell, or any number
-//   PackedProbe probe = interpolate(location);
-//   color = albedo * max(sample_sh9(probe.sh, normal), 0.0);
+//   // hint: the cell of the last query near by, or any number
+//   TetralightCellLocation location = tetralight_locate(world_position, hint);
+//   TetralightPackedProbe probe = tetralight_interpolate(location);
+//   color = albedo * max(tetralight_sample_sh9(probe.sh, normal), 0.0);
 
 TETRALIGHT_CONST uint tetralight_no_cell = 4294967295u;
 // Cells that a walk tests at most.
@@ -20,21 +21,21 @@ TETRALIGHT_CONST float tetralight_outside = -1e30f;
 
 // A position as a blend: the sum of weights[i] times probe i of the cell. They are >= 0 and sum to
 // 1. tetralight_no_cell: there are no probes, or the position is not finite; the light is ambient.
-struct CellLocation {
+struct TetralightCellLocation {
     uint cell;
     vec4 weights;
 };
 
 // What a volume answers for one position.
-struct PackedProbe {
-    PackedSh sh;
+struct TetralightPackedProbe {
+    TetralightPackedSh sh;
     // Four channels, 1 = lit.
     vec4 occlusion;
 };
 
 // The best of the cells that were considered: `measure` is its smallest weight as a share of all.
 struct TetralightCandidate {
-    CellLocation location;
+    TetralightCellLocation location;
     float measure;
 };
 
@@ -197,8 +198,8 @@ bool tetralight_is_finite(float x) {
 
 // Finds the cell that holds a world position, and the weights of its probes. `hint`: the cell of
 // the last query near by, or any number that is no cell's index.
-CellLocation locate(vec3 position, uint hint) {
-    CellLocation location;
+TetralightCellLocation tetralight_locate(vec3 position, uint hint) {
+    TetralightCellLocation location;
     location.cell = tetralight_no_cell;
     location.weights = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     uint cell_count = tetralight_volume.counts.y;
@@ -216,7 +217,7 @@ CellLocation locate(vec3 position, uint hint) {
     return location;
 }
 
-PackedSh tetralight_add_probe(PackedSh sum, uint probe, float weight) {
+TetralightPackedSh tetralight_add_probe(TetralightPackedSh sum, uint probe, float weight) {
     sum.sha_r = sum.sha_r + tetralight_probe_light(probe, 0u) * weight;
     sum.sha_g = sum.sha_g + tetralight_probe_light(probe, 1u) * weight;
     sum.sha_b = sum.sha_b + tetralight_probe_light(probe, 2u) * weight;
@@ -228,8 +229,8 @@ PackedSh tetralight_add_probe(PackedSh sum, uint probe, float weight) {
 }
 
 // Blends the probes of a located cell.
-PackedProbe interpolate(CellLocation location) {
-    PackedProbe blend;
+TetralightPackedProbe tetralight_interpolate(TetralightCellLocation location) {
+    TetralightPackedProbe blend;
     blend.sh = tetralight_volume.ambient;
     blend.occlusion = vec4(1.0f, 1.0f, 1.0f, 1.0f);
     if (location.cell >= tetralight_volume.counts.y) return blend;

@@ -12,15 +12,15 @@
 #define TETRALIGHT_VOLUME_BINDING 5
 #endif
 
-struct TetralightVolumeFacts {
+struct TetralightVolumeConstants {
     vec4 origin;
     vec4 origin_rest;
     vec4 axis;
-    vec4 seed_low;
+    vec4 seed_min;
     vec4 seed_scale;
     uvec4 seed_size;
     uvec4 counts;
-    PackedSh ambient;
+    TetralightPackedSh ambient;
 };
 
 #if defined(TETRALIGHT_CPP)
@@ -29,7 +29,7 @@ struct TetralightVolumeFacts {
 #define TETRALIGHT_JOIN(kind, number) kind##number
 #define TETRALIGHT_REGISTER(kind, number) register(TETRALIGHT_JOIN(kind, number))
 cbuffer TetralightVolume : TETRALIGHT_REGISTER(b, TETRALIGHT_VOLUME_BINDING) {
-    TetralightVolumeFacts tetralight_volume;
+    TetralightVolumeConstants tetralight_volume;
 };
 StructuredBuffer<vec4> tetralight_positions : TETRALIGHT_REGISTER(t, TETRALIGHT_POSITIONS_BINDING);
 StructuredBuffer<vec4> tetralight_light : TETRALIGHT_REGISTER(t, TETRALIGHT_LIGHT_BINDING);
@@ -38,7 +38,7 @@ StructuredBuffer<vec4> tetralight_hull_rays : TETRALIGHT_REGISTER(t, TETRALIGHT_
 StructuredBuffer<uvec4> tetralight_seeds : TETRALIGHT_REGISTER(t, TETRALIGHT_SEEDS_BINDING);
 #elif defined(TETRALIGHT_TEXTURES)
 layout(std140) uniform TetralightVolume {
-    TetralightVolumeFacts tetralight_volume;
+    TetralightVolumeConstants tetralight_volume;
 };
 uniform highp sampler2D tetralight_positions;
 uniform highp sampler2D tetralight_light;
@@ -47,7 +47,7 @@ uniform highp sampler2D tetralight_hull_rays;
 uniform highp usampler2D tetralight_seeds;
 #else
 layout(std140, binding = TETRALIGHT_VOLUME_BINDING) uniform TetralightVolume {
-    TetralightVolumeFacts tetralight_volume;
+    TetralightVolumeConstants tetralight_volume;
 };
 layout(std430, binding = TETRALIGHT_POSITIONS_BINDING) readonly buffer TetralightPositions {
     vec4 tetralight_positions[];
@@ -91,14 +91,14 @@ uvec4 tetralight_cell_neighbors(uint cell) {
     return TETRALIGHT_AT(tetralight_cells, 2u * cell + 1u);
 }
 
-// Part 0..6 of a probe's PackedSh; 7: its occlusion.
+// Part 0..6 of a probe's TetralightPackedSh; 7: its occlusion.
 vec4 tetralight_probe_light(uint probe, uint part) {
     return TETRALIGHT_AT(tetralight_light, 8u * probe + part);
 }
 
 // A cell near a local position: that of the seed grid's voxel around it.
 uint tetralight_seed_cell(vec3 local) {
-    vec4 low = tetralight_volume.seed_low;
+    vec4 low = tetralight_volume.seed_min;
     vec4 scale = tetralight_volume.seed_scale;
     uvec4 size = tetralight_volume.seed_size;
     uint x = uint(clamp((local.x - low.x) * scale.x, 0.0f, float(size.x - 1u)));

@@ -3,7 +3,7 @@
 
 // Irradiance / pi of one object or instance, as pack_sh and pack_instances write it:
 //   E(n)/pi = dot(sha, (n, 1)) + dot(shb, (xy, yz, zz, zx)) + shc (xx - yy)
-struct PackedSh {
+struct TetralightPackedSh {
     vec4 sha_r;
     vec4 sha_g;
     vec4 sha_b;
@@ -14,7 +14,7 @@ struct PackedSh {
 };
 
 // Its first two bands alone, red, green and blue: dot(sha, (n, 1)).
-struct PackedSh4 {
+struct TetralightPackedSh4 {
     vec4 sha_r;
     vec4 sha_g;
     vec4 sha_b;
@@ -22,7 +22,7 @@ struct PackedSh4 {
 
 // Irradiance / pi at a unit normal: times albedo it is the diffuse exitant radiance. Negative where
 // the light rings: clamp the sum of all light at 0.
-vec3 sample_sh9(PackedSh sh, vec3 normal) {
+vec3 tetralight_sample_sh9(TetralightPackedSh sh, vec3 normal) {
     vec4 linear_part = vec4(normal.x, normal.y, normal.z, 1.0f);
     vec4 products = vec4(normal.x * normal.y, normal.y * normal.z, normal.z * normal.z,
                          normal.z * normal.x);
@@ -33,9 +33,9 @@ vec3 sample_sh9(PackedSh sh, vec3 normal) {
 }
 
 // The first two bands of packed light. Its sha.w holds s0 - s6, so that s6 = shb.z / 3 goes back.
-PackedSh4 first_bands(PackedSh sh) {
+TetralightPackedSh4 tetralight_first_bands(TetralightPackedSh sh) {
     float third = 1.0f / 3.0f;
-    PackedSh4 bands;
+    TetralightPackedSh4 bands;
     bands.sha_r = sh.sha_r + vec4(0.0f, 0.0f, 0.0f, third * sh.shb_r.z);
     bands.sha_g = sh.sha_g + vec4(0.0f, 0.0f, 0.0f, third * sh.shb_g.z);
     bands.sha_b = sh.sha_b + vec4(0.0f, 0.0f, 0.0f, third * sh.shb_b.z);
@@ -43,14 +43,15 @@ PackedSh4 first_bands(PackedSh sh) {
 }
 
 // Irradiance / pi of two bands: three dot products, for what is far away or small.
-vec3 sample_sh4(PackedSh4 sh, vec3 normal) {
+vec3 tetralight_sample_sh4(TetralightPackedSh4 sh, vec3 normal) {
     vec4 linear_part = vec4(normal.x, normal.y, normal.z, 1.0f);
     return vec3(dot(sh.sha_r, linear_part), dot(sh.sha_g, linear_part), dot(sh.sha_b, linear_part));
 }
 
 // Adds one layer of light (a lamp, a sky) times its weight for red, green and blue.
-PackedSh add_layer(PackedSh sum, PackedSh layer, vec3 weight) {
-    PackedSh added;
+TetralightPackedSh tetralight_add_layer(TetralightPackedSh sum, TetralightPackedSh layer,
+                                        vec3 weight) {
+    TetralightPackedSh added;
     added.sha_r = sum.sha_r + layer.sha_r * weight.x;
     added.sha_g = sum.sha_g + layer.sha_g * weight.y;
     added.sha_b = sum.sha_b + layer.sha_b * weight.z;
@@ -64,7 +65,7 @@ PackedSh add_layer(PackedSh sum, PackedSh layer, vec3 weight) {
 
 // Share of a light that reaches an object, 1 = lit: the light's channel of the probes' occlusion. A
 // light without a channel (-1) is not occluded.
-float probe_occlusion(vec4 occlusion, int channel) {
+float tetralight_probe_occlusion(vec4 occlusion, int channel) {
     if (channel == 0) return occlusion.x;
     if (channel == 1) return occlusion.y;
     if (channel == 2) return occlusion.z;
@@ -73,14 +74,14 @@ float probe_occlusion(vec4 occlusion, int channel) {
 
 // The shadow of a light whose shadow map ends: `shadow` (1 = lit) holds what casts into the map,
 // the probes' occlusion the static scene. `fade` 0 = within the map, 1 = beyond it.
-float mix_occlusion(float shadow, float occlusion, float fade) {
+float tetralight_mix_occlusion(float shadow, float occlusion, float fade) {
     return mix(min(shadow, occlusion), occlusion, fade);
 }
 
 // World-space unit normal of an instance whose transform has these axes (the first three columns of
 // world_from_instance): right for any scale between 1e-9 and 1e9, mirrored ones too. An instance
 // without a volume keeps the normal as it is.
-vec3 instance_normal(vec3 x_axis, vec3 y_axis, vec3 z_axis, vec3 normal) {
+vec3 tetralight_instance_normal(vec3 x_axis, vec3 y_axis, vec3 z_axis, vec3 normal) {
     vec3 turned = cross(y_axis, z_axis) * normal.x + cross(z_axis, x_axis) * normal.y +
                   cross(x_axis, y_axis) * normal.z;
     if (dot(x_axis, cross(y_axis, z_axis)) < 0.0f) turned = -turned;
@@ -89,7 +90,7 @@ vec3 instance_normal(vec3 x_axis, vec3 y_axis, vec3 z_axis, vec3 normal) {
 }
 
 // Towards where most light comes from: the direction of the second band.
-vec3 dominant_direction(PackedSh sh) {
+vec3 tetralight_dominant_direction(TetralightPackedSh sh) {
     vec4 sum = sh.sha_r * 0.2126f + sh.sha_g * 0.7152f + sh.sha_b * 0.0722f;
     vec3 direction = vec3(sum.x, sum.y, sum.z);
     float square = dot(direction, direction);
@@ -97,7 +98,7 @@ vec3 dominant_direction(PackedSh sh) {
 }
 
 // Irradiance, on a surface that faces it, of the directional light there that has this second band.
-vec3 dominant_irradiance(PackedSh sh, vec3 direction) {
+vec3 tetralight_dominant_irradiance(TetralightPackedSh sh, vec3 direction) {
     vec4 along = vec4(direction.x, direction.y, direction.z, 0.0f);
     vec3 share = vec3(dot(sh.sha_r, along), dot(sh.sha_g, along), dot(sh.sha_b, along));
     return max(share, vec3(0.0f, 0.0f, 0.0f)) * 6.2831853f;
@@ -105,7 +106,8 @@ vec3 dominant_irradiance(PackedSh sh, vec3 direction) {
 
 // Radiance that a glossy surface mirrors of a light, for each unit of its irradiance on a surface
 // that faces it: GGX with glTF's roughness, all directions of length 1.
-vec3 specular_reflection(vec3 normal, vec3 to_light, vec3 to_eye, vec3 f0, float roughness) {
+vec3 tetralight_specular_reflection(vec3 normal, vec3 to_light, vec3 to_eye, vec3 f0,
+                                    float roughness) {
     vec3 between = to_light + to_eye;
     float square = dot(between, between);
     float light_cosine = dot(normal, to_light);

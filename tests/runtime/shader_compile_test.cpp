@@ -28,46 +28,61 @@ struct Use {
 const std::vector<Use>& uses() {
     static const std::vector<Use> all{
         {"sh", ShaderPart::Sh,
-         R"(PackedSh sh = PackedSh(v, v, v, v, v, v, v);
-            sh = add_layer(sh, sh, v.xyz);
-            vec3 normal = instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
-            float lit = mix_occlusion(v.x, probe_occlusion(v, 2), 0.5);
-            return lit * (sample_sh9(sh, normal) + sample_sh4(first_bands(sh), normal));)",
-         R"(PackedSh sh;
+         R"(TetralightPackedSh sh = TetralightPackedSh(v, v, v, v, v, v, v);
+            sh = tetralight_add_layer(sh, sh, v.xyz);
+            vec3 normal = tetralight_instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
+            float lit = tetralight_mix_occlusion(v.x, tetralight_probe_occlusion(v, 2), 0.5);
+            return lit * (tetralight_sample_sh9(sh, normal) +
+                          tetralight_sample_sh4(tetralight_first_bands(sh), normal));)",
+         R"(TetralightPackedSh sh;
             sh.sha_r = v; sh.sha_g = v; sh.sha_b = v;
             sh.shb_r = v; sh.shb_g = v; sh.shb_b = v; sh.shc = v;
-            sh = add_layer(sh, sh, v.xyz);
-            float3 normal = instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
-            float lit = mix_occlusion(v.x, probe_occlusion(v, 2), 0.5);
-            return lit * (sample_sh9(sh, normal) + sample_sh4(first_bands(sh), normal));)"},
+            sh = tetralight_add_layer(sh, sh, v.xyz);
+            float3 normal = tetralight_instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
+            float lit = tetralight_mix_occlusion(v.x, tetralight_probe_occlusion(v, 2), 0.5);
+            return lit * (tetralight_sample_sh9(sh, normal) +
+                          tetralight_sample_sh4(tetralight_first_bands(sh), normal));)"},
         {"lppv", ShaderPart::Lppv,
-         R"(vec4 occlusion = sample_lppv_occlusion(slabs, constants, v.xyz) *
-                sample_lppv_atlas_occlusion(slabs, atlas_constants, v.xyz);
-            return occlusion.x * (sample_sh9(sample_lppv_4(slabs, constants, v.xyz), v.xyz) +
-                sample_sh9(sample_lppv_7(slabs, constants, v.xyz), v.xyz) +
-                sample_sh9(sample_lppv_atlas_4(slabs, atlas_constants, v.xyz), v.xyz) +
-                sample_sh9(sample_lppv_atlas_7(slabs, atlas_constants, v.xyz), v.xyz));)",
-         R"(float4 occlusion = sample_lppv_occlusion(slabs, slabs_sampler, constants, v.xyz) *
-                sample_lppv_atlas_occlusion(slabs, slabs_sampler, atlas_constants, v.xyz);
-            PackedSh sh = sample_lppv_4(slabs, slabs_sampler, constants, v.xyz);
-            sh = add_layer(sh, sample_lppv_7(slabs, slabs_sampler, constants, v.xyz), v.xyz);
-            sh = add_layer(sh, sample_lppv_atlas_4(slabs, slabs_sampler, atlas_constants, v.xyz),
-                           v.xyz);
-            sh = add_layer(sh, sample_lppv_atlas_7(slabs, slabs_sampler, atlas_constants, v.xyz),
-                           v.xyz);
-            return occlusion.x * sample_sh9(sh, v.xyz);)",
+         R"(vec4 occlusion = tetralight_sample_lppv_occlusion(slabs, constants, v.xyz) *
+                tetralight_sample_lppv_atlas_occlusion(slabs, atlas_constants, v.xyz);
+            TetralightPackedSh sh = tetralight_sample_lppv_4(slabs, constants, v.xyz);
+            TetralightPackedSh sh_7 = tetralight_sample_lppv_7(slabs, constants, v.xyz);
+            TetralightPackedSh atlas =
+                tetralight_sample_lppv_atlas_4(slabs, atlas_constants, v.xyz);
+            TetralightPackedSh atlas_7 =
+                tetralight_sample_lppv_atlas_7(slabs, atlas_constants, v.xyz);
+            sh = tetralight_add_layer(tetralight_add_layer(sh, sh_7, v.xyz), atlas, v.xyz);
+            sh = tetralight_add_layer(sh, atlas_7, v.xyz);
+            return occlusion.x * tetralight_sample_sh9(sh, v.xyz);)",
+         R"(float4 occlusion =
+                tetralight_sample_lppv_occlusion(slabs, slabs_sampler, constants, v.xyz);
+            occlusion *= tetralight_sample_lppv_atlas_occlusion(slabs, slabs_sampler,
+                                                                atlas_constants, v.xyz);
+            TetralightPackedSh sh =
+                tetralight_sample_lppv_4(slabs, slabs_sampler, constants, v.xyz);
+            TetralightPackedSh sh_7 =
+                tetralight_sample_lppv_7(slabs, slabs_sampler, constants, v.xyz);
+            TetralightPackedSh atlas =
+                tetralight_sample_lppv_atlas_4(slabs, slabs_sampler, atlas_constants, v.xyz);
+            TetralightPackedSh atlas_7 =
+                tetralight_sample_lppv_atlas_7(slabs, slabs_sampler, atlas_constants, v.xyz);
+            sh = tetralight_add_layer(tetralight_add_layer(sh, sh_7, v.xyz), atlas, v.xyz);
+            sh = tetralight_add_layer(sh, atlas_7, v.xyz);
+            return occlusion.x * tetralight_sample_sh9(sh, v.xyz);)",
          "#ifdef VULKAN\n#define AT(number) binding = number,\n#else\n#define AT(number)\n#endif\n"
-         "layout(AT(6) std140) uniform Volumes { LppvConstants constants;"
-         " LppvAtlasConstants atlas_constants; };\n"
+         "layout(AT(6) std140) uniform Volumes { TetralightLppvConstants constants;"
+         " TetralightLppvAtlasConstants atlas_constants; };\n"
          "#ifdef VULKAN\nlayout(binding = 7)\n#endif\nuniform sampler3D slabs;\n",
          "cbuffer Volumes : register(b6) {\n"
-         "LppvConstants constants; LppvAtlasConstants atlas_constants; };\n"
+         "TetralightLppvConstants constants; TetralightLppvAtlasConstants atlas_constants; };\n"
          "Texture3D<float4> slabs : register(t7);\nSamplerState slabs_sampler : register(s8);\n"},
         {"query", ShaderPart::Query,
-         R"(PackedProbe probe = interpolate(locate(v.xyz, uint(v.w)));
-            return sample_sh9(probe.sh, vec3(0.0, 1.0, 0.0)) * probe.occlusion.x;)",
-         R"(PackedProbe probe = interpolate(locate(v.xyz, uint(v.w)));
-            return sample_sh9(probe.sh, float3(0.0, 1.0, 0.0)) * probe.occlusion.x;)"},
+         R"(TetralightCellLocation location = tetralight_locate(v.xyz, uint(v.w));
+            TetralightPackedProbe probe = tetralight_interpolate(location);
+            return tetralight_sample_sh9(probe.sh, vec3(0.0, 1.0, 0.0)) * probe.occlusion.x;)",
+         R"(TetralightCellLocation location = tetralight_locate(v.xyz, uint(v.w));
+            TetralightPackedProbe probe = tetralight_interpolate(location);
+            return tetralight_sample_sh9(probe.sh, float3(0.0, 1.0, 0.0)) * probe.occlusion.x;)"},
     };
     return all;
 }

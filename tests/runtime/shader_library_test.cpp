@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <set>
 #include <sstream>
 
 namespace tetralight {
@@ -80,6 +82,77 @@ TEST(ShaderLibrary, NamesTheLinesOfEveryKindOfLog) {
               "ERROR: 1 compilation errors.  No code generated.\n"
               "linking failed");
     EXPECT_EQ(name_shader_lines(source, ""), "");
+}
+
+/// Every match of a pattern's first group in a text.
+std::set<std::string> matches(const std::string& text, const char* pattern) {
+    const std::regex regex(pattern);
+    std::set<std::string> found;
+    for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) {
+        found.insert((*match)[1].str());
+    }
+    return found;
+}
+
+/// A file without its comments, preprocessor lines and the insides of its braces and parentheses.
+/// The members of blocks without an instance name are global: their braces are kept open.
+std::string top_level(std::string_view file) {
+    std::string text = std::regex_replace(std::string(file), std::regex("//[^\n]*|#[^\n]*"), "");
+    const std::regex block(R"(((?:uniform|buffer|cbuffer) [^;{]*)\{([^}]*)\};)");
+    text = std::regex_replace(text, block, "$1; $2");
+    std::string outside;
+    int depth = 0;
+    for (const char character : text) {
+        const bool opens = character == '{' || character == '(' || character == '[';
+        const bool closes = character == '}' || character == ')' || character == ']';
+        if (closes) --depth;
+        if (depth == 0) outside += character == '}' ? ';' : character;
+        if (opens) ++depth;
+    }
+    return outside;
+}
+
+/// The names that a file gives to whoever includes it.
+std::set<std::string> declared_names(std::string_view file) {
+    std::set<std::string> names =
+        matches(top_level(file), R"(\b([A-Za-z_]\w*)\s*(?:\(\)|\[\]|\{|;|=|: ))");
+    names.merge(matches(std::string(file), R"(\n\s*#define (\w+))"));
+    return names;
+}
+
+bool has_prefix(const std::string& name) {
+    return name.starts_with("tetralight_") || name.starts_with("Tetralight") ||
+           name.starts_with("TETRALIGHT_");
+}
+
+TEST(ShaderLibrary, EveryNameHasThePrefix) {
+    std::set<std::string> bare;
+    size_t name_count = 0;
+    for (const ShaderFile& file : shader_files()) {
+        for (const std::string& name : declared_names(file.text)) {
+            ++name_count;
+            if (!has_prefix(name)) bare.insert(name);
+        }
+    }
+    // Words of GLSL, and those that begin.glsl lends to HLSL and end.glsl takes back.
+    for (const std::string& word :
+         matches(std::string(shader_files().back().text), R"(#undef ([a-z]\w*))")) {
+        EXPECT_EQ(bare.erase(word), 1u) << word;
+    }
+    for (const char* word : {"layout", "int", "float", "sampler3D"}) bare.erase(word);
+    EXPECT_EQ(bare, std::set<std::string>{});
+    EXPECT_GT(name_count, 80u);
+}
+
+TEST(ShaderLibrary, PrefixTestSeesEveryKindOfName) {
+    EXPECT_EQ(declared_names("// no_name\n#define MACRO(x) x\nTETRALIGHT_CONST uint limit = 4u;\n"
+                             "struct Struct {\n    vec4 member;\n};\n"
+                             "layout(binding = B) uniform Block {\n    Type global;\n};\n"
+                             "StructuredBuffer<vec4> buffer : REGISTER(t, 1);\n"
+                             "layout(std430) readonly buffer Cells {\n    uvec4 cells[];\n};\n"
+                             "vec3 function(vec3 x) {\n    vec3 y = x;\n    return y;\n}\n"),
+              (std::set<std::string>{"MACRO", "limit", "Struct", "Block", "global", "buffer",
+                                     "REGISTER", "layout", "Cells", "cells", "function"}));
 }
 
 }  // namespace

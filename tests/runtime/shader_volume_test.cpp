@@ -20,7 +20,7 @@ TEST(ShaderVolume, HoldsProbesAndCellsInTheirOrder) {
     ASSERT_EQ(shader.positions.size(), volume.positions.size());
     ASSERT_EQ(shader.cells.size(), volume.cells.size());
     ASSERT_EQ(shader.hull_rays.size(), 3 * volume.hull_rays.size());
-    EXPECT_EQ(shader.facts.counts, glm::uvec4(volume.positions.size(), volume.cells.size(),
+    EXPECT_EQ(shader.constants.counts, glm::uvec4(volume.positions.size(), volume.cells.size(),
                                               volume.info.inner_cell_count, 4u));
     for (size_t i = 0; i < volume.positions.size(); ++i) {
         EXPECT_EQ(glm::vec3(shader.positions[i]), volume.positions[i]);
@@ -55,7 +55,7 @@ TEST(ShaderVolume, WithoutBakedLightEveryProbeIsAmbient) {
 TEST(ShaderVolume, SeedsAreCellsNearThePositions) {
     const ProbeVolume volume = make_volume(5000);
     const ShaderVolume shader = make_shader_volume(volume.view());
-    const glm::uvec4 size = shader.facts.seed_size;
+    const glm::uvec4 size = shader.constants.seed_size;
     const size_t voxels = size_t{size.x} * size.y * size.z;
     EXPECT_GE(voxels, 5000u);
     EXPECT_LE(voxels, 20000u);

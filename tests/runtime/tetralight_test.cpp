@@ -383,8 +383,8 @@ TEST_F(CApi, ShaderArraysAreThoseOfTheLibrary) {
     const ShaderVolume expected = make_shader_volume(data.view());
     tetralight_const_array array{};
     ASSERT_EQ(tetralight_get_shader_array(made, 0, &array, &error), TETRALIGHT_OK);
-    EXPECT_EQ(array.size, sizeof expected.facts);
-    EXPECT_EQ(std::memcmp(array.data, &expected.facts, array.size), 0);
+    EXPECT_EQ(array.size, sizeof expected.constants);
+    EXPECT_EQ(std::memcmp(array.data, &expected.constants, array.size), 0);
     ASSERT_EQ(tetralight_get_shader_array(made, 2, &array, &error), TETRALIGHT_OK);
     ASSERT_EQ(array.size, expected.light.size() * sizeof(PackedProbe));
     EXPECT_EQ(std::memcmp(array.data, expected.light.data(), array.size), 0);

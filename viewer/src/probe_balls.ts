@@ -13,8 +13,8 @@ uniform float radius;
 varying vec3 light;
 varying vec4 paint;
 void main() {
-    PackedSh sh = PackedSh(shaR, shaG, shaB, shbR, shbG, shbB, shC);
-    light = max(sample_sh9(sh, position), vec3(0.0));
+    TetralightPackedSh sh = TetralightPackedSh(shaR, shaG, shaB, shbR, shbG, shbB, shC);
+    light = max(tetralight_sample_sh9(sh, position), vec3(0.0));
     paint = tint;
     gl_Position = projectionMatrix * viewMatrix * vec4(center + radius * position, 1.0);
 }`;

@@ -9,7 +9,7 @@ import sh from '../../runtime/shaders/sh.glsl?raw';
 
 export const shShader = begin + sh;
 
-/** `LppvConstants` of runtime/shaders/lppv.glsl. */
+/** `TetralightLppvConstants` of runtime/shaders/lppv.glsl. */
 export interface LppvConstants {
     local_from_world: three.Matrix4;
     params: three.Vector4;
@@ -59,8 +59,9 @@ export function lightByLppv(material: three.Material, uniforms: LppvUniforms): v
     material.onBeforeCompile = shader => {
         Object.assign(shader.uniforms, uniforms);
         addLight(shader, shShader + lppv +
-                 'uniform sampler3D lppv;\nuniform LppvConstants lppvConstants;\n',
-                 'sample_sh9(sample_lppv_7(lppv, lppvConstants, probePosition), probeNormal)');
+                 'uniform sampler3D lppv;\nuniform TetralightLppvConstants lppvConstants;\n',
+                 'tetralight_sample_sh9(tetralight_sample_lppv_7(lppv, lppvConstants, probePosition), ' +
+                 'probeNormal)');
     };
     material.customProgramCacheKey = () => 'lppv';
 }
@@ -70,8 +71,8 @@ export function lightBySh(material: three.Material, packed: {value: three.Vector
     material.onBeforeCompile = shader => {
         shader.uniforms.probeSh = packed;
         addLight(shader, shShader + 'uniform vec4 probeSh[7];\n',
-                 'sample_sh9(PackedSh(probeSh[0], probeSh[1], probeSh[2], probeSh[3], probeSh[4], ' +
-                 'probeSh[5], probeSh[6]), probeNormal)');
+                 'tetralight_sample_sh9(TetralightPackedSh(probeSh[0], probeSh[1], probeSh[2], probeSh[3], ' +
+                 'probeSh[4], probeSh[5], probeSh[6]), probeNormal)');
     };
     material.customProgramCacheKey = () => 'sh';
 }
@@ -86,7 +87,8 @@ export function lightInstances(material: three.Material): void {
         shader.vertexShader = shShader + instanceAttributes + 'varying vec3 probeLight;\n' +
             shader.vertexShader.replace(
                 'probePosition = ',
-                'probeLight = sample_sh9(PackedSh(shaR, shaG, shaB, shbR, shbG, shbB, shC), ' +
+                'probeLight = tetralight_sample_sh9(' +
+                'TetralightPackedSh(shaR, shaG, shaB, shbR, shbG, shbB, shC), ' +
                 'normalize(mat3(modelMatrix) * objectNormal));\nprobePosition = ');
     };
     material.customProgramCacheKey = () => 'instances';

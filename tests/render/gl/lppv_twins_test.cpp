@@ -18,12 +18,12 @@ constexpr uint32_t kParts = 8;
 /// Part 0..6: the seven float4 of the light; 7: occlusion. `SAMPLE` and `OCCLUSION` are the
 /// layout's.
 constexpr const char* kShader = R"(
-layout(std140) uniform Lppv { LppvConstants constants; };
+layout(std140) uniform Lppv { TetralightLppvConstants constants; };
 uniform highp sampler3D slabs;
 vec4 result(uint index, uint part) {
     vec3 at = input_at(index).xyz;
-    if (part == 7u) return sample_lppv_occlusion(slabs, constants, at);
-    PackedSh sh = SAMPLE(slabs, constants, at);
+    if (part == 7u) return tetralight_sample_lppv_occlusion(slabs, constants, at);
+    TetralightPackedSh sh = SAMPLE(slabs, constants, at);
     if (part == 0u) return sh.sha_r;
     if (part == 1u) return sh.sha_g;
     if (part == 2u) return sh.sha_b;
@@ -43,7 +43,7 @@ struct LppvCase {
 
 std::string shader_of(const LppvCase& which) {
     const bool is_four = which.layout == LppvLayout::FourSlabs;
-    return std::string("#define SAMPLE ") + (is_four ? "sample_lppv_4" : "sample_lppv_7") + kShader;
+    return std::string("#define SAMPLE tetralight_sample_lppv_") + (is_four ? "4" : "7") + kShader;
 }
 
 class LppvTwins : public test::ShaderRunner, public testing::WithParamInterface<LppvCase> {
@@ -163,11 +163,11 @@ TEST_F(LppvLayoutInMemory, IsWhatTheDriverSays) {
         ShaderLanguage::Glsl450, {ShaderPart::Lppv},
         {"layout.comp",
          "layout(local_size_x = 1) in;\nuniform sampler3D slabs;\n"
-         "layout(std140, binding = 1) uniform A { LppvConstants constants; } a;\n"
-         "layout(std140, binding = 2) uniform B { LppvAtlasConstants constants; } b;\n"
+         "layout(std140, binding = 1) uniform A { TetralightLppvConstants constants; } a;\n"
+         "layout(std140, binding = 2) uniform B { TetralightLppvAtlasConstants constants; } b;\n"
          "layout(std430, binding = 8) buffer Result { vec4 result; };\n"
-         "void main() { result = sample_lppv_4(slabs, a.constants, vec3(0.0)).sha_r +\n"
-         "    sample_lppv_atlas_4(slabs, b.constants, vec3(0.0)).shc; }\n"});
+         "void main() { result = tetralight_sample_lppv_4(slabs, a.constants, vec3(0.0)).sha_r"
+         " + tetralight_sample_lppv_atlas_4(slabs, b.constants, vec3(0.0)).shc; }\n"});
     const ShaderStage stage{GL_COMPUTE_SHADER, source};
     const auto program = ShaderProgram::create(std::span(&stage, 1));
     ASSERT_TRUE(program) << error_text(program.error());

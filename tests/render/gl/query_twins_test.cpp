@@ -17,10 +17,10 @@ constexpr uint32_t kParts = 10;
 constexpr const char* kShader = R"(
 vec4 result(uint index, uint part) {
     vec4 at = input_at(index);
-    CellLocation location = locate(at.xyz, uint(at.w));
+    TetralightCellLocation location = tetralight_locate(at.xyz, uint(at.w));
     if (part == 8u) return vec4(float(location.cell & 0xffffffu), 0.0, 0.0, 0.0);
     if (part == 9u) return location.weights;
-    PackedProbe probe = interpolate(location);
+    TetralightPackedProbe probe = tetralight_interpolate(location);
     if (part == 0u) return probe.sh.sha_r;
     if (part == 1u) return probe.sh.sha_g;
     if (part == 2u) return probe.sh.sha_b;
@@ -125,8 +125,8 @@ TEST_F(QueryTwins, AgreeWithTheCpuAtAHundredThousandPositions) {
     const char* const shader = R"(
 vec4 result(uint index, uint part) {
     vec3 at = input_at(index).xyz;
-    PackedProbe probe = interpolate(locate(at, 0xffffffffu));
-    return vec4(sample_sh9(probe.sh, normalize(at)), probe.occlusion.y);
+    TetralightPackedProbe probe = tetralight_interpolate(tetralight_locate(at, 0xffffffffu));
+    return vec4(tetralight_sample_sh9(probe.sh, normalize(at)), probe.occlusion.y);
 }
 )";
     const test::ShaderTask task{shader, inputs, static_cast<uint32_t>(inputs.size()), 1};
@@ -157,7 +157,7 @@ TEST_F(QueryTwins, NoProbesAndPositionsThatAreNotFiniteGetTheAmbientLight) {
     ASSERT_EQ(some.size(), 3 * kParts);
     for (size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(probe_at(none, i).sh, pack_sh(empty.info.ambient));
-        EXPECT_EQ(probe_at(some, i).sh == volume.facts.ambient, i > 0);
+        EXPECT_EQ(probe_at(some, i).sh == volume.constants.ambient, i > 0);
     }
 }
 
@@ -181,7 +181,8 @@ TEST_P(QueryTwinsOfEveryDimension, PositionsThatAreNotFiniteGetTheAmbientLight) 
                                 run_fragment(task, ShaderPart::Query, &volume)}) {
         ASSERT_EQ(results.size(), kParts * inputs.size());
         for (size_t i = 0; i < inputs.size(); ++i) {
-            EXPECT_EQ(probe_at(results, i), (PackedProbe{volume.facts.ambient, glm::vec4(1.0f)}))
+            EXPECT_EQ(probe_at(results, i),
+                      (PackedProbe{volume.constants.ambient, glm::vec4(1.0f)}))
                 << "position " << i;
         }
     }
@@ -205,10 +206,15 @@ GLint offset_of(const ShaderProgram& program, GLenum interface, const char* name
 }
 
 TEST_F(QueryTwins, StructsLieInMemoryAsTheDriverSays) {
-    const std::string own = std::string("layout(local_size_x = 1) in;\n") +
-                            "layout(std430, binding = 8) buffer Probes { PackedProbe probes[]; };\n"
-                            "void main() { probes[0] = interpolate(locate(probes[1].sh.shc.xyz, "
-                            "0u)); }\n";
+    const std::string own =
+        std::string("layout(local_size_x = 1) in;\n") +
+        "layout(std430, binding = 8) buffer Probes {\n"
+        "    TetralightPackedProbe probes[];\n"
+        "};\n"
+        "void main() {\n"
+        "    vec3 position = probes[1].sh.shc.xyz;\n"
+        "    probes[0] = tetralight_interpolate(tetralight_locate(position, 0u));\n"
+        "}\n";
     const auto source =
         compose_shader(ShaderLanguage::Glsl450, {ShaderPart::Query}, {"layout.comp", own});
     const ShaderStage stage{GL_COMPUTE_SHADER, source};
@@ -218,11 +224,11 @@ TEST_F(QueryTwins, StructsLieInMemoryAsTheDriverSays) {
         const std::string name = "tetralight_volume." + member;
         return offset_of(*program, GL_UNIFORM, name.c_str());
     };
-    using Facts = ShaderVolumeFacts;
+    using Facts = ShaderVolumeConstants;
     EXPECT_EQ(fact("origin"), GLint{offsetof(Facts, origin)});
     EXPECT_EQ(fact("origin_rest"), GLint{offsetof(Facts, origin_rest)});
     EXPECT_EQ(fact("axis"), GLint{offsetof(Facts, axis)});
-    EXPECT_EQ(fact("seed_low"), GLint{offsetof(Facts, seed_low)});
+    EXPECT_EQ(fact("seed_min"), GLint{offsetof(Facts, seed_min)});
     EXPECT_EQ(fact("seed_scale"), GLint{offsetof(Facts, seed_scale)});
     EXPECT_EQ(fact("seed_size"), GLint{offsetof(Facts, seed_size)});
     EXPECT_EQ(fact("counts"), GLint{offsetof(Facts, counts)});

@@ -186,14 +186,14 @@ void main() {
         cells.bind(program, "tetralight_cells", 2);
         hull_rays.bind(program, "tetralight_hull_rays", 3);
         seeds.bind(program, "tetralight_seeds", 4);
-        GLuint facts = 0;
-        glCreateBuffers(1, &facts);
-        glNamedBufferStorage(facts, sizeof volume->facts, &volume->facts, 0);
+        GLuint constants = 0;
+        glCreateBuffers(1, &constants);
+        glNamedBufferStorage(constants, sizeof volume->constants, &volume->constants, 0);
         glUniformBlockBinding(program.name(),
                               glGetUniformBlockIndex(program.name(), "TetralightVolume"), 0);
-        glBindBufferBase(GL_UNIFORM_BUFFER, 0, facts);
+        glBindBufferBase(GL_UNIFORM_BUFFER, 0, constants);
         auto results = draw_pixels(program, task);
-        glDeleteBuffers(1, &facts);
+        glDeleteBuffers(1, &constants);
         return results;
     }
 

@@ -53,30 +53,33 @@ std::vector<Arguments> make_arguments() {
 }
 
 constexpr const char* kShader = R"(
-PackedSh sh_at(uint i) {
-    return PackedSh(input_at(i), input_at(i + 1u), input_at(i + 2u), input_at(i + 3u),
+TetralightPackedSh sh_at(uint i) {
+    return TetralightPackedSh(input_at(i), input_at(i + 1u), input_at(i + 2u), input_at(i + 3u),
                     input_at(i + 4u), input_at(i + 5u), input_at(i + 6u));
 }
 vec4 result(uint index, uint part) {
     uint at = 17u * index;
-    PackedSh sh = sh_at(at);
-    PackedSh layer = sh_at(at + 7u);
+    TetralightPackedSh sh = sh_at(at);
+    TetralightPackedSh layer = sh_at(at + 7u);
     vec4 x = input_at(at + 14u);
     vec4 y = input_at(at + 15u);
     vec4 z = input_at(at + 16u);
-    vec3 normal = instance_normal(x.xyz, y.xyz, z.xyz, layer.shc.xyz);
+    vec3 normal = tetralight_instance_normal(x.xyz, y.xyz, z.xyz, layer.shc.xyz);
     if (part == 0u) return vec4(normal, 0.0);
-    if (part == 1u) return vec4(sample_sh9(sh, normal), 0.0);
-    if (part == 2u) return vec4(sample_sh4(first_bands(sh), normal), 0.0);
-    if (part == 3u) return vec4(sample_sh9(add_layer(sh, layer, x.xyz), normal), 0.0);
-    vec3 dominant = dominant_direction(sh);
+    if (part == 1u) return vec4(tetralight_sample_sh9(sh, normal), 0.0);
+    if (part == 2u) return vec4(tetralight_sample_sh4(tetralight_first_bands(sh), normal), 0.0);
+    TetralightPackedSh sum = tetralight_add_layer(sh, layer, x.xyz);
+    if (part == 3u) return vec4(tetralight_sample_sh9(sum, normal), 0.0);
+    vec3 dominant = tetralight_dominant_direction(sh);
     if (part == 5u) return vec4(dominant, 0.0);
-    if (part == 6u) return vec4(dominant_irradiance(sh, dominant), 0.0);
+    if (part == 6u) return vec4(tetralight_dominant_irradiance(sh, dominant), 0.0);
     if (part == 7u) {
-        return vec4(specular_reflection(normal, dominant, normalize(y.xyz), x.www, 0.1 + 0.9 * y.w), 0.0);
+        vec3 to_eye = normalize(y.xyz);
+        return vec4(tetralight_specular_reflection(normal, dominant, to_eye, x.www, 0.1 + 0.9 * y.w),
+                    0.0);
     }
-    float occlusion = probe_occlusion(sh.sha_r, int(z.w));
-    return vec4(occlusion, mix_occlusion(x.w, occlusion, y.w), 0.0, 0.0);
+    float occlusion = tetralight_probe_occlusion(sh.sha_r, int(z.w));
+    return vec4(occlusion, tetralight_mix_occlusion(x.w, occlusion, y.w), 0.0, 0.0);
 }
 )";
 
