@@ -53,7 +53,7 @@ class RayContest {
         parallel_for(rays_.size(), 0, [&](size_t item) { estimate(item); });
     }
 
-    void cast() const {
+    void intersect() const {
         parallel_for(rays_.size(), 0, [&](size_t item) {
             for (const RecordedRay& ray : rays_[item]) (void)distance_of(scene_.caster(), ray);
         });
