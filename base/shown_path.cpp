@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/base/shown_path.h>
 
+#include <tetralight/base/hex.h>
 #include <tetralight/base/utf8.h>
 
 namespace tetralight {
@@ -25,7 +26,6 @@ std::string without_middle(const std::string& path) {
 
 std::string shown_path(std::string_view path) {
     if (path.empty()) return "\"\"";
-    constexpr std::string_view kDigits = "0123456789abcdef";
     const bool is_text = is_utf8(path);
     std::string shown;
     for (const char character : path) {
@@ -33,7 +33,7 @@ std::string shown_path(std::string_view path) {
         if (byte >= 0x20 && byte != 0x7f && (byte < 0x80 || is_text)) {
             shown += character;
         } else {
-            shown += {'\\', 'x', kDigits[byte >> 4u], kDigits[byte & 15u]};
+            shown += {'\\', 'x', kHexDigits[byte >> 4u], kHexDigits[byte & 15u]};
         }
     }
     return without_middle(shown);

@@ -34,9 +34,12 @@ ErrorCode error_code_of_errno(int number) noexcept {
 }
 
 Error system_error(const std::string& path, const char* what) {
+    return system_error(std::string(what)).in(shown_path(path));
+}
+
+Error system_error(const std::string& action) {
     const int number = errno;
-    return {error_code_of_errno(number),
-            shown_path(path) + ": cannot " + what + " (" + std::strerror(number) + ")"};
+    return {error_code_of_errno(number), "cannot " + action + " (" + std::strerror(number) + ")"};
 }
 
 }  // namespace tetralight

@@ -14,4 +14,7 @@ namespace tetralight {
 /// Why a system call about `path` failed, from `errno`: "a.probes: cannot open (No such file...)".
 [[nodiscard]] Error system_error(const std::string& path, const char* what);
 
+/// Why a system call about no file failed: "cannot make a pipe (Too many open files)".
+[[nodiscard]] Error system_error(const std::string& action);
+
 }  // namespace tetralight

@@ -56,9 +56,9 @@ Mesh room_walls(glm::vec3 size) {
 /// Positions in the scene's box that are not inside of anything.
 std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
     const auto everything = [](const MeshInstance&) { return true; };
-    const Box bounds = scene_bounds(scene, everything).value_or(Box{});
+    const WorldBox bounds = scene_bounds(scene, everything).value_or(WorldBox{});
     std::vector<glm::dvec3> candidates = random_positions(4 * count, 1, 1.0);
-    for (glm::dvec3& p : candidates) p = bounds.low + p * bounds.size();
+    for (glm::dvec3& p : candidates) p = bounds.min + p * bounds.size();
     const auto visibility = probe_visibility(scene, candidates);
     require(bool(visibility), "survey");
     std::vector<glm::dvec3> free;

@@ -40,7 +40,7 @@ class Places {
 
     [[nodiscard]] glm::dvec3 anywhere() {
         const double x = number_(engine_), y = number_(engine_), z = number_(engine_);
-        return bounds_.low + bounds_.size() * glm::dvec3(x, y, z);
+        return bounds_.min + bounds_.size() * glm::dvec3(x, y, z);
     }
 
     [[nodiscard]] glm::dvec3 off_a_surface() {
@@ -58,7 +58,7 @@ class Places {
     }
 
   private:
-    Box bounds_;
+    WorldBox bounds_;
     const TraceScene& traced_;
     std::mt19937_64 engine_{99};
     std::uniform_real_distribution<double> number_{0.0, 1.0};
@@ -88,8 +88,8 @@ std::vector<glm::dvec3> free_positions(const GridSubject& subject, size_t count)
         std::vector<uint8_t> is_free(some.size(), 0);
         parallel_for(some.size(), 0, [&](size_t i) {
             const glm::dvec3& p = some[i];
-            if (p != p || glm::any(glm::lessThan(p, subject.bounds.low)) ||
-                glm::any(glm::greaterThan(p, subject.bounds.high))) {
+            if (p != p || glm::any(glm::lessThan(p, subject.bounds.min)) ||
+                glm::any(glm::greaterThan(p, subject.bounds.max))) {
                 return;
             }
             is_free[i] = !probe_visibility_at(*traced, traced->render_from_world(p)).is_inside() &&

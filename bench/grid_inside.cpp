@@ -105,7 +105,7 @@ void inside_rays(const GridSubject& subject, const Options& options) {
     std::vector<glm::vec3> positions;
     for (const glm::dvec3& p : random_positions(4000, 5, 1.0)) {
         positions.push_back(
-            traced->render_from_world(subject.bounds.low + p * subject.bounds.size()));
+            traced->render_from_world(subject.bounds.min + p * subject.bounds.size()));
     }
     const auto directions = probe_visibility_directions();
     Contest contest;

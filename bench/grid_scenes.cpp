@@ -16,11 +16,11 @@ constexpr double kRoom = 4.0, kStorey = 3.0, kWall = 0.15, kSlab = 0.25;
 constexpr int kRoomsX = 3, kRoomsZ = 2, kStoreys = 2;
 
 /// A closed box whose fronts are outside, as one mesh.
-Mesh box_mesh(const Box& box) {
+Mesh box_mesh(const WorldBox& box) {
     Mesh mesh;
     for (int i = 0; i < 8; ++i) {
-        mesh.positions.emplace_back(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
-                                    i & 4 ? box.high.z : box.low.z);
+        mesh.positions.emplace_back(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                                    i & 4 ? box.max.z : box.min.z);
     }
     constexpr uint32_t kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                        {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
@@ -48,7 +48,7 @@ class HouseBuilder {
     }
 
   private:
-    void add(const Box& box, const glm::dvec3& albedo, const glm::vec3& emission = {}) {
+    void add(const WorldBox& box, const glm::dvec3& albedo, const glm::vec3& emission = {}) {
         Material material;
         material.base_color = glm::vec4(glm::vec3(albedo), 1.0f);
         material.metallic = 0.0f;
@@ -75,14 +75,14 @@ class HouseBuilder {
         const double ceiling = wall.floor + kStorey;
         const auto part = [&](double from, double to, double low, double high) {
             if (to - from < 1e-6 || high - low < 1e-6) return;
-            Box box;
+            WorldBox box;
             const int other = 2 - wall.axis;
-            box.low[wall.axis] = from;
-            box.high[wall.axis] = to;
-            box.low[other] = wall.at - 0.5 * kWall;
-            box.high[other] = wall.at + 0.5 * kWall;
-            box.low.y = low;
-            box.high.y = high;
+            box.min[wall.axis] = from;
+            box.max[wall.axis] = to;
+            box.min[other] = wall.at - 0.5 * kWall;
+            box.max[other] = wall.at + 0.5 * kWall;
+            box.min.y = low;
+            box.max.y = high;
             add(box, {0.75, 0.72, 0.68});
         };
         part(wall.begin, left, wall.floor, ceiling);
@@ -138,7 +138,7 @@ class HouseBuilder {
     Scene scene_;
 };
 
-Box bounds_of(const Scene& scene) {
+WorldBox bounds_of(const Scene& scene) {
     const auto bounds =
         scene_bounds(scene, [](const MeshInstance& instance) { return instance.contributes_gi; });
     require(bounds.has_value(), "scene with bounds");

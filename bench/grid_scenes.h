@@ -15,7 +15,7 @@ namespace tetralight::bench {
 struct GridSubject {
     std::string name;
     Scene scene;
-    Box bounds;
+    WorldBox bounds;
 };
 
 /// The courtyard; a house of two storeys with six rooms each, 12 × 8 m, whose walls, slabs and

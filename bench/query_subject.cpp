@@ -91,7 +91,7 @@ Subject make_scene_subject(const Options& options) {
     std::vector<ProbeGroup> groups = scene->probe_groups;
     if (groups.empty()) {
         const auto everything = [](const MeshInstance&) { return true; };
-        const glm::dvec3 size = scene_bounds(*scene, everything).value_or(Box{}).size();
+        const glm::dvec3 size = scene_bounds(*scene, everything).value_or(WorldBox{}).size();
         ProbeGridSettings grid;
         grid.spacing = glm::dvec3(std::cbrt(size.x * size.y * size.z / 20'000.0));
         auto made = make_probe_grid(*scene, grid);

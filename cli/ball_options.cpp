@@ -39,7 +39,7 @@ void BallOptions::add_to(CLI::App& command) {
 /// Where the ball may stand: in the middle of the probes, or at one of those that are nearest to
 /// it, because probes stand where there is room.
 std::vector<glm::dvec3> BallOptions::centers(const ProbeVolumeView& volume,
-                                             const ProbeBounds& bounds) const {
+                                             const Box<glm::vec3>& bounds) const {
     constexpr size_t kMostProbes = 64;
     if (center_option_->count() > 0 || volume.positions.empty()) return {settings.center};
     std::vector<glm::vec3> nearest(kMostProbes);
@@ -56,9 +56,9 @@ std::vector<glm::dvec3> BallOptions::centers(const ProbeVolumeView& volume,
 
 /// From the probes' bounds, and smaller ones for where there is little room.
 std::vector<double> BallOptions::radii(const ProbeVolumeView& volume,
-                                       const ProbeBounds& bounds) const {
+                                       const Box<glm::vec3>& bounds) const {
     if (radius_option_->count() > 0 || volume.positions.empty()) return {settings.radius};
-    const glm::dvec3 size(bounds.high - bounds.low);
+    const glm::dvec3 size(bounds.size());
     const double largest = 0.45 * std::max(std::min({size.x, size.y, size.z}), 1e-3);
     return {largest, 0.5 * largest, 0.25 * largest};
 }
@@ -76,7 +76,7 @@ void BallOptions::check_center() const {
 
 Camera BallOptions::place(const ProbeVolumeView& volume, const SceneShader* scene,
                           const ViewOptions& view) {
-    const ProbeBounds bounds = probe_bounds(volume);
+    const Box<glm::vec3> bounds = probe_bounds(volume);
     const BallView found = find_ball_view(view.has_camera ? nullptr : scene,
                                           centers(volume, bounds), radii(volume, bounds));
     settings.center = found.center;

@@ -27,9 +27,9 @@ struct BallOptions {
   private:
     void check_center() const;
     [[nodiscard]] std::vector<glm::dvec3> centers(const ProbeVolumeView& volume,
-                                                  const ProbeBounds& bounds) const;
+                                                  const Box<glm::vec3>& bounds) const;
     [[nodiscard]] std::vector<double> radii(const ProbeVolumeView& volume,
-                                            const ProbeBounds& bounds) const;
+                                            const Box<glm::vec3>& bounds) const;
 
     CLI::Option* center_option_ = nullptr;
     CLI::Option* radius_option_ = nullptr;

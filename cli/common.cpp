@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <iostream>
 
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/validators.h>
 
@@ -177,13 +178,10 @@ std::string cells_text(const ProbeVolumeView& volume) {
            (count == 1 ? cell_name(dimension) : kMany[static_cast<size_t>(dimension)]);
 }
 
-ProbeBounds probe_bounds(const ProbeVolumeView& volume) {
+Box<glm::vec3> probe_bounds(const ProbeVolumeView& volume) {
     if (volume.positions.empty()) return {};
-    ProbeBounds bounds{volume.positions[0], volume.positions[0]};
-    for (const glm::vec3& p : volume.positions) {
-        bounds.low = glm::min(bounds.low, p);
-        bounds.high = glm::max(bounds.high, p);
-    }
+    auto bounds = Box<glm::vec3>::empty();
+    for (const glm::vec3& p : volume.positions) bounds = union_of(bounds, p);
     return bounds;
 }
 
@@ -193,6 +191,10 @@ std::string merged_text(uint64_t welded_count, uint64_t lattice_count, double la
     line += ", " + counted(lattice_count, "lattice");
     return largest_snap > 0.0 ? line + formatted(" snapped by up to %.2g", largest_snap, " m")
                               : line;
+}
+
+Json made_with(const ProbeVolumeView& volume) {
+    return check_json_object(volume.metadata) ? Json::parse(volume.metadata) : Json(nullptr);
 }
 
 Json counts(const ProbeVolumeView& volume) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/base/box.h>
 #include <tetralight/base/result.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/probes/probe_volume.h>
@@ -82,17 +83,12 @@ CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm:
 [[nodiscard]] std::string cells_text(const ProbeVolumeView& volume);
 
 /// The box around a volume's probes, relative to its local origin; a point without probes.
-struct ProbeBounds {
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
-
-    [[nodiscard]] glm::vec3 center() const { return 0.5f * low + 0.5f * high; }
-};
-
-[[nodiscard]] ProbeBounds probe_bounds(const ProbeVolumeView& volume);
+[[nodiscard]] Box<glm::vec3> probe_bounds(const ProbeVolumeView& volume);
 /// "3 welded", "3 welded, 2 lattices", "3 welded, 2 lattices snapped by up to 1e-07 m".
 [[nodiscard]] std::string merged_text(uint64_t welded_count, uint64_t lattice_count,
                                       double largest_snap);
+/// How a volume was made: the JSON object of its metadata; null if it has none.
+[[nodiscard]] Json made_with(const ProbeVolumeView& volume);
 /// What a volume holds, in numbers.
 [[nodiscard]] Json counts(const ProbeVolumeView& volume);
 

@@ -78,8 +78,8 @@ void GridOptions::add_to(CLI::App& command) {
 }
 
 void GridOptions::add_bounds(CLI::App& command) {
-    low_option_ = add_vec3(command, "--min", bounds_.low, "Lower corner of the box to fill");
-    auto* high = add_vec3(command, "--max", bounds_.high, "Upper corner of the box");
+    low_option_ = add_vec3(command, "--min", bounds_.min, "Lower corner of the box to fill");
+    auto* high = add_vec3(command, "--max", bounds_.max, "Upper corner of the box");
     low_option_->needs(high);
     high->needs(low_option_);
     command
@@ -139,9 +139,9 @@ void GridOptions::add_adaptive(CLI::App& command) {
 void GridOptions::check_usage() const {
     constexpr const char* kAxes[] = {"x", "y", "z"};
     for (int i = 0; i < 3; ++i) {
-        if (bounds_.low[i] <= bounds_.high[i]) continue;
-        throw CLI::ValidationError("--max", str_cat(bounds_.high[i], " is less than --min ",
-                                                    bounds_.low[i], " along ", kAxes[i]));
+        if (bounds_.min[i] <= bounds_.max[i]) continue;
+        throw CLI::ValidationError("--max", str_cat(bounds_.max[i], " is less than --min ",
+                                                    bounds_.min[i], " along ", kAxes[i]));
     }
     const bool is_adaptive = settings.mode == PlacementMode::Adaptive;
     if (spacing_option_->count() == 0 && !is_adaptive) throw CLI::RequiredError("--spacing");

@@ -27,7 +27,7 @@ struct GridOptions {
     void add_reach(CLI::App& command);
     void add_adaptive(CLI::App& command);
 
-    Box bounds_;
+    WorldBox bounds_;
     double clearance_ = 0.0;
     std::vector<std::string> seeds_;
     CLI::Option* low_option_ = nullptr;

@@ -2,12 +2,14 @@
 #include <span>
 
 #include <tetralight/base/file.h>
+#include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/volume_facts.h>
 #include <tetralight/pipeline/partial_bake.h>
+#include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/build/wireframe.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -58,6 +60,9 @@ struct Info {
         }
         const auto file = open_probe_file(path);
         if (!file) return file.error();
+        if (auto status = check_metadata(file->view().metadata); !status) {
+            return status.error().in(shown_path(path));
+        }
         if (auto status = write_wireframe(file->view()); !status) return status;
         const VolumeFacts facts = make_volume_facts(path, *file);
         const bool is_stdout_taken = obj_path == "-" || ply_path == "-";

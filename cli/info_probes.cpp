@@ -28,11 +28,11 @@ struct ProbeFacts {
 
 /// A probe is `buried` when it looks from inside geometry by the threshold of its bake.
 float min_validity(const ProbeVolumeView& volume) {
-    const Json made_with = Json::parse(volume.metadata, nullptr, false);
+    const Json recipe = made_with(volume);
     const HealthSettings defaults;
-    if (!made_with.is_object()) return defaults.min_validity;
-    const auto value = made_with.find("min_validity");
-    const bool is_there = value != made_with.end() && value->is_number();
+    if (recipe.is_null()) return defaults.min_validity;
+    const auto value = recipe.find("min_validity");
+    const bool is_there = value != recipe.end() && value->is_number();
     return is_there ? value->get<float>() : defaults.min_validity;
 }
 

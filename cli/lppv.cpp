@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/lppv/lppv.h>
 
-#include <chrono>
 #include <filesystem>
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/box.h>
+#include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/choice.h>
 #include <tetralight/cli/common.h>
@@ -30,16 +31,6 @@ namespace {
 
 enum class Layout : uint8_t { Automatic, Four, Seven };
 
-class Stopwatch {
-  public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 /// Bytes of what was written; 0 for stdout and devices.
 uint64_t file_size(const std::string& path) {
     std::error_code error;
@@ -60,19 +51,11 @@ Json bounds_json(const glm::dvec3& low, const glm::dvec3& high,
 }
 
 /// The box around the active points of a sparse grid; without blocks a point.
-struct PointBox {
-    glm::ivec3 first{0};
-    glm::ivec3 last{0};
-};
-
-PointBox box_of(const SparseLppv& lppv) {
+Box<glm::ivec3> box_of(const SparseLppv& lppv) {
     if (lppv.blocks.empty()) return {};
-    glm::ivec3 low = lppv.blocks[0], high = low;
-    for (const glm::ivec3& block : lppv.blocks) {
-        low = glm::min(low, block);
-        high = glm::max(high, block);
-    }
-    return {low * kSparseBlockSide, (high + 1) * kSparseBlockSide - 1};
+    Box<glm::ivec3> blocks{lppv.blocks[0], lppv.blocks[0]};
+    for (const glm::ivec3& block : lppv.blocks) blocks = union_of(blocks, block);
+    return {blocks.min * kSparseBlockSide, (blocks.max + 1) * kSparseBlockSide - 1};
 }
 
 struct LppvCommand {
@@ -241,13 +224,13 @@ struct LppvCommand {
                      : write_vdb(output, lppv, precision, common.thread_count);
         if (!status) return status;
         common.warn(half_warnings(largest_coefficient(lppv.irradiance), file));
-        const PointBox box = box_of(lppv);
+        const Box<glm::ivec3> box = box_of(lppv);
         common.report(
             output,
             {{"output", output},
-             {"bounds", bounds_json(lppv.spacing * glm::dvec3(box.first),
-                                    lppv.spacing * glm::dvec3(box.last))},
-             {"resolution", to_json(glm::uvec3(box.last - box.first + 1))},
+             {"bounds",
+              bounds_json(lppv.spacing * glm::dvec3(box.min), lppv.spacing * glm::dvec3(box.max))},
+             {"resolution", to_json(glm::uvec3(box.max - box.min + 1))},
              {"spacing", lppv.spacing},
              {"blocks", lppv.blocks.size()},
              {"points", lppv.irradiance.size()},

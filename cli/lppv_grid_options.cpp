@@ -116,9 +116,9 @@ Result<LppvGrid> LppvGridOptions::make_grid(const Scene& scene,
         if (!grid) return grid.error().in(found->place);
         return grid;
     }
-    const ProbeBounds probes = probe_bounds(volume);
-    LppvPart world{glm::dmat4(1.0), volume.info.world_origin + glm::dvec3(probes.low),
-                   volume.info.world_origin + glm::dvec3(probes.high)};
+    const Box<glm::vec3> probes = probe_bounds(volume);
+    LppvPart world{glm::dmat4(1.0), volume.info.world_origin + glm::dvec3(probes.min),
+                   volume.info.world_origin + glm::dvec3(probes.max)};
     LppvSettings chosen = settings;
     chosen.bounds = LppvBounds::AutomaticWorld;
     if (!bounds.empty()) {

@@ -2,7 +2,7 @@
 #include <tetralight/cli/position_handler.h>
 
 #include <tetralight/base/error_text.h>
-#include <tetralight/base/json_text.h>
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/position_text.h>
 

@@ -108,17 +108,16 @@ struct Relight {
         if (!blend_path.empty()) {
             if (auto status = blend_with(volume); !status) return status;
         }
-        volume.metadata = metadata(volume.metadata);
+        volume.metadata = metadata(made_with(volume.view()));
         if (auto status = write_probe_file(output, volume.view()); !status) return status;
         report(volume);
         return Ok{};
     }
 
     /// With what was changed, in words that repeat it; weights are recorded with their layers.
-    [[nodiscard]] std::string metadata(const std::string& before) const {
-        Json made_with = Json::parse(before, nullptr, false);
-        if (!made_with.is_object()) made_with = Json::object();
-        std::string relit = made_with.value("relit", "");
+    [[nodiscard]] std::string metadata(Json recipe) const {
+        if (recipe.is_null()) recipe = Json::object();
+        std::string relit = recipe.value("relit", "");
         const auto add = [&](const char* option, const std::string& value) {
             relit += str_cat(relit.empty() ? "" : " ", option, " ", value);
         };
@@ -132,8 +131,8 @@ struct Relight {
             add("--blend", blend_path);
             add("--blend-share", str_cat(blend_share));
         }
-        if (!relit.empty()) made_with["relit"] = relit;
-        return dump(made_with);
+        if (!relit.empty()) recipe["relit"] = relit;
+        return dump(recipe);
     }
 
     [[nodiscard]] bool changes_sky() const {

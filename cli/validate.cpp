@@ -2,9 +2,11 @@
 #include <tetralight/probes/build/validate.h>
 
 #include <tetralight/base/error_text.h>
+#include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
@@ -32,7 +34,7 @@ struct Validate {
     }
 
     Status run() {
-        const auto file = open_probe_file(path);
+        const auto file = open_volume();
         if (!file) {
             if (common.is_json) common.print(verdict({error_text(file.error())}), "");
             return file.error();
@@ -52,6 +54,15 @@ struct Validate {
             message += (&problem == &problems[0] ? "" : "; ") + problem;
         }
         return Error{message};
+    }
+
+    /// The volume with its metadata checked.
+    [[nodiscard]] Result<ProbeFile> open_volume() const {
+        auto file = open_probe_file(path);
+        if (!file) return file;
+        const Status status = check_metadata(file->view().metadata);
+        if (!status) return status.error().in(shown_path(path));
+        return file;
     }
 
     /// A file that cannot be opened has this part alone: nothing of it was counted.

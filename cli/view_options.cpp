@@ -68,8 +68,8 @@ Camera ViewOptions::camera() const {
 }
 
 Camera overview(const Scene& scene) {
-    const Box bounds =
-        scene_bounds(scene, [](const MeshInstance&) { return true; }).value_or(Box{});
+    const WorldBox bounds =
+        scene_bounds(scene, [](const MeshInstance&) { return true; }).value_or(WorldBox{});
     const double fov = glm::radians(45.0);
     const double distance = 0.75 * std::max(glm::length(bounds.size()), 1e-3) / std::tan(fov / 2);
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.5, 0.45, 1.0));

@@ -58,9 +58,9 @@ Json layers_json(const ProbeVolumeView& volume) {
 
 Json bounds_json(const ProbeVolumeView& volume) {
     if (volume.positions.empty()) return nullptr;
-    const ProbeBounds bounds = probe_bounds(volume);
-    return {{"min", to_json(glm::dvec3(bounds.low) + volume.info.world_origin)},
-            {"max", to_json(glm::dvec3(bounds.high) + volume.info.world_origin)}};
+    const Box<glm::vec3> bounds = probe_bounds(volume);
+    return {{"min", to_json(glm::dvec3(bounds.min) + volume.info.world_origin)},
+            {"max", to_json(glm::dvec3(bounds.max) + volume.info.world_origin)}};
 }
 
 std::optional<Slivers> count_slivers(const ProbeVolumeView& volume) {
@@ -147,8 +147,7 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.layers = layers_json(volume);
     facts.has_transfer = !volume.transfer.empty();
     facts.bounds = bounds_json(volume);
-    facts.made_with = Json::parse(volume.metadata, nullptr, false);
-    if (facts.made_with.is_discarded()) facts.made_with = nullptr;
+    facts.made_with = made_with(volume);
     facts.is_baked = !volume.irradiance.empty();
     facts.radial_share = static_cast<double>(volume.info.radial_share);
     facts.slivers = count_slivers(volume);

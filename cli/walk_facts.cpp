@@ -38,7 +38,7 @@ class Positions {
     glm::vec3 around() {
         const double x = share(), y = share(), z = share();
         const glm::dvec3 shares = 1.1 * glm::dvec3(x, y, z) - 0.05;
-        return in_world(glm::mix(glm::dvec3(bounds_.low), glm::dvec3(bounds_.high), shares));
+        return in_world(glm::mix(glm::dvec3(bounds_.min), glm::dvec3(bounds_.max), shares));
     }
 
   private:
@@ -49,7 +49,7 @@ class Positions {
     double share() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
     const ProbeVolumeView& volume_;
-    ProbeBounds bounds_;
+    Box<glm::vec3> bounds_;
     std::mt19937_64 engine_{1};
 };
 

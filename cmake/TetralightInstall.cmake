@@ -14,7 +14,7 @@ foreach(module ${ship_modules})
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module}/ DESTINATION ${header_folder}/${module}
           COMPONENT dev FILES_MATCHING PATTERN "*.h"
-          PATTERN build EXCLUDE PATTERN hash EXCLUDE PATTERN vdb EXCLUDE
+          PATTERN build EXCLUDE PATTERN hash EXCLUDE PATTERN json EXCLUDE PATTERN vdb EXCLUDE
           PATTERN shaders EXCLUDE)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/shaders/ DESTINATION ${shader_folder}

@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <optional>
 #include <string>
 
+#include <tetralight/base/box.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -18,11 +18,10 @@ namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
-/// A box in a space.
-struct Bounds {
+/// A box along the axes of a local space.
+struct OrientedBox {
     glm::dmat4 world_from_local{1.0};
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
+    Box<glm::dvec3> local;
 };
 
 bool is_finite(const glm::dvec3& v) {
@@ -60,11 +59,10 @@ Status check_bounds(const glm::dvec3& low, const glm::dvec3& high) {
 }
 
 /// The box around the corners of all parts, in a space.
-Result<Bounds> automatic_bounds(const LppvObject& object, const glm::dmat4& world_from_local) {
+Result<OrientedBox> automatic_bounds(const LppvObject& object, const glm::dmat4& world_from_local) {
     if (object.parts.empty()) return Error{"there is no mesh to wrap"};
     const glm::dmat4 local_from_world = glm::inverse(world_from_local);
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Bounds bounds{world_from_local, glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+    OrientedBox bounds{world_from_local, Box<glm::dvec3>::empty()};
     for (const LppvPart& part : object.parts) {
         if (auto status = check_bounds(part.low, part.high); !status) return status.error();
         if (auto status = check_transform(part.world_from_part); !status) return status.error();
@@ -73,15 +71,13 @@ Result<Bounds> automatic_bounds(const LppvObject& object, const glm::dmat4& worl
             const glm::dvec4 p((corner & 1) != 0 ? part.high.x : part.low.x,
                                (corner & 2) != 0 ? part.high.y : part.low.y,
                                (corner & 4) != 0 ? part.high.z : part.low.z, 1.0);
-            const glm::dvec3 local(local_from_part * p);
-            bounds.low = glm::min(bounds.low, local);
-            bounds.high = glm::max(bounds.high, local);
+            bounds.local = union_of(bounds.local, glm::dvec3(local_from_part * p));
         }
     }
     return bounds;
 }
 
-Result<Bounds> custom_bounds(const glm::dmat4& world_from_object, const LppvBox& box) {
+Result<OrientedBox> custom_bounds(const glm::dmat4& world_from_object, const LppvBox& box) {
     const double length = glm::length(box.orientation);
     if (!is_finite(box.center) || !std::isfinite(length) || length == 0.0) {
         return Error{str_cat("the box has no place: center ", shown(box.center),
@@ -89,7 +85,7 @@ Result<Bounds> custom_bounds(const glm::dmat4& world_from_object, const LppvBox&
     }
     const glm::dmat4 world_from_box = glm::translate(world_from_object, box.center) *
                                       glm::mat4_cast(glm::normalize(box.orientation));
-    return Bounds{world_from_box, -0.5 * box.size, 0.5 * box.size};
+    return OrientedBox{world_from_box, {-0.5 * box.size, 0.5 * box.size}};
 }
 
 /// A unit vector at right angles to two others, which may be 0.
@@ -124,7 +120,7 @@ std::optional<glm::dmat4> with_every_axis(glm::dmat4 world_from_local) {
     return world_from_local;
 }
 
-Result<Bounds> find_bounds(const LppvObject& object, const LppvSettings& settings) {
+Result<OrientedBox> find_bounds(const LppvObject& object, const LppvSettings& settings) {
     if (auto status = check_transform(object.world_from_object); !status) return status.error();
     if (settings.bounds == LppvBounds::AutomaticWorld) {
         return automatic_bounds(object, glm::dmat4(1.0));
@@ -147,15 +143,15 @@ uint32_t nearest_power_of_two(double number) {
     return power;
 }
 
-Result<glm::uvec3> find_resolution(const Bounds& bounds, const LppvSettings& settings) {
+Result<glm::uvec3> find_resolution(const OrientedBox& bounds, const LppvSettings& settings) {
     glm::dvec3 wanted(settings.resolution);
     if (settings.resolution_mode == LppvResolution::Automatic) {
         if (!std::isfinite(settings.density) || settings.density <= 0.0) {
             return Error{str_cat("density is not a positive number: ", settings.density)};
         }
         for (int i = 0; i < 3; ++i) {
-            const double metres = (bounds.high[i] - bounds.low[i]) *
-                                  glm::length(glm::dvec3(bounds.world_from_local[i]));
+            const double metres =
+                bounds.local.size()[i] * glm::length(glm::dvec3(bounds.world_from_local[i]));
             wanted[i] = std::max(1.0, std::round(settings.density * metres));
         }
     }
@@ -217,15 +213,16 @@ glm::dvec3 LppvGrid::point_coordinates(const glm::dvec3& position) const noexcep
 Result<LppvGrid> make_lppv_grid(const LppvObject& object, const LppvSettings& settings) {
     const auto bounds = find_bounds(object, settings);
     if (!bounds) return bounds.error();
-    if (auto status = check_bounds(bounds->low, bounds->high); !status) return status.error();
+    if (auto status = check_bounds(bounds->local.min, bounds->local.max); !status)
+        return status.error();
     const auto resolution = find_resolution(*bounds, settings);
     if (!resolution) return resolution.error();
 
     LppvGrid grid;
     grid.world_from_local = bounds->world_from_local;
     grid.local_from_world = glm::inverse(bounds->world_from_local);
-    grid.low = bounds->low;
-    grid.high = bounds->high;
+    grid.low = bounds->local.min;
+    grid.high = bounds->local.max;
     grid.resolution = *resolution;
     for (int axis = 0; axis < 3; ++axis) place_points(grid, axis, settings.placement);
     return grid;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/pipeline/bake_volume.h>
 
-#include <array>
-#include <chrono>
-#include <cstdio>
 #include <utility>
 
 #include <tetralight/bake/bake_accumulators.h>
@@ -12,6 +9,8 @@
 #include <tetralight/bake/rays/memory_estimate.h>
 #include <tetralight/bake/round_plan.h>
 #include <tetralight/base/contract.h>
+#include <tetralight/base/hex.h>
+#include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_key.h>
 #include <tetralight/pipeline/dilate_probes.h>
@@ -25,31 +24,13 @@
 namespace tetralight {
 namespace {
 
-/// Seconds since the last call.
-class Stopwatch {
-  public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-std::string hexadecimal(uint64_t number) {
-    std::array<char, 17> digits{};
-    std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(number));
-    return digits.data();
-}
-
 /// What is left at its default that changes no byte is left out.
 std::string metadata(const Scene& scene, const PreparedBake& prepared, bool has_dering) {
     const BakeVolumeSettings& settings = prepared.settings;
     const BakeSettings& bake = settings.bake;
     const HealthSettings& health = settings.health;
     std::string json = str_cat("{\"generator\":\"tetralight ", TETRALIGHT_VERSION,
-                               "\",\"scene\":\"", hexadecimal(scene_key(scene)),
+                               "\",\"scene\":\"", hex(scene_key(scene)),
                                "\",\"samples\":", bake.sample_count, ",\"bounces\":", bake.bounces,
                                ",\"seed\":", bake.seed, ",\"min_validity\":", health.min_validity,
                                ",\"virtual_offset\":", health.virtual_offset,
@@ -69,8 +50,7 @@ std::string metadata(const Scene& scene, const PreparedBake& prepared, bool has_
         json += str_cat(",\"mixed_lighting\":\"", name_of(settings.lighting.mixed_lighting), "\"");
     }
     if (!prepared.overrides.empty()) {
-        json += str_cat(",\"adjustments\":\"",
-                        hexadecimal(adjustments_key(scene.probe_adjustments)), "\"");
+        json += str_cat(",\"adjustments\":\"", hex(adjustments_key(scene.probe_adjustments)), "\"");
     }
     if (has_dering) {
         json += str_cat(",\"dering\":\"", name_of(settings.dering.window), "\"");

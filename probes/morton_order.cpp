@@ -7,8 +7,9 @@
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
-#include <limits>
 #include <utility>
+
+#include <tetralight/base/box.h>
 
 namespace tetralight {
 namespace {
@@ -21,31 +22,30 @@ uint32_t spread_bits(uint32_t x) {
     return (x | x << 2) & 0x09249249u;
 }
 
-/// A bounding box as the lattice of a Morton curve.
-struct MortonBox {
-    glm::vec3 low{std::numeric_limits<float>::max()};
+/// The lattice of a Morton curve in the bounding box of some positions.
+struct MortonLattice {
+    glm::vec3 origin{0.0f};
     glm::vec3 scale{0.0f};
     int bits = 1;
 
-    explicit MortonBox(std::span<const glm::vec3> positions) {
-        glm::vec3 high(std::numeric_limits<float>::lowest());
+    explicit MortonLattice(std::span<const glm::vec3> positions) {
+        auto box = Box<glm::vec3>::empty();
         for (const glm::vec3& p : positions) {
-            if (!is_finite(p)) continue;
-            low = glm::min(low, p);
-            high = glm::max(high, p);
+            if (is_finite(p)) box = union_of(box, p);
         }
+        origin = box.min;
         // About eight lattice points a position.
         bits = std::clamp(static_cast<int>(std::bit_width(positions.size())) / 3 + 1, 1, 10);
         const auto steps = static_cast<float>(1 << bits);
         for (int axis = 0; axis < 3; ++axis) {
-            const float size = high[axis] - low[axis];
+            const float size = box.size()[axis];
             if (size > 0.0f && std::isfinite(size)) scale[axis] = steps / size;
         }
     }
 
     [[nodiscard]] uint32_t index(const glm::vec3& position) const {
         const auto last = static_cast<float>((1 << bits) - 1);
-        const glm::vec3 point = glm::min((position - low) * scale, glm::vec3(last));
+        const glm::vec3 point = glm::min((position - origin) * scale, glm::vec3(last));
         return spread_bits(static_cast<uint32_t>(point.x)) << 2 |
                spread_bits(static_cast<uint32_t>(point.y)) << 1 |
                spread_bits(static_cast<uint32_t>(point.z));
@@ -72,13 +72,13 @@ std::span<const uint64_t> morton_order(std::span<const glm::vec3> positions,
     const size_t count = positions.size();
     std::span<uint64_t> keys = memory.first(count);
     std::span<uint64_t> other = memory.subspan(count, count);
-    const MortonBox box(positions);
+    const MortonLattice lattice(positions);
     for (size_t i = 0; i < count; ++i) {
-        const uint64_t index = is_finite(positions[i]) ? box.index(positions[i]) : 0;
+        const uint64_t index = is_finite(positions[i]) ? lattice.index(positions[i]) : 0;
         keys[i] = index << 32 | i;
     }
     constexpr int kLargestDigit = 12;
-    const int bits = 3 * box.bits;
+    const int bits = 3 * lattice.bits;
     const int passes = (bits + kLargestDigit - 1) / kLargestDigit;
     const int digit_bits = (bits + passes - 1) / passes;
     for (int pass = 0; pass < passes; ++pass) {

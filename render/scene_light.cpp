@@ -27,7 +27,7 @@ InstanceLight light_mover(const glm::dvec3& anchor, const ProbeVolumeView& volum
 }
 
 /// Where something that moves takes its light: its anchor, else the centre of its bounds.
-glm::dvec3 light_anchor(const Scene& scene, const MeshInstance& instance, const Box& bounds) {
+glm::dvec3 light_anchor(const Scene& scene, const MeshInstance& instance, const WorldBox& bounds) {
     if (instance.node == kNoIndex) return bounds.center();
     const uint32_t anchor = scene.nodes[instance.node].probe_anchor;
     if (anchor == kNoIndex) return bounds.center();

@@ -2,7 +2,7 @@
 #include <tetralight/server/json.h>
 
 #include <tetralight/base/error_text.h>
-#include <tetralight/base/json_text.h>
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/server/problem.h>
 
 namespace tetralight::server {

@@ -73,7 +73,7 @@ struct AdaptiveReport {
 struct AdaptiveInput {
     const Scene& scene;
     const TraceScene& traced;
-    Box bounds;
+    WorldBox bounds;
     double clearance = 0.0;
     /// Whether a probe may stand at a position that is free.
     std::function<bool(const glm::dvec3& position)> may_stand;

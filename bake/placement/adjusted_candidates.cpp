@@ -47,18 +47,17 @@ Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustment
 
 }  // namespace
 
-std::optional<Box> bounds_in(const Box& bounds, const ProbeAdjustment& adjustment) {
+std::optional<WorldBox> bounds_in(const WorldBox& bounds, const ProbeAdjustment& adjustment) {
     const double half = adjustment.shape == AdjustmentShape::Sphere ? 1.0 : 0.5;
-    Box box{glm::dvec3(std::numeric_limits<double>::max()),
-            glm::dvec3(std::numeric_limits<double>::lowest())};
+    WorldBox box = WorldBox::empty();
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 local(corner & 1 ? half : -half, corner & 2 ? half : -half,
                                corner & 4 ? half : -half, 1.0);
         const glm::dvec3 world(adjustment.world_from_volume * local);
-        box = {glm::min(box.low, world), glm::max(box.high, world)};
+        box = union_of(box, world);
     }
-    box = {glm::max(box.low, bounds.low), glm::min(box.high, bounds.high)};
-    if (glm::any(glm::greaterThan(box.low, box.high))) return std::nullopt;
+    box = intersection_of(box, bounds);
+    if (glm::any(glm::greaterThan(box.min, box.max))) return std::nullopt;
     return box;
 }
 

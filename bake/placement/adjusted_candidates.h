@@ -25,7 +25,8 @@ struct Candidate {
 };
 
 /// The part of the bounds that a volume reaches into; none where it lies outside.
-[[nodiscard]] std::optional<Box> bounds_in(const Box& bounds, const ProbeAdjustment& adjustment);
+[[nodiscard]] std::optional<WorldBox> bounds_in(const WorldBox& bounds,
+                                                const ProbeAdjustment& adjustment);
 
 /// Candidates of the mode by the rule where no volume sets a spacing, and by the volume's own
 /// spacing where one does. Errors as in candidates.h.

@@ -28,11 +28,11 @@ struct LineHit {
 };
 
 /// All surfaces along a line through the bounds, from its high end down.
-std::vector<LineHit> hits_along(const TraceScene& traced, const Box& bounds, glm::dvec3 start,
+std::vector<LineHit> hits_along(const TraceScene& traced, const WorldBox& bounds, glm::dvec3 start,
                                 int axis) {
     // From a little outside, so that a roof that bounds the scene is met from above.
     const double margin = 1e-3 * std::max(bounds.size()[axis], 1.0);
-    start[axis] = bounds.high[axis] + margin;
+    start[axis] = bounds.max[axis] + margin;
     const double length = bounds.size()[axis] + 2.0 * margin;
     glm::vec3 direction(0.0f);
     direction[axis] = -1.0f;
@@ -51,8 +51,8 @@ std::vector<LineHit> hits_along(const TraceScene& traced, const Box& bounds, glm
 
 /// The lines along one axis: a lattice over the other two. Each counts as a candidate.
 Result<std::vector<glm::dvec3>> lines_along(const CandidateRule& rule, int axis) {
-    Box flat = rule.bounds;
-    flat.low[axis] = flat.high[axis] = 0.0;
+    WorldBox flat = rule.bounds;
+    flat.min[axis] = flat.max[axis] = 0.0;
     return lattice_candidates({flat, rule.spacing, 0.0, {}, rule.max_count, 0});
 }
 

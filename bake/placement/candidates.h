@@ -17,7 +17,7 @@ namespace tetralight {
 
 /// What candidates are made from.
 struct CandidateRule {
-    Box bounds;
+    WorldBox bounds;
     glm::dvec3 spacing{1.0};
     /// Surfaces: metres from the wall.
     double clearance = 0.0;

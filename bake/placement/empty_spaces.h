@@ -23,7 +23,7 @@ struct SpacePlaces {
 
 /// Where probes may stand, free beyond doubt and at the clearance.
 struct PlaceRule {
-    Box bounds;
+    WorldBox bounds;
     double clearance = 0.0;
     /// In each space.
     size_t most_places = 1;

@@ -158,7 +158,7 @@ class Push {
     glm::vec3 start_;
     float clearance_;
     float reach_;
-    Box bounds_;
+    WorldBox bounds_;
 };
 
 }  // namespace

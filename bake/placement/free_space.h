@@ -36,8 +36,8 @@ struct ClearanceRule {
     /// A candidate that has to move moves this far at most, metres.
     double reach = 0.0;
     /// It moves to nowhere else.
-    Box bounds{glm::dvec3(-std::numeric_limits<double>::infinity()),
-               glm::dvec3(std::numeric_limits<double>::infinity())};
+    WorldBox bounds{glm::dvec3(-std::numeric_limits<double>::infinity()),
+                    glm::dvec3(std::numeric_limits<double>::infinity())};
 };
 
 /// A candidate, and where it stands in the end.

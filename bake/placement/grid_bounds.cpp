@@ -34,7 +34,7 @@ Status check_name(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
-Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings) {
+Result<WorldBox> grid_bounds(const Scene& scene, const ProbeGridSettings& settings) {
     if (settings.bounds) return *settings.bounds;
     for (const std::string& name : settings.bounds_of) {
         if (auto status = check_name(scene, name); !status) return status.error();
@@ -49,38 +49,33 @@ Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings) {
     return *bounds;
 }
 
-Box with_room(const Box& bounds, const glm::dvec3& spacing, double clearance,
-              const ProbeGridSettings& settings) {
+WorldBox with_room(const WorldBox& bounds, const glm::dvec3& spacing, double clearance,
+                   const ProbeGridSettings& settings) {
     if (settings.bounds) return bounds;
-    Box box = bounds;
+    WorldBox box = bounds;
     const glm::dvec3 size = bounds.size();
     const double flat = settings.mode == PlacementMode::Adaptive ? 0.125 : 0.25;
     const double least = flat * std::max({size.x, size.y, size.z});
     for (int axis = 0; axis < 3; ++axis) {
         const double missing = std::min(2.0 * spacing[axis], least) - size[axis];
         if (missing <= 0.0) continue;
-        if (axis != kUp) box.low[axis] -= 0.5 * missing;
-        box.high[axis] += axis == kUp ? missing : 0.5 * missing;
+        if (axis != kUp) box.min[axis] -= 0.5 * missing;
+        box.max[axis] += axis == kUp ? missing : 0.5 * missing;
     }
     if (settings.mode == PlacementMode::Layers && !settings.heights.empty()) {
-        box.high[kUp] += std::ranges::max(settings.heights);
+        box.max[kUp] += std::ranges::max(settings.heights);
     }
     if (settings.mode == PlacementMode::Surface) {
-        box.low -= glm::dvec3(clearance, 0.0, clearance);
-        box.high += glm::dvec3(clearance);
+        box.min -= glm::dvec3(clearance, 0.0, clearance);
+        box.max += glm::dvec3(clearance);
     }
     return box;
 }
 
-bool is_in(const Box& box, const glm::dvec3& position) {
+bool is_in(const WorldBox& box, const glm::dvec3& position) {
     constexpr double kRounding = 1e-6;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double slack = kRounding * std::max(1.0, box.size()[axis]);
-        if (position[axis] < box.low[axis] - slack || position[axis] > box.high[axis] + slack) {
-            return false;
-        }
-    }
-    return true;
+    const glm::dvec3 slack = kRounding * glm::max(glm::dvec3(1.0), box.size());
+    return contains(WorldBox{box.min - slack, box.max + slack}, position);
 }
 
 uint64_t most_probes(const ProbeGridSettings& settings) {
@@ -89,7 +84,7 @@ uint64_t most_probes(const ProbeGridSettings& settings) {
     return settings.max_probe_count.value_or(usual);
 }
 
-Result<glm::dvec3> first_spacing(const Box& bounds, const ProbeGridSettings& settings) {
+Result<glm::dvec3> first_spacing(const WorldBox& bounds, const ProbeGridSettings& settings) {
     const bool is_adaptive = settings.mode == PlacementMode::Adaptive;
     constexpr double kLayers = 8.0, kWider = 1.1;
     const glm::dvec3 size = bounds.size();
@@ -99,8 +94,8 @@ Result<glm::dvec3> first_spacing(const Box& bounds, const ProbeGridSettings& set
         spacing = settings.adaptive.start_spacing.value_or(glm::dvec3(longest / kLayers));
     auto count = lattice_count(bounds, spacing);
     if (!count) return count.error();
-    const glm::dvec3& p = bounds.low;
-    if (p == bounds.high) {
+    const glm::dvec3& p = bounds.min;
+    if (p == bounds.max) {
         return Error{str_cat("bounds are empty: nothing but ", p.x, ",", p.y, ",", p.z)};
     }
     const uint64_t most = most_probes(settings);

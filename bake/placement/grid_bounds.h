@@ -11,16 +11,16 @@ namespace tetralight {
 /// The box to fill: what is given, or around the nodes that are named, or around all that
 /// contributes global illumination. A node's box is that of all below it. Errors: a name that no
 /// node has, or none that has a mesh, and nothing to take bounds from.
-[[nodiscard]] Result<Box> grid_bounds(const Scene& scene, const ProbeGridSettings& settings);
+[[nodiscard]] Result<WorldBox> grid_bounds(const Scene& scene, const ProbeGridSettings& settings);
 
 /// The box with room for what the mode puts around the scene's surfaces: flat scenes have air above
 /// them, layers stand above the highest floor, and surfaces have outer sides. A box that is given
 /// stays as it is.
-[[nodiscard]] Box with_room(const Box& bounds, const glm::dvec3& spacing, double clearance,
-                            const ProbeGridSettings& settings);
+[[nodiscard]] WorldBox with_room(const WorldBox& bounds, const glm::dvec3& spacing,
+                                 double clearance, const ProbeGridSettings& settings);
 
 /// Whether a position lies in a box, rounding aside.
-[[nodiscard]] bool is_in(const Box& box, const glm::dvec3& position);
+[[nodiscard]] bool is_in(const WorldBox& box, const glm::dvec3& position);
 
 /// The most probes that are allowed.
 [[nodiscard]] uint64_t most_probes(const ProbeGridSettings& settings);
@@ -28,7 +28,7 @@ namespace tetralight {
 /// Metres between the candidates. The adaptive mode's are an eighth of the longest side when it is
 /// not told, and farther apart where they would be more than half of its probes. Errors: those of
 /// `lattice_count`, and what is beyond reason.
-[[nodiscard]] Result<glm::dvec3> first_spacing(const Box& bounds,
+[[nodiscard]] Result<glm::dvec3> first_spacing(const WorldBox& bounds,
                                                const ProbeGridSettings& settings);
 
 /// Metres that probes keep from surfaces. Error: it is negative or not finite.

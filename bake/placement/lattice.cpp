@@ -15,13 +15,13 @@ constexpr const char* kAxisNames[] = {"x", "y", "z"};
 /// Of the spacing; thinner bounds are flat.
 constexpr double kFlatShare = 0.001;
 
-Status check(const Box& bounds, const glm::dvec3& spacing) {
+Status check(const WorldBox& bounds, const glm::dvec3& spacing) {
     for (int axis = 0; axis < 3; ++axis) {
         if (!(spacing[axis] > 0.0) || !std::isfinite(spacing[axis])) {
             return Error{str_cat("spacing ", spacing[axis], " along ", kAxisNames[axis],
                                  " is not a positive length")};
         }
-        const double low = bounds.low[axis], high = bounds.high[axis];
+        const double low = bounds.min[axis], high = bounds.max[axis];
         if (!std::isfinite(low) || !std::isfinite(high) || high < low) {
             return Error{str_cat("bounds ", low, " to ", high, " along ", kAxisNames[axis],
                                  " are empty or not finite")};
@@ -42,7 +42,7 @@ double layer_count(double size, double spacing) {
 }
 
 /// Less than asked for where two layers would not fit.
-glm::dvec3 fitting_spacing(const Box& bounds, const glm::dvec3& spacing) {
+glm::dvec3 fitting_spacing(const WorldBox& bounds, const glm::dvec3& spacing) {
     glm::dvec3 fitting = spacing;
     for (int axis = 0; axis < 3; ++axis) {
         const double size = bounds.size()[axis];
@@ -54,10 +54,10 @@ glm::dvec3 fitting_spacing(const Box& bounds, const glm::dvec3& spacing) {
 }
 
 /// A power of two, multiples of which floats hold exactly wherever the bounds reach.
-double float_step(const Box& bounds) {
+double float_step(const WorldBox& bounds) {
     double farthest = std::numeric_limits<double>::min();
     for (int axis = 0; axis < 3; ++axis) {
-        farthest = std::max({farthest, std::abs(bounds.low[axis]), std::abs(bounds.high[axis])});
+        farthest = std::max({farthest, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
     }
     constexpr int kFloatBits = 24;
     return std::ldexp(1.0, std::ilogb(farthest) + 1 - kFloatBits);
@@ -67,12 +67,13 @@ double rounded(double value, double step) {
     return std::round(value / step) * step;
 }
 
-LatticeAxis layers_along(const Box& bounds, double spacing, double count, double step, int axis) {
+LatticeAxis layers_along(const WorldBox& bounds, double spacing, double count, double step,
+                         int axis) {
     // Spacings that are not many steps would change visibly.
     constexpr double kFewSteps = 1024.0;
     const bool is_rounded = spacing > kFewSteps * step;
     if (is_rounded) spacing = rounded(spacing, step);
-    const double first = bounds.low[axis] + 0.5 * (bounds.size()[axis] - (count - 1.0) * spacing);
+    const double first = bounds.min[axis] + 0.5 * (bounds.size()[axis] - (count - 1.0) * spacing);
     return {is_rounded ? rounded(first, step) : first, spacing, static_cast<uint64_t>(count)};
 }
 
@@ -90,7 +91,7 @@ std::vector<glm::dvec3> Lattice::positions() const {
     return positions;
 }
 
-Result<double> lattice_count(const Box& bounds, const glm::dvec3& spacing) {
+Result<double> lattice_count(const WorldBox& bounds, const glm::dvec3& spacing) {
     if (auto status = check(bounds, spacing); !status) return status.error();
     double count = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -99,7 +100,8 @@ Result<double> lattice_count(const Box& bounds, const glm::dvec3& spacing) {
     return count;
 }
 
-Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing, uint64_t max_count) {
+Result<Lattice> make_lattice(const WorldBox& bounds, const glm::dvec3& spacing,
+                             uint64_t max_count) {
     const auto count = lattice_count(bounds, spacing);
     if (!count) return count.error();
     if (auto status = check_candidate_count(*count, max_count); !status) return status.error();

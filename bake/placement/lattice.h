@@ -40,7 +40,7 @@ struct Lattice {
 
 /// How many positions `make_lattice` gives; may be beyond any integer. Errors: spacing that is not
 /// positive, bounds that are empty or not finite.
-[[nodiscard]] Result<double> lattice_count(const Box& bounds, const glm::dvec3& spacing);
+[[nodiscard]] Result<double> lattice_count(const WorldBox& bounds, const glm::dvec3& spacing);
 
 /// The lattice in the middle of the bounds, half a spacing or more from their sides. An axis that
 /// is too short for two layers has two nevertheless, a quarter of it from its ends, so that what
@@ -50,7 +50,7 @@ struct Lattice {
 /// between them from degenerating.
 ///
 /// Errors: those of `lattice_count` and `check_candidate_count`.
-[[nodiscard]] Result<Lattice> make_lattice(const Box& bounds, const glm::dvec3& spacing,
+[[nodiscard]] Result<Lattice> make_lattice(const WorldBox& bounds, const glm::dvec3& spacing,
                                            uint64_t max_count);
 
 }  // namespace tetralight

@@ -40,7 +40,7 @@ struct ProbeGridSettings {
     glm::dvec3 spacing{1.0};
     /// What to fill: no probe stands outside of it. None = the bounds of what contributes global
     /// illumination, with some room around (`with_room`).
-    std::optional<Box> bounds;
+    std::optional<WorldBox> bounds;
     /// Nodes whose bounds, with all below them, to fill instead, by name.
     std::vector<std::string> bounds_of;
     /// Layers: metres above the floor. Of those nearer to each other than the clearance the first

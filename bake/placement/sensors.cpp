@@ -21,13 +21,9 @@ double fraction(uint64_t i, int d) {
     return x - std::floor(x);
 }
 
-bool is_in(const Box& box, const glm::dvec3& p) {
-    return glm::all(glm::greaterThanEqual(p, box.low)) && glm::all(glm::lessThanEqual(p, box.high));
-}
-
 }  // namespace
 
-SensorPlaces::SensorPlaces(const TraceScene& traced, const Box& bounds, double surface_offset,
+SensorPlaces::SensorPlaces(const TraceScene& traced, const WorldBox& bounds, double surface_offset,
                            Filter is_free)
     : traced_(traced),
       bounds_(bounds),
@@ -38,7 +34,7 @@ SensorPlaces::SensorPlaces(const TraceScene& traced, const Box& bounds, double s
         for (uint32_t p = 0; p < traced.triangle_count(g); ++p) {
             const auto [a, b, c] = traced.triangle(g, p);
             const glm::dvec3 center = traced.world_from_render((a + b + c) / 3.0f);
-            if (!is_in(bounds, center)) continue;
+            if (!contains(bounds, center)) continue;
             sum += 0.5 * double{glm::length(glm::cross(b - a, c - a))};
             triangles_.push_back({g, p});
             area_sums_.push_back(sum);
@@ -47,7 +43,7 @@ SensorPlaces::SensorPlaces(const TraceScene& traced, const Box& bounds, double s
 }
 
 glm::dvec3 SensorPlaces::anywhere(uint64_t i) const {
-    return bounds_.low +
+    return bounds_.min +
            bounds_.size() * glm::dvec3(fraction(i, 0), fraction(i, 1), fraction(i, 2));
 }
 
@@ -67,7 +63,7 @@ glm::dvec3 SensorPlaces::off_a_surface(uint64_t i) const {
 
 bool SensorPlaces::counts(const glm::dvec3& position) const {
     const bool is_number = position == position;  // triangles without area have no normal
-    return is_number && is_in(bounds_, position) && is_free_(position);
+    return is_number && contains(bounds_, position) && is_free_(position);
 }
 
 std::vector<glm::dvec3> SensorPlaces::next(size_t count, uint32_t thread_count) {

@@ -21,7 +21,7 @@ class SensorPlaces {
     using Filter = std::function<bool(const glm::dvec3& position)>;
 
     /// Keeps the references. `surface_offset`: metres off surfaces.
-    SensorPlaces(const TraceScene& traced, const Box& bounds, double surface_offset,
+    SensorPlaces(const TraceScene& traced, const WorldBox& bounds, double surface_offset,
                  Filter is_free);
 
     /// About `count` more places: fewer where hardly any place is free.
@@ -38,7 +38,7 @@ class SensorPlaces {
     };
 
     const TraceScene& traced_;
-    Box bounds_;
+    WorldBox bounds_;
     double surface_offset_;
     Filter is_free_;
     std::vector<Triangle> triangles_;

@@ -31,7 +31,7 @@ std::vector<glm::ivec3> later_neighbors() {
     return offsets;
 }
 
-Lattice make_posts(const Box& bounds, const glm::dvec3& spacing) {
+Lattice make_posts(const WorldBox& bounds, const glm::dvec3& spacing) {
     glm::dvec3 step;
     for (int axis = 0; axis < 3; ++axis) step[axis] = std::min(spacing[axis], kStep);
     const auto count_along = [&](int axis) {
@@ -70,7 +70,7 @@ glm::ivec3 layers_of(const Lattice& lattice, uint64_t i) {
 
 }  // namespace
 
-SpaceMap::SpaceMap(const TraceScene& traced, const Box& bounds, const glm::dvec3& spacing,
+SpaceMap::SpaceMap(const TraceScene& traced, const WorldBox& bounds, const glm::dvec3& spacing,
                    uint32_t thread_count)
     : traced_(traced), posts_(make_posts(bounds, spacing)) {
     fill(thread_count);
@@ -184,7 +184,7 @@ std::vector<uint32_t> SpaceMap::spaces_of(std::span<const glm::dvec3> positions,
     return spaces;
 }
 
-std::map<uint32_t, std::vector<glm::dvec3>> SpaceMap::posts_by_space(const Box& box) const {
+std::map<uint32_t, std::vector<glm::dvec3>> SpaceMap::posts_by_space(const WorldBox& box) const {
     std::map<uint32_t, std::vector<glm::dvec3>> spaces;
     for (uint32_t i = 0; i < parent_.size(); ++i) {
         const glm::dvec3 position = posts_.at(i);

@@ -26,7 +26,7 @@ class SpaceMap {
     /// Posts stand half a metre apart, or as far as `spacing` where that is less, in the bounds and
     /// one step around them; farther where they would be more than a million. Openings that no line
     /// between two posts leads through are taken for closed. Keeps a reference.
-    SpaceMap(const TraceScene& traced, const Box& bounds, const glm::dvec3& spacing,
+    SpaceMap(const TraceScene& traced, const WorldBox& bounds, const glm::dvec3& spacing,
              uint32_t thread_count = 0);
 
     /// Joins the spaces that each of some world positions sees: probes in doors.
@@ -40,7 +40,8 @@ class SpaceMap {
                                                   uint32_t thread_count = 0) const;
 
     /// The posts in a box, but for those on a surface, by the space that they lie in.
-    [[nodiscard]] std::map<uint32_t, std::vector<glm::dvec3>> posts_by_space(const Box& box) const;
+    [[nodiscard]] std::map<uint32_t, std::vector<glm::dvec3>> posts_by_space(
+        const WorldBox& box) const;
 
     [[nodiscard]] bool contains(const glm::dvec3& position) const;
 

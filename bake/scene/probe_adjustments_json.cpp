@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include <tetralight/base/file.h>
-#include <tetralight/base/json_text.h>
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {

@@ -13,7 +13,7 @@
 #include <tetralight/bake/scene/detail/probe_group_check.h>
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
-#include <tetralight/base/json_text.h>
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {

@@ -6,6 +6,7 @@
 #include <new>
 
 #include <tetralight/base/contract.h>
+#include <tetralight/base/hex.h>
 
 namespace tetralight {
 namespace {
@@ -24,12 +25,14 @@ void Sha256::Free::operator()(evp_md_ctx_st* context) const noexcept {
 }
 
 Sha256::Sha256() : context_(new_context()) {
-    const bool is_ready = EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1;
+    [[maybe_unused]] const bool is_ready =
+        EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1;
     TETRALIGHT_ASSERT(is_ready, "OpenSSL without SHA-256");
 }
 
 void Sha256::add(std::span<const std::byte> bytes) {
-    const bool is_added = EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1;
+    [[maybe_unused]] const bool is_added =
+        EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1;
     TETRALIGHT_ASSERT(is_added, "OpenSSL cannot hash");
 }
 
@@ -37,7 +40,7 @@ Sha256Digest Sha256::digest() const {
     // Reading the hash ends a context, so a copy is read.
     const std::unique_ptr<EVP_MD_CTX, Free> copy(new_context());
     Sha256Digest digest{};
-    const bool is_read =
+    [[maybe_unused]] const bool is_read =
         EVP_MD_CTX_copy_ex(copy.get(), context_.get()) == 1 &&
         EVP_DigestFinal_ex(copy.get(), reinterpret_cast<unsigned char*>(digest.data()), nullptr) ==
             1;
@@ -46,13 +49,7 @@ Sha256Digest Sha256::digest() const {
 }
 
 std::string Sha256::hex() const {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string text;
-    for (const std::byte byte : digest()) {
-        text += kDigits[std::to_integer<size_t>(byte >> 4)];
-        text += kDigits[std::to_integer<size_t>(byte & std::byte{15})];
-    }
-    return text;
+    return tetralight::hex(digest());
 }
 
 std::string sha256_hex(std::span<const std::byte> bytes) {

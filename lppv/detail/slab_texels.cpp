@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include <tetralight/lppv/detail/half.h>
+#include <tetralight/base/half.h>
 
 namespace tetralight::detail {
 namespace {
@@ -32,8 +32,9 @@ void write_texel(std::byte* to, LppvTexelFormat format, const glm::vec4& value) 
         std::memcpy(to, &value, sizeof value);
         return;
     }
-    const std::array<uint16_t, 4> halves{half_from_float(value.x), half_from_float(value.y),
-                                         half_from_float(value.z), half_from_float(value.w)};
+    const std::array<uint16_t, 4> halves{
+        half_from_float_saturated(value.x), half_from_float_saturated(value.y),
+        half_from_float_saturated(value.z), half_from_float_saturated(value.w)};
     std::memcpy(to, halves.data(), sizeof halves);
 }
 

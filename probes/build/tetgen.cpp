@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include <tetralight/base/process.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/build/detail/cgal.h>
 #include <tetralight/probes/build/detail/check_tetrahedra.h>
-#include <tetralight/probes/build/detail/child_process.h>
 #include <tetralight/probes/build/detail/spread.h>
 #include <tetralight/probes/build/tetgen/stream.h>
 
@@ -86,6 +86,20 @@ Result<std::vector<Cell>> cells_of(Bytes output) {
     return cells;
 }
 
+/// Why the program gave no output, with its own last words.
+Error failure_of(const ProcessCommand& command, const ProcessResult& result) {
+    const std::string prefix = command.name() + ": ";
+    if (result.end == ProcessResult::End::TimedOut) {
+        const std::chrono::duration<double> limit = command.time_limit;
+        return {ErrorCode::OutOfResources,
+                str_cat(prefix, "did not end within ", limit.count(), " s")};
+    }
+    std::string line = result.last_error_line();
+    if (line.starts_with(prefix)) line.erase(0, prefix.size());
+    if (!line.empty()) line.insert(0, ": ");
+    return {ErrorCode::Unsupported, prefix + result.failure() + line};
+}
+
 }  // namespace
 
 Result<Tetrahedralization> tetrahedralize_with_tetgen(std::span<const glm::dvec3> positions,
@@ -93,15 +107,19 @@ Result<Tetrahedralization> tetrahedralize_with_tetgen(std::span<const glm::dvec3
                                                       const TetgenProgram& program) {
     if (is_flat(positions, flatness)) return tetrahedralize(positions, flatness);
 
-    const detail::ChildCommand command{program.path, program.time_limit, [&](Bytes output) {
-                                           return check_output(output, positions.size());
-                                       }};
     const StreamHeader header{tetgen::kPositionsMagic, positions.size()};
     const std::array<Bytes, 2> input{std::as_bytes(std::span(&header, 1)),
                                      std::as_bytes(positions)};
-    const auto output = detail::run_child(command, input);
-    if (!output) return output.error();
-    auto cells = cells_of(*output);
+    const ProcessCommand command{
+        .program = program.path,
+        .input = input,
+        .time_limit = program.time_limit,
+        .error_limit = 4096,
+        .check_output = [&](Bytes output) { return check_output(output, positions.size()); }};
+    const auto process = run_process(command);
+    if (!process) return process.error();
+    if (!process->succeeded()) return failure_of(command, *process);
+    auto cells = cells_of(process->output);
     if (!cells) return cells.error().in(command.name());
     auto result = detail::check_tetrahedra(std::move(*cells), positions);
     if (!result) return result.error().in(command.name());

@@ -8,6 +8,7 @@
 #include <span>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/build/detail/cgal.h>
 #include <tetralight/probes/build/detail/spread.h>
 #include <tetralight/probes/compact_probes.h>
@@ -199,6 +200,7 @@ std::vector<std::string> ValidationReport::problems() const {
         "float positions differ from the exact ones");
     add(wrong_compact_probes, "compact probe differs from its floats",
         "compact probes differ from their floats");
+    if (has_bad_metadata) lines.emplace_back("metadata is not a JSON object");
     const double tolerance = 1e-9 * std::abs(hull_measure) + measure_rounding;
     if (std::abs(cell_measure - hull_measure) > tolerance) {
         lines.push_back(str_cat("the cells fill ", cell_measure, " of the hull's ", hull_measure));
@@ -208,6 +210,7 @@ std::vector<std::string> ValidationReport::problems() const {
 
 ValidationReport validate(const ProbeVolumeView& volume) {
     ValidationReport report;
+    report.has_bad_metadata = !check_metadata(volume.metadata);
     const std::vector<glm::dvec3> positions = exact_positions(volume);
     if (volume.info.dimension == Dimension::Space) {
         check_cells(SpaceValidator(volume, positions, report), volume.cells.size());

@@ -18,6 +18,7 @@ struct ValidationReport {
     uint32_t probes_without_source = 0;   ///< in no group
     uint32_t misplaced_float_probes = 0;  ///< float position is not the rounded exact one
     uint32_t wrong_compact_probes = 0;    ///< halves are not the rounded floats
+    bool has_bad_metadata = false;        ///< not one JSON object (`check_metadata`)
 
     /// Sum over the inner cells, and what the hull encloses: m³; m² in a plane, m on a line.
     double cell_measure = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/detail/half.h>
+#include <tetralight/base/half.h>
 #include <tetralight/probes/detail/recombine_kernel.h>
 
 namespace tetralight::detail {

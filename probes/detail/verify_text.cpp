@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include <tetralight/base/error_text.h>
-#include <tetralight/base/json_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/utf8.h>
 #include <tetralight/probes/probe_volume.h>
@@ -41,10 +39,15 @@ Status check_sorted_names(std::string_view section, std::string_view names) {
     return Ok{};
 }
 
-Status check_metadata(std::string_view metadata) {
-    if (metadata.empty()) return Ok{};
-    const auto status = check_json_object(metadata);
-    return status ? status : section_error("metadata", error_text(status.error()));
+Status check_metadata_text(std::string_view metadata) {
+    if (!is_utf8(metadata)) return section_error("metadata", "is not UTF-8");
+    const auto is_printable = [](char c) {
+        return c == '\t' || c == '\n' || c == '\r' || !has_control_character({&c, 1});
+    };
+    const auto bad = std::ranges::find_if_not(metadata, is_printable);
+    if (bad == metadata.end()) return Ok{};
+    return section_error("metadata",
+                         str_cat("byte ", bad - metadata.begin(), " is a control character"));
 }
 
 }  // namespace tetralight::detail

@@ -15,7 +15,8 @@ namespace tetralight::detail {
 /// The same, and sorted without duplicates.
 [[nodiscard]] Status check_sorted_names(std::string_view section, std::string_view names);
 
-/// A JSON object, or nothing.
-[[nodiscard]] Status check_metadata(std::string_view metadata);
+/// UTF-8 without control characters other than the white space of JSON. Offline code checks that
+/// it is a JSON object (probes/build/check_metadata.h).
+[[nodiscard]] Status check_metadata_text(std::string_view metadata);
 
 }  // namespace tetralight::detail

@@ -204,9 +204,9 @@ Status check_cells(const ProbeVolumeView& v) {
 }
 
 Status check_tables(const ProbeVolumeView& v) {
-    for (const Status& status :
-         {detail::check_sorted_names("group_names", v.group_names),
-          detail::check_names("light_names", v.light_names), detail::check_metadata(v.metadata)}) {
+    for (const Status& status : {detail::check_sorted_names("group_names", v.group_names),
+                                 detail::check_names("light_names", v.light_names),
+                                 detail::check_metadata_text(v.metadata)}) {
         if (!status) return status;
     }
     const size_t groups = split_names(v.group_names).size();

@@ -59,7 +59,7 @@ PackedSh packed_sky(const ProbeVolumeView& volume) {
 /// A sphere around all that casts shadows, in the renderer's space.
 glm::vec4 caster_bounds(const Scene& scene, std::span<const glm::dvec4> crowds,
                         const glm::dvec3& origin) {
-    std::vector<Box> boxes;
+    std::vector<WorldBox> boxes;
     if (const auto box = scene_bounds(scene, [](const MeshInstance&) { return true; })) {
         boxes.push_back(*box);
     }
@@ -67,10 +67,8 @@ glm::vec4 caster_bounds(const Scene& scene, std::span<const glm::dvec4> crowds,
         boxes.push_back({glm::dvec3(ball) - ball.w, glm::dvec3(ball) + ball.w});
     }
     if (boxes.empty()) return {0.0f, 0.0f, 0.0f, 1.0f};
-    Box all = boxes[0];
-    for (const Box& box : boxes) {
-        all = {glm::min(all.low, box.low), glm::max(all.high, box.high)};
-    }
+    WorldBox all = boxes[0];
+    for (const WorldBox& box : boxes) all = union_of(all, box);
     const double radius = std::max(0.5 * glm::length(all.size()), 1e-3);
     return {glm::vec3(all.center() - origin), static_cast<float>(radius)};
 }

@@ -9,9 +9,9 @@
 #include <thread>
 
 #include <tetralight/base/error_text.h>
+#include <tetralight/base/half.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/dering.h>
-#include <tetralight/probes/detail/half.h>
 #include <tetralight/probes/detail/recombine_kernel.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/probes/sh_minimum.h>
@@ -168,7 +168,7 @@ TEST(Recombine, LightsAreDimmedByTheirLayer) {
 // --- Kernels -------------------------------------------------------------------------------------
 
 TEST(RecombineKernel, RoundsHalvesToNearestEven) {
-    using detail::half_from_float;
+    using tetralight::half_from_float;
     EXPECT_EQ(half_from_float(1.0f), 0x3c00);
     EXPECT_EQ(half_from_float(-2.0f), 0xc000);
     EXPECT_EQ(half_from_float(1.0f + 0x1p-11f), 0x3c00);  // a tie, to even

@@ -8,7 +8,7 @@
 
 #include <tetralight/bake/scene/detail/gltf_rules.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
-#include <tetralight/base/json_text.h>
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include <tetralight/base/hex.h>
 #include <tetralight/probes/content_hash.h>
 
 namespace tetralight::detail {
@@ -43,7 +44,7 @@ void set_vdb_uuid(std::span<char> file) {
         if (is_dash(i)) {
             uuid[i] = '-';
         } else if (digits != 0) {
-            uuid[i] = "0123456789abcdef"[digits & 15];
+            uuid[i] = kHexDigits[digits & 15];
             digits >>= 4;
         }
     }

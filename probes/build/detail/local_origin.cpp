@@ -6,21 +6,18 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include <tetralight/base/box.h>
+
 namespace tetralight::detail {
 namespace {
 
 /// So many positions, evenly spaced along the curve, show where the bulk is.
 constexpr size_t kSampleCount = 4096;
 
-struct Box {
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
-};
-
-/// On each axis the middle half.
-Box bulk_of(std::span<const glm::dvec3> positions) {
+/// The middle half of the coordinates along each axis.
+Box<glm::dvec3> bulk_of(std::span<const glm::dvec3> positions) {
     const size_t stride = (positions.size() + kSampleCount - 1) / kSampleCount;
-    Box box;
+    Box<glm::dvec3> box;
     std::vector<double> coordinates;
     for (int axis = 0; axis < 3; ++axis) {
         coordinates.clear();
@@ -29,8 +26,8 @@ Box bulk_of(std::span<const glm::dvec3> positions) {
         }
         std::ranges::sort(coordinates);
         const size_t quarter = coordinates.size() / 4;
-        box.low[axis] = coordinates[quarter];
-        box.high[axis] = coordinates[coordinates.size() - 1 - quarter];
+        box.min[axis] = coordinates[quarter];
+        box.max[axis] = coordinates[coordinates.size() - 1 - quarter];
     }
     return box;
 }
@@ -40,9 +37,9 @@ Box bulk_of(std::span<const glm::dvec3> positions) {
 glm::dvec3 local_origin(std::span<const glm::dvec3> positions) {
     if (positions.empty()) return glm::dvec3(0.0);
     constexpr double kNear = 32.0;
-    const auto [low, high] = bulk_of(positions);
-    const glm::dvec3 center = (low + high) * 0.5;
-    const bool is_near = glm::length(center) <= kNear * glm::distance(low, high);
+    const Box<glm::dvec3> bulk = bulk_of(positions);
+    const glm::dvec3 center = bulk.center();
+    const bool is_near = glm::length(center) <= kNear * glm::length(bulk.size());
     return is_near ? glm::dvec3(0.0) : glm::dvec3(glm::vec3(center));
 }
 

@@ -150,7 +150,7 @@ Scene hidden_room() {
 
 ProbeGridSettings coarse_in_the_air() {
     ProbeGridSettings settings = adaptive(60, 0.3);
-    settings.bounds = Box{{-8, -8, -8}, {8, 8, 8}};
+    settings.bounds = WorldBox{{-8, -8, -8}, {8, 8, 8}};
     settings.spacing = glm::dvec3(8.0);
     settings.adaptive.start_spacing = settings.spacing;
     return settings;

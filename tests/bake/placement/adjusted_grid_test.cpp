@@ -16,7 +16,7 @@ using test::grid_of;
 using test::positions_of;
 using test::settings_for;
 
-const Box kEight{{-4, -4, -4}, {4, 4, 4}};
+const WorldBox kEight{{-4, -4, -4}, {4, 4, 4}};
 
 ProbeAdjustment box_volume(const char* name, glm::dvec3 center, double size) {
     ProbeAdjustment adjustment;

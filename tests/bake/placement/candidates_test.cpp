@@ -15,7 +15,7 @@ namespace {
 using test::add_box;
 using test::Facing;
 
-CandidateRule rule_for(const Box& bounds, double spacing) {
+CandidateRule rule_for(const WorldBox& bounds, double spacing) {
     CandidateRule rule;
     rule.bounds = bounds;
     rule.spacing = glm::dvec3(spacing);

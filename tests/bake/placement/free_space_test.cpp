@@ -96,7 +96,7 @@ TEST(FreeSpace, APushLeavesThePlanesOfTheLatticeOnlyWhereItMust) {
 }
 
 TEST(FreeSpace, NothingIsPushedOutOfTheBounds) {
-    const Box bounds{{-2, -2, -2}, {1.15, 2, 2}};
+    const WorldBox bounds{{-2, -2, -2}, {1.15, 2, 2}};
     EXPECT_EQ(place(solid(test::grey()), {1.05, 0, 0}, {0.2, 0.4, bounds}).fate, Fate::TooClose);
     EXPECT_EQ(place(solid(test::grey()), {0.95, 0, 0}, {0.2, 0.4, bounds}).fate, Fate::Inside);
     EXPECT_EQ(place(solid(test::grey()), {1.05, 0, 0}, {0.1, 0.4, bounds}).fate, Fate::Pushed);

@@ -16,7 +16,7 @@
 
 namespace tetralight::test {
 
-inline ProbeGridSettings settings_for(const Box& bounds, double spacing) {
+inline ProbeGridSettings settings_for(const WorldBox& bounds, double spacing) {
     ProbeGridSettings settings;
     settings.spacing = glm::dvec3(spacing);
     settings.bounds = bounds;

@@ -24,10 +24,10 @@ TEST(Lattice, CountsXFastestThenZThenY) {
 RC_GTEST_PROP(Lattice, FloatsHoldItExactly, ()) {
     const auto coordinate = [] { return *rc::gen::inRange(-1000000, 1000000) / 997.0; };
     const double spacing = *rc::gen::inRange(100, 3000) / 983.0;
-    Box bounds;
+    WorldBox bounds;
     for (int axis = 0; axis < 3; ++axis) {
-        bounds.low[axis] = coordinate();
-        bounds.high[axis] = bounds.low[axis] + *rc::gen::inRange(0, 30);
+        bounds.min[axis] = coordinate();
+        bounds.max[axis] = bounds.min[axis] + *rc::gen::inRange(0, 30);
     }
     const auto lattice = make_lattice(bounds, glm::dvec3(spacing), 1'000'000'000);
     RC_ASSERT(static_cast<bool>(lattice));

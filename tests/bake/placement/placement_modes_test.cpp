@@ -98,7 +98,7 @@ Scene furnished_room() {
 
 TEST(PlacementModes, NoneLeavesTheGivenBox) {
     using enum PlacementMode;
-    const Box box{{-2, 0, -2}, {2, 1.5, 2}};
+    const WorldBox box{{-2, 0, -2}, {2, 1.5, 2}};
     for (const PlacementMode mode : {Regular, Layers, Surface, Adaptive}) {
         ProbeGridSettings settings = settings_for(box, 0.5);
         settings.mode = mode;
@@ -107,8 +107,8 @@ TEST(PlacementModes, NoneLeavesTheGivenBox) {
         const ProbeGrid grid = grid_of(furnished_room(), settings);
         for (const glm::dvec3& p : positions_of(grid)) {
             for (int axis = 0; axis < 3; ++axis) {
-                EXPECT_GE(p[axis], box.low[axis] - 1e-5) << static_cast<int>(mode);
-                EXPECT_LE(p[axis], box.high[axis] + 1e-5) << static_cast<int>(mode);
+                EXPECT_GE(p[axis], box.min[axis] - 1e-5) << static_cast<int>(mode);
+                EXPECT_LE(p[axis], box.max[axis] + 1e-5) << static_cast<int>(mode);
             }
         }
     }

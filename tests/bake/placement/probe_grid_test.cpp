@@ -18,7 +18,7 @@ using test::layers;
 using test::positions_of;
 using test::settings_for;
 
-const Box kFour{{-2, -2, -2}, {2, 2, 2}};
+const WorldBox kFour{{-2, -2, -2}, {2, 2, 2}};
 
 /// A solid box in the middle of `kFour`.
 Scene solid_in_the_middle() {

@@ -18,7 +18,7 @@ using test::grid_of;
 using test::positions_of;
 using test::settings_for;
 
-const Box kTen{{-5, -5, -5}, {5, 5, 5}};
+const WorldBox kTen{{-5, -5, -5}, {5, 5, 5}};
 
 /// A hollow box with walls of 20 cm around 3.6 m of air, in the middle of `kTen`.
 Scene sealed_box() {

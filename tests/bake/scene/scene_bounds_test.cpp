@@ -26,7 +26,7 @@ TEST(SceneBounds, AreThoseOfTheVerticesInTheWorld) {
     Scene scene = one_box();
     scene.instances[0].world_from_mesh =
         glm::scale(glm::translate(glm::dmat4(1.0), {10, 20, 30}), {-1, 2, 1});
-    const Box expected{{9, 20, 30}, {10, 24, 33}};
+    const WorldBox expected{{9, 20, 30}, {10, 24, 33}};
     EXPECT_EQ(instance_bounds(scene, scene.instances[0]), expected);
 }
 
@@ -40,7 +40,7 @@ TEST(SceneBounds, HoldAllSelectedInstances) {
     Scene scene = one_box();
     test::add_floor(scene, Material{}, 5.0f, -1.0f);
     test::add_floor(scene, Material{}, 100.0f).contributes_gi = false;
-    EXPECT_EQ(scene_bounds(scene, is_static), (Box{{-5, -1, -5}, {5, 2, 5}}));
+    EXPECT_EQ(scene_bounds(scene, is_static), (WorldBox{{-5, -1, -5}, {5, 2, 5}}));
     EXPECT_EQ(scene_bounds(scene, [](const MeshInstance&) { return true; })->size().x, 200.0);
 }
 
@@ -86,7 +86,7 @@ TEST(SceneMiddle, OfNothingIsTheOrigin) {
 }
 
 TEST(SceneBounds, BoxHasACenterAndASize) {
-    const Box box{{-1, 0, 2}, {3, 4, 2}};
+    const WorldBox box{{-1, 0, 2}, {3, 4, 2}};
     EXPECT_EQ(box.center(), glm::dvec3(1, 2, 2));
     EXPECT_EQ(box.size(), glm::dvec3(4, 4, 0));
 }

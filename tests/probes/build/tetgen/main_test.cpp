@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include <tetralight/base/error_text.h>
-#include <tetralight/probes/build/detail/child_process.h>
+#include <tetralight/base/process.h>
 #include <tetralight/probes/build/tetgen/stream.h>
 #include "tests/support/random_probes.h"
 
@@ -22,8 +22,14 @@ Result<std::vector<std::byte>> run(const StreamHeader& header,
                                    std::span<const glm::dvec3> positions) {
     const std::array<Bytes, 2> input{std::as_bytes(std::span(&header, 1)),
                                      std::as_bytes(positions)};
-    return detail::run_child(
-        {TETRALIGHT_TETGEN_PROGRAM, std::chrono::minutes(1), [](Bytes) { return Ok{}; }}, input);
+    auto result = run_process({.program = TETRALIGHT_TETGEN_PROGRAM,
+                               .input = input,
+                               .time_limit = std::chrono::minutes(1)});
+    if (!result) return result.error();
+    if (!result->succeeded()) {
+        return Error{ErrorCode::Unsupported, result->failure() + ": " + result->last_error_line()};
+    }
+    return std::move(result->output);
 }
 
 Result<std::vector<std::byte>> run(std::span<const glm::dvec3> positions) {
@@ -48,7 +54,7 @@ TEST(TetgenMain, WritesOneTetrahedronPositivelyOriented) {
 }
 
 TEST(TetgenMain, RefusesInputThatIsNoPositions) {
-    const std::string prefix = "tetralight-tetgen: ended with exit code 1: ";
+    const std::string prefix = "ended with exit code 1: tetralight-tetgen: ";
     const auto positions = test::random_positions(10, 1);
     EXPECT_EQ(error_text(run({}, {}).error()), prefix + "stdin holds no positions of this version");
     EXPECT_EQ(error_text(run({tetgen::kPositionsMagic, 11}, positions).error()),
@@ -68,8 +74,7 @@ TEST(TetgenMain, EndsWithAnErrorWhereTetGenCannotGoOn) {
                                   test::random_positions(2, 1), test::random_positions(3, 1)}) {
         const auto output = run(positions);
         ASSERT_FALSE(output) << positions.size();
-        EXPECT_TRUE(error_text(output.error()).starts_with("tetralight-tetgen: ended "))
-            << error_text(output.error());
+        EXPECT_TRUE(error_text(output.error()).starts_with("ended ")) << error_text(output.error());
     }
 }
 

@@ -7,19 +7,19 @@
 
 #include <tetralight/base/result.h>
 
-// What text has to obey before it is given to a JSON library, or stored for others to read.
+// Checks of JSON text before it is parsed or stored.
 
 namespace tetralight {
 
-/// Arrays and objects within each other; no real file nests nearly as deep, and much code that
-/// handles JSON calls itself for each level.
+/// The deepest nesting of arrays and objects that is accepted: far more than real files have. Much
+/// code that handles JSON calls itself once a level.
 inline constexpr int kDeepestJson = 64;
 
-/// Refuses JSON that is nested deeper than `kDeepestJson`. It counts brackets outside of strings
-/// and leaves other errors to whoever parses the text.
+/// Returns an error if JSON is nested deeper than `kDeepestJson`. It counts brackets outside of
+/// strings and finds no other errors.
 [[nodiscard]] Status check_json_depth(std::string_view json);
 
-/// Refuses what is not one JSON object (RFC 8259) in UTF-8, or is nested too deep.
+/// Returns an error unless the text is one JSON object (RFC 8259) in UTF-8, not nested too deep.
 [[nodiscard]] Status check_json_object(std::string_view json);
 
 /// The message of an exception of nlohmann-json without its tag, `[json.exception...] `.

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/base/json/json_text.h>
+
+#include <nlohmann/json.hpp>
+
+#include <tetralight/base/str_cat.h>
+
+namespace tetralight {
+
+Status check_json_depth(std::string_view json) {
+    int depth = 0;
+    bool is_in_string = false;
+    for (size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (is_in_string) {
+            i += c == '\\';  // an escaped character does not end the string
+            is_in_string = c != '"';
+        } else if (c == '"') {
+            is_in_string = true;
+        } else if (c == '[' || c == '{') {
+            if (++depth > kDeepestJson) {
+                return Error{ErrorCode::InvalidArgument,
+                             str_cat("JSON is nested deeper than ", kDeepestJson)};
+            }
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+    return Ok{};
+}
+
+Status check_json_object(std::string_view json) {
+    if (auto status = check_json_depth(json); !status) return status;
+    try {
+        if (nlohmann::json::parse(json).is_object()) return Ok{};
+    } catch (const nlohmann::json::exception& exception) {
+        return Error{ErrorCode::InvalidArgument,
+                     "is not a JSON object (" + json_error_reason(exception) + ")"};
+    }
+    return Error{ErrorCode::InvalidArgument, "is not a JSON object"};
+}
+
+std::string json_error_reason(const std::exception& exception) {
+    const std::string message = exception.what();
+    const size_t end = message.starts_with('[') ? message.find("] ") : std::string::npos;
+    return end == std::string::npos ? message : message.substr(end + 2);
+}
+
+}  // namespace tetralight
