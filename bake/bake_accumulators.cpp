@@ -54,11 +54,11 @@ Status check_light(std::span<const glm::dvec3> positions,
 
 /// What to bake, and where to.
 struct Work {
-    const TraceScene& traced;
+    const TraceScene& trace_scene;
     const PathTracer& tracer;
     std::span<const glm::dvec3> positions;
     std::span<ProbeAccumulator> accumulators;
-    const LightGroupRows& split;
+    const LightGroupRows& light_groups;
     /// In render space.
     std::vector<Light> lights;
 };
@@ -68,9 +68,9 @@ bool has_occlusion(const LightGroupLayout& layout, uint64_t round, uint32_t numb
     return layout.has_occlusion && round == 0 && number == 0;
 }
 
-class TallyBaker {
+class AccumulatorBaker {
   public:
-    TallyBaker(const Work& work, const BakeSettings& settings, const BakeHooks& hooks)
+    AccumulatorBaker(const Work& work, const BakeSettings& settings, const BakeHooks& hooks)
         : work_(work),
           settings_(settings),
           plan_(settings),
@@ -78,9 +78,8 @@ class TallyBaker {
           hooks_(hooks),
           progress_(hooks.progress, work.positions.size()) {
         for (const ProbeAccumulator& accumulator : work.accumulators) {
-            progress_.begin_with(accumulator.direction_count,
-                                 plan_.expected_directions(accumulator),
-                                 plan_.is_done(accumulator));
+            progress_.resume_probe(accumulator.sample_count, plan_.expected_samples(accumulator),
+                                   plan_.is_done(accumulator));
         }
     }
 
@@ -118,24 +117,24 @@ class TallyBaker {
     /// Some seconds of work, and a few megabytes of estimates.
     [[nodiscard]] size_t probes_at_once(uint64_t round) const {
         constexpr uint64_t kDirections = 1u << 20;
-        return std::clamp<size_t>(kDirections / plan_.directions_of(round), 16, 4096);
+        return std::clamp<size_t>(kDirections / plan_.samples_in_round(round), 16, 4096);
     }
 
     void bake_round(std::span<const uint32_t> probes, uint64_t round) {
-        const uint32_t estimates_each = plan_.estimates_of(round);
+        const uint32_t estimates_each = plan_.estimates_in_round(round);
         std::vector<ProbeEstimate> estimates(probes.size() * estimates_each);
         std::vector<std::atomic<uint32_t>> missing(probes.size());
         for (auto& count : missing) count.store(estimates_each, std::memory_order_relaxed);
         progress_.set_worst_error(worst_error_beside(probes));
         // The first estimates may have one direction more than the last ones.
-        const DirectionSet first(plan_.directions_of_estimate(round, 0));
-        const DirectionSet last(plan_.directions_of_estimate(round, estimates_each - 1));
+        const DirectionSet first(plan_.samples_in_estimate(round, 0));
+        const DirectionSet last(plan_.samples_in_estimate(round, estimates_each - 1));
 
         parallel_for(estimates.size(), settings_.thread_count, [&](size_t item) {
             if (progress_.is_cancelled() || is_time_over(round)) return;
             const size_t place = item / estimates_each;
             const auto number = static_cast<uint32_t>(item - place * estimates_each);
-            const bool is_first = plan_.directions_of_estimate(round, number) == first.size();
+            const bool is_first = plan_.samples_in_estimate(round, number) == first.size();
             estimates[item] = estimate(probes[place], round, number, is_first ? first : last);
             if (missing[place].fetch_sub(1, std::memory_order_acq_rel) == 1) {
                 const auto all =
@@ -149,43 +148,45 @@ class TallyBaker {
     [[nodiscard]] ProbeEstimate estimate(uint32_t probe, uint64_t round, uint32_t number,
                                          const DirectionSet& directions) const {
         const glm::dvec3& position = work_.positions[probe];
-        const glm::vec3 origin = work_.traced.render_from_world(position);
+        const glm::vec3 origin = work_.trace_scene.render_from_world(position);
         const uint64_t key = estimate_key(probe_key(settings_.seed, position), round, number);
         ProbeEstimate estimate = estimate_probe(work_.tracer, origin, key, directions);
         if (has_occlusion(layout_, round, number)) {
-            const glm::vec4 occlusion = probe_occlusion(
-                work_.tracer, work_.lights, work_.split.occlusion_lights[probe], origin, key);
-            for (int i = 0; i < 4; ++i) estimate.split.push_back(occlusion[i]);
+            const glm::vec4 occlusion =
+                probe_occlusion(work_.tracer, work_.lights,
+                                work_.light_groups.occlusion_lights[probe], origin, key);
+            for (int i = 0; i < 4; ++i) estimate.light_groups.push_back(occlusion[i]);
         }
         return estimate;
     }
 
     void end_round(uint32_t probe, std::span<const ProbeEstimate> estimates) {
         ProbeAccumulator& accumulator = work_.accumulators[probe];
-        add_split(probe, accumulator.round_count, estimates);
-        const uint64_t expected_before = plan_.expected_directions(accumulator);
-        const uint64_t directions_before = accumulator.direction_count;
+        add_light_groups(probe, accumulator.round_count, estimates);
+        const uint64_t expected_before = plan_.expected_samples(accumulator);
+        const uint64_t samples_before = accumulator.sample_count;
         accumulator.add_round(estimates);
-        progress_.add_round({.directions = accumulator.direction_count - directions_before,
-                             .expected = plan_.expected_directions(accumulator),
+        progress_.add_round({.directions = accumulator.sample_count - samples_before,
+                             .expected = plan_.expected_samples(accumulator),
                              .expected_before = expected_before,
                              .is_first = accumulator.round_count == 1,
                              .is_done = plan_.is_done(accumulator),
                              .standard_error = accumulator.standard_error()});
     }
 
-    void add_split(uint32_t probe, uint64_t round, std::span<const ProbeEstimate> estimates) {
-        const auto row = work_.split.rows.subspan(probe * layout_.size(), layout_.size());
+    void add_light_groups(uint32_t probe, uint64_t round,
+                          std::span<const ProbeEstimate> estimates) {
+        const auto row = work_.light_groups.rows.subspan(probe * layout_.size(), layout_.size());
         const size_t summed = layout_.occlusion_begin();
         for (const ProbeEstimate& estimate : estimates) {
-            const auto weight = static_cast<double>(estimate.direction_count);
+            const auto weight = static_cast<double>(estimate.sample_count);
             for (size_t i = 0; i < summed; ++i) {
-                row[i] += weight * static_cast<double>(estimate.split[i]);
+                row[i] += weight * static_cast<double>(estimate.light_groups[i]);
             }
         }
         if (!has_occlusion(layout_, round, 0)) return;
         for (size_t i = summed; i < row.size(); ++i) {
-            row[i] = static_cast<double>(estimates[0].split[i]);
+            row[i] = static_cast<double>(estimates[0].light_groups[i]);
         }
     }
 
@@ -235,13 +236,14 @@ class TallyBaker {
 
 Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positions,
                          const BakeSettings& settings, std::span<ProbeAccumulator> accumulators,
-                         const BakeHooks& hooks, const LightGroupRows& split) {
+                         const BakeHooks& hooks, const LightGroupRows& light_groups) {
     TETRALIGHT_ASSERT(accumulators.size() == positions.size(), "one tally for each position");
     const LightGroupLayout layout(settings.plan);
-    TETRALIGHT_ASSERT(split.rows.size() == layout.size() * positions.size(),
+    TETRALIGHT_ASSERT(light_groups.rows.size() == layout.size() * positions.size(),
                       "one row for each position when the plan splits light");
-    TETRALIGHT_ASSERT(!layout.has_occlusion || split.occlusion_lights.size() == positions.size(),
-                      "lights of the occlusion for each position");
+    TETRALIGHT_ASSERT(
+        !layout.has_occlusion || light_groups.occlusion_lights.size() == positions.size(),
+        "lights of the occlusion for each position");
     if (auto status = RoundPlan::check(settings); !status) return status;
     if (auto status = check_positions(positions); !status) return status;
     if (auto status =
@@ -249,13 +251,13 @@ Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positio
         !status) {
         return status.error();
     }
-    const auto traced = TraceScene::make_static(scene, settings.surfaces);
-    if (!traced) return traced.error();
-    const PathTracer tracer(scene, *traced, {settings.bounces, settings.clamp}, settings.plan);
+    const auto trace_scene = TraceScene::make_static(scene, settings.surfaces);
+    if (!trace_scene) return trace_scene.error();
+    const PathTracer tracer(scene, *trace_scene, {settings.bounces, settings.clamp}, settings.plan);
     std::vector<Light> lights;
-    for (const Light& light : scene.lights) lights.push_back(traced->render_from_world(light));
-    const Work work{*traced, tracer, positions, accumulators, split, std::move(lights)};
-    const auto status = TallyBaker(work, settings, hooks).run();
+    for (const Light& light : scene.lights) lights.push_back(trace_scene->render_from_world(light));
+    const Work work{*trace_scene, tracer, positions, accumulators, light_groups, std::move(lights)};
+    const auto status = AccumulatorBaker(work, settings, hooks).run();
     return status ? check_light(positions, accumulators) : status;
 }
 

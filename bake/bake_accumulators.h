@@ -49,6 +49,6 @@ struct LightGroupRows {
                                        const BakeSettings& settings,
                                        std::span<ProbeAccumulator> accumulators,
                                        const BakeHooks& hooks = {},
-                                       const LightGroupRows& split = {});
+                                       const LightGroupRows& light_groups = {});
 
 }  // namespace tetralight

@@ -12,18 +12,18 @@ Result<BakedProbes> bake_probes(const Scene& scene, std::span<const glm::dvec3> 
     const BakeHooks hooks{.progress = callback};
     const Status status = bake_accumulators(scene, positions, settings, accumulators, hooks);
     if (!status) return status.error();
-    BakedProbes baked = baked_probes(accumulators);
+    BakedProbes baked = make_baked_probes(accumulators);
     baked.ambient = project_environment(scene.environment, settings.thread_count);
     return baked;
 }
 
-BakedProbes baked_probes(std::span<const ProbeAccumulator> accumulators) {
+BakedProbes make_baked_probes(std::span<const ProbeAccumulator> accumulators) {
     BakedProbes baked;
     for (const ProbeAccumulator& accumulator : accumulators) {
         baked.radiance.push_back(accumulator.radiance());
         baked.validity.push_back(accumulator.validity());
         baked.standard_error.push_back(accumulator.standard_error());
-        baked.direction_count.push_back(accumulator.direction_count);
+        baked.sample_count.push_back(accumulator.sample_count);
         baked.ray_count += accumulator.ray_count;
     }
     return baked;

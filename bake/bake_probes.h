@@ -23,7 +23,7 @@ struct BakedProbes {
     /// Of irradiance, as a share of it (`ProbeAccumulator::standard_error`).
     std::vector<float> standard_error;
     /// Directions taken.
-    std::vector<uint64_t> direction_count;
+    std::vector<uint64_t> sample_count;
 
     /// Light of the environment alone.
     RadianceSh ambient;
@@ -44,6 +44,6 @@ struct BakedProbes {
                                               const BakeCallback& callback = {});
 
 /// What accumulators amount to; `ambient` is left black.
-[[nodiscard]] BakedProbes baked_probes(std::span<const ProbeAccumulator> accumulators);
+[[nodiscard]] BakedProbes make_baked_probes(std::span<const ProbeAccumulator> accumulators);
 
 }  // namespace tetralight

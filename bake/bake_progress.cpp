@@ -5,7 +5,7 @@
 
 namespace tetralight {
 
-void ProgressReporter::begin_with(uint64_t directions, uint64_t expected, bool is_done) {
+void ProgressReporter::resume_probe(uint64_t directions, uint64_t expected, bool is_done) {
     if (directions == 0) return;
     ++probes_begun_;
     probes_done_ += is_done;

@@ -16,8 +16,9 @@ struct BakeProgress {
     size_t probe_count = 0;
     /// Rays of this run.
     uint64_t ray_count = 0;
-    /// Of the directions that all probes will take, as far as their errors tell by now, in [0, 1].
-    double share_done = 0.0;
+    /// Of the directions that all probes will take, as far as their errors notify by now, in [0,
+    /// 1].
+    double fraction_done = 0.0;
     /// The largest standard error of a probe so far, as a share of its irradiance.
     float worst_error = 0.0f;
 };
@@ -32,7 +33,7 @@ class ProgressReporter {
         : callback_(callback), probe_count_(probe_count) {}
 
     /// A probe that has `directions` of the `expected` ones from before.
-    void begin_with(uint64_t directions, uint64_t expected, bool is_done);
+    void resume_probe(uint64_t directions, uint64_t expected, bool is_done);
 
     /// A probe's round is over: it now has `directions` more, of `expected`, which were
     /// `expected_before`.

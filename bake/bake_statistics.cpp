@@ -25,15 +25,15 @@ std::vector<T> sorted(std::vector<T> values) {
 }  // namespace
 
 BakeStatistics bake_statistics(const BakedProbes& baked, double target_error) {
-    auto directions = sorted(baked.direction_count);
+    auto directions = sorted(baked.sample_count);
     std::erase(directions, 0u);  // took none, and has its light from elsewhere
     auto errors = sorted(baked.standard_error);
     errors.erase(errors.begin(), std::ranges::upper_bound(errors, 0.0f));  // 0: not known
     BakeStatistics statistics;
     statistics.known_error_count = errors.size();
-    statistics.fewest_directions = quantile(directions, 0.0);
-    statistics.median_directions = quantile(directions, 0.5);
-    statistics.most_directions = quantile(directions, 1.0);
+    statistics.min_samples = quantile(directions, 0.0);
+    statistics.median_samples = quantile(directions, 0.5);
+    statistics.max_samples = quantile(directions, 1.0);
     statistics.median_error = quantile(errors, 0.5);
     statistics.p99_error = quantile(errors, 0.99);
     statistics.worst_error = quantile(errors, 1.0);

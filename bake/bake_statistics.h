@@ -10,9 +10,9 @@ namespace tetralight {
 
 /// What the probes of a bake took, and how sure of their light they are. All 0 without probes.
 struct BakeStatistics {
-    uint64_t fewest_directions = 0;
-    uint64_t median_directions = 0;
-    uint64_t most_directions = 0;
+    uint64_t min_samples = 0;
+    uint64_t median_samples = 0;
+    uint64_t max_samples = 0;
     /// Probes whose standard error is known: they have light, and estimates enough.
     size_t known_error_count = 0;
     /// Relative standard errors of irradiance of those; each is one that a probe has.

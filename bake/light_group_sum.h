@@ -19,7 +19,7 @@ class LightGroupSum {
     [[nodiscard]] bool is_empty() const { return sums_.empty(); }
 
     /// A path from the probe in a direction.
-    void add(glm::vec3 direction, const PathLightGroups& split, double weight);
+    void add(glm::vec3 direction, const PathLightGroups& light_groups, double weight);
 
     /// Light of one layer from a direction; none when it is no layer.
     void add(glm::vec3 direction, uint32_t layer, glm::vec3 radiance, double weight);
@@ -27,7 +27,7 @@ class LightGroupSum {
     [[nodiscard]] std::vector<float> values() const { return {sums_.begin(), sums_.end()}; }
 
   private:
-    void add_exit(glm::vec3 direction, const PathLightGroups::Exit& exit, double weight);
+    void add_escape(glm::vec3 direction, const PathLightGroups::Escape& escape, double weight);
 
     LightGroupLayout layout_;
     std::vector<double> sums_;

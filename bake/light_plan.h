@@ -36,7 +36,7 @@ struct LightPlan {
     }
 
     /// Whether light is split at all.
-    [[nodiscard]] bool has_split() const { return layer_count > 0 || has_transfer; }
+    [[nodiscard]] bool has_light_groups() const { return layer_count > 0 || has_transfer; }
 
     bool operator==(const LightPlan&) const = default;
 };
@@ -44,9 +44,9 @@ struct LightPlan {
 /// What a probe's light is split into, as one row of numbers: radiance of each layer, transfer of
 /// radiance (what arrives straight away, then what was reflected), occlusion.
 struct LightGroupLayout {
-    static constexpr size_t kLayer = 3 * size_t{kShCoefficientCount};
-    static constexpr size_t kDirect = size_t{kShCoefficientCount} * kDistantCoefficientCount;
-    static constexpr size_t kBounced = 3 * kDirect;
+    static constexpr size_t kLayerSize = 3 * size_t{kShCoefficientCount};
+    static constexpr size_t kDirectSize = size_t{kShCoefficientCount} * kDistantCoefficientCount;
+    static constexpr size_t kBouncedSize = 3 * kDirectSize;
 
     LightGroupLayout() = default;
 
@@ -59,12 +59,12 @@ struct LightGroupLayout {
     bool has_transfer = false;
     bool has_occlusion = false;
 
-    [[nodiscard]] size_t direct_begin() const { return layer_count * kLayer; }
+    [[nodiscard]] size_t direct_begin() const { return layer_count * kLayerSize; }
 
-    [[nodiscard]] size_t bounced_begin() const { return direct_begin() + kDirect; }
+    [[nodiscard]] size_t bounced_begin() const { return direct_begin() + kDirectSize; }
 
     [[nodiscard]] size_t occlusion_begin() const {
-        return direct_begin() + (has_transfer ? kDirect + kBounced : 0);
+        return direct_begin() + (has_transfer ? kDirectSize + kBouncedSize : 0);
     }
 
     /// Numbers of a row.

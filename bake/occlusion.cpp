@@ -22,13 +22,13 @@ float light_visibility(const PathTracer& tracer, const Light& light, glm::vec3 o
                        uint64_t key) {
     if (!can_have_occlusion(light.type)) return 0.0f;
     const Light shape = shape_of(light);
-    const bool is_hard = has_hard_shadows(light) && !tracer.traced().has_blending();
-    const uint32_t count = is_hard ? 1 : kOcclusionRays;
+    const bool is_hard = has_hard_shadows(light) && !tracer.trace_scene().has_blending();
+    const uint32_t count = is_hard ? 1 : kOcclusionRayCount;
     uint32_t visible = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        Sampler numbers(key, i);
-        const LightSample sample = sample_light(shape, origin, numbers.next2());
-        visible += !tracer.occluded(origin, sample, numbers.next());
+        Sampler sampler(key, i);
+        const LightSample sample = sample_light(shape, origin, sampler.next2());
+        visible += !tracer.occluded(origin, sample, sampler.next());
     }
     return static_cast<float>(visible) / static_cast<float>(count);
 }

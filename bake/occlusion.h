@@ -13,7 +13,7 @@ namespace tetralight {
 
 /// Shadow rays to a light that can be seen in part: a soft one, or any in a scene with surfaces
 /// that let a part of the rays through.
-inline constexpr uint32_t kOcclusionRays = 256;
+inline constexpr uint32_t kOcclusionRayCount = 256;
 
 /// Share of a point, spot or directional light (render space) that is visible from `origin`:
 /// 1 = all of it. Soft with its radius or angle; what surfaces let through counts. Range and cone
@@ -21,7 +21,7 @@ inline constexpr uint32_t kOcclusionRays = 256;
 [[nodiscard]] float light_visibility(const PathTracer& tracer, const Light& light, glm::vec3 origin,
                                      uint64_t key);
 
-/// The occlusion of a probe: the visibility of each of `owners`, indices into `lights` (traced
+/// The occlusion of a probe: the visibility of each of `owners`, indices into `lights` (render
 /// space); 1 in channels that are nobody's.
 [[nodiscard]] glm::vec4 probe_occlusion(const PathTracer& tracer, std::span<const Light> lights,
                                         const OcclusionLights& owners, glm::vec3 origin,

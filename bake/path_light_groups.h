@@ -12,10 +12,10 @@ namespace tetralight {
 class PathLightGroups {
   public:
     explicit PathLightGroups(uint32_t layer_count)
-        : seen_(layer_count, glm::vec3(0.0f)), reflected_(layer_count, glm::vec3(0.0f)) {}
+        : direct_(layer_count, glm::vec3(0.0f)), reflected_(layer_count, glm::vec3(0.0f)) {}
 
     /// Where a path left the scene, and the share of the light from there that it brings.
-    struct Exit {
+    struct Escape {
         glm::vec3 direction{0.0f};
         glm::vec3 throughput{0.0f};
         /// It met no surface before.
@@ -23,37 +23,38 @@ class PathLightGroups {
     };
 
     void clear() {
-        std::ranges::fill(seen_, glm::vec3(0.0f));
+        std::ranges::fill(direct_, glm::vec3(0.0f));
         std::ranges::fill(reflected_, glm::vec3(0.0f));
-        exit_ = {};
+        escape_ = {};
     }
 
-    enum class Way : bool { Seen, Reflected };
+    enum class Arrival : bool { Direct, Reflected };
 
     /// Light of a layer; those that are no layer are left out.
-    void add(uint32_t layer, glm::vec3 light, Way way) {
-        if (layer < seen_.size()) (way == Way::Seen ? seen_ : reflected_)[layer] += light;
+    void add(uint32_t layer, glm::vec3 light, Arrival arrival) {
+        if (layer < direct_.size())
+            (arrival == Arrival::Direct ? direct_ : reflected_)[layer] += light;
     }
 
-    void leave(const Exit& exit) { exit_ = exit; }
+    void set_escape(const Escape& escape) { escape_ = escape; }
 
     /// What a clamp does to the whole.
     void scale_reflected(float factor) {
         for (glm::vec3& light : reflected_) light *= factor;
     }
 
-    [[nodiscard]] uint32_t layer_count() const { return static_cast<uint32_t>(seen_.size()); }
+    [[nodiscard]] uint32_t layer_count() const { return static_cast<uint32_t>(direct_.size()); }
 
     [[nodiscard]] glm::vec3 radiance(uint32_t layer) const {
-        return seen_[layer] + reflected_[layer];
+        return direct_[layer] + reflected_[layer];
     }
 
-    [[nodiscard]] const Exit& exit() const { return exit_; }
+    [[nodiscard]] const Escape& escape() const { return escape_; }
 
   private:
-    std::vector<glm::vec3> seen_;
+    std::vector<glm::vec3> direct_;
     std::vector<glm::vec3> reflected_;
-    Exit exit_;
+    Escape escape_;
 };
 
 }  // namespace tetralight

@@ -25,62 +25,69 @@ float brightest(glm::vec3 c) {
 }
 
 /// Power heuristic of two techniques, whose densities may be far apart or infinite.
-float power_heuristic(float pdf, float other_pdf) {
+float power_heuristic(float pdf, float bsdf_pdf) {
     if (std::isinf(pdf)) return 1.0f;
-    const float ratio = other_pdf / pdf;
+    const float ratio = bsdf_pdf / pdf;
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// Emitters so near that their light overflows are left out: no density is left to weigh them by.
+/// LightSampler so near that their light overflows are left out: no density is left to weigh them
+/// by.
 bool is_light(glm::vec3 irradiance) {
     return brightest(irradiance) > 0.0f && brightest(irradiance) < 1e30f;
 }
 
 }  // namespace
 
-PathTracer::PathTracer(const Scene& scene, const TraceScene& traced, const PathSettings& settings,
-                       const LightPlan& plan)
-    : scene_(scene), traced_(traced), settings_(settings), plan_(plan), emitters_(scene, traced) {
+PathTracer::PathTracer(const Scene& scene, const TraceScene& trace_scene,
+                       const PathSettings& settings, const LightPlan& plan)
+    : scene_(scene),
+      trace_scene_(trace_scene),
+      settings_(settings),
+      plan_(plan),
+      light_sampler_(scene, trace_scene) {
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         if (plan.mode_of(scene, i) != LightMode::Baked) continue;
-        baked_lights_.push_back(traced.render_from_world(scene.lights[i]));
+        baked_lights_.push_back(trace_scene.render_from_world(scene.lights[i]));
         layer_of_baked_light_.push_back(plan.layer_of(plan.layer_of_light, i));
     }
 }
 
-PathSample PathTracer::trace(const PathStart& start, Sampler numbers,
-                             PathLightGroups* split) const {
+PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
+                             PathLightGroups* light_groups) const {
     PathSample sample;
     glm::vec3 reflected(0.0f);
-    Path path{numbers, glm::vec3(1.0f), 0, split};
+    Path path{sampler, glm::vec3(1.0f), 0, light_groups};
     glm::vec3& throughput = path.throughput;
     Ray ray{start.origin, start.direction};
     ShadingPoint shading_point{start.origin};
     float pdf = start.pdf;
     for (uint32_t bounce = 0;; ++bounce) {
-        const auto way = bounce == 0 ? PathLightGroups::Way::Seen : PathLightGroups::Way::Reflected;
+        const auto arrival =
+            bounce == 0 ? PathLightGroups::Arrival::Direct : PathLightGroups::Arrival::Reflected;
         glm::vec3& sum = bounce == 0 ? sample.radiance : reflected;
         ++path.ray_count;
         const std::optional<Surface> surface =
-            traced_.intersect(ray, TraceScene::Detail::LightOnly);
+            trace_scene_.intersect(ray, TraceScene::Detail::LightOnly);
         if (!surface) {
             const glm::vec3 sky = environment_radiance(scene_.environment, ray.direction);
             const glm::vec3 light =
-                throughput * sky * mis_weight_bsdf(pdf, emitters_.pdf(ray.direction));
+                throughput * sky * mis_weight_bsdf(pdf, light_sampler_.pdf(ray.direction));
             sum += light;
-            path.add(plan_.layer_of_sky, light, way);
-            if (split != nullptr) split->leave({ray.direction, throughput, bounce == 0});
+            path.add(plan_.layer_of_sky, light, arrival);
+            if (light_groups != nullptr)
+                light_groups->set_escape({ray.direction, throughput, bounce == 0});
             break;
         }
         if (surface->is_back_face) {
-            sample.is_behind_surface = bounce == 0;
+            sample.hit_back_face = bounce == 0;
             break;
         }
         if (surface->emission != glm::vec3(0.0f)) {
-            const float weight = mis_weight_bsdf(pdf, emitters_.pdf(shading_point, *surface));
+            const float weight = mis_weight_bsdf(pdf, light_sampler_.pdf(shading_point, *surface));
             const glm::vec3 light = throughput * surface->emission * weight;
             sum += light;
-            path.add(layer_of_geometry(surface->geometry), light, way);
+            path.add(layer_of_geometry(surface->geometry), light, arrival);
         }
         throughput *= surface->albedo;  // cosine-weighted: albedo/π · cos θ over cos θ/π
         if (bounce == settings_.bounces || throughput == glm::vec3(0.0f)) break;
@@ -88,7 +95,7 @@ PathSample PathTracer::trace(const PathStart& start, Sampler numbers,
             const float survival =
                 std::max(kLeastSurvival, kSurvivalPerThroughput * brightest(throughput));
             if (survival < 1.0f) {
-                if (path.numbers.next() >= survival) break;
+                if (path.sampler.next() >= survival) break;
                 throughput /= survival;
             }
         }
@@ -96,13 +103,13 @@ PathSample PathTracer::trace(const PathStart& start, Sampler numbers,
 
         shading_point = {surface->position, surface->geometric_normal};
         ray = {TraceScene::ray_origin(*surface, shading_point.normal),
-               sample_cosine_hemisphere(shading_point.normal, path.numbers.next2())};
+               sample_cosine_hemisphere(shading_point.normal, path.sampler.next2())};
         pdf = sample_cosine_hemisphere_pdf(shading_point.normal, ray.direction);
     }
     const float brightness = brightest(reflected);
     if (settings_.clamp > 0.0f && brightness > settings_.clamp) {
         reflected *= settings_.clamp / brightness;
-        if (split != nullptr) split->scale_reflected(settings_.clamp / brightness);
+        if (light_groups != nullptr) light_groups->scale_reflected(settings_.clamp / brightness);
     }
     sample.radiance += reflected;
     sample.ray_count = path.ray_count;
@@ -111,13 +118,13 @@ PathSample PathTracer::trace(const PathStart& start, Sampler numbers,
 
 bool PathTracer::can_sample_emission() const {
     return settings_.strategy != LightStrategy::BsdfOnly &&
-           (emitters_.has(EmitterKind::Triangle) || emitters_.has(EmitterKind::Sky));
+           (light_sampler_.has(LightKind::Triangle) || light_sampler_.has(LightKind::Sky));
 }
 
-LightSample PathTracer::sample_emission(EmitterKind kind, const ShadingPoint& shading_point,
-                                        float other_pdf, Sampler& numbers) const {
-    LightSample sample = emitters_.sample(kind, shading_point, numbers);
-    sample.irradiance *= mis_weight_light(sample.pdf, other_pdf);
+LightSample PathTracer::sample_emission(LightKind kind, const ShadingPoint& shading_point,
+                                        float bsdf_pdf, Sampler& sampler) const {
+    LightSample sample = light_sampler_.sample(kind, shading_point, sampler);
+    sample.irradiance *= mis_weight_light(sample.pdf, bsdf_pdf);
     if (!is_light(sample.irradiance) || occluded(shading_point.position, sample)) return {};
     return sample;
 }
@@ -125,18 +132,18 @@ LightSample PathTracer::sample_emission(EmitterKind kind, const ShadingPoint& sh
 bool PathTracer::occluded(glm::vec3 origin, const LightSample& sample, float blend) const {
     // What is transparent is drawn by the bits of the ray: another length is another draw.
     const float scale = 1.0f + blend;
-    if (sample.is_distant) return traced_.occluded({origin, sample.to_light * scale});
-    return traced_.occluded({origin, (sample.target - origin) * scale, 1.0f / scale});
+    if (sample.is_distant) return trace_scene_.occluded({origin, sample.to_light * scale});
+    return trace_scene_.occluded({origin, (sample.target - origin) * scale, 1.0f / scale});
 }
 
 glm::vec3 PathTracer::reflected_light(const Surface& surface, Path& path) const {
     const ShadingPoint shading_point{surface.position, surface.geometric_normal};
     const glm::vec3 ray_origin = TraceScene::ray_origin(surface, shading_point.normal);
     glm::vec3 irradiance(0.0f);
-    for (const EmitterKind kind :
-         {EmitterKind::Sun, EmitterKind::PunctualLight, EmitterKind::Triangle, EmitterKind::Sky}) {
-        if (!emitters_.has(kind)) continue;
-        const LightSample sample = emitters_.sample(kind, shading_point, path.numbers);
+    for (const LightKind kind :
+         {LightKind::Directional, LightKind::Local, LightKind::Triangle, LightKind::Sky}) {
+        if (!light_sampler_.has(kind)) continue;
+        const LightSample sample = light_sampler_.sample(kind, shading_point, path.sampler);
         const float cosine = glm::dot(shading_point.normal, sample.to_light);
         if (cosine <= 0.0f || !is_light(sample.irradiance)) continue;
         const float weight = mis_weight_light(sample.pdf, cosine * std::numbers::inv_pi_v<float>);
@@ -146,32 +153,32 @@ glm::vec3 PathTracer::reflected_light(const Surface& surface, Path& path) const 
         const glm::vec3 light = sample.irradiance * (cosine * weight);
         irradiance += light;
         path.add(layer_of(kind, sample), path.throughput * light * std::numbers::inv_pi_v<float>,
-                 PathLightGroups::Way::Reflected);
+                 PathLightGroups::Arrival::Reflected);
     }
     return irradiance * std::numbers::inv_pi_v<float>;
 }
 
 uint32_t PathTracer::layer_of_geometry(uint32_t geometry) const {
     if (plan_.layer_of_material.empty()) return kNoIndex;
-    return plan_.layer_of(plan_.layer_of_material, traced_.material(geometry));
+    return plan_.layer_of(plan_.layer_of_material, trace_scene_.material(geometry));
 }
 
-uint32_t PathTracer::layer_of(EmitterKind kind, const LightSample& sample) const {
+uint32_t PathTracer::layer_of(LightKind kind, const LightSample& sample) const {
     switch (kind) {
-        case EmitterKind::Sun:
-        case EmitterKind::PunctualLight:
+        case LightKind::Directional:
+        case LightKind::Local:
             return plan_.layer_of(plan_.layer_of_light, sample.source);
-        case EmitterKind::Triangle:
+        case LightKind::Triangle:
             return layer_of_geometry(sample.source);
-        case EmitterKind::Sky:
+        case LightKind::Sky:
             break;
     }
     return plan_.layer_of_sky;
 }
 
-float PathTracer::mis_weight_light(float pdf, float other_pdf) const {
+float PathTracer::mis_weight_light(float pdf, float bsdf_pdf) const {
     if (pdf == 0.0f) return 1.0f;  // no ray meets it
-    if (settings_.strategy == LightStrategy::Mis) return power_heuristic(pdf, other_pdf);
+    if (settings_.strategy == LightStrategy::Mis) return power_heuristic(pdf, bsdf_pdf);
     return settings_.strategy == LightStrategy::LightOnly ? 1.0f : 0.0f;
 }
 

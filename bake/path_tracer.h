@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <tetralight/bake/light_plan.h>
-#include <tetralight/bake/lights/emitters.h>
+#include <tetralight/bake/lights/light_sampler.h>
 #include <tetralight/bake/path_light_groups.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/sampling/sobol.h>
@@ -47,7 +47,7 @@ struct PathStart {
 struct PathSample {
     glm::vec3 radiance{0.0f};
     /// The first hit was the back of a single-sided surface: the path began inside something.
-    bool is_behind_surface = false;
+    bool hit_back_face = false;
     uint32_t ray_count = 0;
 };
 
@@ -58,21 +58,22 @@ struct PathSample {
 class PathTracer {
   public:
     /// Keeps references to the scenes. The plan says which lights are baked, and splits paths.
-    PathTracer(const Scene& scene, const TraceScene& traced, const PathSettings& settings,
+    PathTracer(const Scene& scene, const TraceScene& trace_scene, const PathSettings& settings,
                const LightPlan& plan = {});
 
     /// Radiance that arrives along a path. The direct light of punctual and area lights is no part
-    /// of it: no ray meets them. `split`: where it came from; the sum has the same bits with it.
-    [[nodiscard]] PathSample trace(const PathStart& start, Sampler numbers,
-                                   PathLightGroups* split = nullptr) const;
+    /// of it: no ray meets them. `light_groups`: where it came from; the sum has the same bits with
+    /// it.
+    [[nodiscard]] PathSample trace(const PathStart& start, Sampler sampler,
+                                   PathLightGroups* light_groups = nullptr) const;
 
     /// Whether anything that rays meet by chance can be drawn as well.
     [[nodiscard]] bool can_sample_emission() const;
 
     /// Light straight from one emissive triangle or direction of the sky (`kind`), weighted against
-    /// meeting it by chance with density `other_pdf`. Zero irradiance when blocked.
-    [[nodiscard]] LightSample sample_emission(EmitterKind kind, const ShadingPoint& shading_point,
-                                              float other_pdf, Sampler& numbers) const;
+    /// meeting it by chance with density `bsdf_pdf`. Zero irradiance when blocked.
+    [[nodiscard]] LightSample sample_emission(LightKind kind, const ShadingPoint& shading_point,
+                                              float bsdf_pdf, Sampler& sampler) const;
 
     /// Whether something stands between a position and the light of a sample. `blend` in [0, 1)
     /// draws anew what lets a part of the rays through.
@@ -88,38 +89,38 @@ class PathTracer {
     }
 
     /// The layer of what was drawn.
-    [[nodiscard]] uint32_t layer_of(EmitterKind kind, const LightSample& sample) const;
+    [[nodiscard]] uint32_t layer_of(LightKind kind, const LightSample& sample) const;
 
     [[nodiscard]] const LightPlan& plan() const { return plan_; }
 
-    [[nodiscard]] const TraceScene& traced() const { return traced_; }
+    [[nodiscard]] const TraceScene& trace_scene() const { return trace_scene_; }
 
-    [[nodiscard]] const Emitters& emitters() const { return emitters_; }
+    [[nodiscard]] const LightSampler& light_sampler() const { return light_sampler_; }
 
   private:
     /// What is known of a path while it is followed.
     struct Path {
-        Sampler numbers;
+        Sampler sampler;
         glm::vec3 throughput{1.0f};
         uint32_t ray_count = 0;
-        PathLightGroups* split = nullptr;
+        PathLightGroups* light_groups = nullptr;
 
-        void add(uint32_t layer, glm::vec3 light, PathLightGroups::Way way) const {
-            if (split != nullptr) split->add(layer, light, way);
+        void add(uint32_t layer, glm::vec3 light, PathLightGroups::Arrival arrival) const {
+            if (light_groups != nullptr) light_groups->add(layer, light, arrival);
         }
     };
 
     /// Light that a surface reflects straight from emitters, over its albedo.
     [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, Path& path) const;
     [[nodiscard]] uint32_t layer_of_geometry(uint32_t geometry) const;
-    [[nodiscard]] float mis_weight_light(float pdf, float other_pdf) const;
+    [[nodiscard]] float mis_weight_light(float pdf, float bsdf_pdf) const;
     [[nodiscard]] float mis_weight_bsdf(float pdf, float emitter_pdf) const;
 
     const Scene& scene_;
-    const TraceScene& traced_;
+    const TraceScene& trace_scene_;
     PathSettings settings_;
     LightPlan plan_;
-    Emitters emitters_;
+    LightSampler light_sampler_;
     std::vector<Light> baked_lights_;
     std::vector<uint32_t> layer_of_baked_light_;
 };

@@ -26,7 +26,7 @@ Coefficients weighted_sum(std::span<const ProbeEstimate> estimates) {
     Coefficients sum{};
     for (const ProbeEstimate& estimate : estimates) {
         for (int i = 0; i < kShCoefficientCount; ++i) {
-            sum[i] += static_cast<double>(estimate.direction_count) *
+            sum[i] += static_cast<double>(estimate.sample_count) *
                       glm::dvec3(estimate.radiance.coefficients[i]);
         }
     }
@@ -36,15 +36,14 @@ Coefficients weighted_sum(std::span<const ProbeEstimate> estimates) {
 /// Of the mean of estimates x_k with n_k directions: Σ n_k/N |x_k − mean|² / (K − 1), which is
 /// unbiased when the variance of an estimate goes as 1/n_k.
 double variance_of_mean(std::span<const ProbeEstimate> estimates, const Coefficients& sum,
-                        double direction_count) {
+                        double sample_count) {
     double variance = 0.0;
     for (const ProbeEstimate& estimate : estimates) {
         Coefficients difference;
         for (int i = 0; i < kShCoefficientCount; ++i) {
-            difference[i] =
-                glm::dvec3(estimate.radiance.coefficients[i]) - sum[i] / direction_count;
+            difference[i] = glm::dvec3(estimate.radiance.coefficients[i]) - sum[i] / sample_count;
         }
-        variance += estimate.direction_count / direction_count * irradiance_square(difference);
+        variance += estimate.sample_count / sample_count * irradiance_square(difference);
     }
     return variance / static_cast<double>(estimates.size() - 1);
 }
@@ -55,8 +54,8 @@ void ProbeAccumulator::add_round(std::span<const ProbeEstimate> estimates) noexc
     const Coefficients sum = weighted_sum(estimates);
     uint64_t directions = 0;
     for (const ProbeEstimate& estimate : estimates) {
-        directions += estimate.direction_count;
-        behind_count += estimate.behind_count;
+        directions += estimate.sample_count;
+        back_face_count += estimate.back_face_count;
         ray_count += estimate.ray_count;
     }
     for (int i = 0; i < kShCoefficientCount; ++i) radiance_sum[i] += sum[i];
@@ -64,23 +63,23 @@ void ProbeAccumulator::add_round(std::span<const ProbeEstimate> estimates) noexc
         const auto count = static_cast<double>(directions);
         variance_sum += count * count * variance_of_mean(estimates, sum, count);
     }
-    direction_count += directions;
+    sample_count += directions;
     ++round_count;
 }
 
 RadianceSh ProbeAccumulator::radiance() const noexcept {
     RadianceSh mean;
-    if (direction_count == 0) return mean;
+    if (sample_count == 0) return mean;
     for (int i = 0; i < kShCoefficientCount; ++i) {
-        mean.coefficients[i] = glm::vec3(radiance_sum[i] / static_cast<double>(direction_count));
+        mean.coefficients[i] = glm::vec3(radiance_sum[i] / static_cast<double>(sample_count));
     }
     return mean;
 }
 
 float ProbeAccumulator::validity() const noexcept {
-    if (direction_count == 0) return 1.0f;
-    return static_cast<float>(1.0 - static_cast<double>(behind_count) /
-                                        static_cast<double>(direction_count));
+    if (sample_count == 0) return 1.0f;
+    return static_cast<float>(1.0 - static_cast<double>(back_face_count) /
+                                        static_cast<double>(sample_count));
 }
 
 float ProbeAccumulator::standard_error() const noexcept {

@@ -20,9 +20,9 @@ struct ProbeAccumulator {
     /// Σ directions² · variance of the round's mean irradiance, over rounds of two estimates and
     /// more. Variance: Σ A_l² over the 27 coefficients.
     double variance_sum = 0.0;
-    uint64_t direction_count = 0;
+    uint64_t sample_count = 0;
     /// Directions that met the back of a single-sided surface first.
-    uint64_t behind_count = 0;
+    uint64_t back_face_count = 0;
     uint64_t ray_count = 0;
     uint64_t round_count = 0;
 

@@ -28,10 +28,10 @@ uint64_t key_of(uint64_t key, Purpose purpose) {
     return detail::mix(key + (static_cast<uint64_t>(purpose) + 1) * detail::kGoldenRatio64);
 }
 
-/// What an estimate gathers, whole and split.
+/// What an estimate gathers: the sum, and the light groups.
 struct Gathered {
     ProbeEstimate estimate;
-    LightGroupSum split;
+    LightGroupSum light_groups;
 };
 
 /// Light along the probe's own directions; that of `start` has no say.
@@ -41,18 +41,19 @@ void add_paths(const PathTracer& tracer, const PathStart& start, const Direction
     RandomStream rotation_stream(key, static_cast<uint64_t>(Purpose::Rotation));
     const glm::mat3 rotation = sample_rotation(rotation_stream);
     const uint64_t paths_key = key_of(key, Purpose::Paths);
-    const bool is_split = tracer.plan().has_split();
-    PathLightGroups split(tracer.plan().layer_count);
+    const bool has_light_groups = tracer.plan().has_light_groups();
+    PathLightGroups light_groups(tracer.plan().layer_count);
     RadianceShSum sum;
     PathStart path = start;
     for (uint32_t i = 0; i < directions.size(); ++i) {
         path.direction = rotation * directions[i];
-        if (is_split) split.clear();
+        if (has_light_groups) light_groups.clear();
         const PathSample sample =
-            tracer.trace(path, Sampler(paths_key, i), is_split ? &split : nullptr);
+            tracer.trace(path, Sampler(paths_key, i), has_light_groups ? &light_groups : nullptr);
         sum.add(path.direction, sample.radiance);
-        if (is_split) gathered.split.add(path.direction, split, kSphere / directions.size());
-        estimate.behind_count += sample.is_behind_surface;
+        if (has_light_groups)
+            gathered.light_groups.add(path.direction, light_groups, kSphere / directions.size());
+        estimate.back_face_count += sample.hit_back_face;
         estimate.ray_count += sample.ray_count;
     }
     estimate.radiance += radiance_from_sum(sum, kSphere / directions.size());
@@ -62,20 +63,20 @@ void add_paths(const PathTracer& tracer, const PathStart& start, const Direction
 void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint32_t count,
                   Gathered& gathered) {
     ProbeEstimate& estimate = gathered.estimate;
-    const double directions_each = static_cast<double>(estimate.direction_count) / count;
+    const double directions_each = static_cast<double>(estimate.sample_count) / count;
     const auto other_pdf = static_cast<float>(directions_each / kSphere);
     const uint64_t emission_key = key_of(key, Purpose::Emission);
     RadianceShSum sum;
     for (uint32_t i = 0; i < count; ++i) {
-        Sampler numbers(emission_key, i);
-        for (const EmitterKind kind : {EmitterKind::Triangle, EmitterKind::Sky}) {
-            if (!tracer.emitters().has(kind)) continue;
-            const LightSample sample = tracer.sample_emission(kind, {origin}, other_pdf, numbers);
+        Sampler sampler(emission_key, i);
+        for (const LightKind kind : {LightKind::Triangle, LightKind::Sky}) {
+            if (!tracer.light_sampler().has(kind)) continue;
+            const LightSample sample = tracer.sample_emission(kind, {origin}, other_pdf, sampler);
             ++estimate.ray_count;
             if (sample.irradiance == glm::vec3(0.0f)) continue;
             sum.add(sample.to_light, sample.irradiance);
-            gathered.split.add(sample.to_light, tracer.layer_of(kind, sample), sample.irradiance,
-                               1.0 / count);
+            gathered.light_groups.add(sample.to_light, tracer.layer_of(kind, sample),
+                                      sample.irradiance, 1.0 / count);
         }
     }
     estimate.radiance += radiance_from_sum(sum, 1.0 / count);
@@ -89,13 +90,13 @@ void add_baked_light(const PathTracer& tracer, size_t light_index, glm::vec3 ori
     const uint32_t layer = tracer.layer_of_baked_light(light_index);
     RadianceShSum sum;
     for (uint32_t i = 0; i < count; ++i) {
-        Sampler numbers(key, i);
-        const LightSample sample = sample_light(light, origin, numbers.next2());
+        Sampler sampler(key, i);
+        const LightSample sample = sample_light(light, origin, sampler.next2());
         if (sample.irradiance == glm::vec3(0.0f)) continue;
         ++estimate.ray_count;
-        if (tracer.occluded(origin, sample, numbers.next())) continue;
+        if (tracer.occluded(origin, sample, sampler.next())) continue;
         sum.add(sample.to_light, sample.irradiance);
-        gathered.split.add(sample.to_light, layer, sample.irradiance, 1.0 / count);
+        gathered.light_groups.add(sample.to_light, layer, sample.irradiance, 1.0 / count);
     }
     estimate.radiance += radiance_from_sum(sum, 1.0 / count);
 }
@@ -105,10 +106,10 @@ void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
     const std::vector<Light>& lights = tracer.baked_lights();
     const auto light_count = std::max<size_t>(1, lights.size());
     const auto soft_count = static_cast<uint32_t>(std::max<size_t>(
-        1, gathered.estimate.direction_count / (kDirectionsPerShadowRay * light_count)));
+        1, gathered.estimate.sample_count / (kDirectionsPerShadowRay * light_count)));
     uint64_t light_key = key_of(key, Purpose::BakedLights);
     for (size_t i = 0; i < lights.size(); ++i) {
-        const bool is_hard = has_hard_shadows(lights[i]) && !tracer.traced().has_blending();
+        const bool is_hard = has_hard_shadows(lights[i]) && !tracer.trace_scene().has_blending();
         add_baked_light(tracer, i, origin, light_key, is_hard ? 1 : soft_count, gathered);
         light_key = detail::mix(light_key + detail::kGoldenRatio64);
     }
@@ -118,14 +119,14 @@ void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
 
 ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
                              const DirectionSet& directions) {
-    const uint32_t direction_count = directions.size();
+    const uint32_t sample_count = directions.size();
     LightGroupLayout layout(tracer.plan());
     layout.has_occlusion = false;  // no part of what directions gather
     Gathered gathered{{}, LightGroupSum(layout)};
-    gathered.estimate.direction_count = direction_count;
+    gathered.estimate.sample_count = sample_count;
     if (tracer.can_sample_emission()) {
-        const uint32_t drawn = std::max(1u, direction_count / kDirectionsPerEmitter);
-        const double pdf = direction_count / (kSphere * drawn);
+        const uint32_t drawn = std::max(1u, sample_count / kDirectionsPerEmitter);
+        const double pdf = sample_count / (kSphere * drawn);
         const PathStart start{.origin = origin, .pdf = static_cast<float>(pdf)};
         add_paths(tracer, start, directions, key, gathered);
         add_emission(tracer, origin, key, drawn, gathered);
@@ -133,7 +134,7 @@ ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_
         add_paths(tracer, {.origin = origin}, directions, key, gathered);
     }
     add_baked_lights(tracer, origin, key, gathered);
-    gathered.estimate.split = gathered.split.values();
+    gathered.estimate.light_groups = gathered.light_groups.values();
     return std::move(gathered.estimate);
 }
 

@@ -16,13 +16,13 @@ namespace tetralight {
 /// Estimates with different keys are independent.
 struct ProbeEstimate {
     RadianceSh radiance;
-    uint32_t direction_count = 0;
+    uint32_t sample_count = 0;
     /// Directions that met the back of a single-sided surface first.
-    uint32_t behind_count = 0;
+    uint32_t back_face_count = 0;
     uint64_t ray_count = 0;
-    /// What the light is split into, as a row of `LightGroupLayout`; empty when the plan splits
-    /// nothing.
-    std::vector<float> split;
+    /// What the light is light_groups into, as a row of `LightGroupLayout`; empty when the plan
+    /// splits nothing.
+    std::vector<float> light_groups;
 };
 
 /// Gathers the light at `origin` (render space) over a set of directions, which is turned at

@@ -14,34 +14,34 @@ std::span<const glm::vec3> probe_visibility_directions() {
     return directions;
 }
 
-ProbeVisibility probe_visibility_at(const TraceScene& traced, glm::vec3 position) {
+ProbeVisibility probe_visibility(const TraceScene& trace_scene, glm::vec3 position) {
     uint32_t back_faces = 0;
     uint32_t behind = 0;
     uint32_t escaped = 0;
     for (const glm::vec3& direction : probe_visibility_directions()) {
-        const auto side = traced.intersect_side({position, direction});
+        const auto side = trace_scene.intersect_side({position, direction});
         escaped += !side;
         back_faces += side && side->is_back_face;
         behind += side && side->is_from_behind;
     }
     const auto count = static_cast<float>(probe_visibility_directions().size());
-    ProbeVisibility result{.back_face_share = static_cast<float>(back_faces) / count,
-                           .behind_share = static_cast<float>(behind) / count,
-                           .escape_share = static_cast<float>(escaped) / count};
-    if (const auto nearest = traced.nearest_surface(position)) {
+    ProbeVisibility result{.back_face_fraction = static_cast<float>(back_faces) / count,
+                           .behind_fraction = static_cast<float>(behind) / count,
+                           .escape_fraction = static_cast<float>(escaped) / count};
+    if (const auto nearest = trace_scene.nearest_surface(position)) {
         result.surface_distance = glm::distance(position, *nearest);
     }
     return result;
 }
 
-Result<std::vector<ProbeVisibility>> probe_visibility(const Scene& scene,
-                                                      std::span<const glm::dvec3> positions,
-                                                      uint32_t thread_count) {
-    const auto traced = TraceScene::make_static(scene);
-    if (!traced) return traced.error();
+Result<std::vector<ProbeVisibility>> probe_visibilities(const Scene& scene,
+                                                        std::span<const glm::dvec3> positions,
+                                                        uint32_t thread_count) {
+    const auto trace_scene = TraceScene::make_static(scene);
+    if (!trace_scene) return trace_scene.error();
     std::vector<ProbeVisibility> result(positions.size());
     parallel_for(positions.size(), thread_count, [&](size_t i) {
-        result[i] = probe_visibility_at(*traced, traced->render_from_world(positions[i]));
+        result[i] = probe_visibility(*trace_scene, trace_scene->render_from_world(positions[i]));
     });
     return result;
 }

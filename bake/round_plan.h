@@ -17,7 +17,7 @@ class RoundPlan {
     /// itself good to about a tenth.
     static constexpr uint32_t kEstimateCount = 8;
     /// Sets of fewer directions are too uneven to be worth more estimates.
-    static constexpr uint32_t kFewestDirections = 16;
+    static constexpr uint32_t kMinSamplesPerEstimate = 16;
 
     /// Precondition: `check(settings)` holds.
     explicit RoundPlan(const BakeSettings& settings) noexcept;
@@ -26,22 +26,22 @@ class RoundPlan {
     [[nodiscard]] static Status check(const BakeSettings& settings);
 
     /// Directions that a probe has before this round: each round doubles them, up to the maximum.
-    [[nodiscard]] uint64_t directions_before(uint64_t round) const noexcept;
+    [[nodiscard]] uint64_t samples_before(uint64_t round) const noexcept;
 
     /// Directions of one round; 0: there is no such round.
-    [[nodiscard]] uint64_t directions_of(uint64_t round) const noexcept;
+    [[nodiscard]] uint64_t samples_in_round(uint64_t round) const noexcept;
 
     /// Estimates that share them.
-    [[nodiscard]] uint32_t estimates_of(uint64_t round) const noexcept;
+    [[nodiscard]] uint32_t estimates_in_round(uint64_t round) const noexcept;
 
     /// Directions of one of these estimates; they differ by one at most.
-    [[nodiscard]] uint32_t directions_of_estimate(uint64_t round, uint32_t estimate) const noexcept;
+    [[nodiscard]] uint32_t samples_in_estimate(uint64_t round, uint32_t estimate) const noexcept;
 
     /// Whether the probe needs no further round.
     [[nodiscard]] bool is_done(const ProbeAccumulator& accumulator) const noexcept;
 
     /// Directions that the probe will have when it is done, as far as its error tells by now.
-    [[nodiscard]] uint64_t expected_directions(const ProbeAccumulator& accumulator) const noexcept;
+    [[nodiscard]] uint64_t expected_samples(const ProbeAccumulator& accumulator) const noexcept;
 
   private:
     uint64_t first_ = 0;

@@ -10,9 +10,9 @@
 namespace tetralight {
 
 /// How a probe that lies in geometry finds a place to gather light from.
-struct VirtualOffsetSearch {
+struct VirtualOffsetSettings {
     /// No offset is longer than this, metres.
-    float reach = 0.0f;
+    float max_distance = 0.0f;
     /// How far beyond the surface the place should lie, metres; less where there is less room.
     float margin = 0.0f;
     /// See `ProbeVisibility::is_inside`.
@@ -22,8 +22,8 @@ struct VirtualOffsetSearch {
 /// The way out of geometry from a position in render space: through the nearest back face, seen
 /// towards the nearest surface or in a direction of the survey, beyond which lies a place that is
 /// not inside. None: there is no such place in reach. Pure.
-[[nodiscard]] std::optional<glm::vec3> find_virtual_offset(const TraceScene& traced,
+[[nodiscard]] std::optional<glm::vec3> find_virtual_offset(const TraceScene& trace_scene,
                                                            glm::vec3 position,
-                                                           const VirtualOffsetSearch& search);
+                                                           const VirtualOffsetSettings& settings);
 
 }  // namespace tetralight

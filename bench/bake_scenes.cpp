@@ -59,11 +59,11 @@ std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
     const WorldBox bounds = scene_bounds(scene, everything).value_or(WorldBox{});
     std::vector<glm::dvec3> candidates = random_positions(4 * count, 1, 1.0);
     for (glm::dvec3& p : candidates) p = bounds.min + p * bounds.size();
-    const auto visibility = probe_visibility(scene, candidates);
+    const auto visibility = probe_visibilities(scene, candidates);
     require(bool(visibility), "survey");
     std::vector<glm::dvec3> free;
     for (size_t i = 0; i < candidates.size() && free.size() < count; ++i) {
-        if ((*visibility)[i].behind_share < 0.1f) free.push_back(candidates[i]);
+        if ((*visibility)[i].behind_fraction < 0.1f) free.push_back(candidates[i]);
     }
     return free;
 }

@@ -78,7 +78,7 @@ void measure(const std::string& name, const AngleSurface& surface) {
     scene.instances[0].mesh = 0;
     std::vector<glm::dvec3> positions = random_positions(kPositions, 3, 3.8);
     for (glm::dvec3& position : positions) position -= 1.9;
-    const auto visibility = probe_visibility(scene, positions);
+    const auto visibility = probe_visibilities(scene, positions);
     require(bool(visibility), "survey");
     size_t agreeing = 0, inside = 0;
     for (size_t i = 0; i < kPositions; ++i) {

@@ -92,7 +92,7 @@ std::vector<glm::dvec3> free_positions(const GridSubject& subject, size_t count)
                 glm::any(glm::greaterThan(p, subject.bounds.max))) {
                 return;
             }
-            is_free[i] = !probe_visibility_at(*traced, traced->render_from_world(p)).is_inside() &&
+            is_free[i] = !probe_visibility(*traced, traced->render_from_world(p)).is_inside() &&
                          map.space_of(p) == wanted;
         });
         // In pairs, so that both kinds are equally many.

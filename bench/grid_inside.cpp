@@ -117,7 +117,7 @@ void inside_rays(const GridSubject& subject, const Options& options) {
         return seconds([&] {
             size_t inside_count = 0;
             for (const glm::vec3& p : positions)
-                inside_count += probe_visibility_at(*traced, p).is_inside();
+                inside_count += probe_visibility(*traced, p).is_inside();
             require(inside_count < positions.size(), "free positions");
         });
     };

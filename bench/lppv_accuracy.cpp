@@ -55,7 +55,7 @@ std::vector<SurfacePoint> points_on(const glm::dmat4& world_from_beam) {
 std::vector<SurfacePoint> visible(const Scene& scene, const std::vector<SurfacePoint>& points) {
     std::vector<glm::dvec3> positions;
     for (const SurfacePoint& point : points) positions.push_back(point.position);
-    const auto visibility = probe_visibility(scene, positions);
+    const auto visibility = probe_visibilities(scene, positions);
     require(bool(visibility), "survey");
     std::vector<SurfacePoint> free;
     for (size_t i = 0; i < points.size(); ++i) {

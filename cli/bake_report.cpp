@@ -83,7 +83,7 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
 
 void report_range(const CommonOptions& common, const BakeRun& run, const PartialBake& part,
                   size_t probe_count) {
-    const BakedProbes light = baked_probes(part.accumulators);
+    const BakedProbes light = make_baked_probes(part.accumulators);
     const BakeStatistics statistics = bake_statistics(light, run.settings.target_error);
     Json json{{"output", run.output},
               {"range", {part.range.begin, part.range.end}},
@@ -100,18 +100,18 @@ void report_range(const CommonOptions& common, const BakeRun& run, const Partial
 
 Json to_json(const BakeStatistics& statistics) {
     return {{"samples_per_probe",
-             {{"min", statistics.fewest_directions},
-              {"median", statistics.median_directions},
-              {"max", statistics.most_directions}}},
+             {{"min", statistics.min_samples},
+              {"median", statistics.median_samples},
+              {"max", statistics.max_samples}}},
             {"standard_error", errors_json(statistics)},
             {"over_target", statistics.over_target_count}};
 }
 
 std::string to_text(const BakeStatistics& statistics) {
-    std::string directions = grouped(statistics.median_directions);
-    if (statistics.fewest_directions != statistics.most_directions) {
-        directions = str_cat(grouped(statistics.fewest_directions), " to ",
-                             grouped(statistics.most_directions), " (median ", directions, ")");
+    std::string directions = grouped(statistics.median_samples);
+    if (statistics.min_samples != statistics.max_samples) {
+        directions = str_cat(grouped(statistics.min_samples), " to ",
+                             grouped(statistics.max_samples), " (median ", directions, ")");
     }
     return str_cat(
         directions, " samples a probe; standard error: ", errors_text(statistics),

@@ -53,8 +53,8 @@ double BakeProgressDisplay::share_done(const BakeProgress& progress, double seco
     if (progress.probe_count == 0) return 1.0;
     // The first round is done whatever the budget.
     const bool is_over_budget = seconds >= time_budget_seconds_;
-    if (time_budget_seconds_ == 0.0 || is_over_budget) return progress.share_done;
-    return std::max(progress.share_done, seconds / time_budget_seconds_);
+    if (time_budget_seconds_ == 0.0 || is_over_budget) return progress.fraction_done;
+    return std::max(progress.fraction_done, seconds / time_budget_seconds_);
 }
 
 std::optional<double> BakeProgressDisplay::seconds_left(const BakeProgress& progress,
@@ -74,7 +74,7 @@ std::string BakeProgressDisplay::summary(const BakeProgress& progress, double se
 }
 
 bool BakeProgressDisplay::show(const BakeProgress& progress) {
-    if (first_share_ < 0.0) first_share_ = progress.share_done;
+    if (first_share_ < 0.0) first_share_ = progress.fraction_done;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     if (!file_.empty()) write_file(progress, elapsed.count());
     if (!is_quiet_) {

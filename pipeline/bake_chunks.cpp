@@ -158,8 +158,8 @@ Result<RangeBake> bake_in_chunks(const Scene& scene, const PreparedBake& prepare
         BakeProgress last;
         const auto report = [&](const BakeProgress& progress) {
             last = progress;
-            last.share_done =
-                (static_cast<double>(done_count) + progress.share_done * range.count()) / count;
+            last.fraction_done =
+                (static_cast<double>(done_count) + progress.fraction_done * range.count()) / count;
             last.probes_done += done_count;
             last.probe_count = count;
             last.ray_count += ray_count;

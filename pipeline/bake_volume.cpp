@@ -199,7 +199,7 @@ BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeAccumulator>
                         std::span<const double> split_rows) {
     TETRALIGHT_ASSERT(accumulators.size() == prepared.volume.positions.size(),
                       "one for each probe");
-    BakedProbes baked = baked_probes(accumulators);
+    BakedProbes baked = make_baked_probes(accumulators);
     take_reused(prepared.reused, baked);
     ProbeVolume volume = std::move(prepared.volume);
     BakeReport report = std::move(prepared.report);

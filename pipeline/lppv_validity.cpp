@@ -16,12 +16,12 @@ Result<std::vector<float>> survey_grid(const Scene& scene, const LppvGrid& grid,
             }
         }
     }
-    const auto surveyed = probe_visibility(scene, positions, thread_count);
+    const auto surveyed = probe_visibilities(scene, positions, thread_count);
     if (!surveyed) return surveyed.error();
     std::vector<float> validity;
     validity.reserve(surveyed->size());
     for (const ProbeVisibility& around : *surveyed) {
-        validity.push_back(around.is_inside() ? 0.0f : 1.0f - around.back_face_share);
+        validity.push_back(around.is_inside() ? 0.0f : 1.0f - around.back_face_fraction);
     }
     return validity;
 }

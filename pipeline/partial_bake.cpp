@@ -86,9 +86,9 @@ bool is_possible(const ProbeAccumulator& accumulator, const RoundPlan& plan) {
     }
     const uint64_t rounds = accumulator.round_count;
     return std::isfinite(accumulator.variance_sum) && accumulator.variance_sum >= 0.0 &&
-           (rounds == 0 || plan.directions_of(rounds - 1) > 0) &&
-           accumulator.direction_count == plan.directions_before(rounds) &&
-           accumulator.behind_count <= accumulator.direction_count;
+           (rounds == 0 || plan.samples_in_round(rounds - 1) > 0) &&
+           accumulator.sample_count == plan.samples_before(rounds) &&
+           accumulator.back_face_count <= accumulator.sample_count;
 }
 
 Status check_tallies(const PartFile& part) {

@@ -41,7 +41,7 @@ struct Survey {
     void look() {
         parallel_for(health.size(), thread_count, [&](size_t i) {
             const auto found =
-                probe_visibility_at(traced, traced.render_from_world(merged.positions[i]));
+                probe_visibility(traced, traced.render_from_world(merged.positions[i]));
             health[i].surface_distance = found.surface_distance;
             is_inside[i] = found.is_inside(settings.min_validity);
         });
@@ -66,9 +66,9 @@ struct Survey {
         const std::vector<double> spacing = group_spacing(merged, inside);
         parallel_for(inside.size(), thread_count, [&](size_t i) {
             const double room = std::min(spacing[i], lone_reach);
-            const VirtualOffsetSearch search{static_cast<float>(settings.virtual_offset * room),
-                                             static_cast<float>(kMarginShare * room),
-                                             settings.min_validity};
+            const VirtualOffsetSettings search{static_cast<float>(settings.virtual_offset * room),
+                                               static_cast<float>(kMarginShare * room),
+                                               settings.min_validity};
             const glm::vec3 position = traced.render_from_world(merged.positions[inside[i]]);
             const auto offset = find_virtual_offset(traced, position, search);
             if (!offset) return;

@@ -16,23 +16,23 @@ constexpr double cosine_factor(int i) {
     return i == 0 ? kPi : i < 4 ? 2.0 * kPi / 3.0 : kPi / 4.0;
 }
 
-IrradianceSh irradiance_from_row(std::span<const double> row, double direction_count) {
+IrradianceSh irradiance_from_row(std::span<const double> row, double sample_count) {
     RadianceSh radiance;
     for (int i = 0; i < kShCoefficientCount; ++i) {
         for (int channel = 0; channel < 3; ++channel) {
             radiance.coefficients[i][channel] =
-                static_cast<float>(row[static_cast<size_t>(3 * i + channel)] / direction_count);
+                static_cast<float>(row[static_cast<size_t>(3 * i + channel)] / sample_count);
         }
     }
     return irradiance_from_radiance(radiance);
 }
 
-ProbeTransfer transfer_from_row(std::span<const double> row, double direction_count) {
+ProbeTransfer transfer_from_row(std::span<const double> row, double sample_count) {
     ProbeTransfer transfer;
     const double* direct = row.data();
-    const double* bounced = direct + LightGroupLayout::kDirect;
+    const double* bounced = direct + LightGroupLayout::kDirectSize;
     for (int i = 0; i < kShCoefficientCount; ++i) {
-        const double factor = cosine_factor(i) / direction_count;
+        const double factor = cosine_factor(i) / sample_count;
         for (int j = 0; j < kDistantCoefficientCount; ++j) {
             transfer.direct[i][j] = static_cast<float>(*direct++ * factor);
             for (int channel = 0; channel < 3; ++channel) {
@@ -79,10 +79,10 @@ void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const
         const auto row = rows.subspan(i * layout.size(), layout.size());
         // A probe without directions has no light, and zeros for it.
         const auto directions =
-            static_cast<double>(std::max<uint64_t>(accumulators[i].direction_count, 1));
+            static_cast<double>(std::max<uint64_t>(accumulators[i].sample_count, 1));
         for (uint32_t layer = 0; layer < layout.layer_count; ++layer) {
             layer_light(volume, layer)[i] =
-                irradiance_from_row(row.subspan(layer * LightGroupLayout::kLayer), directions);
+                irradiance_from_row(row.subspan(layer * LightGroupLayout::kLayerSize), directions);
         }
         if (layout.has_transfer) {
             volume.transfer[i] = transfer_from_row(row.subspan(layout.direct_begin()), directions);

@@ -26,25 +26,25 @@ glm::vec2 sample_triangle(glm::vec2 u) {
     return {u.x - y, y};
 }
 
-float mean_emission(const TraceScene& traced, uint32_t geometry, uint32_t primitive) {
-    const uint32_t count = traced.has_varied_emission(geometry) ? kLookups : 1;
+float mean_emission(const TraceScene& trace_scene, uint32_t geometry, uint32_t primitive) {
+    const uint32_t count = trace_scene.has_varied_emission(geometry) ? kLookups : 1;
     double sum = 0.0;
     for (uint32_t i = 0; i < count; ++i) {
         const glm::vec2 point = sample_triangle(owen_sobol2(i, primitive));
-        sum += power_of(traced.visible_emission(geometry, primitive, point));
+        sum += power_of(trace_scene.visible_emission(geometry, primitive, point));
     }
     return static_cast<float>(sum / count);
 }
 
 }  // namespace
 
-EmissiveTriangles::EmissiveTriangles(const TraceScene& traced)
-    : traced_(traced), first_of_geometry_(traced.geometry_count(), kNoIndex) {
+EmissiveTriangles::EmissiveTriangles(const TraceScene& trace_scene)
+    : trace_scene_(trace_scene), first_of_geometry_(trace_scene.geometry_count(), kNoIndex) {
     std::vector<LightBounds> bounds;
-    for (uint32_t geometry = 0; geometry < traced.geometry_count(); ++geometry) {
-        if (!traced.can_emit(geometry)) continue;
+    for (uint32_t geometry = 0; geometry < trace_scene.geometry_count(); ++geometry) {
+        if (!trace_scene.can_emit(geometry)) continue;
         first_of_geometry_[geometry] = static_cast<uint32_t>(triangles_.size());
-        const uint32_t count = traced.triangle_count(geometry);
+        const uint32_t count = trace_scene.triangle_count(geometry);
         for (uint32_t primitive = 0; primitive < count; ++primitive) {
             add(geometry, primitive, bounds);
         }
@@ -54,27 +54,27 @@ EmissiveTriangles::EmissiveTriangles(const TraceScene& traced)
 
 void EmissiveTriangles::add(uint32_t geometry, uint32_t primitive,
                             std::vector<LightBounds>& bounds) {
-    const std::array<glm::vec3, 3> corners = traced_.triangle(geometry, primitive);
+    const std::array<glm::vec3, 3> corners = trace_scene_.triangle(geometry, primitive);
     const glm::vec3 u = corners[1] - corners[0], v = corners[2] - corners[0];
     const glm::vec3 area_vector = 0.5f * glm::cross(u, v);
     const float area = glm::length(area_vector);
     triangles_.push_back({corners[0], {u, v}, geometry, primitive});
     LightBounds& emitter = bounds.emplace_back();
-    emitter.low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
-    emitter.high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+    emitter.min = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+    emitter.max = glm::max(glm::max(corners[0], corners[1]), corners[2]);
     if (!(area > 0.0f) || !std::isfinite(area)) return;
-    emitter.power = area * mean_emission(traced_, geometry, primitive);
-    emitter.is_two_sided = traced_.is_double_sided(geometry);
+    emitter.power = area * mean_emission(trace_scene_, geometry, primitive);
+    emitter.is_two_sided = trace_scene_.is_double_sided(geometry);
     emitter.axis = area_vector / area;
-    emitter.cos_axes = 1.0f;
-    emitter.cos_emission = 0.0f;
+    emitter.cos_theta_o = 1.0f;
+    emitter.cos_theta_e = 0.0f;
 }
 
 LightSample EmissiveTriangles::sample(const ShadingPoint& shading_point, double choice,
                                       glm::vec2 u) const noexcept {
     const auto chosen = tree_.sample(shading_point, choice);
     if (!chosen) return {};
-    const Triangle& triangle = triangles_[chosen->emitter];
+    const Triangle& triangle = triangles_[chosen->light];
     const glm::vec2 weights = sample_triangle(u);
     const glm::vec3 point =
         triangle.corner + weights.x * triangle.edges[0] + weights.y * triangle.edges[1];
@@ -86,14 +86,14 @@ LightSample EmissiveTriangles::sample(const ShadingPoint& shading_point, double 
     LightSample sample;
     sample.to_light = offset / distance;
     float facing_area = -glm::dot(area_vector, sample.to_light);  // area times cosine
-    if (facing_area < 0.0f && traced_.is_double_sided(triangle.geometry)) {
+    if (facing_area < 0.0f && trace_scene_.is_double_sided(triangle.geometry)) {
         facing_area = -facing_area;
         area_vector = -area_vector;
     }
     if (!(facing_area > 0.0f)) return {};
     sample.pdf = chosen->probability * distance * distance / facing_area;
     sample.irradiance =
-        traced_.visible_emission(triangle.geometry, triangle.primitive, weights) / sample.pdf;
+        trace_scene_.visible_emission(triangle.geometry, triangle.primitive, weights) / sample.pdf;
     // A shadow ray that ends in front of the triangle does not meet it.
     sample.target =
         TraceScene::shadow_target({{triangle.corner, triangle.corner + triangle.edges[0],
@@ -105,16 +105,17 @@ LightSample EmissiveTriangles::sample(const ShadingPoint& shading_point, double 
     return sample;
 }
 
-float EmissiveTriangles::pdf(const ShadingPoint& shading_point, const Surface& met) const noexcept {
-    const uint32_t first = first_of_geometry_[met.geometry];
+float EmissiveTriangles::pdf(const ShadingPoint& shading_point,
+                             const Surface& surface) const noexcept {
+    const uint32_t first = first_of_geometry_[surface.geometry];
     if (first == kNoIndex) return 0.0f;
-    const Triangle& triangle = triangles_[first + met.primitive];
-    const glm::vec3 offset = met.position - shading_point.position;
+    const Triangle& triangle = triangles_[first + surface.primitive];
+    const glm::vec3 offset = surface.position - shading_point.position;
     const float distance2 = glm::dot(offset, offset);
     const glm::vec3 area_vector = 0.5f * glm::cross(triangle.edges[0], triangle.edges[1]);
     const float facing_area = std::abs(glm::dot(area_vector, offset)) / std::sqrt(distance2);
     if (!(facing_area > 0.0f)) return 0.0f;
-    return tree_.probability(shading_point, first + met.primitive) * distance2 / facing_area;
+    return tree_.probability(shading_point, first + surface.primitive) * distance2 / facing_area;
 }
 
 }  // namespace tetralight

@@ -19,7 +19,7 @@ class EmissiveTriangles {
   public:
     /// Keeps a reference. Emission is integrated over each triangle by a few texture lookups; what
     /// they miss is never drawn and has a density of 0.
-    explicit EmissiveTriangles(const TraceScene& traced);
+    explicit EmissiveTriangles(const TraceScene& trace_scene);
 
     [[nodiscard]] bool is_empty() const { return tree_.is_empty(); }
 
@@ -29,8 +29,9 @@ class EmissiveTriangles {
                                      glm::vec2 u) const noexcept;
 
     /// Density per steradian with which `sample` draws the place that a ray from the shading point
-    /// met.
-    [[nodiscard]] float pdf(const ShadingPoint& shading_point, const Surface& met) const noexcept;
+    /// surface.
+    [[nodiscard]] float pdf(const ShadingPoint& shading_point,
+                            const Surface& surface) const noexcept;
 
   private:
     struct Triangle {
@@ -42,7 +43,7 @@ class EmissiveTriangles {
 
     void add(uint32_t geometry, uint32_t primitive, std::vector<LightBounds>& bounds);
 
-    const TraceScene& traced_;
+    const TraceScene& trace_scene_;
     std::vector<Triangle> triangles_;
     /// For each geometry the number of its first triangle here, or `kNoIndex`: all of a geometry's
     /// triangles are here or none.

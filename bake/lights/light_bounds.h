@@ -9,20 +9,20 @@ namespace tetralight {
 /// Where some emitters are, where they shine to and how much: bounds of what they can send to a
 /// position.
 struct LightBounds {
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
+    glm::vec3 min{0.0f};
+    glm::vec3 max{0.0f};
     /// Axis of the cone that holds the emitters' own axes, a unit vector.
     glm::vec3 axis{0.0f, 0.0f, 1.0f};
     /// Cosine of that cone's half angle; −1 = shines everywhere alike.
-    float cos_axes = -1.0f;
+    float cos_theta_o = -1.0f;
     /// Cosine of the angle to its own axis beyond which an emitter sends nothing.
-    float cos_emission = -1.0f;
+    float cos_theta_e = -1.0f;
     /// Whether it sends the same to the other side, against its axis.
     bool is_two_sided = false;
     /// What it sends straight ahead over squared distance, any unit.
     float power = 0.0f;
     /// Distance from the box beyond which it sends nothing.
-    float reach = std::numeric_limits<float>::infinity();
+    float max_distance = std::numeric_limits<float>::infinity();
 
     bool operator==(const LightBounds&) const = default;
 };

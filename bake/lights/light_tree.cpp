@@ -36,8 +36,8 @@ Float4 sine_of(Float4 cosine) {
 }  // namespace
 
 void LightTree::set_lane(Node& node, uint32_t lane, const LightBounds& bounds) {
-    const glm::vec3 half_size = 0.5f * (bounds.high - bounds.low);
-    const glm::vec3 center = bounds.low + half_size;
+    const glm::vec3 half_size = 0.5f * (bounds.max - bounds.min);
+    const glm::vec3 center = bounds.min + half_size;
     node.center_x[lane] = center.x;
     node.center_y[lane] = center.y;
     node.center_z[lane] = center.z;
@@ -46,12 +46,12 @@ void LightTree::set_lane(Node& node, uint32_t lane, const LightBounds& bounds) {
     node.axis_y[lane] = bounds.axis.y;
     node.axis_z[lane] = bounds.axis.z;
     // A cone of all directions holds each of them, whatever the rounding.
-    node.cos_axes[lane] = bounds.cos_axes > -1.0f ? bounds.cos_axes : -2.0f;
-    node.sin_axes[lane] = sine_of(bounds.cos_axes);
-    node.cos_emission[lane] = bounds.cos_emission - kSlack;
+    node.cos_theta_o[lane] = bounds.cos_theta_o > -1.0f ? bounds.cos_theta_o : -2.0f;
+    node.sin_theta_o[lane] = sine_of(bounds.cos_theta_o);
+    node.cos_theta_e[lane] = bounds.cos_theta_e - kSlack;
     node.back[lane] = bounds.is_two_sided ? -1.0f : 1.0f;
     node.power[lane] = bounds.power;
-    node.reach[lane] = (bounds.reach + glm::length(half_size)) * (1.0f + kSlack);
+    node.max_distance[lane] = (bounds.max_distance + glm::length(half_size)) * (1.0f + kSlack);
 }
 
 /// Without branches, for four children at a time. Angles are known by cosine and sine: that of
@@ -71,11 +71,11 @@ detail::Float4 LightTree::importance(const Node& node, const ShadingPoint& shadi
     const Float4 ahead = axis * inverse;
     const Float4 cos_out = max4(ahead, ahead * node.back);
     const Float4 sin_out = sine_of(cos_out);
-    const Float4 cone_cos = node.cos_axes, cone_sin = node.sin_axes;
-    const Float4 cos_axes = cos_out * cone_cos + sin_out * cone_sin;
-    const Float4 sin_axes = sin_out * cone_cos - cos_out * cone_sin;
-    const Float4 off_axes = cos_axes * cos_box + sin_axes * sin_box;
-    const auto is_ahead = (cos_out > cone_cos) | (cos_axes > cos_box);
+    const Float4 cone_cos = node.cos_theta_o, cone_sin = node.sin_theta_o;
+    const Float4 cos_theta_o = cos_out * cone_cos + sin_out * cone_sin;
+    const Float4 sin_theta_o = sin_out * cone_cos - cos_out * cone_sin;
+    const Float4 off_axes = cos_theta_o * cos_box + sin_theta_o * sin_box;
+    const auto is_ahead = (cos_out > cone_cos) | (cos_theta_o > cos_box);
     const Float4 leaving = is_ahead ? splat(1.0f) : off_axes;
 
     Float4 arriving = splat(1.0f);
@@ -87,8 +87,8 @@ detail::Float4 LightTree::importance(const Node& node, const ShadingPoint& shadi
     }
     const Float4 least = splat(kLeastCosine), power = node.power;
     const Float4 slanted = max4(leaving, least) * max4(arriving, least);
-    const auto is_useful =
-        (distance <= node.reach) & (leaving >= node.cos_emission) & (arriving >= splat(-kSlack));
+    const auto is_useful = (distance <= node.max_distance) & (leaving >= node.cos_theta_e) &
+                           (arriving >= splat(-kSlack));
     const Float4 afar = is_useful ? power * inverse * inverse * slanted : splat(0.0f);
     // Near the box any direction is possible, and distance means little.
     const Float4 size = max4(radius, splat(1e-15f));
@@ -97,57 +97,58 @@ detail::Float4 LightTree::importance(const Node& node, const ShadingPoint& shadi
 }
 
 struct LightTree::Item {
-    uint32_t emitter;
+    uint32_t light;
     LightBounds bounds;
     glm::vec3 center;
 };
 
-/// Splits emitters in two by the smallest cost, over twelve slices of each axis, until each is
+/// Splits lights in two by the smallest cost, over twelve slices of each axis, until each is
 /// alone (pbrt-4, BVHLightSampler::buildBVH). Two splits in turn make one node.
 class LightTree::Builder {
   public:
     explicit Builder(LightTree& tree) : tree_(tree) {}
 
     /// Makes the node of these items, which are split at `depth`, and returns its number.
-    uint32_t build(std::span<Item> items, uint64_t turns, uint32_t depth) {
+    uint32_t build(std::span<Item> items, uint64_t bit_trail, uint32_t depth) {
         const auto number = static_cast<uint32_t>(tree_.nodes_.size());
         tree_.nodes_.emplace_back();
         if (items.size() == 1) {
-            add_lane(number, 0, items, turns, depth);
+            add_lane(number, 0, items, bit_trail, depth);
             return number;
         }
         const size_t first_count = split(items, depth);
-        add_half(number, 0, items.first(first_count), turns, depth);
-        add_half(number, 2, items.subspan(first_count), turns, depth);
+        add_half(number, 0, items.first(first_count), bit_trail, depth);
+        add_half(number, 2, items.subspan(first_count), bit_trail, depth);
         return number;
     }
 
   private:
     /// Two lanes, or one for an item that is alone.
-    void add_half(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t turns,
+    void add_half(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t bit_trail,
                   uint32_t depth) {
-        if (items.size() == 1) return add_lane(node, lane, items, turns, depth);
+        if (items.size() == 1) return add_lane(node, lane, items, bit_trail, depth);
         const size_t first_count = split(items, depth + 1);
-        add_lane(node, lane, items.first(first_count), turns, depth);
-        add_lane(node, lane + 1, items.subspan(first_count), turns, depth);
+        add_lane(node, lane, items.first(first_count), bit_trail, depth);
+        add_lane(node, lane + 1, items.subspan(first_count), bit_trail, depth);
     }
 
-    void add_lane(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t turns,
+    void add_lane(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t bit_trail,
                   uint32_t depth) {
-        turns |= uint64_t{lane} << depth;
+        bit_trail |= uint64_t{lane} << depth;
         LightBounds bounds;
         for (const Item& item : items) bounds = union_of(bounds, item.bounds);
-        const bool is_emitter = items.size() == 1;
-        const uint32_t emitter = items[0].emitter;
-        if (is_emitter) tree_.bit_trails_[emitter] = turns;
-        const uint32_t child = is_emitter ? emitter : build(items, turns, depth + 2);
+        const bool is_leaf = items.size() == 1;
+        const uint32_t light = items[0].light;
+        if (is_leaf) tree_.bit_trails_[light] = bit_trail;
+        const uint32_t child = is_leaf ? light : build(items, bit_trail, depth + 2);
         set_lane(tree_.nodes_[node], lane, bounds);
         tree_.nodes_[node].child[lane] = child;
-        tree_.nodes_[node].is_emitter[lane] = is_emitter;
+        tree_.nodes_[node].is_leaf[lane] = is_leaf;
     }
 
     static constexpr int kSlices = 12;
-    /// From here on halves have the same number of emitters, so that 2^32 fit into 64 turns.
+    /// From here on halves have the same number of lights, so that the bit trails of 2^32 lights
+    /// fit into 64 bits.
     static constexpr uint32_t kBalancedDepth = 32;
 
     struct Split {
@@ -213,55 +214,55 @@ class LightTree::Builder {
     LightTree& tree_;
 };
 
-LightTree::LightTree(std::span<const LightBounds> emitters) : bit_trails_(emitters.size()) {
-    TETRALIGHT_ASSERT(emitters.size() < kNoIndex, "emitters are counted in 32 bits");
+LightTree::LightTree(std::span<const LightBounds> lights) : bit_trails_(lights.size()) {
+    TETRALIGHT_ASSERT(lights.size() < kNoIndex, "lights are counted in 32 bits");
     std::vector<Item> items;
-    for (uint32_t i = 0; i < emitters.size(); ++i) {
-        const LightBounds& e = emitters[i];
-        if (e.power > 0.0f) items.push_back({i, e, 0.5f * (e.low + e.high)});
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+        const LightBounds& e = lights[i];
+        if (e.power > 0.0f) items.push_back({i, e, 0.5f * (e.min + e.max)});
     }
     if (items.empty()) return;
     Builder(*this).build(items, 0, 0);
 }
 
-std::optional<LightTree::Choice> LightTree::sample(const ShadingPoint& shading_point,
-                                                   double u) const noexcept {
+std::optional<LightTree::SampledLight> LightTree::sample(const ShadingPoint& shading_point,
+                                                         double u) const noexcept {
     if (nodes_.empty()) return std::nullopt;
     double probability = 1.0;
     for (uint32_t node = 0;;) {
-        const Float4 shares = importance(nodes_[node], shading_point);
-        const float total = (shares[0] + shares[1]) + (shares[2] + shares[3]);
+        const Float4 importances = importance(nodes_[node], shading_point);
+        const float total = (importances[0] + importances[1]) + (importances[2] + importances[3]);
         if (!(total > 0.0f)) return std::nullopt;
         double rest = u * total;
         uint32_t lane = kNoIndex;  // the last one with a share takes what rounding leaves over
         for (uint32_t i = 0; i < kLanes; ++i) {
-            if (!(shares[i] > 0.0f)) continue;
-            if (lane != kNoIndex) rest -= shares[lane];
+            if (!(importances[i] > 0.0f)) continue;
+            if (lane != kNoIndex) rest -= importances[lane];
             lane = i;
-            if (rest < shares[i]) break;
+            if (rest < importances[i]) break;
         }
-        const double share = shares[lane];
+        const double share = importances[lane];
         u = std::clamp(rest / share, 0.0, 1.0);
         probability *= share / total;
-        if (nodes_[node].is_emitter[lane]) {
-            return Choice{nodes_[node].child[lane], static_cast<float>(probability)};
+        if (nodes_[node].is_leaf[lane]) {
+            return SampledLight{nodes_[node].child[lane], static_cast<float>(probability)};
         }
         node = nodes_[node].child[lane];
     }
 }
 
-float LightTree::probability(const ShadingPoint& shading_point, uint32_t emitter) const noexcept {
+float LightTree::probability(const ShadingPoint& shading_point, uint32_t light) const noexcept {
     if (nodes_.empty()) return 0.0f;
     double probability = 1.0;
-    uint64_t turns = bit_trails_[emitter];
-    for (uint32_t node = 0;; turns >>= 2) {
-        const Float4 shares = importance(nodes_[node], shading_point);
-        const float total = (shares[0] + shares[1]) + (shares[2] + shares[3]);
+    uint64_t bit_trail = bit_trails_[light];
+    for (uint32_t node = 0;; bit_trail >>= 2) {
+        const Float4 importances = importance(nodes_[node], shading_point);
+        const float total = (importances[0] + importances[1]) + (importances[2] + importances[3]);
         if (!(total > 0.0f)) return 0.0f;
-        const uint32_t lane = turns & 3;
-        probability *= static_cast<double>(shares[lane]) / total;
-        if (nodes_[node].is_emitter[lane]) {
-            const bool is_found = nodes_[node].child[lane] == emitter;
+        const uint32_t lane = bit_trail & 3;
+        probability *= static_cast<double>(importances[lane]) / total;
+        if (nodes_[node].is_leaf[lane]) {
+            const bool is_found = nodes_[node].child[lane] == light;
             return is_found ? static_cast<float>(probability) : 0.0f;
         }
         node = nodes_[node].child[lane];

@@ -20,32 +20,33 @@ struct ShadingPoint {
     glm::vec3 normal{0.0f};
 };
 
-/// Draws one of many emitters about as often as its light at a shading point is of all light there,
+/// Draws one of many lights about as often as its light at a shading point is of all light there,
 /// in logarithmic time: a tree of bounds, in which each turn is drawn by importance, an estimate of
 /// what leaves the bounds and reaches the shading point, shadows left out. It is positive unless
 /// they can send nothing. (Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights with
 /// Adaptive Tree Splitting", section 4.)
 class LightTree {
   public:
-    struct Choice {
-        uint32_t emitter = kNoIndex;  ///< number in what the tree was made of
+    struct SampledLight {
+        uint32_t light = kNoIndex;  ///< number in what the tree was made of
         float probability = 0.0f;
     };
 
     LightTree() = default;
 
-    /// Emitters without power are never drawn.
-    explicit LightTree(std::span<const LightBounds> emitters);
+    /// Lights without power are never drawn.
+    explicit LightTree(std::span<const LightBounds> lights);
 
     [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
 
-    /// The emitter for `u` uniform in [0, 1); none when the turns lead to emitters of no use here.
-    [[nodiscard]] std::optional<Choice> sample(const ShadingPoint& shading_point,
-                                               double u) const noexcept;
+    /// The light for `u` uniform in [0, 1); none if no light of the chosen subtree reaches the
+    /// shading point.
+    [[nodiscard]] std::optional<SampledLight> sample(const ShadingPoint& shading_point,
+                                                     double u) const noexcept;
 
-    /// Probability with which `sample` draws an emitter. The sum over all is at most 1.
+    /// Probability with which `sample` samples a light. The sum over all is at most 1.
     [[nodiscard]] float probability(const ShadingPoint& shading_point,
-                                    uint32_t emitter) const noexcept;
+                                    uint32_t light) const noexcept;
 
   private:
     static constexpr uint32_t kLanes = 4;
@@ -58,12 +59,12 @@ class LightTree {
         Lanes center_x{}, center_y{}, center_z{};
         Lanes radius{};  ///< of the sphere around the box
         Lanes axis_x{}, axis_y{}, axis_z{};
-        Lanes cos_axes{}, sin_axes{}, cos_emission{};
+        Lanes cos_theta_o{}, sin_theta_o{}, cos_theta_e{};
         Lanes back{};                          ///< −1: shines from both sides alike; 1: does not
         Lanes power{};                         ///< 0: no child
-        Lanes reach{};                         ///< of the center
-        std::array<uint32_t, kLanes> child{};  ///< number of a node, or of an emitter
-        std::array<bool, kLanes> is_emitter{};
+        Lanes max_distance{};                  ///< of the center
+        std::array<uint32_t, kLanes> child{};  ///< number of a node, or of a light
+        std::array<bool, kLanes> is_leaf{};
     };
 
     static void set_lane(Node& node, uint32_t lane, const LightBounds& bounds);
@@ -72,7 +73,8 @@ class LightTree {
     struct Item;
     class Builder;
 
-    /// The way from the root to each emitter: lanes, two bits each, the first in the lowest bits.
+    /// The bit trail of each light: its lanes on the way from the root, two bits each, the first in
+    /// the lowest bits.
     std::vector<uint64_t> bit_trails_;
     std::vector<Node> nodes_;
 };

@@ -10,7 +10,7 @@ namespace tetralight {
 namespace {
 
 /// What a sun can give a shading point: never 0 where part of its disc is above the horizon.
-float sun_importance(const Light& sun, const ShadingPoint& shading_point) {
+float directional_importance(const Light& sun, const ShadingPoint& shading_point) {
     const float power = power_of(sun.intensity);
     if (shading_point.normal == glm::vec3(0.0f)) return power;
     const float margin = std::sin(std::min(sun.radius, 1.57f)) + 1e-4f;
@@ -28,19 +28,19 @@ glm::vec3 half_size(const Light& light) {
 
 LightBounds light_bounds_of(const Light& light) noexcept {
     LightBounds bounds;
-    bounds.low = light.position - half_size(light);
-    bounds.high = light.position + half_size(light);
+    bounds.min = light.position - half_size(light);
+    bounds.max = light.position + half_size(light);
     bounds.power = power_of(light.intensity);
-    if (light.range > 0.0f) bounds.reach = light.range;
+    if (light.range > 0.0f) bounds.max_distance = light.range;
     const bool is_inverse_square =
         light.falloff == LightFalloff::Gltf || light.falloff == LightFalloff::InverseSquareRange;
     // The others do not grow near the light: half way out they are about as they are on average.
     if (!is_inverse_square && light.range > 0.0f) bounds.power *= 0.25f * light.range * light.range;
     if (light.type == LightType::Point) return bounds;
     bounds.axis = light.direction;
-    bounds.cos_axes = 1.0f;
-    bounds.cos_emission = 0.0f;
-    if (light.type == LightType::Spot) bounds.cos_emission = light.cos_outer_cone;
+    bounds.cos_theta_o = 1.0f;
+    bounds.cos_theta_e = 0.0f;
+    if (light.type == LightType::Spot) bounds.cos_theta_e = light.cos_outer_cone;
     return bounds;
 }
 
@@ -50,8 +50,8 @@ PunctualLights::PunctualLights(std::span<const Light> lights) {
         const Light& light = lights[i];
         if (!(power_of(light.intensity) > 0.0f)) continue;
         if (light.type == LightType::Directional) {
-            suns_.push_back(light);
-            sun_sources_.push_back(i);
+            directional_.push_back(light);
+            directional_sources_.push_back(i);
         } else {
             local_.push_back(light);
             local_sources_.push_back(i);
@@ -61,41 +61,41 @@ PunctualLights::PunctualLights(std::span<const Light> lights) {
     tree_ = LightTree(bounds);
 }
 
-LightSample PunctualLights::sample_sun(const ShadingPoint& shading_point,
-                                       Sampler& numbers) const noexcept {
+LightSample PunctualLights::sample_directional(const ShadingPoint& shading_point,
+                                               Sampler& sampler) const noexcept {
     float choice = 0.0f;
-    if (suns_.size() > 1) {
-        choice = numbers.next();
+    if (directional_.size() > 1) {
+        choice = sampler.next();
     } else {
-        numbers.skip();
+        sampler.skip();
     }
     float total = 0.0f;
-    for (const Light& sun : suns_) total += sun_importance(sun, shading_point);
+    for (const Light& sun : directional_) total += directional_importance(sun, shading_point);
     float rest = choice * total;
-    for (size_t i = 0; i < suns_.size(); ++i) {
-        const Light& sun = suns_[i];
-        const float own = sun_importance(sun, shading_point);
+    for (size_t i = 0; i < directional_.size(); ++i) {
+        const Light& sun = directional_[i];
+        const float own = directional_importance(sun, shading_point);
         if (!(own > 0.0f)) continue;
         rest -= own;
         if (rest >= 0.0f) continue;
-        LightSample sample = sample_light(sun, shading_point.position, numbers.next2());
+        LightSample sample = sample_light(sun, shading_point.position, sampler.next2());
         if (own != total) sample.irradiance *= total / own;
-        sample.source = sun_sources_[i];
+        sample.source = directional_sources_[i];
         return sample;
     }
-    numbers.skip();
+    sampler.skip();
     return {};
 }
 
 LightSample PunctualLights::sample_local(const ShadingPoint& shading_point,
-                                         Sampler& numbers) const noexcept {
-    const double choice = numbers.next_fine();
-    const glm::vec2 u = numbers.next2();
+                                         Sampler& sampler) const noexcept {
+    const double choice = sampler.next_double();
+    const glm::vec2 u = sampler.next2();
     const auto chosen = tree_.sample(shading_point, choice);
     if (!chosen) return {};
-    LightSample sample = sample_light(local_[chosen->emitter], shading_point.position, u);
+    LightSample sample = sample_light(local_[chosen->light], shading_point.position, u);
     sample.irradiance /= chosen->probability;
-    sample.source = local_sources_[chosen->emitter];
+    sample.source = local_sources_[chosen->light];
     return sample;
 }
 

@@ -23,22 +23,22 @@ class PunctualLights {
     /// Lights without intensity are never drawn; `LightSample::source` counts them too.
     explicit PunctualLights(std::span<const Light> lights);
 
-    [[nodiscard]] bool has_suns() const { return !suns_.empty(); }
+    [[nodiscard]] bool has_directional() const { return !directional_.empty(); }
 
     [[nodiscard]] bool has_local() const { return !tree_.is_empty(); }
 
-    /// Light of one directional light. Takes two pairs of numbers.
-    [[nodiscard]] LightSample sample_sun(const ShadingPoint& shading_point,
-                                         Sampler& numbers) const noexcept;
+    /// Light of one directional light. Takes two pairs of sample dimensions.
+    [[nodiscard]] LightSample sample_directional(const ShadingPoint& shading_point,
+                                                 Sampler& sampler) const noexcept;
 
-    /// Light of one other light. Takes two pairs of numbers.
+    /// Light of one other light. Takes two pairs of sample dimensions.
     [[nodiscard]] LightSample sample_local(const ShadingPoint& shading_point,
-                                           Sampler& numbers) const noexcept;
+                                           Sampler& sampler) const noexcept;
 
   private:
-    std::vector<Light> suns_;
+    std::vector<Light> directional_;
     std::vector<Light> local_;
-    std::vector<uint32_t> sun_sources_;  // where they stand among all lights
+    std::vector<uint32_t> directional_sources_;  // where they stand among all lights
     std::vector<uint32_t> local_sources_;
     LightTree tree_;  // of `local_`
 };

@@ -30,7 +30,7 @@ float cone_weight(float cosine) {
     return 2.0f / (1.0f + cosine);
 }
 
-LightSample sample_sun(const Light& light, glm::vec2 u) {
+LightSample sample_directional(const Light& light, glm::vec2 u) {
     LightSample sample{light.intensity, -light.direction};
     sample.is_distant = true;
     if (light.radius <= 0.0f) return sample;
@@ -95,7 +95,7 @@ LightSample sample_disc(const Light& light, glm::vec3 position, glm::vec2 u) {
 LightSample sample_light(const Light& light, glm::vec3 position, glm::vec2 u) noexcept {
     switch (light.type) {
         case LightType::Directional:
-            return sample_sun(light, u);
+            return sample_directional(light, u);
         case LightType::Point:
         case LightType::Spot:
             return sample_sphere(light, position, u);

@@ -20,7 +20,7 @@ struct LightSample {
     bool is_distant = false;
     /// Density of the direction, per steradian; 0 when rays cannot meet the light by chance.
     float pdf = 0.0f;
-    /// Which emitter of its kind: a light of the scene, a geometry of the traced scene.
+    /// Which emitter of its kind: a light of the scene, a geometry of the trace scene.
     uint32_t source = 0;
 
     bool operator==(const LightSample&) const = default;

@@ -50,7 +50,8 @@ class Push {
 
     /// Out of geometry, and then away from what is there.
     [[nodiscard]] std::optional<glm::vec3> out_of_geometry() const {
-        const VirtualOffsetSearch search{reach_, clearance_ * (1.0f + 2.0f * kSlack), kMinValidity};
+        const VirtualOffsetSettings search{reach_, clearance_ * (1.0f + 2.0f * kSlack),
+                                           kMinValidity};
         const auto offset = find_virtual_offset(traced_, start_, search);
         if (!offset) return std::nullopt;
         return along_gradient(start_ + *offset);
@@ -151,7 +152,7 @@ class Push {
         return glm::distance(place, start_) <= reach_ &&
                is_in(bounds_, traced_.world_from_render(place)) &&
                (place == from || sees(traced_, from, place)) &&
-               standing_of(traced_, place, probe_visibility_at(traced_, place)) == Standing::Free;
+               standing_of(traced_, place, probe_visibility(traced_, place)) == Standing::Free;
     }
 
     const TraceScene& traced_;
@@ -165,7 +166,7 @@ class Push {
 
 Standing standing_of(const TraceScene& traced, glm::vec3 position, const ProbeVisibility& around) {
     if (around.is_inside()) return Standing::Inside;
-    if (around.behind_share == 0.0f) return Standing::Free;
+    if (around.behind_fraction == 0.0f) return Standing::Free;
     constexpr size_t kEvery = 4;
     int inside = 0, outside = 0;
     for (size_t i = 0; i < probe_visibility_directions().size(); i += kEvery) {
@@ -180,7 +181,7 @@ Standing standing_of(const TraceScene& traced, glm::vec3 position, const ProbeVi
 
 bool is_surely_free(const TraceScene& traced, const glm::dvec3& position, double clearance) {
     const glm::vec3 place = traced.render_from_world(position);
-    const ProbeVisibility around = probe_visibility_at(traced, place);
+    const ProbeVisibility around = probe_visibility(traced, place);
     return around.surface_distance >= (1.0 - kSlack) * clearance &&
            standing_of(traced, place, around) == Standing::Free;
 }
@@ -192,7 +193,7 @@ bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
 PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                         const ClearanceRule& rule) {
     const glm::vec3 start = traced.render_from_world(candidate);
-    const ProbeVisibility around = probe_visibility_at(traced, start);
+    const ProbeVisibility around = probe_visibility(traced, start);
     const bool is_inside = standing_of(traced, start, around) == Standing::Inside;
     PlacedProbe placed{candidate, Fate::Kept, around.surface_distance};
     if (!is_inside && around.surface_distance >= (1.0 - kSlack) * rule.clearance) return placed;

@@ -16,7 +16,7 @@ Status check_seed(const TraceScene& traced, const SpaceMap& map, const glm::dvec
     const std::string place = str_cat("seed ", seed.x, ",", seed.y, ",", seed.z);
     if (!map.contains(seed)) return Error{place + " lies outside of the bounds"};
     const glm::vec3 position = traced.render_from_world(seed);
-    if (standing_of(traced, position, probe_visibility_at(traced, position)) == Standing::Inside) {
+    if (standing_of(traced, position, probe_visibility(traced, position)) == Standing::Inside) {
         return Error{place + " lies inside geometry"};
     }
     if (map.space_of(seed) == kNoIndex) {

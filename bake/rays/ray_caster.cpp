@@ -37,7 +37,7 @@ void filter_hit(const RTCFilterFunctionNArguments* arguments) {
     const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
     const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
     const Ray own_ray{{ray->org_x, ray->org_y, ray->org_z}, {ray->dir_x, ray->dir_y, ray->dir_z}};
-    if (!filter.stops_at(filter.context, own_ray, hit_from(*hit, ray->tfar))) {
+    if (!filter.accepts_hit(filter.context, own_ray, hit_from(*hit, ray->tfar))) {
         arguments->valid[0] = 0;
     }
 }
@@ -108,7 +108,7 @@ struct RayCaster::Handles {
         return number;
     }
 
-    void tell(const Ray& ray, RayKind kind, std::optional<float> distance) const {
+    void notify(const Ray& ray, RayKind kind, std::optional<float> distance) const {
         if (listener.on_ray == nullptr) [[likely]]
             return;
         listener.on_ray(listener.context, ray, kind,
@@ -172,7 +172,8 @@ std::optional<RayHit> RayCaster::intersect(const Ray& ray) const {
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(handles_->scene, &context, &ray_hit);
     const bool is_hit = ray_hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-    handles_->tell(ray, RayKind::Nearest, is_hit ? std::optional(ray_hit.ray.tfar) : std::nullopt);
+    handles_->notify(ray, RayKind::Nearest,
+                     is_hit ? std::optional(ray_hit.ray.tfar) : std::nullopt);
     if (!is_hit) return std::nullopt;
     return hit_from(ray_hit.hit, ray_hit.ray.tfar);
 }
@@ -183,7 +184,7 @@ bool RayCaster::occluded(const Ray& ray) const {
     RTCRay embree = embree_ray(ray);
     rtcOccluded1(handles_->scene, &context, &embree);
     const bool is_hit = embree.tfar < 0.0f;
-    handles_->tell(ray, RayKind::Shadow, is_hit ? std::optional(0.0f) : std::nullopt);
+    handles_->notify(ray, RayKind::Shadow, is_hit ? std::optional(0.0f) : std::nullopt);
     return is_hit;
 }
 

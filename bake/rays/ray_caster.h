@@ -33,14 +33,14 @@ struct RayHit {
 
 /// Says whether a ray stops at a hit. Called for filtered geometries only, from many threads.
 struct HitFilter {
-    bool (*stops_at)(const void* context, const Ray& ray, const RayHit& hit) = nullptr;
+    bool (*accepts_hit)(const void* context, const Ray& ray, const RayHit& hit) = nullptr;
     const void* context = nullptr;
 };
 
 enum class RayKind : uint8_t { Nearest, Shadow };
 
 /// Is told of every ray and the distance of its hit, from the thread that casts it: how benchmarks
-/// see what is traced. Infinity: no hit. Shadow rays look for any hit: 0.
+/// record the rays. Infinity: no hit. Shadow rays look for any hit: 0.
 struct RayListener {
     void (*on_ray)(void* context, const Ray& ray, RayKind kind, float distance) = nullptr;
     void* context = nullptr;

@@ -64,7 +64,7 @@ float largest_coordinate(glm::vec3 position) {
 constexpr double kFarthest = 1e12;
 
 /// A mesh's vertices around the origin of render space. Error: one is too far away.
-Result<std::vector<glm::vec3>> traced_positions(const Mesh& mesh, const MeshInstance& instance,
+Result<std::vector<glm::vec3>> render_positions(const Mesh& mesh, const MeshInstance& instance,
                                                 const glm::dvec3& origin) {
     std::vector<glm::vec3> positions;
     positions.reserve(mesh.positions.size());
@@ -151,26 +151,26 @@ Result<TraceScene> TraceScene::make_from(const Scene& scene, const Selection& se
     state->scene = &scene;
     state->origin = scene_middle(scene, selection);
 
-    RayCaster caster({&TraceScene::stops_at, state.get()});
+    RayCaster caster({&TraceScene::accepts_hit, state.get()});
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const MeshInstance& instance = scene.instances[i];
         if (!selection(instance) || scene.meshes[instance.mesh].indices.empty()) continue;
-        Placed placed = place(scene, i);
-        auto positions = traced_positions(*placed.mesh, instance, state->origin);
+        Geometry geometry = make_geometry(scene, i);
+        auto positions = render_positions(*geometry.mesh, instance, state->origin);
         if (!positions)
             return positions.error().in(str_cat("instance ", i, " \"", instance.name, '"'));
-        placed.positions = std::move(*positions);
-        const auto& indices = placed.mesh->indices;
-        const bool is_opaque = placed.material->alpha_mode == AlphaMode::Opaque;
-        caster.add_triangles(placed.positions, placed.is_mirrored ? mirrored(indices) : indices,
+        geometry.positions = std::move(*positions);
+        const auto& indices = geometry.mesh->indices;
+        const bool is_opaque = geometry.material->alpha_mode == AlphaMode::Opaque;
+        caster.add_triangles(geometry.positions, geometry.is_mirrored ? mirrored(indices) : indices,
                              is_opaque ? RayCaster::Filtered::No : RayCaster::Filtered::Yes);
-        state->placed.push_back(std::move(placed));
+        state->geometries.push_back(std::move(geometry));
     }
     if (auto status = caster.commit(); !status) return status.error();
     return TraceScene(std::move(state), std::move(caster));
 }
 
-glm::vec3 TraceScene::shadow_target(const EmitterPoint& point, glm::vec3 seen_from) {
+glm::vec3 TraceScene::shadow_target(const TrianglePoint& point, glm::vec3 seen_from) {
     float extent = largest_coordinate(seen_from);
     for (const glm::vec3& corner : point.corners) {
         extent = std::max(extent, largest_coordinate(corner));
@@ -183,7 +183,7 @@ Light TraceScene::render_from_world(Light light) const {
     return light;
 }
 
-TraceScene::Placed TraceScene::place(const Scene& scene, uint32_t index) {
+TraceScene::Geometry TraceScene::make_geometry(const Scene& scene, uint32_t index) {
     const MeshInstance& instance = scene.instances[index];
     const Mesh& mesh = scene.meshes[instance.mesh];
     const bool is_mirrored = glm::determinant(glm::dmat3(instance.world_from_mesh)) < 0.0;
@@ -195,33 +195,33 @@ TraceScene::Placed TraceScene::place(const Scene& scene, uint32_t index) {
             {}};
 }
 
-bool TraceScene::stops_at(const void* context, const Ray& ray, const RayHit& hit) {
+bool TraceScene::accepts_hit(const void* context, const Ray& ray, const RayHit& hit) {
     const State& state = *static_cast<const State*>(context);
-    const Placed& placed = state.placed[hit.geometry];
-    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, hit);
+    const Geometry& geometry = state.geometries[hit.geometry];
+    const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, hit);
     const float share = opacity(*state.scene, point);
     if (share <= 0.0f || share >= 1.0f) return share > 0.0f;
-    return hash_of(ray, key_of_place(hit, point, placed.positions)) < share;
+    return hash_of(ray, key_of_place(hit, point, geometry.positions)) < share;
 }
 
 std::optional<Surface> TraceScene::intersect(const Ray& ray, Detail detail) const {
     const std::optional<RayHit> hit = caster_.intersect(ray);
     if (!hit) return std::nullopt;
     const Scene& scene = *state_->scene;
-    const Placed& placed = state_->placed[hit->geometry];
-    const Material& material = *placed.material;
-    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, *hit);
+    const Geometry& geometry = state_->geometries[hit->geometry];
+    const Material& material = *geometry.material;
+    const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, *hit);
 
     Surface surface;
-    place_surface(point, placed.positions, surface);
+    place_surface(point, geometry.positions, surface);
     surface.geometric_normal = glm::normalize(hit->normal);
     if (detail == Detail::Full) {
         surface.shading_normal =
-            shading_normal(point, placed.normal_from_mesh, surface.geometric_normal);
+            shading_normal(point, geometry.normal_from_mesh, surface.geometric_normal);
     }
     surface.albedo = adjusted_albedo(diffuse_reflectivity(scene, point), state_->surfaces);
     if (takes_emission(*state_, material)) surface.emission = emitted_radiance(scene, point);
-    surface.instance = placed.instance;
+    surface.instance = geometry.instance;
     surface.geometry = hit->geometry;
     surface.primitive = hit->primitive;
     if (glm::dot(surface.geometric_normal, ray.direction) > 0.0f) {
@@ -245,65 +245,66 @@ glm::vec3 TraceScene::ray_origin(const SurfaceSide& side, glm::vec3 hit,
 std::optional<SurfaceSide> TraceScene::intersect_side(const Ray& ray) const {
     const std::optional<RayHit> hit = caster_.intersect(ray);
     if (!hit) return std::nullopt;
-    const Placed& placed = state_->placed[hit->geometry];
+    const Geometry& geometry = state_->geometries[hit->geometry];
     SurfaceSide side{hit->distance, glm::normalize(hit->normal), hit->geometry, hit->primitive};
     if (glm::dot(side.normal, ray.direction) > 0.0f) {
         side.normal = -side.normal;
         side.is_from_behind = true;
-        side.is_back_face = !placed.material->is_double_sided;
+        side.is_back_face = !geometry.material->is_double_sided;
     }
     return side;
 }
 
-uint32_t TraceScene::triangle_count(uint32_t geometry) const {
-    return static_cast<uint32_t>(state_->placed[geometry].mesh->indices.size() / 3);
+uint32_t TraceScene::triangle_count(uint32_t geometry_index) const {
+    return static_cast<uint32_t>(state_->geometries[geometry_index].mesh->indices.size() / 3);
 }
 
-std::array<glm::vec3, 3> TraceScene::triangle(uint32_t geometry, uint32_t primitive) const {
-    const Placed& placed = state_->placed[geometry];
-    const uint32_t* corners = &placed.mesh->indices[size_t{primitive} * 3];
-    std::array<glm::vec3, 3> positions{placed.positions[corners[0]], placed.positions[corners[1]],
-                                       placed.positions[corners[2]]};
-    if (placed.is_mirrored) std::swap(positions[1], positions[2]);
+std::array<glm::vec3, 3> TraceScene::triangle(uint32_t geometry_index, uint32_t primitive) const {
+    const Geometry& geometry = state_->geometries[geometry_index];
+    const uint32_t* corners = &geometry.mesh->indices[size_t{primitive} * 3];
+    std::array<glm::vec3, 3> positions{geometry.positions[corners[0]],
+                                       geometry.positions[corners[1]],
+                                       geometry.positions[corners[2]]};
+    if (geometry.is_mirrored) std::swap(positions[1], positions[2]);
     return positions;
 }
 
-bool TraceScene::is_double_sided(uint32_t geometry) const {
-    return state_->placed[geometry].material->is_double_sided;
+bool TraceScene::is_double_sided(uint32_t geometry_index) const {
+    return state_->geometries[geometry_index].material->is_double_sided;
 }
 
 bool TraceScene::takes_emission(const State& state, const Material& material) {
     return material.bakes_emission || state.emission == Emission::All;
 }
 
-bool TraceScene::can_emit(uint32_t geometry) const {
-    const Material& material = *state_->placed[geometry].material;
+bool TraceScene::can_emit(uint32_t geometry_index) const {
+    const Material& material = *state_->geometries[geometry_index].material;
     return takes_emission(*state_, material) && emission_source(material).factor != glm::vec3(0.0f);
 }
 
-bool TraceScene::has_varied_emission(uint32_t geometry) const {
-    const Material& material = *state_->placed[geometry].material;
+bool TraceScene::has_varied_emission(uint32_t geometry_index) const {
+    const Material& material = *state_->geometries[geometry_index].material;
     const bool has_varied_base = material.base_color_texture.texture != kNoIndex ||
-                                 !state_->placed[geometry].mesh->colors.empty();
+                                 !state_->geometries[geometry_index].mesh->colors.empty();
     const bool shows_base = material.is_unlit || material.alpha_mode != AlphaMode::Opaque;
     return material.emission_texture.texture != kNoIndex || (shows_base && has_varied_base);
 }
 
-glm::vec3 TraceScene::visible_emission(uint32_t geometry, uint32_t primitive,
+glm::vec3 TraceScene::visible_emission(uint32_t geometry_index, uint32_t primitive,
                                        glm::vec2 barycentric) const {
-    const Placed& placed = state_->placed[geometry];
-    if (!takes_emission(*state_, *placed.material)) return glm::vec3(0.0f);
+    const Geometry& geometry = state_->geometries[geometry_index];
+    if (!takes_emission(*state_, *geometry.material)) return glm::vec3(0.0f);
     RayHit hit;
     hit.primitive = primitive;
     hit.barycentric = barycentric;
-    const MeshPoint point = hit_point(*placed.mesh, placed.is_mirrored, hit);
+    const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, hit);
     return emitted_radiance(*state_->scene, point) * opacity(*state_->scene, point);
 }
 
 bool TraceScene::has_blending() const {
-    return std::any_of(state_->placed.begin(), state_->placed.end(), [](const Placed& placed) {
-        return placed.material->alpha_mode == AlphaMode::Blend;
-    });
+    return std::any_of(
+        state_->geometries.begin(), state_->geometries.end(),
+        [](const Geometry& geometry) { return geometry.material->alpha_mode == AlphaMode::Blend; });
 }
 
 }  // namespace tetralight

@@ -121,7 +121,7 @@ class TraceScene {
                                        glm::vec3 direction) const;
 
     /// A point of a triangle that was drawn instead of met.
-    struct EmitterPoint {
+    struct TrianglePoint {
         std::array<glm::vec3, 3> corners{};
         glm::vec3 position{0.0f};
         glm::vec3 normal{0.0f};  ///< unit, on the side that is looked at
@@ -129,32 +129,33 @@ class TraceScene {
 
     /// Where a shadow ray ends that comes from `seen_from`: off the triangle by more than the
     /// rounding of both.
-    [[nodiscard]] static glm::vec3 shadow_target(const EmitterPoint& point, glm::vec3 seen_from);
+    [[nodiscard]] static glm::vec3 shadow_target(const TrianglePoint& point, glm::vec3 seen_from);
 
     /// How many instances rays can hit: geometries are counted from 0.
     [[nodiscard]] uint32_t geometry_count() const {
-        return static_cast<uint32_t>(state_->placed.size());
+        return static_cast<uint32_t>(state_->geometries.size());
     }
 
-    [[nodiscard]] uint32_t triangle_count(uint32_t geometry) const;
+    [[nodiscard]] uint32_t triangle_count(uint32_t geometry_index) const;
 
     /// Corners of a triangle in render space, counter-clockwise seen from the front.
-    [[nodiscard]] std::array<glm::vec3, 3> triangle(uint32_t geometry, uint32_t primitive) const;
+    [[nodiscard]] std::array<glm::vec3, 3> triangle(uint32_t geometry_index,
+                                                    uint32_t primitive) const;
 
-    [[nodiscard]] bool is_double_sided(uint32_t geometry) const;
+    [[nodiscard]] bool is_double_sided(uint32_t geometry_index) const;
 
     /// Index of a geometry's material in the scene.
-    [[nodiscard]] uint32_t material(uint32_t geometry) const {
-        return state_->placed[geometry].mesh->material;
+    [[nodiscard]] uint32_t material(uint32_t geometry_index) const {
+        return state_->geometries[geometry_index].mesh->material;
     }
 
     /// Whether any point of a geometry may emit light, and whether its points may differ.
-    [[nodiscard]] bool can_emit(uint32_t geometry) const;
-    [[nodiscard]] bool has_varied_emission(uint32_t geometry) const;
+    [[nodiscard]] bool can_emit(uint32_t geometry_index) const;
+    [[nodiscard]] bool has_varied_emission(uint32_t geometry_index) const;
 
     /// Radiance that leaves a point of a triangle, times the share of rays that stop there.
     /// `barycentric`: weights of the second and third of its corners.
-    [[nodiscard]] glm::vec3 visible_emission(uint32_t geometry, uint32_t primitive,
+    [[nodiscard]] glm::vec3 visible_emission(uint32_t geometry_index, uint32_t primitive,
                                              glm::vec2 barycentric) const;
 
     /// Whether any surface lets a part of the rays through, so that shadows are drawn at random.
@@ -162,7 +163,7 @@ class TraceScene {
 
   private:
     /// An instance as a geometry of the caster.
-    struct Placed {
+    struct Geometry {
         uint32_t instance = 0;
         const Mesh* mesh = nullptr;
         const Material* material = nullptr;
@@ -179,7 +180,7 @@ class TraceScene {
         const Scene* scene = nullptr;
         SurfaceSettings surfaces;
         Emission emission = Emission::All;
-        std::vector<Placed> placed;
+        std::vector<Geometry> geometries;
         glm::dvec3 origin{0.0};
     };
 
@@ -188,9 +189,9 @@ class TraceScene {
 
     static Result<TraceScene> make_from(const Scene& scene, const Selection& selection,
                                         std::unique_ptr<State> state);
-    static Placed place(const Scene& scene, uint32_t instance);
+    static Geometry make_geometry(const Scene& scene, uint32_t instance);
     static bool takes_emission(const State& state, const Material& material);
-    static bool stops_at(const void* state, const Ray& ray, const RayHit& hit);
+    static bool accepts_hit(const void* state, const Ray& ray, const RayHit& hit);
 
     std::unique_ptr<State> state_;  // on the heap: the caster's filter points to it
     RayCaster caster_;

@@ -11,7 +11,7 @@ namespace tetralight {
 
 DirectionSet::DirectionSet(uint32_t count) : count_(count) {
     TETRALIGHT_ASSERT(count > 0, "an estimate takes directions");
-    if (count > kMostOrdered) return;
+    if (count > kMaxOrderedCount) return;
     ordered_ = spherical_fibonacci(count);
     const HilbertCube cube = make_hilbert_cube(glm::dvec3(-1.0), glm::dvec3(1.0));
     // Directions in one lattice point would keep their order; none are so near to each other.

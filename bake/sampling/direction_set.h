@@ -14,7 +14,7 @@ namespace tetralight {
 class DirectionSet {
   public:
     /// Sets larger than this keep the lattice's own order and are not stored: they are even enough.
-    static constexpr uint32_t kMostOrdered = 65536;
+    static constexpr uint32_t kMaxOrderedCount = 65536;
 
     /// Precondition: at least one.
     explicit DirectionSet(uint32_t count);

@@ -80,7 +80,7 @@ float Sampler::next() noexcept {
     return first_of_pair(place.index, place.seed);
 }
 
-double Sampler::next_fine() noexcept {
+double Sampler::next_double() noexcept {
     const glm::vec2 u = next2();
     return static_cast<double>(u.x) + static_cast<double>(u.y) * 0x1p-24;
 }

@@ -29,7 +29,7 @@ class Sampler {
     void skip() noexcept;
 
     /// Uniform in [0, 1) with 48 bits, for choices among many. Takes one pair.
-    [[nodiscard]] double next_fine() noexcept;
+    [[nodiscard]] double next_double() noexcept;
 
   private:
     /// Index and scrambling of the next pair.

@@ -130,8 +130,8 @@ TEST(BakeTallies, EveryProbeComesBelowTheTargetOrTakesTheMaximum) {
     std::vector<uint64_t> counts;
     for (const ProbeAccumulator& accumulator : bake(some_positions(30), settings)) {
         const bool is_below = accumulator.standard_error() <= settings.target_error;
-        EXPECT_TRUE(is_below || accumulator.direction_count == settings.max_sample_count);
-        counts.push_back(accumulator.direction_count);
+        EXPECT_TRUE(is_below || accumulator.sample_count == settings.max_sample_count);
+        counts.push_back(accumulator.sample_count);
     }
     EXPECT_LT(std::ranges::min(counts), std::ranges::max(counts));
     settings.max_sample_count = 1 << 20;
@@ -144,12 +144,12 @@ TEST(BakeTallies, ATimeBudgetEndsRoundsButNotTheFirst) {
     BakeSettings settings = fixed(128);
     settings.time_budget_seconds = 1e-9;
     for (const ProbeAccumulator& accumulator : bake(some_positions(10), settings)) {
-        EXPECT_EQ(accumulator.direction_count, 128u);
+        EXPECT_EQ(accumulator.sample_count, 128u);
     }
     settings.time_budget_seconds = 1e9;
     settings.max_sample_count = 1024;
     for (const ProbeAccumulator& accumulator : bake(some_positions(10), settings)) {
-        EXPECT_EQ(accumulator.direction_count, 1024u);
+        EXPECT_EQ(accumulator.sample_count, 1024u);
     }
 }
 
@@ -179,7 +179,7 @@ TEST(BakeTallies, ProgressGrowsToItsEnd) {
     const Tallies accumulators = bake(some_positions(100), adaptive(2), {}, hooks);
     ASSERT_FALSE(reports.empty());
     EXPECT_EQ(reports.back().probes_done, 100u);
-    EXPECT_EQ(reports.back().share_done, 1.0);
+    EXPECT_EQ(reports.back().fraction_done, 1.0);
     float worst = 0.0f;
     for (const ProbeAccumulator& accumulator : accumulators)
         worst = std::max(worst, accumulator.standard_error());

@@ -14,12 +14,12 @@ TEST(BakeStatistics, TakesQuantilesOfAllProbes) {
     BakedProbes baked;
     for (int i = 200; i > 0; --i) {
         baked.standard_error.push_back(static_cast<float>(i));
-        baked.direction_count.push_back(10u * static_cast<unsigned>(i));
+        baked.sample_count.push_back(10u * static_cast<unsigned>(i));
     }
     const BakeStatistics statistics = bake_statistics(baked, 150.5);
-    EXPECT_EQ(statistics.fewest_directions, 10u);
-    EXPECT_EQ(statistics.median_directions, 1000u);
-    EXPECT_EQ(statistics.most_directions, 2000u);
+    EXPECT_EQ(statistics.min_samples, 10u);
+    EXPECT_EQ(statistics.median_samples, 1000u);
+    EXPECT_EQ(statistics.max_samples, 2000u);
     EXPECT_EQ(statistics.median_error, 100.0f);
     EXPECT_EQ(statistics.p99_error, 198.0f);
     EXPECT_EQ(statistics.worst_error, 200.0f);
@@ -29,18 +29,18 @@ TEST(BakeStatistics, TakesQuantilesOfAllProbes) {
 TEST(BakeStatistics, LeavesErrorsOutThatAreNotKnown) {
     BakedProbes baked;
     baked.standard_error = {0.0f, 0.25f, 0.0f, 0.5f, 0.0f};
-    baked.direction_count.assign(5, 16);
+    baked.sample_count.assign(5, 16);
     const BakeStatistics statistics = bake_statistics(baked, 0.0);
     EXPECT_EQ(statistics.known_error_count, 2u);
     EXPECT_EQ(statistics.median_error, 0.25f);
     EXPECT_EQ(statistics.worst_error, 0.5f);
-    EXPECT_EQ(statistics.median_directions, 16u);
+    EXPECT_EQ(statistics.median_samples, 16u);
 }
 
 TEST(BakeStatistics, WithoutATargetNoProbeIsOverIt) {
     BakedProbes baked;
     baked.standard_error = {0.5f};
-    baked.direction_count = {1};
+    baked.sample_count = {1};
     EXPECT_EQ(bake_statistics(baked, 0.0).over_target_count, 0u);
 }
 

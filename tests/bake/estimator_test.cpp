@@ -26,13 +26,13 @@ struct Measured {
 
 Measured measure(const Scene& scene, const glm::dvec3& position, const PathSettings& settings,
                  uint32_t directions = 256, uint32_t trials = 64) {
-    const auto traced = TraceScene::make_static(scene);
-    EXPECT_TRUE(traced);
-    const PathTracer tracer(scene, *traced, settings);
+    const auto trace_scene = TraceScene::make_static(scene);
+    EXPECT_TRUE(trace_scene);
+    const PathTracer tracer(scene, *trace_scene, settings);
     const DirectionSet set(directions);
     std::array<double, kShCoefficientCount> sum{}, squares{};
     for (uint32_t trial = 0; trial < trials; ++trial) {
-        const ProbeEstimate probe = estimate_probe(tracer, traced->render_from_world(position),
+        const ProbeEstimate probe = estimate_probe(tracer, trace_scene->render_from_world(position),
                                                    probe_key(trial, position), set);
         for (size_t i = 0; i < sum.size(); ++i) {
             const double value = probe.radiance.coefficients[i].x;
@@ -284,8 +284,8 @@ TEST(Estimator, ClampDarkensReflectedLightAlone) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f), glm::vec3(7.0f)), 1000.0f);
     test::add_sun(scene, LightMode::Mixed, glm::vec3(1000.0f));
-    const auto traced = TraceScene::make_static(scene);
-    const PathTracer tracer(scene, *traced, {4, 2.0f});
+    const auto trace_scene = TraceScene::make_static(scene);
+    const PathTracer tracer(scene, *trace_scene, {4, 2.0f});
     const PathSample sample = tracer.trace({{0, 1, 0}, {0, -1, 0}}, Sampler(1, 0));
     EXPECT_FLOAT_EQ(sample.radiance.x, 9.0f);
 }

@@ -156,7 +156,8 @@ TEST(LightTransport, FurnaceSumsTheGeometricSeries) {
     }
 }
 
-// --- Emitters ------------------------------------------------------------------------------------
+// --- LightSampler
+// ------------------------------------------------------------------------------------
 
 /// Light at the origin from a rectangle of radiance 1: ∫ Y_i cos θ / r² dA by the midpoint rule.
 RadianceSh rectangle_light(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v) {

@@ -66,7 +66,7 @@ TEST(RayCaster, WithoutTrianglesThereIsNoNearestPoint) {
 template <class Inside>
 double agreement(const Scene& scene, Inside is_inside) {
     const auto positions = test::random_positions(4000, 5, 2.0);
-    const auto visibility = probe_visibility(scene, positions);
+    const auto visibility = probe_visibilities(scene, positions);
     EXPECT_TRUE(visibility);
     size_t agreeing = 0, inside = 0;
     for (size_t i = 0; i < positions.size(); ++i) {
@@ -98,7 +98,7 @@ TEST(Survey, MeasuresTheDistanceToTheNearestSurface) {
     Scene ball;
     test::add_mesh(ball, test::diffuse(glm::vec3(0.5f)), test::sphere_mesh(1.5, 200));
     const auto positions = test::random_positions(300, 6, 3.0);
-    const auto visibility = probe_visibility(ball, positions);
+    const auto visibility = probe_visibilities(ball, positions);
     ASSERT_TRUE(visibility);
     for (size_t i = 0; i < positions.size(); ++i) {
         // Chords of π/200 of the circumference are 1.5 · (π/400)² / 2 · 2 inside of it.
@@ -106,7 +106,7 @@ TEST(Survey, MeasuresTheDistanceToTheNearestSurface) {
                     5e-4);
     }
     const glm::dvec3 origin(0.0);
-    EXPECT_EQ((*probe_visibility(Scene{}, std::span(&origin, 1)))[0].surface_distance,
+    EXPECT_EQ((*probe_visibilities(Scene{}, std::span(&origin, 1)))[0].surface_distance,
               std::numeric_limits<float>::infinity());
 }
 

@@ -15,23 +15,25 @@ namespace {
 class Occlusion {
   public:
     explicit Occlusion(const Scene& scene)
-        : traced_(*TraceScene::make_static(scene)), tracer_(scene, traced_, {}) {}
+        : trace_scene_(*TraceScene::make_static(scene)), tracer_(scene, trace_scene_, {}) {}
 
     [[nodiscard]] float visibility(const Light& light, const glm::dvec3& position,
                                    uint64_t key = 1) const {
-        return light_visibility(tracer_, traced_.render_from_world(light),
-                                traced_.render_from_world(position), key);
+        return light_visibility(tracer_, trace_scene_.render_from_world(light),
+                                trace_scene_.render_from_world(position), key);
     }
 
     [[nodiscard]] glm::vec4 of(const std::vector<Light>& lights, const OcclusionLights& owners,
                                const glm::dvec3& position) const {
-        std::vector<Light> traced;
-        for (const Light& light : lights) traced.push_back(traced_.render_from_world(light));
-        return probe_occlusion(tracer_, traced, owners, traced_.render_from_world(position), 1);
+        std::vector<Light> trace_scene;
+        for (const Light& light : lights)
+            trace_scene.push_back(trace_scene_.render_from_world(light));
+        return probe_occlusion(tracer_, trace_scene, owners,
+                               trace_scene_.render_from_world(position), 1);
     }
 
   private:
-    TraceScene traced_;
+    TraceScene trace_scene_;
     PathTracer tracer_;
 };
 

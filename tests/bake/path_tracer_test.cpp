@@ -15,10 +15,11 @@ const glm::vec3 kDown(0.0f, -1.0f, 0.0f);
 
 /// Light along one path that starts at a world position.
 PathSample trace(const Scene& scene, glm::vec3 origin, glm::vec3 direction, uint32_t bounces) {
-    const auto traced = TraceScene::make_static(scene);
-    EXPECT_TRUE(traced);
-    const PathTracer tracer(scene, *traced, {bounces});
-    return tracer.trace({traced->render_from_world(glm::dvec3(origin)), direction}, Sampler(1, 2));
+    const auto trace_scene = TraceScene::make_static(scene);
+    EXPECT_TRUE(trace_scene);
+    const PathTracer tracer(scene, *trace_scene, {bounces});
+    return tracer.trace({trace_scene->render_from_world(glm::dvec3(origin)), direction},
+                        Sampler(1, 2));
 }
 
 /// A wide floor of albedo 1/2 at y = 0, and nothing else.
@@ -82,8 +83,8 @@ TEST(PathTracer, BackFaceIsBlackAndTellsThatThePathBeganBehindIt) {
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f), glm::vec3(5.0f)), 10.0f);
     const PathSample sample = trace(scene, {0, -1, 0}, -kDown, 4);
     EXPECT_EQ(sample.radiance, glm::vec3(0.0f));
-    EXPECT_TRUE(sample.is_behind_surface);
-    EXPECT_FALSE(trace(scene, {0, 1, 0}, kDown, 4).is_behind_surface);
+    EXPECT_TRUE(sample.hit_back_face);
+    EXPECT_FALSE(trace(scene, {0, 1, 0}, kDown, 4).hit_back_face);
 }
 
 TEST(PathTracer, BackFaceOnALaterSegmentEndsThePathOnly) {
@@ -92,7 +93,7 @@ TEST(PathTracer, BackFaceOnALaterSegmentEndsThePathOnly) {
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1e6f, 5.0f);  // its back is above us
     const PathSample sample = trace(scene, {0, 1, 0}, kDown, 4);
     EXPECT_EQ(sample.radiance, glm::vec3(0.0f));
-    EXPECT_FALSE(sample.is_behind_surface);
+    EXPECT_FALSE(sample.hit_back_face);
     EXPECT_EQ(sample.ray_count, 2u);
 }
 
@@ -104,13 +105,13 @@ TEST(PathTracer, DoubleSidedSurfaceShinesOnBothSides) {
     test::add_floor(scene, material, 10.0f);
     const PathSample sample = trace(scene, {0, -1, 0}, -kDown, 1);
     EXPECT_EQ(sample.radiance, glm::vec3(6.0f));  // emission 5 + albedo 0.5 · sky 2
-    EXPECT_FALSE(sample.is_behind_surface);
+    EXPECT_FALSE(sample.hit_back_face);
 }
 
 /// Whether a position sees the only light of a scene.
 bool is_lit(const Scene& scene, glm::vec3 position) {
-    const auto traced = TraceScene::make_static(scene);
-    const PathTracer tracer(scene, *traced, {});
+    const auto trace_scene = TraceScene::make_static(scene);
+    const PathTracer tracer(scene, *trace_scene, {});
     const LightSample sample = sample_light(tracer.baked_lights()[0], position, {0.5f, 0.5f});
     return !tracer.occluded(position, sample);
 }

@@ -16,7 +16,7 @@ constexpr double kPi = std::numbers::pi;
 ProbeEstimate estimate(const RadianceSh& radiance, uint32_t directions = 10) {
     ProbeEstimate result;
     result.radiance = radiance;
-    result.direction_count = directions;
+    result.sample_count = directions;
     result.ray_count = 3 * directions;
     return result;
 }
@@ -46,14 +46,14 @@ TEST(ProbeAccumulator, EachDirectionCountsTheSame) {
     EXPECT_EQ(accumulator.radiance(), light(0, 1.75f));
     accumulator.add_round(std::vector{estimate(light(0, 3.75f), 40)});
     EXPECT_EQ(accumulator.radiance(), light(0, 2.75f));
-    EXPECT_EQ(accumulator.direction_count, 80u);
+    EXPECT_EQ(accumulator.sample_count, 80u);
     EXPECT_EQ(accumulator.ray_count, 240u);
     EXPECT_EQ(accumulator.round_count, 2u);
 }
 
 TEST(ProbeAccumulator, ValidityIsTheShareOfDirectionsThatMeetNoBack) {
     ProbeEstimate behind = estimate({}, 30);
-    behind.behind_count = 10;
+    behind.back_face_count = 10;
     EXPECT_EQ(tally_of({estimate({}, 10), behind}).validity(), 0.75f);
 }
 

@@ -9,7 +9,7 @@ namespace tetralight {
 namespace {
 
 ProbeVisibility survey_one(const Scene& scene, const glm::dvec3& position) {
-    const auto result = probe_visibility(scene, std::span(&position, 1));
+    const auto result = probe_visibilities(scene, std::span(&position, 1));
     EXPECT_TRUE(result);
     return (*result)[0];
 }
@@ -24,20 +24,20 @@ Scene solid_box(bool is_double_sided) {
 
 TEST(Survey, InsideASolidOnlyBackFacesAreSeen) {
     const ProbeVisibility inside = survey_one(solid_box(false), {0.3, -0.5, 0.9});
-    EXPECT_EQ(inside.back_face_share, 1.0f);
-    EXPECT_EQ(inside.behind_share, 1.0f);
+    EXPECT_EQ(inside.back_face_fraction, 1.0f);
+    EXPECT_EQ(inside.behind_fraction, 1.0f);
     EXPECT_TRUE(inside.is_inside());
 }
 
 TEST(Survey, OutsideASolidNoneAreSeen) {
-    EXPECT_EQ(survey_one(solid_box(false), {1.1, 0, 0}).behind_share, 0.0f);
+    EXPECT_EQ(survey_one(solid_box(false), {1.1, 0, 0}).behind_fraction, 0.0f);
     EXPECT_FALSE(survey_one(solid_box(false), {1.1, 0, 0}).is_inside());
 }
 
 TEST(Survey, InsideADoubleSidedSolidAllIsBehindButNothingIsABackFace) {
     const ProbeVisibility inside = survey_one(solid_box(true), {0, 0, 0});
-    EXPECT_EQ(inside.back_face_share, 0.0f);
-    EXPECT_EQ(inside.behind_share, 1.0f);
+    EXPECT_EQ(inside.back_face_fraction, 0.0f);
+    EXPECT_EQ(inside.behind_fraction, 1.0f);
     EXPECT_TRUE(inside.is_inside());
 }
 
@@ -47,7 +47,7 @@ TEST(Survey, UnderADoubleSidedSheetIsNotInside) {
     material.is_double_sided = true;
     test::add_floor(scene, material, 1e6f);
     const ProbeVisibility below = survey_one(scene, {0, -1, 0});
-    EXPECT_NEAR(below.behind_share, 0.5f, 1.0f / 64.0f);  // half of the 64 rays go up
+    EXPECT_NEAR(below.behind_fraction, 0.5f, 1.0f / 64.0f);  // half of the 64 rays go up
     EXPECT_FALSE(below.is_inside());
 }
 
@@ -57,7 +57,7 @@ TEST(Survey, WithoutSurfacesNothingIsInside) {
 
 TEST(Survey, AnswersPositionByPosition) {
     const std::vector<glm::dvec3> positions = {{0, 0, 0}, {3, 0, 0}, {0, 0.9, 0}};
-    const auto result = probe_visibility(solid_box(false), positions, 2);
+    const auto result = probe_visibilities(solid_box(false), positions, 2);
     ASSERT_TRUE(result);
     EXPECT_TRUE((*result)[0].is_inside());
     EXPECT_FALSE((*result)[1].is_inside());

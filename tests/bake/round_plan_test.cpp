@@ -21,8 +21,8 @@ BakeSettings settings(uint32_t samples, double target_error = 0.0, uint64_t max_
 
 std::vector<uint64_t> rounds(const RoundPlan& plan) {
     std::vector<uint64_t> directions;
-    for (uint64_t round = 0; plan.directions_of(round) > 0; ++round) {
-        directions.push_back(plan.directions_of(round));
+    for (uint64_t round = 0; plan.samples_in_round(round) > 0; ++round) {
+        directions.push_back(plan.samples_in_round(round));
     }
     return directions;
 }
@@ -30,9 +30,9 @@ std::vector<uint64_t> rounds(const RoundPlan& plan) {
 /// A probe after one round whose relative standard error is this.
 ProbeAccumulator with_error(const RoundPlan& plan, double error) {
     ProbeAccumulator accumulator;
-    accumulator.direction_count = plan.directions_of(0);
+    accumulator.sample_count = plan.samples_in_round(0);
     accumulator.round_count = 1;
-    const auto count = static_cast<double>(accumulator.direction_count);
+    const auto count = static_cast<double>(accumulator.sample_count);
     accumulator.radiance_sum[0].x = count;
     accumulator.variance_sum = std::pow(error * count * 3.14159265358979, 2.0);
     return accumulator;
@@ -41,27 +41,27 @@ ProbeAccumulator with_error(const RoundPlan& plan, double error) {
 TEST(RoundPlan, WithoutATargetThereIsOneRoundOfEightEstimates) {
     const RoundPlan plan(settings(1024));
     EXPECT_EQ(rounds(plan), std::vector<uint64_t>{1024});
-    EXPECT_EQ(plan.estimates_of(0), 8u);
-    EXPECT_EQ(plan.directions_of_estimate(0, 7), 128u);
+    EXPECT_EQ(plan.estimates_in_round(0), 8u);
+    EXPECT_EQ(plan.samples_in_estimate(0, 7), 128u);
 }
 
 TEST(RoundPlan, EstimatesShareAllDirections) {
     for (const uint32_t samples : {1u, 15u, 16u, 31u, 32u, 100u, 127u, 128u, 1000u, 1u << 24}) {
         const RoundPlan plan(settings(samples));
         uint64_t sum = 0;
-        for (uint32_t i = 0; i < plan.estimates_of(0); ++i) {
-            EXPECT_GT(plan.directions_of_estimate(0, i), 0u);
-            sum += plan.directions_of_estimate(0, i);
+        for (uint32_t i = 0; i < plan.estimates_in_round(0); ++i) {
+            EXPECT_GT(plan.samples_in_estimate(0, i), 0u);
+            sum += plan.samples_in_estimate(0, i);
         }
         EXPECT_EQ(sum, samples);
     }
 }
 
 TEST(RoundPlan, FewSamplesAreFewerEstimates) {
-    EXPECT_EQ(RoundPlan(settings(1)).estimates_of(0), 1u);
-    EXPECT_EQ(RoundPlan(settings(31)).estimates_of(0), 1u);
-    EXPECT_EQ(RoundPlan(settings(32)).estimates_of(0), 2u);
-    EXPECT_EQ(RoundPlan(settings(128)).estimates_of(0), 8u);
+    EXPECT_EQ(RoundPlan(settings(1)).estimates_in_round(0), 1u);
+    EXPECT_EQ(RoundPlan(settings(31)).estimates_in_round(0), 1u);
+    EXPECT_EQ(RoundPlan(settings(32)).estimates_in_round(0), 2u);
+    EXPECT_EQ(RoundPlan(settings(128)).estimates_in_round(0), 8u);
 }
 
 TEST(RoundPlan, RoundsDoubleWhatIsThereUpToTheMaximum) {
@@ -69,11 +69,11 @@ TEST(RoundPlan, RoundsDoubleWhatIsThereUpToTheMaximum) {
               (std::vector<uint64_t>{1024, 1024, 2048, 904}));
     EXPECT_EQ(rounds(RoundPlan(settings(1024, 0.01, 4100))),  // 4 are too few for a round
               (std::vector<uint64_t>{1024, 1024, 2048}));
-    EXPECT_EQ(RoundPlan(settings(1024, 0.01)).directions_before(100), 65536u);
+    EXPECT_EQ(RoundPlan(settings(1024, 0.01)).samples_before(100), 65536u);
 }
 
 TEST(RoundPlan, ATargetBeginsWithDirectionsForErrorBars) {
-    EXPECT_EQ(RoundPlan(settings(1, 0.01)).directions_of(0), 128u);
+    EXPECT_EQ(RoundPlan(settings(1, 0.01)).samples_in_round(0), 128u);
 }
 
 TEST(RoundPlan, AProbeIsDoneBelowTheTargetOrAtTheMaximum) {
@@ -95,10 +95,10 @@ TEST(RoundPlan, ATimeBudgetAloneGoesOnToTheMaximum) {
 
 TEST(RoundPlan, ExpectsErrorsToFallWithTheRootOfTheDirections) {
     const RoundPlan plan(settings(1024, 0.01));
-    EXPECT_EQ(plan.expected_directions({}), 1024u);
-    EXPECT_EQ(plan.expected_directions(with_error(plan, 0.005)), 1024u);
-    EXPECT_EQ(plan.expected_directions(with_error(plan, 0.0199)), 4096u);
-    EXPECT_EQ(plan.expected_directions(with_error(plan, 5.0)), 65536u);
+    EXPECT_EQ(plan.expected_samples({}), 1024u);
+    EXPECT_EQ(plan.expected_samples(with_error(plan, 0.005)), 1024u);
+    EXPECT_EQ(plan.expected_samples(with_error(plan, 0.0199)), 4096u);
+    EXPECT_EQ(plan.expected_samples(with_error(plan, 5.0)), 65536u);
 }
 
 TEST(RoundPlan, RefusesSettingsThatMeanNothing) {

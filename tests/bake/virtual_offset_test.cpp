@@ -14,9 +14,10 @@ constexpr float kMargin = 0.1f;
 
 std::optional<glm::vec3> offset(const Scene& scene, const glm::dvec3& position,
                                 float reach = 10.0f) {
-    const auto traced = TraceScene::make_static(scene);
-    EXPECT_TRUE(traced);
-    return find_virtual_offset(*traced, traced->render_from_world(position), {reach, kMargin});
+    const auto trace_scene = TraceScene::make_static(scene);
+    EXPECT_TRUE(trace_scene);
+    return find_virtual_offset(*trace_scene, trace_scene->render_from_world(position),
+                               {reach, kMargin});
 }
 
 void add_solid(Scene& scene, glm::vec3 low, glm::vec3 high, bool is_double_sided = false) {

@@ -92,7 +92,7 @@ TEST_F(BakeChunks, CountProbesOfAllChunks) {
     const auto baked = bake_in_chunks(scene, prepare(), chunks, [&](const BakeProgress& progress) {
         EXPECT_EQ(progress.probe_count, kProbeCount);
         EXPECT_GE(progress.probes_done, done);
-        EXPECT_LE(progress.share_done, 1.0);
+        EXPECT_LE(progress.fraction_done, 1.0);
         done = progress.probes_done;
         return true;
     });

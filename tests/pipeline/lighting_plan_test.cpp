@@ -44,7 +44,7 @@ constexpr uint32_t kNone = kNoIndex;
 
 TEST(LightingPlan, WithoutLayersSplitsNothing) {
     const LightingPlan plan = plan_of({});
-    EXPECT_FALSE(plan.bake.has_split());
+    EXPECT_FALSE(plan.bake.has_light_groups());
     EXPECT_FALSE(plan.bake.has_occlusion);
     EXPECT_TRUE(plan.layer_names.empty());
     EXPECT_EQ(plan.lights, make_scene().lights);

@@ -71,8 +71,8 @@ TEST_F(PartialBakes, RefusesTalliesThatNoRoundsLeave) {
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].radiance_sum[8].z = NAN; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].variance_sum = -1.0; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].variance_sum = INFINITY; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].direction_count = 127; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].behind_count = 129; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].sample_count = 127; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].back_face_count = 129; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].round_count = 2; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].round_count = ~uint64_t{0}; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1] = {}; }), where);  // of a finished part

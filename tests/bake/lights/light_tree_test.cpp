@@ -78,10 +78,10 @@ TEST(LightTree, DrawsEachEmitterAsOftenAsItsProbabilitySays) {
     }
     expected[kLights] = std::max(0.0, expected[kLights]);
     for (uint32_t i = 0; i < kDraws; ++i) {
-        const auto choice = tree.sample(shading_point, Sampler(i, 0).next_fine());
-        ++observed[choice ? choice->emitter : kLights];
+        const auto choice = tree.sample(shading_point, Sampler(i, 0).next_double());
+        ++observed[choice ? choice->light : kLights];
         if (choice) {
-            EXPECT_FLOAT_EQ(choice->probability, tree.probability(shading_point, choice->emitter));
+            EXPECT_FLOAT_EQ(choice->probability, tree.probability(shading_point, choice->light));
         }
     }
     EXPECT_TRUE(test::has_frequencies(observed, expected));
@@ -111,15 +111,15 @@ TEST(LightTree, EveryLightThatCanContributeIsDrawn) {
 
 /// A floor tile that shines up and down, and a lamp, each 2 m beside the origin.
 LightTree tile_and_lamp() {
-    std::vector<LightBounds> emitters(2);
-    emitters[0].low = emitters[0].high = {2, 0, 0};
-    emitters[0].axis = {0, 1, 0};
-    emitters[0].cos_axes = 1.0f;
-    emitters[0].cos_emission = 0.0f;
-    emitters[0].is_two_sided = true;
-    emitters[1].low = emitters[1].high = {-2, 0, 0};
-    emitters[0].power = emitters[1].power = 1.0f;
-    return LightTree(emitters);
+    std::vector<LightBounds> lights(2);
+    lights[0].min = lights[0].max = {2, 0, 0};
+    lights[0].axis = {0, 1, 0};
+    lights[0].cos_theta_o = 1.0f;
+    lights[0].cos_theta_e = 0.0f;
+    lights[0].is_two_sided = true;
+    lights[1].min = lights[1].max = {-2, 0, 0};
+    lights[0].power = lights[1].power = 1.0f;
+    return LightTree(lights);
 }
 
 TEST(LightTree, TwoSidedEmittersShineToBothSidesByTheirCosine) {
@@ -134,8 +134,8 @@ TEST(LightTree, TwoSidedEmittersShineToBothSidesByTheirCosine) {
 
 TEST(LightTree, NearAndBrightLightsAreDrawnMoreOften) {
     std::vector<LightBounds> lamps(2);
-    lamps[0].low = lamps[0].high = {1, 0, 0};
-    lamps[1].low = lamps[1].high = {-1, 0, 0};
+    lamps[0].min = lamps[0].max = {1, 0, 0};
+    lamps[1].min = lamps[1].max = {-1, 0, 0};
     lamps[0].power = 1.0f;
     lamps[1].power = 3.0f;
     const LightTree tree(lamps);
@@ -151,7 +151,7 @@ TEST(LightTree, OneLightAndNone) {
     EXPECT_TRUE(LightTree(lamps).is_empty());
     lamps[1].power = 1.0f;
     const LightTree tree(lamps);
-    EXPECT_EQ(tree.sample({}, 0.999)->emitter, 1u);
+    EXPECT_EQ(tree.sample({}, 0.999)->light, 1u);
     EXPECT_EQ(tree.probability({}, 1), 1.0f);
     EXPECT_EQ(tree.probability({}, 0), 0.0f);
 }

@@ -143,9 +143,9 @@ TEST(FreeSpace, AmongFrontsOfOtherSolidsItIsStillInside) {
         }
     }
     const auto traced = TraceScene::make_static(scene);
-    const ProbeVisibility around = probe_visibility_at(*traced, glm::vec3(0.0f));
+    const ProbeVisibility around = probe_visibility(*traced, glm::vec3(0.0f));
     EXPECT_FALSE(around.is_inside());
-    EXPECT_GT(around.behind_share, 0.0f);
+    EXPECT_GT(around.behind_fraction, 0.0f);
     EXPECT_EQ(place_probe(*traced, glm::dvec3(0.0), {}).fate, Fate::Inside);
 }
 

@@ -15,7 +15,7 @@
 namespace tetralight {
 namespace {
 
-TraceScene traced(const Scene& scene) {
+TraceScene trace_scene(const Scene& scene) {
     auto result = TraceScene::make_static(scene);
     EXPECT_TRUE(result) << error_text(result.error());
     return std::move(*result);
@@ -50,7 +50,7 @@ TEST(TraceScene, TracedSpaceIsCenteredOnTheStaticScene) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 2.0f, 5.0f);
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 50.0f, 70.0f).contributes_gi = false;
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     EXPECT_EQ(trace.render_from_world({0, 5, 0}), glm::vec3(0.0f));
     EXPECT_EQ(trace.world_from_render({1, 2, 3}), glm::dvec3(1, 7, 3));
 }
@@ -61,7 +61,7 @@ TEST(TraceScene, LightsMoveWithTracedSpace) {
     Light& light = test::add_point_light(scene, LightMode::Mixed, glm::vec3(1.0f), {1, 6, 2});
     Light expected = light;
     expected.position = {1, 1, 2};
-    EXPECT_EQ(traced(scene).render_from_world(light), expected);
+    EXPECT_EQ(trace_scene(scene).render_from_world(light), expected);
 }
 
 TEST(TraceScene, SeesWhatTheMaterialSays) {
@@ -70,7 +70,7 @@ TEST(TraceScene, SeesWhatTheMaterialSays) {
     material.metallic = 0.25f;
     material.roughness = 0.0f;
     test::add_floor(scene, material, 1.0f, 2.0f);
-    const auto surface = look_down(traced(scene), 0.5f, 0.25f);
+    const auto surface = look_down(trace_scene(scene), 0.5f, 0.25f);
     ASSERT_TRUE(surface);
     // Polished metal reflects nothing diffusely: albedo = color (1 − metallic).
     EXPECT_LT(glm::distance(surface->albedo, glm::vec3(0.6f, 0.3f, 0.15f)), 1e-6f);
@@ -86,7 +86,7 @@ TEST(TraceScene, RoughMetalPassesHalfOfItsColorOnDiffusely) {
     material.metallic = 1.0f;
     material.roughness = 1.0f;
     test::add_floor(scene, material, 1.0f);
-    const auto surface = look_down(traced(scene), 0, 0);
+    const auto surface = look_down(trace_scene(scene), 0, 0);
     EXPECT_LT(glm::distance(surface->albedo, glm::vec3(0.4f, 0.2f, 0.1f)), 1e-6f);
 }
 
@@ -104,7 +104,7 @@ TEST(TraceScene, EmissionOfMaterialsThatDoNotBakeItIsForEyesOnly) {
     Material material = test::diffuse(glm::vec3(0.5f), {1, 2, 3});
     material.bakes_emission = false;
     test::add_floor(scene, material, 1.0f);
-    EXPECT_EQ(look_down(traced(scene), 0, 0)->emission, glm::vec3(0.0f));
+    EXPECT_EQ(look_down(trace_scene(scene), 0, 0)->emission, glm::vec3(0.0f));
     const auto seen = TraceScene::make(scene, [](const MeshInstance&) { return true; });
     ASSERT_TRUE(seen);
     EXPECT_EQ(look_down(*seen, 0, 0)->emission, glm::vec3(1, 2, 3));
@@ -114,7 +114,7 @@ TEST(TraceScene, UnlitMaterialsEmitTheirColorAndReflectNothing) {
     Scene scene = textured_floor();
     scene.materials[0].is_unlit = true;
     scene.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1.0f};
-    const auto surface = look_down(traced(scene), -0.5f, 0.5f);
+    const auto surface = look_down(trace_scene(scene), -0.5f, 0.5f);
     EXPECT_LT(glm::distance(surface->emission, glm::vec3(0, 0.5f, 0)), 1e-5f);
     EXPECT_EQ(surface->albedo, glm::vec3(0.0f));
 }
@@ -125,7 +125,7 @@ TEST(TraceScene, OnlyABackFaceOfASingleSidedMaterialIsOne) {
         Material material = test::diffuse(glm::vec3(1.0f));
         material.is_double_sided = is_double_sided;
         test::add_floor(scene, material, 1.0f);
-        const TraceScene trace = traced(scene);
+        const TraceScene trace = trace_scene(scene);
         EXPECT_FALSE(look_down(trace, 0, 0)->is_from_behind);
         EXPECT_FALSE(look_down(trace, 0, 0)->is_back_face);
         EXPECT_TRUE(look_down(trace, 0, 0, -100.0f)->is_from_behind);
@@ -136,7 +136,7 @@ TEST(TraceScene, OnlyABackFaceOfASingleSidedMaterialIsOne) {
 TEST(TraceScene, NormalsAreOnTheSideOfTheRay) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
-    const auto surface = look_down(traced(scene), 0, 0, -100.0f);
+    const auto surface = look_down(trace_scene(scene), 0, 0, -100.0f);
     EXPECT_EQ(surface->geometric_normal, glm::vec3(0, -1, 0));
     EXPECT_EQ(surface->shading_normal, glm::vec3(0, -1, 0));
 }
@@ -145,7 +145,7 @@ TEST(TraceScene, DoesNotSeeWhatMoves) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f, 3.0f).contributes_gi = false;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
-    EXPECT_EQ(look_down(traced(scene), 0, 0)->instance, 1u);
+    EXPECT_EQ(look_down(trace_scene(scene), 0, 0)->instance, 1u);
 }
 
 TEST(TraceScene, InstancesShareAMesh) {
@@ -154,7 +154,7 @@ TEST(TraceScene, InstancesShareAMesh) {
     MeshInstance copy = scene.instances[0];
     copy.world_from_mesh = glm::translate(glm::dmat4(1.0), glm::dvec3(10, 2, 0));
     scene.instances.push_back(copy);
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     EXPECT_EQ(look_down(trace, 0, 0)->instance, 0u);
     EXPECT_EQ(look_down(trace, 10, 0)->instance, 1u);
     const glm::vec3 position = look_down(trace, 10, 0)->position;
@@ -166,7 +166,7 @@ TEST(TraceScene, MirroredInstanceKeepsItsFront) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f).world_from_mesh =
         glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
-    const auto surface = look_down(traced(scene), 0.5f, 0);
+    const auto surface = look_down(trace_scene(scene), 0.5f, 0);
     EXPECT_FALSE(surface->is_from_behind);
     EXPECT_EQ(surface->shading_normal, glm::vec3(0, 1, 0));
 }
@@ -175,7 +175,7 @@ TEST(TraceScene, InstanceMirroredThroughItsPlaneTurnsItsFrontOver) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f).world_from_mesh =
         glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1));
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     EXPECT_TRUE(look_down(trace, 0, 0)->is_back_face);
     EXPECT_FALSE(look_down(trace, 0, 0, -100.0f)->is_back_face);
     EXPECT_EQ(look_down(trace, 0, 0, -100.0f)->shading_normal, glm::vec3(0, -1, 0));
@@ -186,7 +186,7 @@ TEST(TraceScene, NormalsAreRightUnderNonUniformScale) {
     Scene scene;
     test::add_quad(scene, test::diffuse(glm::vec3(1.0f)), {-1, 1, -1}, {0, 0, 2}, {2, -2, 0})
         .world_from_mesh = glm::scale(glm::dmat4(1.0), glm::dvec3(2, 1, 1));
-    const auto surface = look_down(traced(scene), 0.1f, 0.2f);
+    const auto surface = look_down(trace_scene(scene), 0.1f, 0.2f);
     ASSERT_TRUE(surface);
     const glm::vec3 expected = glm::normalize(glm::vec3(0.5f, 1.0f, 0.0f));
     EXPECT_LT(glm::distance(surface->geometric_normal, expected), 1e-6f);
@@ -199,16 +199,16 @@ TEST(TraceScene, ShadingNormalIsBlendedOverTheTriangle) {
     Mesh& mesh = scene.meshes[0];
     for (size_t i = 0; i < 4; ++i)
         mesh.normals[i] = glm::normalize(mesh.positions[i] + glm::vec3(0, 1, 0));
-    const auto surface = look_down(traced(scene), 0, 0);
+    const auto surface = look_down(trace_scene(scene), 0, 0);
     // The diagonal runs through the middle, between normals that lean out by the same angle.
     EXPECT_LT(glm::distance(surface->shading_normal, glm::vec3(0, 1, 0)), 1e-5f);
-    EXPECT_GT(look_down(traced(scene), 0.9f, 0.8f)->shading_normal.x, 0.3f);
+    EXPECT_GT(look_down(trace_scene(scene), 0.9f, 0.8f)->shading_normal.x, 0.3f);
 }
 
 TEST(TraceScene, TextureIsReadAtItsPlace) {
     // u = (z + 1)/2, v = (x + 1)/2; texel centres are at 1/4 and 3/4.
     const Scene scene = textured_floor();
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     EXPECT_LT(glm::distance(look_down(trace, -0.5f, -0.5f)->albedo, glm::vec3(1, 0, 0)), 1e-5f);
     EXPECT_LT(glm::distance(look_down(trace, -0.5f, 0.5f)->albedo, glm::vec3(0, 1, 0)), 1e-5f);
     EXPECT_LT(glm::distance(look_down(trace, 0.5f, -0.5f)->albedo, glm::vec3(0, 0, 1)), 1e-5f);
@@ -218,7 +218,7 @@ TEST(TraceScene, TextureIsReadAtItsPlace) {
 TEST(TraceScene, MirroredInstanceMirrorsItsTexture) {
     Scene scene = textured_floor();
     scene.instances[0].world_from_mesh = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     EXPECT_LT(glm::distance(look_down(trace, 0.5f, 0.5f)->albedo, glm::vec3(0, 1, 0)), 1e-5f);
     EXPECT_LT(glm::distance(look_down(trace, -0.5f, -0.5f)->albedo, glm::vec3(0, 0, 1)), 1e-5f);
 }
@@ -231,11 +231,13 @@ TEST(TraceScene, EmissionTextureHasItsOwnCoordinatesAndTransform) {
     material.emission = glm::vec3(3.0f);
     material.emission_texture = {0, 1, glm::mat3(1.0f)};
     // Swapped axes: green is now where v = (x + 1)/2 is high in u, at (0.5, -0.5).
-    EXPECT_LT(glm::distance(look_down(traced(scene), 0.5f, -0.5f)->emission, glm::vec3(0, 3, 0)),
-              1e-5f);
+    EXPECT_LT(
+        glm::distance(look_down(trace_scene(scene), 0.5f, -0.5f)->emission, glm::vec3(0, 3, 0)),
+        1e-5f);
     material.emission_texture.image_from_mesh[2] = {0.5f, 0.0f, 1.0f};  // u + 1/2: to red
-    EXPECT_LT(glm::distance(look_down(traced(scene), 0.5f, -0.5f)->emission, glm::vec3(3, 0, 0)),
-              1e-5f);
+    EXPECT_LT(
+        glm::distance(look_down(trace_scene(scene), 0.5f, -0.5f)->emission, glm::vec3(3, 0, 0)),
+        1e-5f);
 }
 
 TEST(TraceScene, MaskLetsRaysThroughBelowItsCutoff) {
@@ -243,7 +245,7 @@ TEST(TraceScene, MaskLetsRaysThroughBelowItsCutoff) {
     Scene scene = textured_floor();
     scene.materials[0].alpha_mode = AlphaMode::Mask;
     scene.materials[0].alpha_cutoff = 0.4f;
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     EXPECT_FALSE(look_down(trace, -0.5f, -0.5f));
     EXPECT_FALSE(look_down(trace, -0.5f, 0.5f));
     EXPECT_TRUE(look_down(trace, 0.5f, -0.5f));
@@ -253,7 +255,7 @@ TEST(TraceScene, MaskLetsRaysThroughBelowItsCutoff) {
 
 TEST(TraceScene, OpaqueMaterialIgnoresAlpha) {
     const Scene scene = textured_floor();
-    EXPECT_TRUE(look_down(traced(scene), -0.5f, -0.5f));
+    EXPECT_TRUE(look_down(trace_scene(scene), -0.5f, -0.5f));
 }
 
 TEST(TraceScene, BlendStopsTheShareAlphaOfRays) {
@@ -267,7 +269,7 @@ TEST(TraceScene, BlendStopsTheShareAlphaOfRays) {
     glass.base_color_texture.image_from_mesh[0].x = 0.0f;  // everywhere between the two texels
     glass.alpha_mode = AlphaMode::Blend;
     test::add_floor(scene, glass, 1.0f);
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     constexpr int kCount = 10000;
     int stopped = 0;
     for (int i = 0; i < kCount; ++i) {
@@ -288,7 +290,7 @@ int self_hits(double size) {
     material.is_double_sided = true;
     test::add_floor(scene, material, 1.0f).world_from_mesh = glm::scale(
         glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3))), glm::dvec3(size));
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     std::mt19937_64 engine(5);
     int hits = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -315,7 +317,7 @@ TEST(TraceScene, AGroundTheSizeOfACountryLiftsNoRayOverASmallThing) {
     test::add_floor(scene, material, 10000.0f, -1.0f);
     test::add_floor(scene, material, 0.5f);
     test::add_ceiling(scene, material, 0.5f, 0.003f);
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     const auto surface =
         trace.intersect({trace.render_from_world({0.1, 0.002, 0.2}), glm::vec3(0, -1, 0)});
     ASSERT_TRUE(surface);
@@ -326,7 +328,7 @@ TEST(TraceScene, AGroundTheSizeOfACountryLiftsNoRayOverASmallThing) {
 TEST(TraceScene, PositionsLieOnTheTriangleHoweverLongTheRay) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     for (int i = 0; i < 100; ++i) {
         const glm::vec3 direction = glm::normalize(glm::vec3(static_cast<float>(i), -77, 13));
         const auto surface =
@@ -350,7 +352,7 @@ TEST(TraceScene, NamesAnInstanceThatRaysDoNotReach) {
 
 TEST(TraceScene, WithoutGeometryRaysMiss) {
     const Scene scene;
-    EXPECT_FALSE(look_down(traced(scene), 0, 0));
+    EXPECT_FALSE(look_down(trace_scene(scene), 0, 0));
 }
 
 }  // namespace

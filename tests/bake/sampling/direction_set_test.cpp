@@ -41,7 +41,7 @@ TEST(DirectionSet, NeighborsInOrderAreNeighborsOnTheSphere) {
 }
 
 TEST(DirectionSet, LargeSetsAreTheLatticeItself) {
-    constexpr uint32_t kCount = DirectionSet::kMostOrdered + 1;
+    constexpr uint32_t kCount = DirectionSet::kMaxOrderedCount + 1;
     const DirectionSet set(kCount);
     for (const uint32_t i : {0u, 77u, kCount - 1}) {
         EXPECT_EQ(set[i], spherical_fibonacci(i, kCount));

@@ -40,9 +40,9 @@ TEST(OwenSobol2, HasOnePointInEachElementaryInterval) {
 TEST(Sampler, EachPairOfDimensionsHasOnePointInEachElementaryInterval) {
     for (uint32_t pair = 0; pair < 20; ++pair) {
         expect_one_point_a_box(7, [pair](uint32_t path) {
-            Sampler numbers(77, path);
-            for (uint32_t i = 0; i < pair; ++i) static_cast<void>(numbers.next2());
-            return numbers.next2();
+            Sampler sampler(77, path);
+            for (uint32_t i = 0; i < pair; ++i) static_cast<void>(sampler.next2());
+            return sampler.next2();
         });
     }
 }
@@ -63,9 +63,9 @@ TEST(Sampler, PairsOfDimensionsAreIndependent) {
     constexpr int kPaths = 64, kKeys = 2000;
     for (uint32_t key = 0; key < kKeys; ++key) {
         for (uint32_t path = 0; path < kPaths; ++path) {
-            Sampler numbers(key, path);
-            const glm::vec2 first = numbers.next2();
-            const glm::vec2 second = numbers.next2();
+            Sampler sampler(key, path);
+            const glm::vec2 first = sampler.next2();
+            const glm::vec2 second = sampler.next2();
             ++bins[static_cast<size_t>(first.x * 16.0f) * 16 +
                    static_cast<size_t>(second.x * 16.0f)];
         }
@@ -75,10 +75,10 @@ TEST(Sampler, PairsOfDimensionsAreIndependent) {
 }
 
 TEST(Sampler, StaysBelowOneAndVaries) {
-    Sampler numbers(1, 2);
+    Sampler sampler(1, 2);
     glm::vec2 last(-1.0f);
     for (int i = 0; i < 100000; ++i) {
-        const glm::vec2 u = numbers.next2();
+        const glm::vec2 u = sampler.next2();
         ASSERT_TRUE(u.x >= 0.0f && u.x < 1.0f && u.y >= 0.0f && u.y < 1.0f);
         ASSERT_NE(u, last);
         last = u;

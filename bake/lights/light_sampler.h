@@ -16,26 +16,32 @@
 
 namespace tetralight {
 
-/// Kinds of emitters that are drawn from apart, as their light does not compare before shadows are
-/// known.
-enum class EmitterKind { Sun, PunctualLight, Triangle, Sky };
+/// The kinds of lights. Each kind is sampled separately: before shadows are known, the light of
+/// different kinds cannot be compared.
+enum class LightKind {
+    Directional,  ///< directional lights of the scene
+    Local,        ///< point, spot, rectangle and disc lights of the scene
+    Triangle,     ///< emissive triangles
+    Sky,          ///< the environment image
+};
 
-/// All that shines in a scene, to be sampled. Traced space.
-class Emitters {
+/// Samples all lights of a scene, in render space.
+class LightSampler {
   public:
     /// Lights count as bounces see them, `indirect_multiplier` included. Keeps references.
-    Emitters(const Scene& scene, const TraceScene& traced);
+    LightSampler(const Scene& scene, const TraceScene& trace_scene);
 
-    [[nodiscard]] bool has(EmitterKind kind) const noexcept;
+    [[nodiscard]] bool has(LightKind kind) const noexcept;
 
     /// Light of one emitter of a kind that the scene has, drawn at random; shadows left out.
-    [[nodiscard]] LightSample sample(EmitterKind kind, const ShadingPoint& shading_point,
-                                     Sampler& numbers) const noexcept;
+    [[nodiscard]] LightSample sample(LightKind kind, const ShadingPoint& shading_point,
+                                     Sampler& sampler) const noexcept;
 
-    /// Density per steradian with which `sample` draws what a ray from the shading point met by
+    /// Density per steradian with which `sample` draws what a ray from the shading point surface by
     /// chance: a triangle, or the sky in a direction. 0 = never.
-    [[nodiscard]] float pdf(const ShadingPoint& shading_point, const Surface& met) const noexcept {
-        return triangles_.pdf(shading_point, met);
+    [[nodiscard]] float pdf(const ShadingPoint& shading_point,
+                            const Surface& surface) const noexcept {
+        return triangles_.pdf(shading_point, surface);
     }
 
     [[nodiscard]] float pdf(glm::vec3 sky_direction) const noexcept {

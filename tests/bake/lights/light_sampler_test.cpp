@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/lights/emitters.h>
+#include <tetralight/bake/lights/light_sampler.h>
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-TraceScene traced(const Scene& scene) {
+TraceScene trace_scene(const Scene& scene) {
     auto result = TraceScene::make_static(scene);
     EXPECT_TRUE(result) << error_text(result.error());
     return std::move(*result);
@@ -40,29 +40,29 @@ Scene shining_room() {
 }
 
 /// Density with which a direction from a shading point is drawn.
-float pdf(const Emitters& emitters, const TraceScene& scene, const ShadingPoint& shading_point,
-          glm::vec3 direction) {
-    const auto met = scene.intersect({shading_point.position, direction});
-    return met ? emitters.pdf(shading_point, *met) : emitters.pdf(direction);
+float pdf(const LightSampler& light_sampler, const TraceScene& scene,
+          const ShadingPoint& shading_point, glm::vec3 direction) {
+    const auto hit = scene.intersect({shading_point.position, direction});
+    return hit ? light_sampler.pdf(shading_point, *hit) : light_sampler.pdf(direction);
 }
 
 TEST(EmissiveTriangles, PdfIntegratesToOneInARoomOfThem) {
     const Scene scene = shining_room();
-    const TraceScene trace = traced(scene);
-    const Emitters emitters(scene, trace);
+    const TraceScene trace = trace_scene(scene);
+    const LightSampler light_sampler(scene, trace);
     const ShadingPoint shading_point{{0.3f, -0.2f, 0.1f}};
     constexpr uint32_t kCount = 200000;
     double sum = 0.0;
     for (uint32_t i = 0; i < kCount; ++i) {
-        sum += pdf(emitters, trace, shading_point, spherical_fibonacci(i, kCount));
+        sum += pdf(light_sampler, trace, shading_point, spherical_fibonacci(i, kCount));
     }
     EXPECT_NEAR(sum * 4.0 * kPi / kCount, 1.0, 5e-3);
 }
 
 TEST(EmissiveTriangles, DirectionsAreDrawnAsOftenAsThePdfSays) {
     const Scene scene = shining_room();
-    const TraceScene trace = traced(scene);
-    const Emitters emitters(scene, trace);
+    const TraceScene trace = trace_scene(scene);
+    const LightSampler light_sampler(scene, trace);
     const ShadingPoint shading_point{{0.3f, -0.2f, 0.1f}};
     constexpr uint32_t kDraws = 50000, kProbes = 400000;
     std::vector<int> observed(test::kDirectionBins, 0);
@@ -70,13 +70,15 @@ TEST(EmissiveTriangles, DirectionsAreDrawnAsOftenAsThePdfSays) {
     for (uint32_t i = 0; i < kProbes; ++i) {
         const glm::vec3 d = spherical_fibonacci(i, kProbes);
         expected[test::direction_bin(d)] +=
-            pdf(emitters, trace, shading_point, d) * 4.0 * kPi / kProbes * kDraws;
+            pdf(light_sampler, trace, shading_point, d) * 4.0 * kPi / kProbes * kDraws;
     }
     for (uint32_t i = 0; i < kDraws; ++i) {
-        Sampler numbers(i, 0);
-        const LightSample sample = emitters.sample(EmitterKind::Triangle, shading_point, numbers);
+        Sampler sampler(i, 0);
+        const LightSample sample =
+            light_sampler.sample(LightKind::Triangle, shading_point, sampler);
         ++observed[test::direction_bin(sample.to_light)];
-        EXPECT_NEAR(sample.pdf / pdf(emitters, trace, shading_point, sample.to_light), 1.0, 0.02);
+        EXPECT_NEAR(sample.pdf / pdf(light_sampler, trace, shading_point, sample.to_light), 1.0,
+                    0.02);
     }
     EXPECT_TRUE(test::has_frequencies(observed, expected));
 }
@@ -84,13 +86,13 @@ TEST(EmissiveTriangles, DirectionsAreDrawnAsOftenAsThePdfSays) {
 TEST(EmissiveTriangles, AreEmptyWithoutEmission) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
-    const TraceScene trace = traced(scene);
-    const Emitters emitters(scene, trace);
-    for (const EmitterKind kind :
-         {EmitterKind::Sun, EmitterKind::PunctualLight, EmitterKind::Triangle, EmitterKind::Sky}) {
-        EXPECT_FALSE(emitters.has(kind));
+    const TraceScene trace = trace_scene(scene);
+    const LightSampler light_sampler(scene, trace);
+    for (const LightKind kind :
+         {LightKind::Directional, LightKind::Local, LightKind::Triangle, LightKind::Sky}) {
+        EXPECT_FALSE(light_sampler.has(kind));
     }
-    EXPECT_EQ(pdf(emitters, trace, {{0, 1, 0}}, {0, -1, 0}), 0.0f);
+    EXPECT_EQ(pdf(light_sampler, trace, {{0, 1, 0}}, {0, -1, 0}), 0.0f);
 }
 
 TEST(EmissiveTriangles, UnlitSurfacesAreAmongThemAndThoseThatAreNotBakedAreNot) {
@@ -100,10 +102,10 @@ TEST(EmissiveTriangles, UnlitSurfacesAreAmongThemAndThoseThatAreNotBakedAreNot) 
         Scene scene;
         unlit.bakes_emission = is_baked;
         test::add_floor(scene, unlit, 1.0f);
-        const TraceScene trace = traced(scene);
-        const Emitters emitters(scene, trace);
-        EXPECT_EQ(emitters.has(EmitterKind::Triangle), is_baked);
-        EXPECT_EQ(pdf(emitters, trace, {{0, 1, 0}}, {0, -1, 0}) > 0.0f, is_baked);
+        const TraceScene trace = trace_scene(scene);
+        const LightSampler light_sampler(scene, trace);
+        EXPECT_EQ(light_sampler.has(LightKind::Triangle), is_baked);
+        EXPECT_EQ(pdf(light_sampler, trace, {{0, 1, 0}}, {0, -1, 0}) > 0.0f, is_baked);
         EXPECT_EQ(trace.visible_emission(0, 0, {0.2f, 0.2f}),
                   glm::vec3(is_baked ? 0.48f / 0.96f : 0.0f));
     }
@@ -115,12 +117,13 @@ TEST(EmissiveTriangles, OnlyDoubleSidedOnesShineBackwards) {
         Material panel = test::diffuse(glm::vec3(0.0f), glm::vec3(1.0f));
         panel.is_double_sided = is_double_sided;
         test::add_floor(scene, panel, 1.0f);
-        const TraceScene trace = traced(scene);
-        const Emitters emitters(scene, trace);
-        Sampler numbers(1, 0);
-        const LightSample below = emitters.sample(EmitterKind::Triangle, {{0, -2, 0}}, numbers);
+        const TraceScene trace = trace_scene(scene);
+        const LightSampler light_sampler(scene, trace);
+        Sampler sampler(1, 0);
+        const LightSample below = light_sampler.sample(LightKind::Triangle, {{0, -2, 0}}, sampler);
         EXPECT_EQ(below.irradiance.x > 0.0f, is_double_sided);
-        EXPECT_GT(emitters.sample(EmitterKind::Triangle, {{0, 2, 0}}, numbers).irradiance.x, 0.0f);
+        EXPECT_GT(light_sampler.sample(LightKind::Triangle, {{0, 2, 0}}, sampler).irradiance.x,
+                  0.0f);
     }
 }
 
@@ -134,7 +137,7 @@ TEST(EmissiveTriangles, HolesAndGlassShineByTheirShare) {
     glass.alpha_mode = AlphaMode::Mask;
     glass.alpha_cutoff = 0.6f;
     test::add_floor(scene, glass, 1.0f);
-    const TraceScene trace = traced(scene);
+    const TraceScene trace = trace_scene(scene);
     EXPECT_EQ(trace.visible_emission(0, 0, {0.2f, 0.2f}), glm::vec3(0.5f));
     EXPECT_EQ(trace.visible_emission(1, 0, {0.2f, 0.2f}), glm::vec3(0.0f));
 }
@@ -145,17 +148,17 @@ TEST(PunctualLights, SunsAreDrawnByWhatTheyGive) {
     suns[0].direction = {0, -1, 0};
     suns[0].intensity = glm::vec3(2.0f);
     suns[1].direction = {0, 1, 0};
-    const PunctualLights lamps(suns);
+    const PunctualLights lights(suns);
     for (uint32_t i = 0; i < 100; ++i) {
-        Sampler numbers(3, i);
-        const LightSample sample = lamps.sample_sun({{0, 0, 0}, {0, 1, 0}}, numbers);
+        Sampler sampler(3, i);
+        const LightSample sample = lights.sample_directional({{0, 0, 0}, {0, 1, 0}}, sampler);
         EXPECT_EQ(sample.irradiance, glm::vec3(2.0f));
     }
     // Seen from everywhere the mean of the draws is the sum of both.
     glm::dvec3 sum(0.0);
     for (uint32_t i = 0; i < 1024; ++i) {
-        Sampler numbers(4, i);
-        sum += glm::dvec3(lamps.sample_sun({}, numbers).irradiance);
+        Sampler sampler(4, i);
+        sum += glm::dvec3(lights.sample_directional({}, sampler).irradiance);
     }
     EXPECT_NEAR(sum.x / 1024.0, 3.0, 0.03);
 }
