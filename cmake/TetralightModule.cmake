@@ -24,7 +24,7 @@ endfunction()
 # here through links to the source folders.
 set(tetralight_include_dir ${PROJECT_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${tetralight_include_dir}/tetralight)
-foreach(folder base probes lppv runtime bake pipeline render server cli bench)
+foreach(folder base settings probes lppv runtime bake pipeline render server cli bench)
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${tetralight_include_dir}/tetralight/${folder}
        COPY_ON_ERROR SYMBOLIC)
 endforeach()

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/settings/shared_settings.h>
+
+namespace tetralight::settings {
+namespace {
+
+constexpr Setting kFiles[] = {
+    scene_file("glTF 2.0 scene (.glb or .gltf)"),
+    {.name = "output",
+     .type = Type::Path,
+     .help = "Probe volume to write, or a part of it (- = stdout)",
+     .extensions = ".probes .part",
+     .without = "required, except with --explain",
+     .short_name = 'o',
+     .access = Access::Command},
+    {.name = "groups",
+     .type = Type::Path,
+     .help = "Probe groups in addition to the scene's own: a .json file or a glTF scene",
+     .without = "the scene's own",
+     .short_name = 'g',
+     .is_list = true,
+     .changes_light = true},
+    {.name = "only_given_groups",
+     .type = Type::Flag,
+     .help = "Ignore the scene's own probe groups",
+     .needs = "groups",
+     .changes_light = true}};
+
+constexpr Setting kSampling[] = {
+    {.name = "samples",
+     .type = Type::Integer,
+     .help = "Samples per probe; without --target-error and --time-budget exactly this many",
+     .unit = "samples",
+     .range = {1, 1 << 24},
+     .without = "1024 in the first round",
+     .short_name = 's',
+     .changes_light = true},
+    {.name = "target_error",
+     .type = Type::Fraction,
+     .help = "Double the samples of a probe until its relative standard error is below this",
+     .unit = "fraction",
+     .range = {0, 1, true},
+     .without = "0.5% with at most 131072 samples, unless --samples or --time-budget is given",
+     .changes_light = true},
+    {.name = "max_samples",
+     .type = Type::Integer,
+     .help = "Most samples per probe with --target-error or --time-budget",
+     .unit = "samples",
+     .range = {1, 0x1p32},
+     .without = "64 times --samples",
+     .changes_light = true},
+    {.name = "time_budget",
+     .type = Type::Seconds,
+     .help = "Start no further round of samples after this time; the result is not reproducible",
+     .unit = "seconds",
+     .range = {0, 1e9, true},
+     .without = "no limit",
+     .access = Access::Command,
+     .changes_light = true},
+    seed_setting("Seed of the random numbers")};
+
+constexpr Setting kTransport[] = {
+    kBounces,
+    {.name = "clamp",
+     .type = Type::Number,
+     .help = "Largest radiance of one path, for less noise and less light; 0 = not clamped",
+     .unit = "radiance",
+     .range = kRadiance,
+     .default_text = "0",
+     .changes_light = true},
+    {.name = "albedo_boost",
+     .type = Type::Number,
+     .help = "Raise albedo to the power of 1 / B, so that more light bounces; 1 = unchanged",
+     .unit = "exponent",
+     .range = {1, 10},
+     .default_text = "1",
+     .value_name = "B",
+     .changes_light = true},
+    {.name = "max_albedo",
+     .type = Type::Number,
+     .help = "Largest albedo of any surface",
+     .unit = "fraction",
+     .range = {0, 1},
+     .default_text = "1",
+     .changes_light = true},
+    {.name = "mixed_lighting",
+     .type = Type::Choice,
+     .help = "Shadows of mixed lights: indirect = all in real time; shadowmask, subtractive = "
+             "probes also hold the occlusion of up to four lights",
+     .choices = "indirect shadowmask subtractive",
+     .default_text = "indirect",
+     .changes_light = true},
+    {.name = "layers",
+     .type = Type::Words,
+     .help = "Keep this light in separate layers, which `tetralight relight` can scale later: sun, "
+             "sky, emission, light:NAME, material:NAME; transfer = response to another sky or a "
+             "moved sun",
+     .without = "one layer",
+     .value_name = "LIST",
+     .changes_light = true}};
+
+constexpr Setting kProbes[] = {
+    kWeld,
+    {.name = "min_validity",
+     .type = Type::Number,
+     .help = "Smallest fraction of rays that hit no back face; a probe below it is inside geometry",
+     .unit = "fraction",
+     .range = {0, 1},
+     .default_text = "0.75",
+     .changes_light = true},
+    {.name = "virtual_offset",
+     .type = Type::Number,
+     .help = "Longest distance by which a probe inside geometry may gather its light from outside "
+             "of it, as a fraction of the distance to the nearest other probe of its group; 0 = "
+             "never",
+     .unit = "fraction of the spacing",
+     .range = {0, 10},
+     .default_text = "0.45",
+     .changes_light = true},
+    {.name = "invalid_probes",
+     .type = Type::Choice,
+     .help = "Probes inside geometry that find no virtual offset: leave-out = omit them from the "
+             "volume; dilate = give them the light of their neighbors; keep = keep their dark "
+             "light",
+     .choices = "leave-out dilate keep",
+     .default_text = "leave-out",
+     .changes_light = true},
+    {.name = "dering",
+     .type = Type::Flag,
+     .help = "Remove ringing (negative irradiance) from the probes of all groups, not only of "
+             "those that ask for it",
+     .changes_light = true},
+    {.name = "dering_window",
+     .type = Type::Choice,
+     .help = "mildest = the weakest window for each probe that removes its negative irradiance; "
+             "hann, lanczos = one window for all probes",
+     .choices = "mildest hann lanczos",
+     .default_text = "mildest",
+     .changes_light = true}};
+
+constexpr Setting kStoring[] = {
+    {.name = "probes",
+     .type = Type::Range,
+     .help = "Bake only this range of the probes, into a .part file for `tetralight merge`",
+     .unit = "probes",
+     .without = "all probes",
+     .access = Access::Command},
+    {.name = "resume",
+     .type = Type::Flag,
+     .help = "Continue an interrupted bake from the .part file beside the output",
+     .access = Access::Command},
+    {.name = "chunks",
+     .type = Type::Path,
+     .help = "Keep finished probes in files of this folder, and continue from those that are "
+             "already there",
+     .without = "no chunks",
+     .value_name = "FOLDER",
+     .excludes = "resume probes",
+     .access = Access::Command},
+    {.name = "reuse",
+     .type = Type::Path,
+     .help = "Bake only what changed: probes whose position is unchanged take their light from "
+             "this volume; if the scene or the settings differ, bake all probes and say why",
+     .without = "all probes are baked",
+     .excludes = "resume probes"},
+    {.name = "progress_file",
+     .type = Type::Path,
+     .help = "Write the progress to this file as JSON, twice a second",
+     .without = "no file",
+     .access = Access::Command},
+    {.name = "explain",
+     .type = Type::Flag,
+     .help = "Bake nothing; print what a bake takes from each light of the scene, and what the "
+             "runtime adds",
+     .access = Access::Command}};
+
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Added light", kAddedLight},
+                             {"Samples", kSampling},
+                             {"Light transport", kTransport},
+                             {"Probes", kProbes},
+                             {"Progress and earlier bakes", kStoring},
+                             {"Common options", kCommonSettings}};
+
+}  // namespace
+
+const Table kBake{.command = "bake",
+                  .summary = "Bake the light of a scene into a probe volume",
+                  .examples =
+                      "tetralight bake courtyard.glb -o courtyard.probes\n"
+                      "tetralight bake courtyard.glb --target-error 1% --bounces 8 "
+                      "-o courtyard.probes",
+                  .groups = kGroups};
+
+}  // namespace tetralight::settings

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/settings/shared_settings.h>
+
+namespace tetralight::settings {
+namespace {
+
+constexpr Setting kFiles[] = {input_file("volume", "Probe volume baked with --layers (.probes)"),
+                              output_file(".probes", "Probe volume to write (- = stdout)")};
+
+constexpr Setting kSettings[] = {
+    {.name = "weights",
+     .type = Type::Weights,
+     .help = "New weights of layers, 1 = as baked; other layers are unchanged",
+     .unit = "factor",
+     .without = "the weights stay",
+     .value_name = "LAYER=W,...",
+     .changes_light = true},
+    sky_setting("Radiance of the sky: R,G,B or one number for a constant sky, or an "
+                "equirectangular .hdr or .exr file; replaces the sky of the bake (needs layer "
+                "\"transfer\")"),
+    kSkyIntensity,
+    kSkyRotation,
+    {.name = "sun_direction",
+     .type = Type::Direction,
+     .help = "Move the sun, so that it shines in this direction (needs layers \"sun\" and "
+             "\"transfer\")",
+     .unit = "direction",
+     .range = kPositions,
+     .without = "as baked",
+     .changes_light = true},
+    {.name = "sun_irradiance",
+     .type = Type::Vector,
+     .help = "Irradiance of the sun on a surface that faces it",
+     .unit = "irradiance",
+     .range = kRadiance,
+     .without = "as baked",
+     .value_name = "R,G,B",
+     .needs = "sun_direction",
+     .changes_light = true},
+    {.name = "blend",
+     .type = Type::Path,
+     .help = "Blend with this volume, which has the same probes",
+     .without = "no blending",
+     .changes_light = true},
+    {.name = "blend_share",
+     .type = Type::Number,
+     .help = "Fraction of the light that comes from the volume of --blend",
+     .unit = "fraction",
+     .range = {0, 1},
+     .default_text = "0.5",
+     .needs = "blend",
+     .changes_light = true}};
+
+constexpr Group kGroups[] = {
+    {"Files", kFiles}, {"Light", kSettings}, {"Common options", kCommonSettings}};
+
+}  // namespace
+
+const Table kRelight{.command = "relight",
+                     .summary = "Change the light of a volume without baking it again",
+                     .examples =
+                         "tetralight relight court.probes --weights lamp=0,neon=2 "
+                         "--sky dusk.exr -o night.probes",
+                     .groups = kGroups};
+
+}  // namespace tetralight::settings

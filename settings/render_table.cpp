@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/settings/shared_settings.h>
+
+namespace tetralight::settings {
+namespace {
+
+constexpr Setting kFiles[] = {input_file("scene", "glTF 2.0 scene (.glb or .gltf)"),
+                              input_file("volume", "Probe volume baked from it (.probes)"),
+                              output_file(".png", "Picture to write (- = stdout)")};
+
+constexpr Setting kShown[] = {
+    {.name = "show",
+     .type = Type::Text,
+     .help = "Draw over the scene, with commas between: probes (balls with the light of each "
+             "probe), cells (their edges; hull edges in orange), lppv (points of proxy volumes), "
+             "selection=x,y,z (the cell at a position, its probes with their weights, and the "
+             "interpolated light)",
+     .without = "the scene only",
+     .value_name = "LIST"},
+    {.name = "ball_radius",
+     .type = Type::Number,
+     .help = "Radius of the balls",
+     .unit = "metres",
+     .range = kLengths,
+     .without = "from the spacing of the probes",
+     .needs = "show"},
+    {.name = "probe_color",
+     .type = Type::Choice,
+     .help = "Color of the balls of probes: light; validity = fraction of rays without back faces; "
+             "error = relative standard error (teal is good, yellow fair, red bad)",
+     .choices = "light validity error",
+     .default_text = "light",
+     .needs = "show"},
+    {.name = "probes",
+     .type = Type::Choice,
+     .help = "What takes light from the probes: scene = all objects, as the scene asks; one = all "
+             "objects, moving ones from one position each; still = static objects only; none",
+     .choices = "scene one still none",
+     .default_text = "scene"},
+    kRenderer};
+
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Contents", kShown},
+                             {"Camera", kView.rows},
+                             {"Common options", kCommonSettings}};
+
+}  // namespace
+
+const Table kRender{.command = "render",
+                    .summary = "Render a scene with the light of a probe volume",
+                    .examples = "tetralight render courtyard.glb courtyard.probes -o courtyard.png",
+                    .groups = kGroups};
+
+}  // namespace tetralight::settings

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tetralight/settings/setting.h>
+
+// Settings that several commands have.
+
+namespace tetralight::settings {
+
+/// Every command but `serve`.
+inline constexpr Setting kCommonSettings[] = {
+    {.name = "json",
+     .type = Type::Flag,
+     .help = "Print one JSON object on stdout (on stderr when the output goes to stdout), also for "
+             "a failure",
+     .access = Access::Command},
+    {.name = "quiet",
+     .type = Type::Flag,
+     .help = "Print errors only",
+     .short_name = 'q',
+     .access = Access::Command},
+    {.name = "threads",
+     .type = Type::Integer,
+     .help = "Threads to use; 0 = one per processor",
+     .unit = "threads",
+     .range = {0, 65535},
+     .default_text = "0",
+     .short_name = 'j',
+     .access = Access::Command}};
+
+/// `-o`.
+constexpr Setting output_file(std::string_view extensions, std::string_view help) {
+    return {.name = "output",
+            .type = Type::Path,
+            .help = help,
+            .extensions = extensions,
+            .short_name = 'o',
+            .is_required = true,
+            .access = Access::Command};
+}
+
+constexpr Setting input_file(std::string_view name, std::string_view help) {
+    return {
+        .name = name, .type = Type::Path, .help = help, .is_positional = true, .is_required = true};
+}
+
+constexpr Setting scene_file(std::string_view help) {
+    Setting setting = input_file("scene", help);
+    setting.changes_light = true;
+    return setting;
+}
+
+constexpr Setting seed_setting(std::string_view help) {
+    return {.name = "seed",
+            .type = Type::Integer,
+            .help = help,
+            .unit = "seed",
+            .range = kAnyInteger,
+            .default_text = "0",
+            .changes_light = true};
+}
+
+inline constexpr Setting kBounces{.name = "bounces",
+                                  .type = Type::Integer,
+                                  .help = "Reflections that light may take; 0 = direct light only",
+                                  .unit = "reflections",
+                                  .range = {0, 1000},
+                                  .default_text = "4",
+                                  .short_name = 'b',
+                                  .changes_light = true};
+
+inline constexpr Setting kWeld{
+    .name = "weld",
+    .type = Type::Number,
+    .help =
+        "Join probes that are nearer to each other than this fraction of the local spacing: "
+        "the distance to the seventh nearest probe, at most 10 m",
+    .unit = "fraction of the spacing",
+    .range = {0, 0.1},
+    .default_text = "0.0001",
+    .changes_light = true};
+
+constexpr Setting sky_setting(std::string_view help) {
+    return {.name = "sky",
+            .type = Type::Sky,
+            .help = help,
+            .unit = "radiance",
+            .range = kRadiance,
+            .without = "the sky stays",
+            .changes_light = true};
+}
+
+inline constexpr Setting kSkyIntensity{.name = "sky_intensity",
+                                       .type = Type::Number,
+                                       .help = "Factor on the radiance of the sky",
+                                       .unit = "factor",
+                                       .range = kRadiance,
+                                       .default_text = "1",
+                                       .changes_light = true};
+
+inline constexpr Setting kSkyRotation{
+    .name = "sky_rotation",
+    .type = Type::Number,
+    .help = "Rotate the sky about +Y, counter-clockwise seen from above",
+    .unit = "degrees",
+    .range = {-360, 360},
+    .default_text = "0",
+    .changes_light = true};
+
+/// Light that a command adds to a scene.
+inline constexpr Setting kAddedLight[] = {
+    {.name = "adjustments",
+     .type = Type::Path,
+     .help = "File of adjustment volumes (.json) in addition to the scene's own: where probes are "
+             "forbidden, denser, valid, or scaled",
+     .without = "the scene's own only",
+     .access = Access::Command,
+     .changes_light = true},
+    sky_setting("Radiance of the sky: R,G,B or one number for a constant sky, or an "
+                "equirectangular .hdr or .exr file; replaces the scene's own"),
+    kSkyIntensity,
+    kSkyRotation,
+    {.name = "sun_direction",
+     .type = Type::Direction,
+     .help = "Add a sun that shines in this direction",
+     .unit = "direction",
+     .range = kPositions,
+     .without = "no sun is added",
+     .needs = "sun_irradiance",
+     .changes_light = true},
+    {.name = "sun_irradiance",
+     .type = Type::Vector,
+     .help = "Irradiance of the added sun on a surface that faces it",
+     .unit = "irradiance",
+     .range = kRadiance,
+     .without = "no sun is added",
+     .value_name = "R,G,B",
+     .needs = "sun_direction",
+     .changes_light = true},
+    {.name = "sun_angle",
+     .type = Type::Number,
+     .help = "Angular diameter of the added sun, for soft shadows (the real sun's is 0.53)",
+     .unit = "degrees",
+     .range = {0, 180},
+     .default_text = "0",
+     .needs = "sun_direction",
+     .changes_light = true},
+    {.name = "sun_mode",
+     .type = Type::Choice,
+     .help = "What probes hold of the added sun: its bounces (mixed), or its direct light too "
+             "(baked)",
+     .choices = "mixed baked",
+     .default_text = "mixed",
+     .needs = "sun_direction",
+     .changes_light = true}};
+
+/// The camera and the size of a picture. `needed`: a setting that all of them need.
+struct ViewSettings {
+    Setting rows[8];
+};
+
+constexpr ViewSettings view_settings(std::string_view needed, std::string_view eye_needs,
+                                     std::string_view fov_needs) {
+    return {{{.name = "width",
+              .type = Type::Integer,
+              .help = "Width of the picture",
+              .unit = "pixels",
+              .range = {1, 16384},
+              .default_text = "960",
+              .needs = needed},
+             {.name = "height",
+              .type = Type::Integer,
+              .help = "Height of the picture",
+              .unit = "pixels",
+              .range = {1, 16384},
+              .default_text = "540",
+              .needs = needed},
+             {.name = "antialias",
+              .type = Type::Integer,
+              .help = "Camera rays per pixel along each axis",
+              .unit = "rays",
+              .range = {1, 16},
+              .default_text = "4",
+              .needs = needed},
+             {.name = "exposure",
+              .type = Type::Number,
+              .help = "Factor before tone mapping (Khronos PBR Neutral); 0 = automatic",
+              .unit = "factor",
+              .range = {0, 1e9},
+              .default_text = "0",
+              .needs = needed},
+             {.name = "eye",
+              .type = Type::Vector,
+              .help = "Camera position",
+              .unit = "metres",
+              .range = kPositions,
+              .without = "a camera that sees the scene",
+              .needs = eye_needs},
+             {.name = "target",
+              .type = Type::Vector,
+              .help = "Point that the camera looks at",
+              .unit = "metres",
+              .range = kPositions,
+              .without = "a camera that sees the scene",
+              .needs = needed.empty() ? "eye" : "eye preview"},
+             {.name = "fov",
+              .type = Type::Number,
+              .help = "Vertical field of view of the camera at --eye",
+              .unit = "degrees",
+              .range = {1, 170},
+              .default_text = "45",
+              .needs = fov_needs},
+             {.name = "camera",
+              .type = Type::Text,
+              .help = "Name of a camera of the scene",
+              .without = "the scene's first camera, or an overview",
+              .value_name = "NAME",
+              .needs = needed,
+              .excludes = "eye"}}};
+}
+
+inline constexpr ViewSettings kView = view_settings("", "target", "eye");
+/// Without the cameras of a scene.
+inline constexpr std::span<const Setting> kPlainView = std::span(kView.rows).first(7);
+
+inline constexpr Setting kRenderer{
+    .name = "renderer",
+    .type = Type::Choice,
+    .help =
+        "cpu = by rays, the same bytes on every machine; gl = by OpenGL 4.5, faster on a GPU "
+        "(warns if the driver is software, and uses cpu without OpenGL)",
+    .choices = "cpu gl",
+    .default_text = "cpu",
+    .access = Access::Command};
+
+}  // namespace tetralight::settings

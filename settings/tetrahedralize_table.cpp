@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/settings/shared_settings.h>
+
+namespace tetralight::settings {
+namespace {
+
+constexpr Setting groups() {
+    Setting setting = input_file("groups", "Probe groups: .json files, or glTF scenes");
+    setting.is_list = true;
+    return setting;
+}
+
+constexpr Setting kFiles[] = {
+    groups(), output_file(".probes", "Probe volume to write, without light (- = stdout)")};
+
+constexpr Setting kSettings[] = {
+    kWeld,
+    {.name = "backend",
+     .type = Type::Choice,
+     .help =
+         "cgal, or tetgen = the program tetralight-tetgen, found by $TETRALIGHT_TETGEN, in this "
+         "command's folder or in PATH; it may take 10 minutes, and sets of probes in a plane "
+         "or on a line do not need it",
+     .choices = "cgal tetgen",
+     .default_text = "cgal"}};
+
+constexpr Group kGroups[] = {
+    {"Files", kFiles}, {"Settings", kSettings}, {"Common options", kCommonSettings}};
+
+}  // namespace
+
+const Table kTetrahedralize{.command = "tetrahedralize",
+                            .summary = "Join probe groups in a volume without light",
+                            .examples = "tetralight tetrahedralize grid.json -o grid.probes",
+                            .groups = kGroups};
+
+}  // namespace tetralight::settings

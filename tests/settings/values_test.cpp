@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/settings/values.h>
+
+#include <gtest/gtest.h>
+
+#include <tetralight/base/error_text.h>
+#include <tetralight/settings/read_values.h>
+
+namespace tetralight::settings {
+namespace {
+
+Values bake_values(const Json& more = Json::object()) {
+    Json json{{"scene", "s.glb"}, {"output", "v.probes"}};
+    json.update(more);
+    auto values = values_from_json(kBake, json, Access::Command);
+    EXPECT_TRUE(values);
+    return values ? *values : Values(kBake, Form::Json);
+}
+
+TEST(Values, HaveTheDefaultsOfTheTable) {
+    const Values values = bake_values();
+    EXPECT_EQ(values.number("min_validity"), 0.75);
+    EXPECT_EQ(values.integer("bounces"), 4u);
+    EXPECT_FALSE(values.is_given("bounces"));
+    EXPECT_EQ(values.text("dering_window"), "mildest");
+    EXPECT_EQ(values.find("samples"), nullptr);
+    EXPECT_FALSE(values.flag("dering"));
+}
+
+TEST(Values, JsonHasThemInTheOrderOfTheTable) {
+    const Json json = json_from_values(bake_values({{"bounces", 2}, {"samples", 16}}));
+    std::vector<std::string> names;
+    for (const auto& [name, value] : json.items()) names.push_back(name);
+    const auto at = [&](const char* name) { return std::ranges::find(names, name); };
+    EXPECT_LT(at("samples"), at("bounces"));
+    EXPECT_EQ(json["bounces"], 2);
+}
+
+TEST(Values, TheKeyHasWhatChangesLightAndNothingElse) {
+    const std::string key = key_of(bake_values());
+    EXPECT_EQ(key, key_of(bake_values({{"threads", 3}, {"bounces", 4}})));
+    EXPECT_NE(key, key_of(bake_values({{"bounces", 5}})));
+    EXPECT_NE(key, key_of(bake_values({{"seed", 1}})));
+}
+
+TEST(Values, ErrorsNameTheSettingInTheFormThatWasUsed) {
+    const Error error = bake_values({{"max_samples", 5}}).error("max_samples", "needs more");
+    EXPECT_EQ(error.field, "max_samples");
+    EXPECT_EQ(error.value, "5");
+    EXPECT_EQ(error_text(error), "max_samples: needs more");
+    EXPECT_EQ(error_text(Values(kBake, Form::Options).error("max_samples", "needs more")),
+              "--max-samples: needs more");
+}
+
+}  // namespace
+}  // namespace tetralight::settings
