@@ -17,7 +17,7 @@
 namespace tetralight::bench {
 namespace {
 
-/// Towards the faces, edges and corners of a cube.
+/// Normals towards the faces, edges and corners of a cube.
 std::vector<glm::vec3> normals() {
     std::vector<glm::vec3> result;
     for (int i = 0; i < 27; ++i) {
@@ -47,7 +47,7 @@ Moments compare(const RadianceSh& a, const RadianceSh& reference) {
     return moments;
 }
 
-/// Everything that estimates share.
+/// The inputs that all estimates share.
 struct Traced {
     const BakeSubject& subject;
     TraceScene scene;
@@ -58,7 +58,7 @@ struct Traced {
           scene(*TraceScene::make_static(from.scene)),
           tracer(from.scene, scene, {kBounces}) {}
 
-    /// As a bake does: eight independent sets.
+    /// Eight independent estimates, as in a bake.
     [[nodiscard]] RadianceSh estimate(const glm::dvec3& probe, uint64_t seed,
                                       uint32_t direction_count) const {
         RadianceSh sum;
@@ -71,8 +71,8 @@ struct Traced {
     }
 };
 
-/// Seconds until the error of every probe is 1 %, from the error and the time of a fixed number of
-/// directions: the error falls with the square root of the time.
+/// Seconds until the error of every probe is 1 %, extrapolated from a fixed number of samples: the
+/// error falls with the square root of time.
 void time_to_1_percent(const Traced& traced, const Options& options) {
     constexpr uint32_t kDirections = 1024;
     const uint32_t reference_directions = options.is_quick ? 16'384 : 131'072;
@@ -99,8 +99,8 @@ void time_to_1_percent(const Traced& traced, const Options& options) {
                    "probes/s", "plain path tracer");
 }
 
-/// Root mean square over all normals of the irradiance's error, as a share of the irradiance's:
-/// what error bars predict. By Parseval's identity.
+/// Root mean square error of irradiance over all normals, relative to that of irradiance: the
+/// quantity that error bars predict. Uses Parseval's identity.
 double parseval_error(const RadianceSh& a, const RadianceSh& reference) {
     const IrradianceSh light = irradiance_from_radiance(reference);
     const IrradianceSh difference = irradiance_from_radiance(a + -1.0f * reference);
@@ -113,7 +113,7 @@ double parseval_error(const RadianceSh& a, const RadianceSh& reference) {
     return sum > 0.0 ? std::sqrt(error / sum) : 0.0;
 }
 
-/// A bake that takes `factor` times as long: errors fall with the root of that.
+/// A bake with `factor` times as many samples.
 BakeSettings longer(BakeSettings settings, uint64_t factor) {
     settings.target_error /= std::sqrt(static_cast<double>(factor));
     settings.max_sample_count *= factor;
@@ -121,7 +121,7 @@ BakeSettings longer(BakeSettings settings, uint64_t factor) {
     return settings;
 }
 
-/// Whole bakes at default settings against one that is 64 times as long, and their error bars
+/// Whole bakes at default settings against one with 64 times as many samples, and their error bars
 /// against their errors.
 void noise(const BakeSubject& subject, const Options& options) {
     const uint64_t bakes = options.is_quick ? 2 : 8;
@@ -157,7 +157,7 @@ void noise(const BakeSubject& subject, const Options& options) {
     report("bake.error_bar." + subject.name, median(ratios), "predicted / actual");
 }
 
-/// The least irradiance that is left after dering, over that of band 0, of probes that a baked sun
+/// The least irradiance after dering, relative to that of band 0, of probes that a baked sun
 /// lights.
 void dering_min(const BakeSubject& subject) {
     Scene scene = subject.scene;
@@ -185,7 +185,7 @@ void threads(const BakeSubject& subject, const Options& options) {
     contest.work = static_cast<double>(subject.probes.size());
     const auto bake = [&](uint32_t thread_count) {
         BakeSettings settings;
-        settings.sample_count = 16384;  // long against building the ray tree, which one thread does
+        settings.sample_count = 16384;  // long compared with building the ray tree on one thread
         settings.thread_count = thread_count;
         return seconds(
             [&] { require(bool(bake_probes(subject.scene, subject.probes, settings)), "bake"); });

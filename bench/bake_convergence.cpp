@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How errors fall with the rays that are taken, for bench/plot_convergence.py.
+// Errors over the number of traced rays, for bench/plot_convergence.py.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

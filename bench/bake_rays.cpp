@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a bake's time goes to rays: the same rays alone, against the whole baker.
+// The whole baker against tracing the same rays only.
 #include <limits>
 
 #include <tetralight/bake/parallel.h>
@@ -31,7 +31,7 @@ float distance_of(const RayCaster& caster, const RecordedRay& recorded) {
     return hit ? hit->distance : kNone;
 }
 
-/// The estimates of a bake, and the rays that each of them traces.
+/// The estimates of a bake and the rays that each of them traces.
 class RayContest {
   public:
     explicit RayContest(const BakeSubject& subject)
@@ -59,7 +59,7 @@ class RayContest {
         });
     }
 
-    /// Alone, every ray finds what it found in the baker.
+    /// Each ray finds the same hit as in the baker.
     void check() const {
         parallel_for(rays_.size(), 1, [&](size_t item) {
             for (const RecordedRay& ray : rays_[item]) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr size_t kProbeCount = 64;
 
-/// Appends a quad whose front is where u × v points to.
+/// Appends a quad whose front faces along u × v.
 void append_quad(Mesh& mesh, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     const auto first = static_cast<uint32_t>(mesh.positions.size());
     for (const glm::vec3& p : {corner, corner + u, corner + u + v, corner + v}) {
@@ -53,7 +53,7 @@ Mesh room_walls(glm::vec3 size) {
     return walls;
 }
 
-/// Positions in the scene's box that are not inside of anything.
+/// Positions in the scene's box that are not inside geometry.
 std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
     const auto everything = [](const MeshInstance&) { return true; };
     const WorldBox bounds = scene_bounds(scene, everything).value_or(WorldBox{});
@@ -68,8 +68,8 @@ std::vector<glm::dvec3> free_positions(const Scene& scene, size_t count) {
     return free;
 }
 
-/// Those that light gets to: a thousandth of the mean or more. What else is free are sealed hollows
-/// between walls, whose relative errors mean nothing, or are none.
+/// Positions with at least a thousandth of the mean light. Other free positions are in sealed
+/// cavities between walls, where relative errors mean nothing.
 std::vector<glm::dvec3> lit_positions(const Scene& scene, std::span<const glm::dvec3> positions) {
     const auto baked = bake_probes(scene, positions, {});
     require(bool(baked), "bake");
@@ -133,9 +133,9 @@ Scene emitter_room() {
                     {0.02f, 0, 0}, {0, 0, 0.02f});
     }
     for (size_t i = 0; i < kColors; ++i) {
-        const auto share = static_cast<float>(i + 1) / kColors;
+        const auto t = static_cast<float>(i + 1) / kColors;
         add_mesh(scene, std::move(emitters[i]), glm::vec3(0.0f),
-                 100.0f * share * share * glm::vec3(1.0f, share, 1.5f - share));
+                 100.0f * t * t * glm::vec3(1.0f, t, 1.5f - t));
     }
     return scene;
 }

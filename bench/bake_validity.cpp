@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the baker holds for inside of closed meshes, against what is inside.
+// Positions that the baker considers inside closed meshes, against the winding number.
 #include <array>
 #include <cmath>
 #include <functional>
@@ -18,7 +18,7 @@ constexpr size_t kPositions = 4000;
 constexpr int kRows = 32, kColumns = 64;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
-/// A surface over two angles; its front is where ∂polar × ∂azimuth points to.
+/// A surface over two angles; its front faces along ∂polar × ∂azimuth.
 using AngleSurface = std::function<glm::dvec3(double polar, double azimuth)>;
 
 glm::dvec3 on_sphere(double polar, double azimuth) {
@@ -30,7 +30,7 @@ glm::dvec3 ball(double polar, double azimuth) {
     return 1.5 * on_sphere(0.5 * polar, azimuth);
 }
 
-/// Arms and dents, some of them narrow.
+/// A shape with bulges and dents, some of them narrow.
 glm::dvec3 star(double polar, double azimuth) {
     const double radius =
         1.2 + 0.5 * std::sin(1.5 * polar) * std::sin(5.0 * azimuth) + 0.2 * std::cos(3.0 * polar);
@@ -45,7 +45,7 @@ glm::dvec3 ring(double polar, double azimuth) {
 Mesh mesh_of(const AngleSurface& surface) {
     Mesh mesh;
     for (int i = 0; i < (kRows + 1) * (kColumns + 1); ++i) {
-        // The last column is the first one, to the bit.
+        // The last column is bit-identical to the first.
         const int row = i / (kColumns + 1), column = i % (kColumns + 1) % kColumns;
         mesh.positions.emplace_back(surface(kTurn * row / kRows, kTurn * column / kColumns));
     }

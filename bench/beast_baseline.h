@@ -7,9 +7,9 @@
 
 namespace tetralight::bench {
 
-/// A plain asynchronous Beast server on all processors, as its examples have it, that answers every
-/// request with the same bytes. Calls `is_listening` with its port, and then serves until the
-/// process is ended.
+/// A plain asynchronous Beast server on all processors, as in Beast's examples, that answers each
+/// request with the same bytes. Calls `is_listening` with its port and serves until the process
+/// ends.
 void serve_precomputed(const std::string& answer,
                        const std::function<void(uint16_t port)>& is_listening);
 

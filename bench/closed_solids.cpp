@@ -16,7 +16,7 @@
 namespace tetralight::bench {
 namespace {
 
-/// Triangles of a mesh, joined where they share an edge.
+/// Groups the triangles of a mesh that share edges.
 class Edges {
   public:
     Edges(const TraceScene& traced, uint32_t geometry) : part_of_(traced.triangle_count(geometry)) {
@@ -42,7 +42,7 @@ class Edges {
     [[nodiscard]] bool is_open(uint32_t part) const { return is_open_[part]; }
 
   private:
-    /// As often one way as the other where surfaces are closed.
+    /// Each edge occurs equally often in both directions if the surface is closed.
     struct Edge {
         uint32_t triangle = 0;
         int balance = 0;
@@ -97,8 +97,8 @@ void ClosedSolids::add_parts_of(uint32_t geometry) {
         Part& part =
             parts.try_emplace(number, Part{geometry, corners[0], corners[0], {}}).first->second;
         for (const glm::vec3& corner : corners) {
-            part.low = glm::min(part.low, corner);
-            part.high = glm::max(part.high, corner);
+            part.min = glm::min(part.min, corner);
+            part.max = glm::max(part.max, corner);
         }
         part.triangles.push_back(
             {glm::dvec3(corners[0]), glm::dvec3(corners[1]), glm::dvec3(corners[2])});
@@ -108,12 +108,12 @@ void ClosedSolids::add_parts_of(uint32_t geometry) {
 
 bool ClosedSolids::hold(glm::vec3 position) const {
     constexpr double kSphere = 4.0 * std::numbers::pi;
-    double winding = 0.0;  // of one mesh's parts: a hollow is a part that winds the other way
+    double winding = 0.0;  // of the parts of one mesh; cavities wind the other way
     for (size_t i = 0; i < parts_.size(); ++i) {
         const Part& part = parts_[i];
         if (i > 0 && parts_[i - 1].geometry != part.geometry) winding = 0.0;
-        const bool is_near = glm::all(glm::greaterThan(position, part.low)) &&
-                             glm::all(glm::lessThan(position, part.high));
+        const bool is_near = glm::all(glm::greaterThan(position, part.min)) &&
+                             glm::all(glm::lessThan(position, part.max));
         if (is_near) {
             for (const auto& corners : part.triangles) {
                 winding += solid_angle(corners, glm::dvec3(position)) / kSphere;

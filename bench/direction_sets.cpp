@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well a set of directions projects light that has a sharp form, apart from any path tracing.
+// Projection error of direction sets for light with sharp edges, without path tracing.
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -21,7 +21,7 @@ float edge(glm::vec3 d) {
     return d.y > 0.0f ? 1.0f : 0.0f;
 }
 
-/// A window over 2 % of the sphere, 50 times as bright as the rest.
+/// A window over 2 % of the sphere, 50 times as bright as the remaining sphere.
 float window(glm::vec3 d) {
     return d.y > 0.96f ? 50.0f : 1.0f;
 }
@@ -43,7 +43,7 @@ RadianceSh project(const Sky& sky, const std::vector<glm::vec3>& directions,
     return radiance_from_sum(sum, 4.0 * std::numbers::pi / static_cast<double>(directions.size()));
 }
 
-/// Mean square of the irradiance's error over all normals, by Parseval's identity.
+/// Mean square error of irradiance over all normals, by Parseval's identity.
 double square_error(const RadianceSh& a, const RadianceSh& b) {
     const IrradianceSh difference = irradiance_from_radiance(a + -1.0f * b);
     double sum = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once for each kind of processor: Highway includes this file again and again.
+// Highway includes this file once for each instruction set.
 #include <tetralight/bench/fma_peak.h>
 
 #undef HWY_TARGET_INCLUDE
@@ -18,7 +18,7 @@ float multiply_add(size_t count) {
     using Vec = hn::Vec<decltype(tag)>;
     constexpr size_t kChains = 12;
     const Vec factor = hn::Set(tag, 0.999f), term = hn::Set(tag, 0.001f);
-    // Different, so that the compiler cannot take one chain for another.
+    // Different values, so that the compiler cannot merge chains.
     const auto start = [&](float value) { return hn::Set(tag, value); };
     Vec a = start(1), b = start(2), c = start(3), d = start(4), e = start(5), f = start(6);
     Vec g = start(7), h = start(8), i = start(9), j = start(10), k = start(11), l = start(12);

@@ -5,8 +5,9 @@
 
 namespace tetralight::bench {
 
-/// Does `count` multiply-adds, all in registers, as fast as this thread can: twelve independent
-/// chains of fused multiply-adds in the widest vectors. Gives a number that depends on all of them.
+/// Executes `count` multiply-adds in registers at the peak rate of this thread: twelve independent
+/// chains of fused multiply-adds in the widest vectors. Returns a number that depends on all of
+/// them.
 float multiply_add(size_t count);
 
 }  // namespace tetralight::bench

@@ -5,7 +5,7 @@
 
 namespace tetralight::bench {
 
-/// The picture of OpenGL against that of rays, and frames of the mesh ball.
+/// The OpenGL picture against the ray-traced one, and frame times of the mesh ball.
 void bench_gl_renderer(const Options& options);
 
 }  // namespace tetralight::bench

@@ -24,7 +24,7 @@ namespace {
 
 constexpr size_t kCount = 1'000'000;
 
-/// What the GPU says for a position.
+/// The GPU's result for a position.
 struct Answer {
     PackedProbe probe;
     glm::vec4 weights;
@@ -71,7 +71,7 @@ std::vector<Answer> query_gpu(const ShaderVolume& volume, const std::vector<glm:
     return answers;
 }
 
-/// The largest difference, as a share of the light.
+/// The largest difference, as a fraction of the light.
 double difference(const PackedProbe& a, const PackedProbe& b) {
     const auto* x = reinterpret_cast<const float*>(&a);
     const auto* y = reinterpret_cast<const float*>(&b);
@@ -84,7 +84,7 @@ double difference(const PackedProbe& a, const PackedProbe& b) {
     return largest / size;
 }
 
-/// Whether a location is the position: its probes' positions, blended, are there.
+/// True if the blended positions of a location's probes give the position.
 bool is_blend_at(const ProbeVolumeView& volume, const glm::vec3& position, uint32_t cell,
                  const glm::vec4& weights) {
     if (cell >= volume.cells.size()) return false;
@@ -98,17 +98,17 @@ bool is_blend_at(const ProbeVolumeView& volume, const glm::vec3& position, uint3
     return glm::distance(blend, glm::dvec3(position)) <= rounding;
 }
 
-/// What all positions of a volume met.
+/// Results over all positions of a volume.
 struct Verdict {
     size_t disagreement_count = 0;
-    /// Positions between cells where CPU and GPU chose another one, whose light is another.
+    /// Positions on a border where CPU and GPU chose different cells with different light.
     size_t other_cell_count = 0;
     double largest = 0.0;
 };
 
 Verdict compare(const ProbeVolumeView& view, const std::vector<glm::vec3>& positions) {
     constexpr double kTolerance = 1e-3;
-    constexpr size_t kPart = 500'000;  // OpenGL promises 128 MiB a buffer
+    constexpr size_t kPart = 500'000;  // OpenGL guarantees buffers of 128 MiB
     const ShaderVolume volume = make_shader_volume(view);
     Verdict verdict;
     for (size_t begin = 0; begin < positions.size(); begin += kPart) {
@@ -136,7 +136,7 @@ Verdict compare(const ProbeVolumeView& view, const std::vector<glm::vec3>& posit
     return verdict;
 }
 
-/// Middles of the edges of cells, where cells meet.
+/// Midpoints of the edges of cells.
 std::vector<glm::vec3> edge_middles(const ProbeVolume& volume, size_t count) {
     std::mt19937_64 engine(1);
     std::vector<glm::vec3> positions;

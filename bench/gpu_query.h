@@ -3,7 +3,7 @@
 
 namespace tetralight::bench {
 
-/// Answers of the GPU's query that differ from the CPU's, of a million.
+/// Number of GPU query results, of a million, that differ from the CPU's.
 void bench_gpu_query();
 
 }  // namespace tetralight::bench

@@ -18,7 +18,8 @@ struct ErrorAt {
     double error = 0.0;
 };
 
-/// Where the curve comes down to an error, on logarithmic axes; its end where it does not.
+/// The number of probes at which the curve reaches an error, interpolated on logarithmic axes; the
+/// end of the curve if it does not.
 double count_for(const std::vector<ErrorAt>& curve, double error) {
     if (curve.front().error <= error) return curve.front().probe_count;
     for (size_t i = 1; i < curve.size(); ++i) {
@@ -33,7 +34,7 @@ double count_for(const std::vector<ErrorAt>& curve, double error) {
 
 struct Outcome {
     /// Probes that adaptive grids need for the error of a lattice of 4000, over 4000.
-    double share = 0.0;
+    double fraction = 0.0;
     /// Probes inside of closed meshes, of all grids.
     double inside_count = 0.0;
 };
@@ -64,24 +65,24 @@ Outcome probes_for_error(const GridSubject& subject, const Options& options) {
         if (options.is_quick || count == kRegularCount) continue;
         error_of("regular", count, regular_grid(subject, count));
     }
-    outcome.share = count_for(curve, goal) / static_cast<double>(kRegularCount);
-    report("grid.probes_for_error." + subject.name, outcome.share, "of 4000 regular probes");
+    outcome.fraction = count_for(curve, goal) / static_cast<double>(kRegularCount);
+    report("grid.probes_for_error." + subject.name, outcome.fraction, "of 4000 regular probes");
     return outcome;
 }
 
 }  // namespace
 
 void bench_grid(const Options& options) {
-    std::vector<double> shares;
+    std::vector<double> fractions;
     double inside_count = 0.0;
     for (const GridSubject& subject : grid_subjects(options)) {
         inside_count += measure_inside(subject, options);
         const Outcome outcome = probes_for_error(subject, options);
         inside_count += outcome.inside_count;
-        shares.push_back(outcome.share);
+        fractions.push_back(outcome.fraction);
     }
     report("grid.inside", inside_count, "probes and candidates of all");
-    report("grid.probes_for_error", median(shares), "of 4000 regular probes, median");
+    report("grid.probes_for_error", median(fractions), "of 4000 regular probes, median");
     require(inside_count == 0.0, "no probe inside geometry");
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kOffSurface = 0.05;
 
-/// Draws positions of a scene by chance.
+/// Samples random positions of a scene.
 class Places {
   public:
     Places(const GridSubject& subject, const TraceScene& traced)
@@ -66,7 +66,7 @@ class Places {
     std::vector<std::pair<uint32_t, uint32_t>> triangles_;
 };
 
-/// The space that most of a coarse grid is in.
+/// The space that holds most probes of a coarse grid.
 uint32_t largest_space(const GridSubject& subject, SpaceMap& map) {
     const ProbeGrid grid = regular_grid(subject, 1000);
     map.join(grid.groups[0].positions);
@@ -95,7 +95,7 @@ std::vector<glm::dvec3> free_positions(const GridSubject& subject, size_t count)
             is_free[i] = !probe_visibility(*traced, traced->render_from_world(p)).is_inside() &&
                          map.space_of(p) == wanted;
         });
-        // In pairs, so that both kinds are equally many.
+        // In pairs, so that there are equally many of both kinds.
         for (size_t i = 0; i + 1 < some.size() && found.size() + 1 < count; i += 2) {
             if (is_free[i] == 0 || is_free[i + 1] == 0) continue;
             found.insert(found.end(), {some[i], some[i + 1]});
@@ -126,8 +126,8 @@ LightReference make_reference(const GridSubject& subject, size_t count, uint32_t
     for (size_t i = 0; i < positions.size(); ++i) {
         reference.positions.emplace_back(positions[i]);
         reference.light.push_back(irradiance_from_radiance(baked->radiance[i]));
-        const auto share = static_cast<double>(baked->standard_error[i]);
-        noise += share * share * mean_square(reference.light.back());
+        const auto relative_error = static_cast<double>(baked->standard_error[i]);
+        noise += relative_error * relative_error * mean_square(reference.light.back());
     }
     reference.noise = relative(noise, reference.light);
     return reference;
@@ -183,7 +183,7 @@ ProbeGrid adaptive_grid(const GridSubject& subject, uint64_t probe_count) {
     settings.mode = PlacementMode::Adaptive;
     settings.bounds = subject.bounds;
     settings.max_probe_count = probe_count;
-    settings.adaptive.target_error = 1e-4;  // as good as so many probes can be
+    settings.adaptive.target_error = 1e-4;  // not reached, so that all probes are used
     auto grid = make_probe_grid(subject.scene, settings);
     require(bool(grid), grid ? "" : error_text(grid.error()));
     return std::move(*grid);

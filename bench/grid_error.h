@@ -10,24 +10,24 @@
 
 namespace tetralight::bench {
 
-/// Path-traced light in a scene's largest free space: half of the positions 5 cm off surfaces, by
-/// their area, half anywhere; random, and unknown to the generator.
+/// Path-traced light in a scene's largest free space, at random positions that the generator does
+/// not know: half of them 5 cm off surfaces, distributed by area, the others uniform in the volume.
 struct LightReference {
     std::vector<glm::vec3> positions;
     std::vector<IrradianceSh> light;
-    /// Root mean square of its own noise over the mean irradiance.
+    /// Root mean square of its noise, relative to the mean irradiance.
     double noise = 0.0;
 };
 
 [[nodiscard]] LightReference make_reference(const GridSubject& subject, size_t count,
                                             uint32_t sample_count);
 
-/// Bakes the probes and compares what queries answer with the reference: root mean square over
-/// positions, 26 normals and channels, over the mean irradiance, the reference's noise taken out.
+/// Bakes the probes and compares queries with the reference: root mean square over positions, 26
+/// normals and channels, relative to the mean irradiance, with the reference's noise subtracted.
 [[nodiscard]] double light_error(const GridSubject& subject, const ProbeGrid& grid,
                                  const LightReference& reference, uint32_t sample_count);
 
-/// A lattice of about so many probes.
+/// A lattice of about `probe_count` probes.
 [[nodiscard]] ProbeGrid regular_grid(const GridSubject& subject, uint64_t probe_count);
 
 [[nodiscard]] ProbeGrid adaptive_grid(const GridSubject& subject, uint64_t probe_count);

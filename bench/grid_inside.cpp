@@ -29,22 +29,22 @@ std::vector<glm::dvec3> lattice_of(const GridSubject& subject, double count) {
     return lattice->positions();
 }
 
-/// What is nearer to a face than rounding is on it, neither in nor out.
+/// Positions within this distance of a face count as neither inside nor outside.
 bool is_on_a_surface(const TraceScene& traced, glm::vec3 position) {
     constexpr float kRounding = 1e-5f;
     const auto nearest = traced.nearest_surface(position);
     return nearest && glm::distance(*nearest, position) < kRounding;
 }
 
-/// What became of one candidate.
+/// The fate of one candidate.
 struct Verdict {
     bool is_free = false;      ///< beyond doubt
     bool is_lost = false;      ///< it is, and was dropped
     uint32_t left_inside = 0;  ///< probes
 };
 
-/// Fates of a dense lattice, unmoved and pushed, against what is inside of closed meshes. Returns
-/// how many are left there.
+/// Fates of a dense lattice, with and without pushing, against the winding number. Returns how many
+/// probes are left inside closed meshes.
 double inside(const GridSubject& subject, const Options& options) {
     const auto traced = TraceScene::make_static(subject.scene);
     require(bool(traced), "scene");

@@ -7,11 +7,11 @@
 
 namespace tetralight::bench {
 
-/// Who is told to be inside of a scene's geometry, against what is, and how fast. Returns how many
-/// candidates were kept inside of closed meshes.
+/// Compares which candidates the generator classifies as inside geometry with the winding number,
+/// and measures its speed. Returns the number of candidates that were kept inside closed meshes.
 double measure_inside(const GridSubject& subject, const Options& options);
 
-/// Probes of a grid inside of closed meshes.
+/// Number of probes of a grid that are inside closed meshes.
 [[nodiscard]] double count_inside(const GridSubject& subject, const ProbeGrid& grid);
 
 }  // namespace tetralight::bench

@@ -15,7 +15,7 @@ namespace {
 constexpr double kRoom = 4.0, kStorey = 3.0, kWall = 0.15, kSlab = 0.25;
 constexpr int kRoomsX = 3, kRoomsZ = 2, kStoreys = 2;
 
-/// A closed box whose fronts are outside, as one mesh.
+/// A closed box as one mesh, with faces towards the outside.
 Mesh box_mesh(const WorldBox& box) {
     Mesh mesh;
     for (int i = 0; i < 8; ++i) {
@@ -61,7 +61,7 @@ class HouseBuilder {
         scene_.instances.push_back(instance);
     }
 
-    /// A wall from `begin` to `end` along an axis (0 or 2), with one opening in its middle.
+    /// A wall from `begin` to `end` along an axis (0 or 2), with one opening at its center.
     struct Wall {
         int axis = 0;
         double at = 0.0;  ///< on the other axis

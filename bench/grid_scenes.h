@@ -18,10 +18,10 @@ struct GridSubject {
     WorldBox bounds;
 };
 
-/// The courtyard; a house of two storeys with six rooms each, 12 × 8 m, whose walls, slabs and
-/// furniture are closed boxes that meet and cross, where doors join the rooms, a stairwell the
-/// storeys, windows let in sun and sky and every other room has a lamp; and the scene of the
-/// options.
+/// The courtyard, a house, and the scene of the options. The house has two storeys of 12 × 8 m with
+/// six rooms each. Its walls, slabs and furniture are closed boxes that touch and intersect. Doors
+/// join the rooms, a stairwell the storeys; windows let in sun and sky, and every other room has a
+/// point light.
 [[nodiscard]] std::vector<GridSubject> grid_subjects(const Options& options);
 
 }  // namespace tetralight::bench

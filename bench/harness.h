@@ -10,23 +10,22 @@
 
 #include <tetralight/probes/probe_group.h>
 
-// Every figure is a ratio against a baseline that is timed in the same process, alternating,
-// because machines differ and are noisy. docs/performance.md says what the figures mean.
+// Each figure is a ratio against a baseline that is timed in the same process, alternating, because
+// machines differ and are noisy. docs/performance.md explains the figures.
 
 namespace tetralight::bench {
 
 struct Options {
-    /// A real scene, where a benchmark can use one.
+    /// A glTF scene for the benchmarks that can use one.
     std::optional<std::string> scene;
     int repetitions = 7;
-    /// Leave out what takes minutes.
+    /// Skip the benchmarks that take minutes.
     bool is_quick = false;
-    /// Where `bake` writes how its errors fall with its rays, instead of its figures.
+    /// CSV file to which `bake` writes errors over rays instead of its figures.
     std::optional<std::string> convergence;
 };
 
-/// Two ways to do the same amount of work. Each returns the seconds that count, so that preparation
-/// is not timed.
+/// Two ways to do the same work. Each returns its seconds, so that preparation is not timed.
 struct Contest {
     std::string figure;
     std::string unit;
@@ -40,7 +39,7 @@ struct Contest {
 /// Runs both alternately and prints one JSON line with the medians of their rates.
 void run(const Contest& contest, const Options& options);
 
-/// Prints the rates of a contest that was held elsewhere.
+/// Prints given rates as one JSON line.
 void report_contest(const std::string& figure, double ours, double baseline,
                     const std::string& unit, const std::string& baseline_is);
 
@@ -52,7 +51,7 @@ void report(const std::string& figure, double value, const std::string& unit);
 /// Seconds that `work` takes.
 [[nodiscard]] double seconds(const std::function<void()>& work);
 
-/// Ends the benchmark with exit code 1: an answer differs from the baseline's.
+/// Ends the program with exit code 1 if `is_right` is false: an answer differs from the baseline's.
 void require(bool is_right, const std::string& what);
 
 [[nodiscard]] std::vector<glm::dvec3> random_positions(size_t count, uint64_t seed, double extent);
@@ -60,13 +59,13 @@ void require(bool is_right, const std::string& what);
 /// A direction that is uniform on the sphere for uniform numbers.
 [[nodiscard]] glm::vec3 uniform_direction(glm::vec2 u);
 
-/// A group that stands as it is in the world.
+/// A group whose positions are world positions.
 [[nodiscard]] ProbeGroup make_group(std::string name, std::vector<glm::dvec3> positions);
 
 void bench_bake(const Options& options);
-/// Sets of directions against random ones.
+/// Direction sets against random directions.
 void bench_direction_sets();
-/// Adding and removing a group, as shares of a full build.
+/// Adding and removing a group, as fractions of a full build.
 void bench_groups(const Options& options);
 void bench_grid(const Options& options);
 /// Proxy volumes: filling, refreshing, accuracy, files.

@@ -12,21 +12,21 @@
 
 namespace tetralight::bench {
 
-/// A connection that stays open. As little of HTTP as it takes to measure servers of our own; what
-/// goes wrong ends the benchmark.
+/// A persistent HTTP connection with the subset of HTTP that these benchmarks need. Any failure
+/// ends the program.
 class HttpClient {
   public:
     explicit HttpClient(uint16_t port);
 
-    /// Sends a request's bytes.
+    /// Sends the bytes of a request.
     void send(std::string_view request);
 
     struct Answer {
         unsigned status = 0;
-        std::string_view body;  ///< until the next call
+        std::string_view body;  ///< valid until the next call
     };
 
-    /// Waits for the answer.
+    /// Waits for the response.
     Answer receive();
 
     Answer ask(std::string_view request) {
@@ -42,18 +42,18 @@ class HttpClient {
     size_t used_ = 0;
 };
 
-/// A whole request.
+/// The bytes of a whole request.
 [[nodiscard]] std::string http_request(const std::string& method, const std::string& path,
                                        const std::string& content_type = "",
                                        std::string_view body = "");
 
-/// A server in a process of its own, ended with this object.
+/// A server in a child process, which the destructor ends.
 class ServerProcess {
   public:
-    /// `tetralight serve` with these options; its log goes to nowhere.
+    /// Runs `tetralight serve` and discards its log.
     ServerProcess(const std::string& program, const std::string& data);
 
-    /// `serve` in a child of this process: it gets a function to call with the port.
+    /// Runs `serve` in a child process; it must call its argument with the port.
     explicit ServerProcess(
         const std::function<void(const std::function<void(uint16_t)>& is_listening)>& serve);
 
@@ -63,7 +63,7 @@ class ServerProcess {
 
     [[nodiscard]] uint16_t port() const { return port_; }
 
-    /// Processor time that it took so far, that of its children left out.
+    /// Processor time of the server so far, without its children.
     [[nodiscard]] double cpu_seconds() const;
 
   private:

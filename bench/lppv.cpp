@@ -35,16 +35,16 @@ LppvSettings with_resolution(glm::uvec3 resolution) {
     return settings;
 }
 
-/// A grid over all probes of a subject and 10 % more, as its positions are.
+/// A grid over the probes' box grown by 10 %, as the subject's positions.
 LppvGrid grid_over(const Subject& subject, uint32_t side) {
-    const glm::dvec3 center(0.5f * (subject.low + subject.high));
+    const glm::dvec3 center(0.5f * (subject.min + subject.max));
     return make_grid(glm::translate(glm::dmat4(1.0), center),
-                     glm::dvec3(1.1f * (subject.high - subject.low)),
+                     glm::dvec3(1.1f * (subject.max - subject.min)),
                      with_resolution(glm::uvec3(side)));
 }
 
-/// Filling a grid that has its memory, and a new one, against a sorted batch of as many queries in
-/// the same box, as `query.sorted` asks them.
+/// Filling an allocated grid, and a new one, against a sorted batch of as many queries in the same
+/// box, as in `query.sorted`.
 void fill(Subject& subject, uint32_t side, const Options& options) {
     const LppvGrid grid = grid_over(subject, side);
     const size_t count = grid.point_count();
@@ -95,14 +95,14 @@ ProbeVolume make_grouped_volume() {
     return volume;
 }
 
-/// A beam somewhere among the probes, turned about y.
+/// A beam at a random position among the probes, rotated about y.
 LppvGrid beam_at(const glm::dvec3& position, double angle) {
     const glm::dmat4 world_from_beam =
         glm::rotate(glm::translate(glm::dmat4(1.0), position), angle, glm::dvec3(0, 1, 0));
     return make_grid(world_from_beam, {1.0, 1.0, 8.0}, with_resolution({2, 2, 16}));
 }
 
-/// 1 000 volumes of which each tenth moves in every frame, while one group is lit anew.
+/// 1 000 volumes. In each frame a tenth of them moves and the light of one group changes.
 class Frames {
   public:
     Frames() : volume_(make_grouped_volume()), atlas_({.slab_size = {80, 80, 144}}) {
@@ -116,13 +116,13 @@ class Frames {
         changed_ = probes_of_groups(volume_.view(), group);
     }
 
-    /// Moves a tenth and lights the group anew; seconds of the refresh.
+    /// Moves a tenth, changes the group's light, and returns the seconds of the refresh.
     double refresh() {
         ++frame_;
         const auto places = random_positions(100, 1000 + frame_, 100.0);
         for (uint32_t i = 0; i < 100; ++i) {
             const uint32_t id = 10 * i + static_cast<uint32_t>(frame_ % 10);
-            // As far as an object moves in a few frames.
+            // The distance that an object moves in a few frames.
             const glm::dvec3 from(grids_[id].world_from_local[3]);
             grids_[id] = beam_at(from + 0.01 * (places[i] - 50.0), places[i].x);
             atlas_.move(id, grids_[id]);
@@ -137,8 +137,8 @@ class Frames {
         return seconds([&] { atlas_.refresh(volume_.view(), {.is_everything = true}); });
     }
 
-    /// Share of the volumes whose texels the last refresh changed.
-    [[nodiscard]] double changed_share() const {
+    /// Fraction of the volumes whose texels the last refresh changed.
+    [[nodiscard]] double changed_fraction() const {
         size_t count = 0;
         for (uint32_t id = 0; id < grids_.size(); ++id) {
             const TexelBox box = atlas_.texels(id);
@@ -155,11 +155,11 @@ class Frames {
         return static_cast<double>(count) / static_cast<double>(grids_.size());
     }
 
-    [[nodiscard]] double refilled_share() const {
+    [[nodiscard]] double refilled_fraction() const {
         return static_cast<double>(report_.refilled.size()) / static_cast<double>(grids_.size());
     }
 
-    /// An atlas filled from nothing has the same bytes.
+    /// An atlas that is filled from scratch has the same bytes.
     void compare() const {
         LppvAtlas fresh({.slab_size = {80, 80, 144}});
         for (const LppvGrid& grid : grids_) {
@@ -181,19 +181,19 @@ class Frames {
 
 void refresh(const Options& options) {
     Frames frames;
-    std::vector<double> partial, full, share, refilled;
+    std::vector<double> partial, full, fraction, refilled;
     for (int i = 0; i < 3 * options.repetitions; ++i) {
         partial.push_back(frames.refresh());
-        share.push_back(frames.changed_share());
-        refilled.push_back(frames.refilled_share());
+        fraction.push_back(frames.changed_fraction());
+        refilled.push_back(frames.refilled_fraction());
         frames.compare();
         full.push_back(frames.refresh_everything());
         frames.compare();
     }
-    report("lppv.refresh.changed_share", median(share), "of the volumes");
+    report("lppv.refresh.changed_share", median(fraction), "of the volumes");
     report("lppv.refresh.refilled_share", median(refilled), "of the volumes");
     report("lppv.refresh.full", median(full) * 1e3, "ms");
-    report("lppv.refresh", median(partial) / median(full) / median(share),
+    report("lppv.refresh", median(partial) / median(full) / median(fraction),
            "cost / full refresh / share changed");
 }
 

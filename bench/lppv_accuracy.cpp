@@ -51,7 +51,7 @@ std::vector<SurfacePoint> points_on(const glm::dmat4& world_from_beam) {
     return points;
 }
 
-/// What of a surface lies in free air: nobody sees the rest.
+/// The points of a surface that are not inside geometry, where they cannot be seen.
 std::vector<SurfacePoint> visible(const Scene& scene, const std::vector<SurfacePoint>& points) {
     std::vector<glm::dvec3> positions;
     for (const SurfacePoint& point : points) positions.push_back(point.position);
@@ -134,7 +134,7 @@ class Accuracy {
     double square_sum_ = 0.0;
 };
 
-/// Beams that lie level, turned anyhow, anywhere in the box of the probes.
+/// Horizontal beams with random rotation at random positions in the probes' box.
 std::vector<glm::dmat4> random_beams(const ProbeVolumeView& volume) {
     glm::dvec3 low(volume.positions[0]), high = low;
     for (const glm::vec3& p : volume.positions) {

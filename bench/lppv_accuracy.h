@@ -5,8 +5,8 @@
 
 namespace tetralight::bench {
 
-/// How far light on the surface of long objects is from what each of its points would look up
-/// itself: in the scene of the options, else in the courtyard.
+/// Error of a proxy volume's light on the surface of long objects, against a query at each point of
+/// the surface: in the scene of the options, else in the courtyard.
 void bench_lppv_accuracy(const Options& options);
 
 }  // namespace tetralight::bench

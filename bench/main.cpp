@@ -27,12 +27,12 @@ int main(int argc, char** argv) {
     app.add_option("NAME", names, "Benchmarks to run (default: all)")
         ->check(CLI::IsMember(benches));
     app.add_option("--scene", options.scene, "glTF scene for the benchmarks that can use one");
-    app.add_option("--repetitions", options.repetitions, "Runs of each side")
+    app.add_option("--repetitions", options.repetitions, "Runs of each contestant")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    app.add_flag("--quick", options.is_quick, "Leave out what takes minutes");
+    app.add_flag("--quick", options.is_quick, "Skip the benchmarks that take minutes");
     app.add_option("--convergence", options.convergence,
-                   "CSV file for `bake` to write errors over rays to, instead of its figures");
+                   "`bake` writes a CSV file of errors over rays instead of its figures");
     CLI11_PARSE(app, argc, argv);
     for (const auto& [name, bench] : benches) {
         if (names.empty() || std::ranges::find(names, name) != names.end()) bench(options);

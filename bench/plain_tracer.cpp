@@ -38,18 +38,18 @@ PlainTracer::PlainTracer(const Scene& scene, const TraceScene& traced, uint32_t 
     }
 }
 
-RadianceSh PlainTracer::gather(glm::vec3 origin, uint32_t direction_count, uint64_t seed) {
+RadianceSh PlainTracer::gather(glm::vec3 origin, uint32_t sample_count, uint64_t seed) {
     engine_.seed(seed);
     RadianceShSum sum;
-    for (uint32_t i = 0; i < direction_count; ++i) {
+    for (uint32_t i = 0; i < sample_count; ++i) {
         const float u = next();
         const glm::vec3 direction = uniform_direction({u, next()});
         sum.add(direction, trace({origin, direction}));
     }
-    return radiance_from_sum(sum, 4.0 * std::numbers::pi / direction_count);
+    return radiance_from_sum(sum, 4.0 * std::numbers::pi / sample_count);
 }
 
-/// Emission is seen straight from the probe; at later vertices `reflected_light` has counted it.
+/// Emission counts at the first vertex only; `reflected_light` counts it at later ones.
 glm::vec3 PlainTracer::trace(Ray ray) {
     glm::vec3 radiance(0.0f), throughput(1.0f);
     for (uint32_t bounce = 0;; ++bounce) {
@@ -85,7 +85,7 @@ glm::vec3 PlainTracer::reflected_light(const Surface& surface, glm::vec3 origin)
     return per_chance * cosine * light.irradiance;
 }
 
-/// Irradiance from one point of a triangle, over the density of such points.
+/// Irradiance from one point of a triangle, divided by the probability density of that point.
 glm::vec3 PlainTracer::light_of(const Triangle& triangle, const Surface& surface,
                                 glm::vec3 origin) {
     const float root = std::sqrt(next());

@@ -11,15 +11,14 @@
 
 namespace tetralight::bench {
 
-/// What a path tracer is without any of the baker's sampling: independent uniform directions, one
-/// emitter chosen uniformly at each vertex, no weighting of one way to find light against another.
-/// It has the same expected light.
+/// A path tracer without the baker's sampling: independent uniform directions, one emitter chosen
+/// uniformly at each vertex, no multiple importance sampling. Its expected result is the same.
 class PlainTracer {
   public:
     /// Keeps references.
     PlainTracer(const Scene& scene, const TraceScene& traced, uint32_t bounces);
 
-    [[nodiscard]] RadianceSh gather(glm::vec3 origin, uint32_t direction_count, uint64_t seed);
+    [[nodiscard]] RadianceSh gather(glm::vec3 origin, uint32_t sample_count, uint64_t seed);
 
   private:
     using Triangle = std::array<glm::vec3, 3>;

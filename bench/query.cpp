@@ -77,7 +77,7 @@ double repeated(size_t count, Run run) {
     return sum / static_cast<double>(times);
 }
 
-/// Ticks of the time stamp counter, which on this decade's processors is the nominal clock.
+/// Ticks of the time stamp counter, which runs at the nominal clock rate.
 uint64_t ticks() {
 #if defined(__x86_64__)
     return __builtin_ia32_rdtsc();
@@ -126,13 +126,13 @@ void unsorted(Subject& subject, const std::string& figure, size_t count, const O
     race.compare(figure);
 }
 
-/// Objects in no order that move a tenth of a cell a frame, with the hints of the last frame.
+/// Unsorted objects that move a tenth of a cell a frame, with the hints of the last frame.
 void moving(Subject& subject, const std::string& figure, size_t count, const Options& options) {
     Race race(subject, subject.volume.view(), count);
     race.hints.assign(count, kNoIndex);
     race.positions = subject.positions(count);
     require(race.run_batch() > 0.0, "first frame");
-    const glm::vec3 size = subject.high - subject.low;
+    const glm::vec3 size = subject.max - subject.min;
     const float spacing =
         std::cbrt(size.x * size.y * size.z / static_cast<float>(subject.volume.positions.size()));
     Contest contest = contest_of(figure, count, "gather only");
@@ -232,7 +232,7 @@ void threads(Subject& subject, const Options& options) {
     run(contest, options);
 }
 
-/// Opening a file lazily and asking one question, as a share of the time to read it.
+/// Opening a file lazily and one query, as a fraction of the time to read it.
 void open_lazy(const Subject& subject, const Options& options) {
     const std::string path = "/tmp/tetralight_bench.probes";
     require(bool(write_probe_file(path, subject.volume.view())), "write");
@@ -243,7 +243,7 @@ void open_lazy(const Subject& subject, const Options& options) {
         return seconds([&] {
             const auto file = open_probe_file_lazy(path);
             require(bool(file), "open");
-            const auto location = locate(file->view(), 0.5f * (subject.low + subject.high));
+            const auto location = locate(file->view(), 0.5f * (subject.min + subject.max));
             require(interpolate(file->view(), location).occlusion.x == 1.0f, "answer");
         });
     };

@@ -22,10 +22,10 @@ namespace {
 Subject make_subject(const std::string& name, ProbeVolume volume) {
     require(volume.info.world_origin == glm::dvec3(0.0), name + " is far from the origin");
     Subject subject{name, std::move(volume)};
-    subject.low = subject.high = subject.volume.positions[0];
+    subject.min = subject.max = subject.volume.positions[0];
     for (const glm::vec3& p : subject.volume.positions) {
-        subject.low = glm::min(subject.low, p);
-        subject.high = glm::max(subject.high, p);
+        subject.min = glm::min(subject.min, p);
+        subject.max = glm::max(subject.max, p);
     }
     return subject;
 }
@@ -34,8 +34,8 @@ Subject make_subject(const std::string& name, ProbeVolume volume) {
 
 std::vector<glm::vec3> Subject::positions(size_t count) {
     std::vector<glm::vec3> result;
-    const glm::vec3 size = 1.1f * (high - low);
-    const glm::vec3 corner = 0.5f * (low + high) - 0.5f * size;
+    const glm::vec3 size = 1.1f * (max - min);
+    const glm::vec3 corner = 0.5f * (min + max) - 0.5f * size;
     for (const glm::dvec3& p : random_positions(count, ++seed, 1.0)) {
         result.push_back(corner + size * glm::vec3(p));
     }

@@ -12,16 +12,16 @@
 
 namespace tetralight::bench {
 
-/// A volume to query, and what is asked.
+/// A volume, and positions to query.
 struct Subject {
     std::string name;
     ProbeVolume volume;
     /// Box of the probes.
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
+    glm::vec3 min{0.0f};
+    glm::vec3 max{0.0f};
     uint64_t seed = 100;
 
-    /// Fresh positions, uniform in the box of the probes grown by 10 %.
+    /// New random positions, uniform in the probes' box grown by 10 %.
     [[nodiscard]] std::vector<glm::vec3> positions(size_t count);
 
     /// The same in Morton order.
@@ -31,12 +31,11 @@ struct Subject {
 /// Uniform random probes in a box of 100 m.
 [[nodiscard]] Subject make_random_subject(const std::string& name, size_t probe_count);
 
-/// A lattice that is turned, whose neighbors lie in a plane but for rounding, under light that is
-/// not linear.
+/// A rotated lattice, whose neighbors are coplanar up to rounding, with light that is not linear.
 [[nodiscard]] Subject make_lattice_subject(const std::string& name, size_t probe_count);
 
-/// A baked scene, "scene": that of the options with a lattice of some 20 000 probes, else the
-/// courtyard with its own.
+/// A baked scene with the name "scene": that of the options with a lattice of about 20 000 probes,
+/// else the courtyard with its own probes.
 [[nodiscard]] Subject make_scene_subject(const Options& options);
 
 }  // namespace tetralight::bench

@@ -19,7 +19,7 @@ namespace {
 
 constexpr uint32_t kThreads = 2;
 
-/// On `kThreads` threads that exist already: what engines have.
+/// A `parallel_for` on `kThreads` existing threads, as engines have.
 template <class Task>
 void on_threads(size_t count, const Task& task) {
     std::vector<std::thread> threads;
@@ -40,7 +40,7 @@ IrradianceSh some_light(size_t seed) {
     return light;
 }
 
-/// Layers over probes that nobody locates.
+/// Layers over probes, without cells.
 ProbeVolume layered(size_t probe_count, size_t layer_count) {
     ProbeVolume volume;
     volume.positions.resize(probe_count);
@@ -57,7 +57,7 @@ ProbeVolume layered(size_t probe_count, size_t layer_count) {
     return volume;
 }
 
-/// Against copying: as many bytes are read and written, on as many threads.
+/// Against copying the same number of bytes on the same number of threads.
 void recombination(const Options& options) {
     constexpr size_t kProbes = 100'000, kLayers = 4;
     ProbeVolume volume = layered(kProbes, kLayers);
@@ -95,7 +95,7 @@ void recombination(const Options& options) {
     require(volume.irradiance[7] == sum, "a recombined probe");
 }
 
-/// A subject's probes and scene, and what is baked of it.
+/// A subject's probes, scene and bake.
 struct Bakes {
     const BakeSubject& subject;
     BakeVolumeSettings settings{};
@@ -127,7 +127,7 @@ struct Error {
     [[nodiscard]] double relative() const { return std::sqrt(difference / light); }
 };
 
-/// A sky of 64 x 32 texels by direction.
+/// A sky of 64 x 32 texels, by direction.
 template <class Radiance>
 Environment sky_of(Radiance radiance) {
     Environment sky;
@@ -147,7 +147,7 @@ Environment sky_of(Radiance radiance) {
     return sky;
 }
 
-/// Brighter towards the horizon, warm on one side, as at dusk.
+/// A dusk sky: brighter towards the horizon, warm on one side.
 Environment smooth_sky() {
     return sky_of([](glm::vec3 d) {
         const float warm = std::exp(2.0f * (d.x - 1.0f));
@@ -156,8 +156,8 @@ Environment smooth_sky() {
     });
 }
 
-/// Irradiance after relighting against a fresh bake, root mean square over probes and normals;
-/// nothing of closed rooms, which no sky reaches.
+/// Error of irradiance after relighting against a new bake, root mean square over probes and
+/// normals, without closed rooms, which no sky light reaches.
 void transfer(const BakeSubject& subject, bool is_quick) {
     Bakes bakes{subject};
     bakes.settings.bake.sample_count = is_quick ? 1024 : 8192;
@@ -198,7 +198,7 @@ void transfer(const BakeSubject& subject, bool is_quick) {
     report("relight.transfer.sun." + subject.name, 100.0 * sun.relative(), "%");
 }
 
-/// Recombined layers against fresh bakes of the dimmed scene, in standard errors of the difference.
+/// Recombined layers against new bakes of the dimmed scene, in standard errors of the difference.
 void layers_error(const BakeSubject& subject) {
     Bakes bakes{subject};
     ProbeVolume layered = bakes.bake(subject.scene, {"sun", "sky", "emission"});
@@ -228,7 +228,7 @@ void layers_error(const BakeSubject& subject) {
            "% of probes within two standard errors");
 }
 
-/// Time of a bake with more to find, over that of a plain one.
+/// Time of a bake with additional outputs, relative to a plain one.
 void cost(const std::string& figure, const BakeSubject& subject, const LightingSettings& lighting,
           const Scene& scene, const Options& options) {
     BakeVolumeSettings plain, more;
@@ -245,7 +245,7 @@ void cost(const std::string& figure, const BakeSubject& subject, const LightingS
     report(figure + "." + subject.name, median(ratios), "times the plain bake");
 }
 
-/// The scene with four mixed lamps of 10 cm among its probes.
+/// The scene with four mixed point lights of radius 10 cm among its probes.
 Scene with_four_lamps(const BakeSubject& subject) {
     Scene scene = subject.scene;
     scene.lights.clear();
@@ -269,7 +269,7 @@ void bench_relight(const Options& options) {
     for (const BakeSubject& subject : bake_subjects(options)) {
         transfer(subject, options.is_quick);
         layers_error(subject);
-        const std::vector<std::string> four{"sun", "sky", "emission"};  // and the rest
+        const std::vector<std::string> four{"sun", "sky", "emission"};  // and the layer `rest`
         cost("relight.layers_cost", subject, {MixedLighting::Indirect, four}, subject.scene,
              options);
         cost("relight.transfer_cost", subject, {MixedLighting::Indirect, {"transfer"}},

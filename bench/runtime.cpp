@@ -21,7 +21,7 @@
 namespace tetralight::bench {
 namespace {
 
-/// Floats that begin with a cache line, as an engine's arrays do.
+/// Floats aligned to a cache line, as in engines.
 class AlignedFloats {
   public:
     explicit AlignedFloats(size_t count)
@@ -39,7 +39,7 @@ class AlignedFloats {
     size_t count_;
 };
 
-/// Normals and room for their light.
+/// Normals, and memory for their light.
 struct NormalArrays {
     AlignedFloats x, y, z, red, green, blue;
 
@@ -79,7 +79,7 @@ PackedSh some_light() {
 }
 
 #ifdef TETRALIGHT_HAS_HIGHWAY
-/// Light at many normals against the multiply-adds that it is made of, in registers.
+/// Light at many normals against the same number of multiply-adds in registers.
 void bench_sh9(const std::string& figure, size_t count, const Options& options) {
     const NormalArrays arrays(count);
     const PackedSh sh = some_light();
@@ -104,8 +104,7 @@ void bench_sh9(const std::string& figure, size_t count, const Options& options) 
 
 constexpr size_t kInstanceCount = 1023;
 
-/// The instances of one draw call: a ball of them that turns, what they were asked for and what
-/// they got.
+/// The instances of one draw call, a rotating ball: inputs and outputs of its query.
 struct MeshBall {
     ProbeVolumeView volume;
     glm::vec3 center;
@@ -119,7 +118,7 @@ struct MeshBall {
     std::vector<glm::vec4> gathered_occlusion = std::vector<glm::vec4>(kInstanceCount);
 
     MeshBall(const Subject& subject, float radius)
-        : volume(subject.volume.view()), center(0.5f * (subject.low + subject.high)) {
+        : volume(subject.volume.view()), center(0.5f * (subject.min + subject.max)) {
         std::mt19937_64 engine(1);
         std::uniform_real_distribution<float> share(0.0f, 1.0f);
         for (size_t i = 0; i < kInstanceCount; ++i) {
@@ -155,8 +154,8 @@ struct MeshBall {
     }
 };
 
-/// Microseconds a frame: the ball turns by a hundredth of a radian, and cells are kept from frame
-/// to frame; `first`: nothing is kept.
+/// Microseconds a frame. The ball rotates by 0.01 radian a frame, and cells are kept as hints; with
+/// `first` there are no hints.
 void bench_mesh_ball(const Options& options) {
     const Subject subject = make_random_subject("20k", 20'000);
     MeshBall ball(subject, 10.0f);

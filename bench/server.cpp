@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The HTTP service against a plain Beast server that answers the same bytes without thinking.
+// The HTTP service against a plain Beast server that answers with the same precomputed bytes.
 #include <tetralight/bench/server.h>
 
 #include <poll.h>
@@ -39,12 +39,12 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The `tetralight` program beside this one.
+/// The `tetralight` program in the folder of this one.
 std::string program() {
     return (fs::canonical("/proc/self/exe").parent_path() / "tetralight").string();
 }
 
-/// A folder for a server, gone with this object.
+/// A temporary folder for a server, which the destructor removes.
 struct DataFolder {
     std::string path =
         (fs::temp_directory_path() / str_cat("tetralight_bench_", ::getpid())).string();
@@ -81,7 +81,7 @@ std::string upload(uint16_t port, const std::string& kind, std::span<const std::
     return Json::parse(answer.body).at("id");
 }
 
-/// Requests a second that a few connections get answered, one after the other each.
+/// Requests a second over a few connections, each with one request at a time.
 double rate(uint16_t port, const std::string& request, double duration) {
     std::vector<std::thread> threads;
     std::atomic<uint64_t> count = 0;
@@ -99,7 +99,7 @@ double rate(uint16_t port, const std::string& request, double duration) {
     return static_cast<double>(count) / seconds_since(start);
 }
 
-/// Both servers by turns, and the processor time that each side of ours takes.
+/// Both servers, alternating, and the processor time of our server and its clients.
 void compare(const std::string& figure, const ServerProcess& ours, const std::string& request,
              const Options& options) {
     std::string answer;
@@ -149,7 +149,7 @@ void bench_in_process(Subject& subject, std::span<const glm::vec3> positions,
     report("server.query_10k.in_process", median(rates), "batches/s on one thread");
 }
 
-/// Latencies of requests over many connections that stay open, each with one request on its way.
+/// Latencies over many persistent connections, each with one request at a time.
 void bench_keepalive(uint16_t port, const std::string& request, const Options& options) {
     constexpr size_t kConnections = 1000;
     const double duration = options.is_quick ? 1.0 : 5.0;
@@ -190,8 +190,8 @@ void bench_keepalive(uint16_t port, const std::string& request, const Options& o
     report("server.keepalive_1000.p99_over_p50", p99 / p50, "ratio");
 }
 
-/// Sends at a fixed rate whatever comes back, and gives the 99th percentile of the time from when a
-/// request was due to its answer.
+/// Sends requests at a fixed rate, without waiting for responses. Returns the 99th percentile of
+/// the time from when a request was due to its response.
 double open_loop_p99(uint16_t port, const std::string& request, double rate_per_second,
                      const std::function<bool(double elapsed)>& goes_on) {
     HttpClient client(port);
@@ -213,7 +213,7 @@ Json get_json(HttpClient& client, const std::string& path) {
     return Json::parse(client.ask(http_request("GET", path)).body);
 }
 
-/// Seconds of a bake, from its beginning to its end; `while_it_runs` is called once it runs.
+/// Seconds of a bake; `while_it_runs` is called once it has started.
 double bake_rays_per_second(uint16_t port, const std::string& scene, uint64_t seed,
                             const std::function<void(HttpClient&, const std::string&)>& meanwhile) {
     HttpClient client(port);
@@ -243,7 +243,7 @@ void bench_during_bake(const ServerProcess& ours, const std::string& request) {
     double during = 0.0;
     const double shared =
         bake_rays_per_second(port, id, 2, [&](HttpClient& client, const std::string& path) {
-            // Who looks at the bake must not hold up the queries.
+            // Polling the bake must not delay the queries.
             std::atomic<bool> is_running = true;
             std::thread watcher([&] {
                 while (get_json(client, path).at("state") == "running") ::usleep(100'000);
@@ -258,7 +258,7 @@ void bench_during_bake(const ServerProcess& ours, const std::string& request) {
     report_contest("server.bake_during_query", shared, alone, "rays/s", "the bake alone");
 }
 
-/// A server with many volumes: from its start to ready, and to the first answer.
+/// A server with many volumes: seconds from its start to ready, and to the first response.
 void bench_ready(const Subject& subject, const std::string& query_body) {
     constexpr int kVolumes = 1000;
     const DataFolder data;

@@ -5,7 +5,7 @@
 
 namespace tetralight::bench {
 
-/// The HTTP service, by the `tetralight` program beside this one.
+/// Benchmarks of the HTTP service. Runs the `tetralight` program in the folder of this one.
 void bench_server(const Options& options);
 
 }  // namespace tetralight::bench

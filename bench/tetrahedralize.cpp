@@ -53,7 +53,7 @@ size_t byte_count(const std::vector<T>& values) {
     return values.size() * sizeof(T);
 }
 
-/// What a query can touch, with light in half floats, and what stays in the file.
+/// Bytes that queries read (with light in half floats), and bytes that stay in the file.
 void bytes_per_probe() {
     constexpr size_t kHalfFloatProbe = 64;
     const ProbeGroup group = make_group("bench", random_positions(100'000, 2, 1.0));
@@ -69,14 +69,13 @@ void bytes_per_probe() {
            static_cast<double>(cold) / count + static_cast<double>(cold_light), "B");
 }
 
-/// Slivers in a lattice that stands in a scene as artists place it, and what they are where its
-/// positions are taken as a transform has rounded them.
+/// Percentage of slivers in a rotated and translated lattice, with snapping and without.
 void slivers(int side) {
     glm::dmat4 placed = glm::translate(glm::dmat4(1.0), glm::dvec3(123.4, 5.6, -78.9));
     placed = glm::rotate(placed, 0.7, glm::dvec3(1, 2, 3));
     std::vector<glm::dvec3> positions = lattice(side);
     for (glm::dvec3& p : positions) p = glm::dvec3(placed * glm::dvec4(p, 1.0));
-    const auto share = [](const ProbeVolume& volume) {
+    const auto sliver_percent = [](const ProbeVolume& volume) {
         const std::span cells = std::span(volume.cells).first(volume.info.inner_cell_count);
         return 100.0 * measure_quality(volume.exact_positions, cells).sliver_share();
     };
@@ -85,8 +84,9 @@ void slivers(int side) {
     const MergedProbes merged = *merge(std::span(&group, 1));
     MergedProbes as_rounded = merged;
     as_rounded.positions = std::move(positions);
-    report("tetrahedralize.slivers", share(make_probe_volume(merged)), "%");
-    report("tetrahedralize.slivers_not_snapped", share(make_probe_volume(as_rounded)), "%");
+    report("tetrahedralize.slivers", sliver_percent(make_probe_volume(merged)), "%");
+    report("tetrahedralize.slivers_not_snapped", sliver_percent(make_probe_volume(as_rounded)),
+           "%");
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 namespace tetralight::bench {
 namespace {
 
-/// A dense array in OpenVDB's order, z fastest, as a grid. Every voxel is active: the background is
-/// a value that none has.
+/// A dense array in OpenVDB's order (z fastest) as a grid. All voxels are active, because no voxel
+/// has the background value.
 template <class Grid, class Value>
 typename Grid::Ptr copy_from_dense(const Lppv& lppv, const std::string& name,
                                    typename Grid::ValueType background, Value value) {

@@ -7,7 +7,7 @@
 
 namespace tetralight::bench {
 
-/// Writes the grids that `write_vdb` writes with OpenVDB's own tools: copyFromDense and io::File.
+/// Writes the same grids as `write_vdb`, with OpenVDB's copyFromDense and io::File.
 void write_vdb_by_openvdb(const std::string& path, const Lppv& lppv);
 
 }  // namespace tetralight::bench

@@ -40,8 +40,8 @@ class BallWindow {
             target_.emplace(size.x, size.y, 4);
         }
         if (auto status = spheres_.set_frame(angle_, light_, specular_); !status) return status;
-        const SphereInstances crowd = spheres_.crowd();
-        const auto status = spheres_.renderer().draw(orbit_.camera(), *target_, {&crowd, 1});
+        const SphereInstances instances = spheres_.sphere_instances();
+        const auto status = spheres_.renderer().draw(orbit_.camera(), *target_, {&instances, 1});
         if (!status) return status;
         if (exposure_ <= 0.0f) exposure_ = automatic_exposure(target_->read());
         presenter_.present(*target_, 0, size.x, size.y, exposure_);

@@ -169,8 +169,9 @@ struct MeshBall {
             if (auto status = spheres->set_frame(angle, ball.light, ball.specular); !status) {
                 return status.error();
             }
-            const SphereInstances crowd = spheres->crowd();
-            auto image = spheres->renderer().render(camera, view.settings, std::span(&crowd, 1));
+            const SphereInstances instances = spheres->sphere_instances();
+            auto image =
+                spheres->renderer().render(camera, view.settings, std::span(&instances, 1));
             if (!image) return image.error();
             return MeshBallPicture{std::move(*image), spheres->query_seconds()};
         });

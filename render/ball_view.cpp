@@ -12,16 +12,16 @@
 namespace tetralight {
 namespace {
 
-/// How far the eye is, in radii, and the field of view that holds the ball from there.
-struct Stand {
+/// Distance of the eye in radii of the ball, and the field of view that holds the ball from there.
+struct EyeDistance {
     double distance = 0.0;
     double fov_y_radians = 0.0;
 };
 
-const Stand kStands[] = {
+const EyeDistance kEyeDistances[] = {
     {3.2, glm::radians(45.0)}, {2.2, glm::radians(65.0)}, {1.5, glm::radians(100.0)}};
 
-/// Rise of the view's direction over 1.04 of ground: a little from above, level, from high up.
+/// Height of the eye for a horizontal distance of 1.04: slightly above, level, high above.
 constexpr double kRises[] = {0.25, 0.0, 0.8};
 
 constexpr int kTurnCount = 8;
@@ -34,21 +34,21 @@ glm::dvec3 direction_to_eye(double rise, int turn) {
     return glm::normalize(glm::dvec3(x, rise, z));
 }
 
-Camera ball_camera(const Stand& stand, const glm::dvec3& to_eye, const glm::dvec3& center,
+Camera ball_camera(const EyeDistance& eye, const glm::dvec3& to_eye, const glm::dvec3& center,
                    double radius) {
-    return look_at(center + to_eye * (stand.distance * radius), center, stand.fov_y_radians);
+    return look_at(center + to_eye * (eye.distance * radius), center, eye.fov_y_radians);
 }
 
-/// Whether nothing stands between the eye and the middle of the ball, nor its four sides.
+/// True if nothing is between the eye and the center of the ball and four points of its rim.
 bool sees_ball(const SceneShader& scene, const Camera& camera, const glm::dvec3& center,
                double radius) {
     const glm::dvec3 eye(camera.world_from_camera[3]);
     const glm::dvec3 right = glm::dvec3(camera.world_from_camera[0]) * (0.8 * radius);
     const glm::dvec3 up = glm::dvec3(camera.world_from_camera[1]) * (0.8 * radius);
     for (const glm::dvec3& offset : {glm::dvec3(0.0), right, -right, up, -up}) {
-        const glm::dvec3 way = center + offset - eye;
-        const double distance = glm::length(way);
-        if (scene.occluded(eye, glm::vec3(way / distance), static_cast<float>(distance))) {
+        const glm::dvec3 to_point = center + offset - eye;
+        const double distance = glm::length(to_point);
+        if (scene.occluded(eye, glm::vec3(to_point / distance), static_cast<float>(distance))) {
             return false;
         }
     }
@@ -59,11 +59,11 @@ bool sees_ball(const SceneShader& scene, const Camera& camera, const glm::dvec3&
 
 std::optional<Camera> find_ball_camera(const SceneShader* scene, const glm::dvec3& center,
                                        double radius) {
-    for (const Stand& stand : kStands) {
+    for (const EyeDistance& eye : kEyeDistances) {
         for (const double rise : kRises) {
             for (int turn = 0; turn < kTurnCount; ++turn) {
                 const Camera camera =
-                    ball_camera(stand, direction_to_eye(rise, turn), center, radius);
+                    ball_camera(eye, direction_to_eye(rise, turn), center, radius);
                 if (scene == nullptr || sees_ball(*scene, camera, center, radius)) return camera;
             }
         }
@@ -84,7 +84,7 @@ bool is_open(const SceneShader& scene, const glm::dvec3& center, double radius) 
 
 BallView find_ball_view(const SceneShader* scene, std::span<const glm::dvec3> centers,
                         std::span<const double> radii) {
-    TETRALIGHT_ASSERT(!centers.empty() && !radii.empty(), "a ball needs a centre and a radius");
+    TETRALIGHT_ASSERT(!centers.empty() && !radii.empty(), "a ball needs a center and a radius");
     for (const double radius : radii) {
         for (const glm::dvec3& center : centers) {
             if (scene != nullptr && !is_open(*scene, center, radius)) continue;
@@ -93,7 +93,7 @@ BallView find_ball_view(const SceneShader* scene, std::span<const glm::dvec3> ce
         }
     }
     const Camera front =
-        ball_camera(kStands[0], direction_to_eye(kRises[0], 0), centers[0], radii[0]);
+        ball_camera(kEyeDistances[0], direction_to_eye(kRises[0], 0), centers[0], radii[0]);
     return {centers[0], radii[0], find_ball_camera(scene, centers[0], radii[0]).value_or(front)};
 }
 

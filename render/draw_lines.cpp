@@ -15,19 +15,20 @@
 namespace tetralight {
 namespace {
 
-/// What is nearer than this to the plane of the eye is cut off.
+/// Distance of the near plane.
 constexpr double kNearest = 1e-4;
 
-/// A line is behind a surface when it is this share farther away: probes may lie in a surface.
+/// A line is hidden if its depth exceeds that of a surface by this fraction. Probes may lie in a
+/// surface.
 constexpr double kDepthTolerance = 2e-3;
 
-/// A line as it stands in the picture: pixels, and depth.
+/// A line in the picture: x and y in pixels, z = depth.
 struct PictureLine {
     glm::dvec3 a{0.0};
     glm::dvec3 b{0.0};
 };
 
-/// Cuts off what lies behind the eye.
+/// Clips at the near plane. Empty if the whole line is behind it.
 std::optional<PictureLine> project(const Projection& projection, const LineSegment& line) {
     glm::dvec3 a = projection.view_from_world(line[0]);
     glm::dvec3 b = projection.view_from_world(line[1]);
@@ -37,28 +38,27 @@ std::optional<PictureLine> project(const Projection& projection, const LineSegme
     return PictureLine{projection.picture_from_view(a), projection.picture_from_view(b)};
 }
 
-/// Draws one line after another, pixel by pixel along its longer side.
+/// Draws lines pixel by pixel along their major axis.
 class Pen {
   public:
     Pen(Image8& image, const DepthImage& depth, const LineStyle& style)
         : image_(image), depth_(depth), style_(style) {}
 
     void draw(const PictureLine& line) {
-        const glm::dvec2 a(line.a), way = glm::dvec2(line.b) - a;
-        const int along = std::abs(way.x) >= std::abs(way.y) ? 0 : 1;
-        const int across = 1 - along;
-        const double length = glm::length(way);
+        const glm::dvec2 a(line.a), offset = glm::dvec2(line.b) - a;
+        const int major = std::abs(offset.x) >= std::abs(offset.y) ? 0 : 1;
+        const int minor = 1 - major;
+        const double length = glm::length(offset);
         if (length == 0.0) return;
         const double reach = 0.5 * (1.0 + style_.width);
-        const double half_breadth = reach * length / std::abs(way[along]);
-        const auto [first, last] = pixels(std::min(a[along], line.b[along]) - reach,
-                                          std::max(a[along], line.b[along]) + reach, size(along));
+        const double half_width = reach * length / std::abs(offset[major]);
+        const auto [first, last] = pixels(std::min(a[major], line.b[major]) - reach,
+                                          std::max(a[major], line.b[major]) + reach, size(major));
         for (int i = first; i <= last; ++i) {
-            const double middle = a[across] + (i + 0.5 - a[along]) * way[across] / way[along];
-            const auto [low, high] =
-                pixels(middle - half_breadth, middle + half_breadth, size(across));
-            for (int j = low; j <= high; ++j) {
-                along == 0 ? draw_pixel(line, i, j) : draw_pixel(line, j, i);
+            const double center = a[minor] + (i + 0.5 - a[major]) * offset[minor] / offset[major];
+            const auto [min, max] = pixels(center - half_width, center + half_width, size(minor));
+            for (int j = min; j <= max; ++j) {
+                major == 0 ? draw_pixel(line, i, j) : draw_pixel(line, j, i);
             }
         }
     }
@@ -69,20 +69,21 @@ class Pen {
         int last = -1;
     };
 
-    /// The pixels of one axis that a stretch touches.
-    static Range pixels(double low, double high, uint32_t count) {
+    /// The pixels of one axis that an interval touches.
+    static Range pixels(double min, double max, uint32_t count) {
         const double last = static_cast<double>(count) - 1.0;
-        return {static_cast<int>(std::clamp(std::floor(low), 0.0, last + 1.0)),
-                static_cast<int>(std::clamp(std::floor(high), -1.0, last))};
+        return {static_cast<int>(std::clamp(std::floor(min), 0.0, last + 1.0)),
+                static_cast<int>(std::clamp(std::floor(max), -1.0, last))};
     }
 
     [[nodiscard]] uint32_t size(int axis) const { return axis == 0 ? image_.width : image_.height; }
 
     void draw_pixel(const PictureLine& line, int x, int y) {
-        const glm::dvec2 a(line.a), way = glm::dvec2(line.b) - a;
+        const glm::dvec2 a(line.a), offset = glm::dvec2(line.b) - a;
         const glm::dvec2 pixel(x + 0.5, y + 0.5);
-        const double t = std::clamp(glm::dot(pixel - a, way) / glm::dot(way, way), 0.0, 1.0);
-        const double distance = glm::distance(pixel, a + t * way);
+        const double t =
+            std::clamp(glm::dot(pixel - a, offset) / glm::dot(offset, offset), 0.0, 1.0);
+        const double distance = glm::distance(pixel, a + t * offset);
         const double coverage = std::clamp(0.5 * (1.0 + style_.width) - distance, 0.0, 1.0);
         if (coverage == 0.0) return;
         const double depth = 1.0 / glm::mix(1.0 / line.a.z, 1.0 / line.b.z, t);
@@ -91,11 +92,12 @@ class Pen {
     }
 
     [[nodiscard]] float opacity(size_t pixel, double depth) const {
-        int seen = 0;
+        int visible_count = 0;
         for (const float surface : depth_.depths[pixel]) {
-            seen += depth <= static_cast<double>(surface) * (1.0 + kDepthTolerance);
+            visible_count += depth <= static_cast<double>(surface) * (1.0 + kDepthTolerance);
         }
-        return glm::mix(style_.hidden_opacity, style_.opacity, static_cast<float>(seen) / 4.0f);
+        return glm::mix(style_.hidden_opacity, style_.opacity,
+                        static_cast<float>(visible_count) / 4.0f);
     }
 
     void blend(std::array<uint8_t, 4>& pixel, float alpha) const {
@@ -137,7 +139,7 @@ DepthImage render_depth(const Camera& camera, const RenderSettings& settings,
 void draw_lines(Image8& image, const DepthImage& depth, const Camera& camera,
                 std::span<const LineSegment> lines, const LineStyle& style) {
     TETRALIGHT_ASSERT(image.width == depth.width && image.height == depth.height,
-                      "picture and depth of one size");
+                      "picture and depth image must have the same size");
     const Projection projection(camera, image.width, image.height);
     Pen pen(image, depth, style);
     for (const LineSegment& line : lines) {

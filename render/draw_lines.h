@@ -13,35 +13,37 @@
 
 namespace tetralight {
 
-/// How far the surfaces of a picture are, in depth along the view, at the middles of the four
-/// quarters of each pixel.
+/// Depth along the view of the surfaces in a picture: four samples a pixel, at the centers of its
+/// quarters (upper left, upper right, lower left, lower right). Infinite without a surface.
 struct DepthImage {
     uint32_t width = 0;
     uint32_t height = 0;
     std::vector<std::array<float, 4>> depths;
 };
 
-/// Distance to the first surface from a world position in a unit direction; infinite when there is
+/// Distance to the first surface from a world position in a unit direction; infinite if there is
 /// none. Called from many threads.
 using TraceDistance = std::function<float(const glm::dvec3& origin, glm::vec3 direction)>;
 
+/// Traces four rays a pixel.
 [[nodiscard]] DepthImage render_depth(const Camera& camera, const RenderSettings& settings,
                                       const TraceDistance& trace);
 
-/// Two ends, world space.
+/// Two end points, world space.
 using LineSegment = std::array<glm::dvec3, 2>;
 
 struct LineStyle {
     /// sRGB-encoded, 0 to 1.
     glm::vec3 color{1.0f};
-    /// Of lines in front of all surfaces, and of those behind one; 1 = opaque.
+    /// Opacity in front of all surfaces, 0 to 1.
     float opacity = 0.6f;
+    /// Opacity behind a surface, 0 to 1.
     float hidden_opacity = 0.05f;
-    /// Pixels.
-    float width = 1.0f;
+    float width = 1.0f;  ///< pixels
 };
 
-/// Draws antialiased lines over a picture of the depth image's size that the camera took.
+/// Draws antialiased lines over a picture from the same camera.
+/// Precondition: picture and depth image have the same size.
 void draw_lines(Image8& image, const DepthImage& depth, const Camera& camera,
                 std::span<const LineSegment> lines, const LineStyle& style);
 

@@ -19,11 +19,11 @@ const LineStyle kHullStyle{{1.00f, 0.74f, 0.32f}, 0.70f, 0.06f, 1.1f};
 const LineStyle kCellStyle{{1.00f, 0.86f, 0.20f}, 0.95f, 0.45f, 2.0f};
 const LineStyle kWeightStyle{{0.35f, 1.00f, 0.95f}, 0.95f, 0.45f, 1.4f};
 
-/// Hull rays are drawn this far: hull cells never end.
-constexpr float kRayShare = 0.3f;
+/// Length of drawn hull rays as a fraction of the volume's extent: hull cells are infinite.
+constexpr float kRayFraction = 0.3f;
 
-/// Balls of this share of the space between them can be told apart.
-constexpr double kBallShare = 0.1;
+/// Radius of a ball as a fraction of the spacing of probes.
+constexpr double kBallFraction = 0.1;
 
 std::vector<LineSegment> lines(const Wireframe& wireframe, std::span<const ProbeEdge> edges) {
     std::vector<LineSegment> result;
@@ -42,9 +42,9 @@ double probe_spacing(const Wireframe& wireframe) {
         }
     }
     if (lengths.empty()) return 1.0;
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::ranges::nth_element(lengths, middle);
-    return *middle;
+    const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::ranges::nth_element(lengths, median);
+    return *median;
 }
 
 std::vector<LightBall> probe_balls(const ProbeVolumeView& volume, float radius) {
@@ -62,14 +62,15 @@ void add_proxy_balls(const Lppv& lppv, float asked_radius, std::vector<LightBall
         const double spacing = lppv.grid.spacing()[axis];
         if (spacing > 0.0) smallest = std::min(smallest, spacing);
     }
-    const double share = smallest < 1e30 ? 2.5 * kBallShare * smallest : 0.1;
-    const float radius = asked_radius > 0.0f ? asked_radius : static_cast<float>(share);
+    const double radius_from_spacing = smallest < 1e30 ? 2.5 * kBallFraction * smallest : 0.1;
+    const float radius =
+        asked_radius > 0.0f ? asked_radius : static_cast<float>(radius_from_spacing);
     for (size_t i = 0; i < lppv.irradiance.size(); ++i) {
         balls.push_back({lppv.grid.world_position(lppv.grid.point(i)), radius, lppv.irradiance[i]});
     }
 }
 
-/// A cell in the world: its probes, and for hull cells the rays that they end in.
+/// A cell in world space: its probes and, if it is a hull cell, its rays.
 class SelectedCell {
   public:
     SelectedCell(const ProbeVolumeView& volume, const CellLocation& location)
@@ -91,20 +92,20 @@ class SelectedCell {
         if (!probes_.empty() && hull_cell < volume_.hull_rays.size()) {
             for (size_t i = 0; i < std::min<size_t>(probes_.size(), 3); ++i) {
                 const glm::vec3 ray = volume_.hull_rays[hull_cell].rays[i];
-                const double length = kRayShare * volume_.info.extent;
+                const double length = kRayFraction * volume_.info.extent;
                 result.lines.push_back({position(i), position(i) + length * glm::dvec3(ray)});
             }
         }
         return result;
     }
 
-    void add_probes(const glm::dvec3& place, float radius, Gizmos& gizmos) const {
+    void add_probes(const glm::dvec3& selected, float radius, Gizmos& gizmos) const {
         GizmoLines weights{{}, kWeightStyle};
         for (size_t i = 0; i < probes_.size(); ++i) {
             const IrradianceSh& light =
                 volume_.irradiance.empty() ? volume_.info.ambient : volume_.irradiance[probes_[i]];
             gizmos.balls.push_back({position(i), radius, light});
-            weights.lines.push_back({place, position(i)});
+            weights.lines.push_back({selected, position(i)});
             char weight[16];
             std::snprintf(weight, sizeof weight, "%.2f",
                           static_cast<double>(location_.weights[static_cast<int>(i)]));
@@ -123,13 +124,13 @@ class SelectedCell {
     std::vector<uint32_t> probes_;
 };
 
-void add_selection(const ProbeVolumeView& volume, const glm::dvec3& place, float radius,
+void add_selection(const ProbeVolumeView& volume, const glm::dvec3& selected, float radius,
                    Gizmos& gizmos) {
-    const CellLocation location = locate(volume, glm::vec3(place));
+    const CellLocation location = locate(volume, glm::vec3(selected));
     const SelectedCell cell(volume, location);
     gizmos.lines.push_back(cell.edges());
-    cell.add_probes(place, radius, gizmos);
-    gizmos.balls.push_back({place, 1.6f * radius, interpolate(volume, location).irradiance});
+    cell.add_probes(selected, radius, gizmos);
+    gizmos.balls.push_back({selected, 1.6f * radius, interpolate(volume, location).irradiance});
 }
 
 }  // namespace
@@ -142,7 +143,7 @@ Gizmos make_gizmos(const ProbeVolumeView& volume, std::span<const Lppv> proxies,
     const Wireframe wireframe = needs_wireframe ? make_wireframe(volume) : Wireframe{};
     const float radius = settings.ball_radius > 0.0f
                              ? settings.ball_radius
-                             : static_cast<float>(kBallShare * probe_spacing(wireframe));
+                             : static_cast<float>(kBallFraction * probe_spacing(wireframe));
     if (settings.has_cells) {
         gizmos.lines.push_back({lines(wireframe, wireframe.inner_edges), kInnerStyle});
         gizmos.lines.push_back({lines(wireframe, wireframe.hull_edges), kHullStyle});

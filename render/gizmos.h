@@ -15,37 +15,39 @@
 
 namespace tetralight {
 
-/// What a picture shows of a volume beside its light.
+/// What a picture shows of a volume in addition to its light.
 struct GizmoSettings {
-    /// The edges of tetrahedra, and in another colour those of the hull.
+    /// The edges of tetrahedra, and the edges of the hull in another colour.
     bool has_cells = false;
     /// Probes as balls.
     bool has_probes = false;
-    /// The points of proxy volumes as balls.
+    /// The grid points of proxy volumes as balls.
     bool has_proxies = false;
-    /// A place: its cell, the cell's probes with their weights, and the light that they give.
+    /// A position: shows its cell, the cell's probes with their weights, and the interpolated
+    /// light.
     std::optional<glm::dvec3> selection = std::nullopt;
     /// What the balls of probes show.
     ProbeColor probe_color = ProbeColor::Light;
-    /// Of balls, metres; 0 = from the spacing of the probes or points.
+    /// Radius of balls, metres; 0 = from the spacing of probes or grid points.
     float ball_radius = 0.0f;
 };
 
-/// Lines of one style, and text, to be drawn over a picture.
+/// Lines of one style, drawn over a picture.
 struct GizmoLines {
     std::vector<LineSegment> lines;
     LineStyle style;
 };
 
+/// Text beside a position, drawn over a picture.
 struct GizmoLabel {
     glm::dvec3 position{0.0};
     std::string text;
 };
 
 struct Gizmos {
-    /// Stand among the surfaces.
+    /// Balls that are part of the scene: surfaces hide them.
     std::vector<LightBall> balls;
-    /// Those of probes that show health instead, one a probe: drawn over the picture.
+    /// Balls that show the health of probes, one a probe, drawn over the picture.
     std::vector<LightBall> health_balls;
     std::vector<GizmoLines> lines;
     std::vector<GizmoLabel> labels;

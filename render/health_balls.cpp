@@ -15,13 +15,13 @@ constexpr glm::vec3 kFair(0.97f, 0.80f, 0.22f);
 constexpr glm::vec3 kGood(0.08f, 0.58f, 0.66f);
 constexpr glm::vec3 kUnknown(0.6f);
 
-/// 0 = bad, 1/2 = fair, 1 = good.
-glm::vec3 graded(float grade) {
+/// Colour of a grade: 0 = bad, 1/2 = fair, 1 = good.
+glm::vec3 color_of_grade(float grade) {
     const float t = 2.0f * std::clamp(grade, 0.0f, 1.0f);
     return t < 1.0f ? glm::mix(kBad, kFair, t) : glm::mix(kFair, kGood, t - 1.0f);
 }
 
-/// 0 = bad, 1/2 = fair, 1 = good; none where the volume does not say.
+/// 0 = bad, 1/2 = fair, 1 = good; empty if the volume does not store the quantity.
 std::optional<float> grade(const ProbeVolumeView& volume, uint32_t probe, ProbeColor quantity) {
     constexpr float kFairValidity = 0.75f;
     if (quantity == ProbeColor::Validity) {
@@ -43,13 +43,13 @@ uint8_t blended(uint8_t below, float above, float coverage) {
 
 glm::vec3 health_color(const ProbeVolumeView& volume, uint32_t probe, ProbeColor quantity) {
     const auto known = grade(volume, probe, quantity);
-    return known ? graded(*known) : kUnknown;
+    return known ? color_of_grade(*known) : kUnknown;
 }
 
 void draw_health_balls(Image8& image, const Camera& camera, const RenderSettings& settings,
                        const HidingDistance& surfaces, const LightBalls& balls,
                        const ProbeVolumeView& volume, ProbeColor quantity) {
-    // Probes that are less than fair stand in walls mostly: they show through.
+    // Most probes of poor health are inside walls, where a surface would hide them.
     const auto opacity = [&](const LightBalls::Hit& ball, const glm::dvec3& origin,
                              glm::vec3 direction) {
         if (ball.distance < surfaces(origin, direction)) return 1.0f;

@@ -15,21 +15,21 @@ namespace tetralight {
 /// What the balls of probes show.
 enum class ProbeColor : uint8_t {
     Light,     ///< white balls, lit by what the probe holds
-    Validity,  ///< red = 0, yellow = 0.75, below which a probe lies in geometry, teal = 1
-    Error,     ///< relative standard error: teal = 0.1 %, yellow = 1 %, red = 10 %; grey: not known
+    Validity,  ///< red = 0, yellow = 0.75 (below: the probe is in geometry), teal = 1
+    Error,     ///< relative standard error: teal = 0.1 %, yellow = 1 %, red = 10 %; grey: unknown
 };
 
-/// Colour of a probe's health as an sRGB display shows it, 0 to 1. Precondition: not `Light`.
+/// Colour of a probe's health, sRGB-encoded, 0 to 1. Precondition: `quantity` is not `Light`.
 [[nodiscard]] glm::vec3 health_color(const ProbeVolumeView& volume, uint32_t probe,
                                      ProbeColor quantity);
 
 /// Distance to the first surface that hides balls, from a world position in a unit direction;
-/// infinite: there is none.
+/// infinite if there is none.
 using HidingDistance = std::function<float(const glm::dvec3& origin, glm::vec3 direction)>;
 
-/// Draws balls, one a probe of the volume, over a developed picture that the camera took, so that
-/// their colours mean the same in every exposure. Those of less than fair health show faintly
-/// through what hides them.
+/// Draws balls, one a probe of the volume, over a developed picture from the same camera, so that
+/// their colours do not depend on the exposure. Balls of poor health (validity below 0.75, error
+/// above 1 %) are drawn at half opacity where a surface hides them.
 void draw_health_balls(Image8& image, const Camera& camera, const RenderSettings& settings,
                        const HidingDistance& surfaces, const LightBalls& balls,
                        const ProbeVolumeView& volume, ProbeColor quantity);

@@ -71,7 +71,7 @@ double Projection::depth(glm::vec3 direction, double distance) const {
 }
 
 Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_radians) {
-    // Points that double can hardly part give no direction: look along -Z then.
+    // Points that are too close in double precision give no direction: look along -Z.
     const glm::dvec3 offset = eye - target;
     const double distance = glm::length(offset);
     const glm::dvec3 back = distance > 1e-100 ? offset / distance : glm::dvec3(0.0, 0.0, 1.0);

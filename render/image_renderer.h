@@ -10,27 +10,26 @@
 
 namespace tetralight {
 
-/// A camera at `eye` that looks at `target`, with world Y up. Where both are one point it looks
+/// A camera at `eye` that looks at `target`, with world Y up. If both are the same point it looks
 /// along -Z.
 [[nodiscard]] Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_radians);
 
-/// Where the world is seen in a picture: a pinhole camera with square pixels. Pixels count from the
-/// upper left corner of the picture; the middle of the first pixel is (0.5, 0.5).
+/// Projection of a pinhole camera with square pixels. Picture coordinates are pixels right and down
+/// from the upper left corner; the center of the first pixel is (0.5, 0.5).
 class Projection {
   public:
     Projection(const Camera& camera, uint32_t width, uint32_t height);
 
-    /// Unit world direction through a place in the picture.
+    /// Unit world direction through a point of the picture.
     [[nodiscard]] glm::vec3 direction(double x, double y) const;
 
-    /// Right, up and back from the eye.
+    /// View space: right, up and back from the eye.
     [[nodiscard]] glm::dvec3 view_from_world(const glm::dvec3& position) const;
 
-    /// Pixels right and down of what lies in front of the eye, and its depth: -z.
-    /// Precondition: z < 0.
+    /// Picture coordinates and depth (-z) of a position in view space. Precondition: z < 0.
     [[nodiscard]] glm::dvec3 picture_from_view(const glm::dvec3& position) const;
 
-    /// Depth of what is seen in a unit direction at a distance.
+    /// Depth of a point at a distance from the eye in a unit direction.
     [[nodiscard]] double depth(glm::vec3 direction, double distance) const;
 
   private:
@@ -43,25 +42,26 @@ class Projection {
 struct RenderSettings {
     uint32_t width = 960;
     uint32_t height = 540;
-    /// Camera rays a pixel, along each axis.
+    /// Camera rays a pixel along each axis: the square of it in all.
     uint32_t samples_per_axis = 4;
-    /// Factor before tone mapping; 0 = so that the picture's log-average luminance becomes 0.18.
+    /// Factor before tone mapping; 0 = automatic (`automatic_exposure`).
     float exposure = 0.0f;
-    /// 0 = all.
+    /// Number of threads; 0 = one a core.
     uint32_t thread_count = 0;
 };
 
 /// Radiance seen from a world position in a unit direction. Called from many threads.
 using TraceView = std::function<glm::vec3(const glm::dvec3& origin, glm::vec3 direction)>;
 
-/// Averages the view's radiance over each pixel, by rays on a regular sub-pixel grid.
+/// Averages radiance over each pixel, by rays on a regular grid in the pixel.
 [[nodiscard]] ImageF render_view(const Camera& camera, const RenderSettings& settings,
                                  const TraceView& trace);
 
-/// The exposure that brings the log-average luminance to middle grey, 0.18.
+/// The exposure that brings the log-average luminance to middle grey, 0.18 (Reinhard et al. 2002,
+/// equation 1); 1 for a black picture.
 [[nodiscard]] float automatic_exposure(const ImageF& radiance);
 
-/// Exposes, tone-maps (Khronos PBR Neutral) and encodes as sRGB.
+/// Exposes, tone-maps (Khronos PBR Neutral) and encodes as sRGB. An exposure of 0 is automatic.
 [[nodiscard]] Image8 develop(const ImageF& radiance, float exposure);
 
 }  // namespace tetralight

@@ -14,17 +14,17 @@
 
 namespace tetralight {
 
-/// A white ball that shows some light: of a probe, for example.
+/// A white, diffuse ball lit by given light, for example by that of a probe.
 struct LightBall {
     glm::dvec3 center{0.0};
     float radius = 0.0f;
     IrradianceSh light;
 };
 
-/// Balls for rays.
+/// Balls that rays can hit.
 class LightBalls {
   public:
-    /// Error: not enough memory.
+    /// Returns out_of_resources if memory is short.
     [[nodiscard]] static Result<LightBalls> make(std::span<const LightBall> balls);
 
     struct Hit {
@@ -36,7 +36,7 @@ class LightBalls {
     /// The first ball that a ray from a world position in a unit direction hits.
     [[nodiscard]] std::optional<Hit> find(const glm::dvec3& origin, glm::vec3 direction) const;
 
-    /// Its radiance.
+    /// Radiance and distance of the first ball that a ray hits; empty if it hits none.
     [[nodiscard]] std::optional<SceneShader::Shaded> shade(const glm::dvec3& origin,
                                                            glm::vec3 direction) const;
 

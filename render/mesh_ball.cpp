@@ -24,7 +24,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Fully saturated to pale: h, s in [0, 1), value 0.9.
+/// An RGB colour of value 0.9 from hue and saturation in [0, 1).
 glm::vec3 color_from_hue(float hue, float saturation) {
     glm::vec3 color;
     for (int i = 0; i < 3; ++i) {
@@ -35,7 +35,7 @@ glm::vec3 color_from_hue(float hue, float saturation) {
     return color;
 }
 
-/// The spheres with their light, ready for rays. Space: relative to the first sphere.
+/// The spheres with their light, as an Embree scene relative to the first sphere.
 class LitBall {
   public:
     LitBall(std::span<const BallInstance> instances, const BallLighting& lighting,
@@ -56,7 +56,7 @@ class LitBall {
         return caster_.commit();
     }
 
-    /// One batch call for all instances.
+    /// Queries the light of all instances in one batch.
     Status fetch_light(const ProbeVolumeView& volume, MeshBallPicture& picture) {
         std::vector<glm::vec3> positions;
         for (const BallInstance& instance : instances_) {
@@ -110,39 +110,39 @@ class LitBall {
             light = pack_sh(sampled.irradiance);
             occlusion = sampled.occlusion;
         }
-        const auto mirrored = [&](glm::vec3 to_light, glm::vec3 irradiance) {
+        const auto specular = [&](glm::vec3 to_light, glm::vec3 irradiance) {
             if (lighting_.specular == Specular::Off) return glm::vec3(0.0f);
             return irradiance *
                    specular_reflection(point.normal, to_light, point.to_eye, f0, roughness);
         };
         const glm::vec3 dominant = dominant_direction(light);
         glm::vec3 sum = shade_diffuse(albedo, light, point.normal, glm::vec3(0.0f)) +
-                        mirrored(dominant, dominant_irradiance(light, dominant));
+                        specular(dominant, dominant_irradiance(light, dominant));
         for (const RuntimeLight& runtime : direct_lights_) {
             const Illumination arriving = illuminate(runtime.light, glm::vec3(point.position));
-            const float share = visibility(runtime, arriving, occlusion, point);
-            if (share == 0.0f) continue;
-            sum += share * (albedo * direct_light(arriving, point.normal) +
-                            mirrored(arriving.to_light, arriving.irradiance));
+            const float visible = visibility(runtime, arriving, occlusion, point);
+            if (visible == 0.0f) continue;
+            sum += visible * (albedo * direct_light(arriving, point.normal) +
+                              specular(arriving.to_light, arriving.irradiance));
         }
         return sum;
     }
 
-    /// Shadows of the scene come from the probes where they hold those of a light, else from rays;
-    /// those of spheres and of what moves in the scene from rays.
+    /// The visible fraction of a light. The static scene's shadow comes from the probes if they
+    /// store the occlusion of the light; all other shadows are traced.
     [[nodiscard]] float visibility(const RuntimeLight& runtime, const Illumination& arriving,
                                    const glm::vec4& occlusion, const Point& point) const {
-        const float share = runtime.visibility(occlusion);
+        const float visible = runtime.visibility(occlusion);
         const bool is_lit = glm::dot(point.normal, arriving.to_light) > 0.0f &&
                             arriving.irradiance != glm::vec3(0.0f);
-        if (share == 0.0f || !is_lit) return 0.0f;
+        if (visible == 0.0f || !is_lit) return 0.0f;
         const auto casters =
             runtime.channel == kNoIndex ? SceneShader::Casters::All : SceneShader::Casters::Moving;
         const bool is_shadowed =
             occluded(point.position, arriving.to_light, arriving.distance) ||
             (scene_ != nullptr &&
              scene_->occluded(point.position, arriving.to_light, arriving.distance, casters));
-        return is_shadowed ? 0.0f : share;
+        return is_shadowed ? 0.0f : visible;
     }
 
     std::span<const BallInstance> instances_;
@@ -186,7 +186,7 @@ BallTurn::BallTurn(const glm::dvec3& center, double angle_radians)
 
 Result<Lppv> make_ball_proxy(const MeshBallSettings& settings, const ProbeVolumeView& volume) {
     constexpr uint32_t kPoints = 17;
-    // Spheres reach beyond the ball that their centres fill.
+    // The ball holds the centers of the spheres; their surfaces reach farther out.
     const double reach = settings.radius * (1.0 + 1.5 * settings.instance_size);
     LppvSettings grid_settings;
     grid_settings.bounds = LppvBounds::Custom;

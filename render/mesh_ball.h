@@ -14,15 +14,16 @@
 
 namespace tetralight {
 
+/// A ball that is filled with spheres.
 struct MeshBallSettings {
     uint32_t instance_count = 1023;
-    /// Of the ball that the instances fill, world space.
+    /// Center of the ball that the instances fill, world space.
     glm::dvec3 center{0.0};
     double radius = 5.0;
-    /// Radius of an instance as a share of the ball's: from half of this to one and a half of it.
+    /// Mean radius of an instance as a fraction of the ball's radius; radii vary by ±50 %.
     double instance_size = 0.06;
     uint64_t seed = 0;
-    /// White and rough instead of colours and gloss: shows the light alone.
+    /// White and rough instead of coloured and glossy, so that only the light is seen.
     bool is_plain = false;
 };
 
@@ -37,11 +38,11 @@ struct BallInstance {
     bool operator==(const BallInstance&) const = default;
 };
 
-/// Spheres with random places, sizes, colours and gloss in a ball, a quarter of them metal, unless
-/// they are plain; the same for the same settings.
+/// Spheres with random positions, sizes, colours and smoothness in a ball, a quarter of them metal
+/// (unless `is_plain`). Equal settings give equal spheres.
 [[nodiscard]] std::vector<BallInstance> make_mesh_ball(const MeshBallSettings& settings);
 
-/// A turn about the vertical axis through a place.
+/// A rotation about the vertical axis through a center.
 class BallTurn {
   public:
     BallTurn(const glm::dvec3& center, double angle_radians);
@@ -57,39 +58,40 @@ class BallTurn {
     double sine_;
 };
 
-/// Where the spheres take their probe light from.
+/// Source of the spheres' probe light.
 enum class BallLight : uint8_t {
-    Probes,       ///< one batch query for all, each from its centre
-    ProxyVolume,  ///< a grid around the ball, at each point of each sphere
-    Off,          ///< nowhere
+    Probes,       ///< one batch query for all centers
+    ProxyVolume,  ///< a grid around the ball, sampled at each point of each sphere
+    Off,          ///< none
 };
 
-/// A grid of light around the ball. Error: its grid's, for a ball without size.
+/// A grid of light around the ball. Returns invalid_argument if the ball has no size.
 [[nodiscard]] Result<Lppv> make_ball_proxy(const MeshBallSettings& settings,
                                            const ProbeVolumeView& volume);
 
 enum class Specular : bool { Off, On };
 
-/// What lights the spheres.
+/// What lights the spheres, and how they reflect it.
 struct BallLighting {
     BallLight light = BallLight::Probes;
-    /// Whether they mirror the lights, and of the probes' light its dominant direction.
+    /// On: spheres have highlights of lights and of the dominant direction of the probe light.
     Specular specular = Specular::Off;
-    /// With `ProxyVolume`.
+    /// Needed for `BallLight::ProxyVolume`.
     const Lppv* proxy = nullptr;
 };
 
+/// Radiance, and what the query cost.
 struct MeshBallPicture {
     ImageF image;
-    /// Time of the one batch call that fetched the light of all instances, packed for shading.
+    /// Seconds of the batch query for all instances, including the packing for shading.
     double query_seconds = 0.0;
 };
 
 /// Lights all instances by one batch query, or by a grid around them, and renders them: diffuse and
-/// mirrored probe light, plus the direct term of the volume's lights that are not `Baked`, with
-/// shadow rays among the spheres and into the scene; where probes hold the occlusion of a light,
-/// that of each instance stands for the shadow of the static scene. `scene` may be null: then the
-/// ball hangs in the sky.
+/// specular probe light, plus the direct term of the volume's lights that are not `Baked`, with
+/// shadow rays among the spheres and into the scene. If probes store the occlusion of a light, that
+/// of each instance replaces the shadow of the static scene. If `scene` is null, only the spheres
+/// and the sky are drawn.
 [[nodiscard]] Result<MeshBallPicture> render_mesh_ball(
     std::span<const BallInstance> instances, const BallLighting& lighting, const SceneShader* scene,
     const ProbeVolumeView& volume, const Camera& camera, const RenderSettings& settings);

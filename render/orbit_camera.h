@@ -7,16 +7,16 @@
 
 namespace tetralight {
 
-/// A camera that turns around a place.
+/// A camera that orbits a target.
 class OrbitCamera {
   public:
-    /// Begins where `start` stands.
+    /// Starts at the position of `start`.
     OrbitCamera(const Camera& start, const glm::dvec3& target);
 
-    /// Turns about the vertical axis and up or down, short of the poles.
+    /// Rotates about the vertical axis and up or down, not quite to the poles.
     void turn(double yaw_radians, double pitch_radians);
 
-    /// Goes nearer (below 1) or farther away.
+    /// Multiplies the distance to the target.
     void zoom(double factor);
 
     [[nodiscard]] Camera camera() const;

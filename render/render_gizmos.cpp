@@ -13,22 +13,22 @@ namespace {
 
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
-/// What a depth image knows of distances along rays from its camera.
-class SeenDistance {
+/// Distance along a ray from the camera of a depth image, looked up in that image.
+class DepthImageDistance {
   public:
-    SeenDistance(const DepthImage& depth, const Camera& camera)
+    DepthImageDistance(const DepthImage& depth, const Camera& camera)
         : depth_(depth), projection_(camera, depth.width, depth.height) {}
 
     float operator()(const glm::dvec3& origin, glm::vec3 direction) const {
         const glm::dvec3 view = projection_.view_from_world(origin + glm::dvec3(direction));
-        const glm::dvec3 place = projection_.picture_from_view(view);
+        const glm::dvec3 pixel = projection_.picture_from_view(view);
         const auto x =
-            static_cast<uint32_t>(std::clamp(2.0 * place.x, 0.0, 2.0 * depth_.width - 1));
+            static_cast<uint32_t>(std::clamp(2.0 * pixel.x, 0.0, 2.0 * depth_.width - 1));
         const auto y =
-            static_cast<uint32_t>(std::clamp(2.0 * place.y, 0.0, 2.0 * depth_.height - 1));
+            static_cast<uint32_t>(std::clamp(2.0 * pixel.y, 0.0, 2.0 * depth_.height - 1));
         const auto& quarters = depth_.depths[size_t{y / 2} * depth_.width + x / 2];
-        const float ahead = quarters[y % 2 * 2 + x % 2];
-        return ahead / static_cast<float>(projection_.depth(direction, 1.0));
+        const float depth = quarters[y % 2 * 2 + x % 2];
+        return depth / static_cast<float>(projection_.depth(direction, 1.0));
     }
 
   private:
@@ -41,8 +41,8 @@ void draw_labels(Image8& image, const Camera& camera, std::span<const GizmoLabel
     for (const GizmoLabel& label : labels) {
         const glm::dvec3 view = projection.view_from_world(label.position);
         if (!(view.z < 0.0)) continue;
-        const glm::dvec3 place = projection.picture_from_view(view);
-        draw_text(image, static_cast<float>(place.x) + 10.0f, static_cast<float>(place.y) - 8.0f,
+        const glm::dvec3 pixel = projection.picture_from_view(view);
+        draw_text(image, static_cast<float>(pixel.x) + 10.0f, static_cast<float>(pixel.y) - 8.0f,
                   label.text);
     }
 }
@@ -88,8 +88,8 @@ Result<Image8> render_gizmos(const PictureSource& source, const ProbeVolumeView&
     if (!gizmos.health_balls.empty()) {
         const auto balls = LightBalls::make(gizmos.health_balls);
         if (!balls) return balls.error();
-        draw_health_balls(image, camera, settings, SeenDistance(*depth, camera), *balls, volume,
-                          probe_color);
+        draw_health_balls(image, camera, settings, DepthImageDistance(*depth, camera), *balls,
+                          volume, probe_color);
     }
     for (const GizmoLines& group : gizmos.lines) {
         draw_lines(image, *depth, camera, group.lines, group.style);

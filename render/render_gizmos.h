@@ -12,7 +12,7 @@
 
 namespace tetralight {
 
-/// What draws a scene with balls in it: rays, or OpenGL (render/gl/gl_pictures.h).
+/// A renderer of a scene with balls in it: ray tracing, or OpenGL (render/gl/gl_pictures.h).
 struct PictureSource {
     template <class Image>
     using Draw = std::function<Result<Image>(const Camera&, const RenderSettings&,
@@ -22,11 +22,11 @@ struct PictureSource {
     Draw<DepthImage> depth;
 };
 
-/// Draws by rays. Keeps references.
+/// Renders by ray tracing. Keeps references to both arguments.
 [[nodiscard]] PictureSource ray_traced_pictures(const SceneShader& shader,
                                                 const ProbeVolumeView& volume);
 
-/// Draws and develops a picture with gizmos; lines behind a surface are faint.
+/// Renders and develops a picture with gizmos. Lines behind a surface are drawn faintly.
 [[nodiscard]] Result<Image8> render_gizmos(const PictureSource& source,
                                            const ProbeVolumeView& volume, const Camera& camera,
                                            const RenderSettings& settings, const Gizmos& gizmos,

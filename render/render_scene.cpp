@@ -12,7 +12,7 @@
 namespace tetralight {
 namespace {
 
-/// A ray through more back faces than this is stuck.
+/// Limit of back faces that a ray passes, so that a ray that is stuck ends.
 constexpr int kMaxCulledFaces = 64;
 
 PackedSh light_at(const ProbeVolumeView& volume, const glm::dvec3& position) {
@@ -102,10 +102,10 @@ std::optional<Surface> SceneShader::first_front_face(glm::vec3 origin, glm::vec3
 
 std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
                                                       glm::vec3 direction) const {
-    const glm::vec3 traced_origin = traced_.render_from_world(origin);
-    const auto surface = first_front_face(traced_origin, direction);
+    const glm::vec3 render_origin = traced_.render_from_world(origin);
+    const auto surface = first_front_face(render_origin, direction);
     if (!surface) return std::nullopt;
-    const float distance = glm::distance(traced_origin, surface->position);
+    const float distance = glm::distance(render_origin, surface->position);
     const glm::vec3 reflected = shade_diffuse(surface->albedo, probe_light(*surface),
                                               surface->shading_normal, direct_term(*surface));
     const uint32_t material = scene_->meshes[scene_->instances[surface->instance].mesh].material;
@@ -113,15 +113,15 @@ std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
 }
 
 std::optional<float> SceneShader::distance(const glm::dvec3& origin, glm::vec3 direction) const {
-    const glm::vec3 traced_origin = traced_.render_from_world(origin);
-    const auto surface = first_front_face(traced_origin, direction);
+    const glm::vec3 render_origin = traced_.render_from_world(origin);
+    const auto surface = first_front_face(render_origin, direction);
     if (!surface) return std::nullopt;
-    return glm::distance(traced_origin, surface->position);
+    return glm::distance(render_origin, surface->position);
 }
 
 bool SceneShader::occluded(const glm::dvec3& origin, glm::vec3 direction, float distance,
-                           Casters who) const {
-    const TraceScene& traced = casters(who);
+                           Casters objects) const {
+    const TraceScene& traced = casters(objects);
     return traced.occluded({traced.render_from_world(origin), direction, distance});
 }
 

@@ -15,42 +15,43 @@
 
 namespace tetralight {
 
-/// Shades a scene with a volume's light: what an engine would show with this runtime. Static
-/// surfaces take the probe light of each point, things that move (`contributes_gi` false) that of
-/// their bounds' centre, or of a proxy volume around them where they ask for one; the volume's
-/// lights that are not `Baked` add their direct term with shadow rays. Where probes hold the
-/// occlusion of a light, it stands for the shadows of static things on moving ones, and only moving
-/// things are asked by rays. Lights, and emission that the bake saw, are dimmed as the volume's
-/// layers are.
+/// Shades a scene with a volume's light, as an engine would with this runtime.
+/// - Static surfaces query the probes at each point. Moving objects (`contributes_gi` false) query
+///   once, at the center of their bounds, or sample a proxy volume if their node asks for one.
+/// - Lights of the volume that are not `Baked` add their direct term with shadow rays. If probes
+///   store the occlusion of a light, it replaces the shadows that static objects cast on moving
+///   ones, and shadow rays test moving objects only.
+/// - Lights and baked emission are scaled by the weights of the volume's layers.
 class SceneShader {
   public:
-    /// Keeps references. Error: not enough memory, or a proxy volume that cannot be made.
+    /// Keeps references. Returns out_of_resources if memory is short, and the errors of proxy
+    /// volumes.
     [[nodiscard]] static Result<SceneShader> make(const Scene& scene, const ProbeVolumeView& volume,
                                                   ProbeLight probes = ProbeLight::AsTheScene);
 
-    /// The same with light that is there. Error: not enough memory.
+    /// The same with given light. Returns out_of_resources if memory is short.
     [[nodiscard]] static Result<SceneShader> make(const Scene& scene, const ProbeVolumeView& volume,
                                                   SceneLight light);
 
     [[nodiscard]] std::span<const Lppv> proxy_volumes() const { return light_.proxy_volumes; }
 
-    /// Radiance that leaves the first surface towards the ray's origin; none when nothing is hit.
-    /// Also gives the distance.
+    /// A shaded point.
     struct Shaded {
-        glm::vec3 radiance{0.0f};
+        glm::vec3 radiance{0.0f};  ///< towards the origin of the ray
         float distance = 0.0f;
     };
 
+    /// Shades the first surface that a ray hits; empty if it hits none.
     [[nodiscard]] std::optional<Shaded> shade(const glm::dvec3& origin, glm::vec3 direction) const;
 
-    /// Distance to what `shade` would shade.
+    /// Distance to the point that `shade` would shade.
     [[nodiscard]] std::optional<float> distance(const glm::dvec3& origin,
                                                 glm::vec3 direction) const;
 
-    /// What casts a shadow.
+    /// Which objects cast a shadow.
     enum class Casters : bool { All, Moving };
 
-    /// Whether the scene blocks the way from a world position.
+    /// True if the scene blocks a ray from a world position within a distance.
     [[nodiscard]] bool occluded(const glm::dvec3& origin, glm::vec3 direction, float distance,
                                 Casters casters = Casters::All) const;
 
@@ -70,15 +71,15 @@ class SceneShader {
 
     const Scene* scene_;
     ProbeVolumeView volume_;
-    SceneLight light_;  // its lights in render space
+    SceneLight light_;  // lights in render space
     TraceScene traced_;
     TraceScene moving_;
 };
 
-/// Light of the sky in a direction, as the volume's ambient probe knows it.
+/// Radiance of the sky in a direction, from the volume's ambient probe.
 [[nodiscard]] glm::vec3 sky_radiance(const ProbeVolumeView& volume, glm::vec3 direction);
 
-/// Renders the scene, with the sky behind it.
+/// Renders the scene in front of the sky.
 [[nodiscard]] Result<ImageF> render_scene(const Scene& scene, const ProbeVolumeView& volume,
                                           const Camera& camera, const RenderSettings& settings);
 

@@ -12,11 +12,11 @@
 namespace tetralight {
 namespace {
 
-/// Grid points a metre of a proxy volume.
+/// Grid points a metre in proxy volumes.
 constexpr double kProxyDensity = 3.0;
 
-InstanceLight light_mover(const glm::dvec3& anchor, const ProbeVolumeView& volume,
-                          const std::vector<RuntimeLight>& lights) {
+InstanceLight light_of_moving(const glm::dvec3& anchor, const ProbeVolumeView& volume,
+                              const std::vector<RuntimeLight>& lights) {
     const CellLocation location = locate(volume, glm::vec3(anchor));
     InstanceLight result{
         ProbeUse::Given, pack_sh(interpolate(volume, location).irradiance), kNoIndex, {}};
@@ -26,7 +26,7 @@ InstanceLight light_mover(const glm::dvec3& anchor, const ProbeVolumeView& volum
     return result;
 }
 
-/// Where something that moves takes its light: its anchor, else the centre of its bounds.
+/// Where a moving object queries the probes: at its anchor, else at the center of its bounds.
 glm::dvec3 light_anchor(const Scene& scene, const MeshInstance& instance, const WorldBox& bounds) {
     if (instance.node == kNoIndex) return bounds.center();
     const uint32_t anchor = scene.nodes[instance.node].probe_anchor;
@@ -39,7 +39,7 @@ bool takes_no_probes(const Scene& scene, const MeshInstance& instance) {
            scene.nodes[instance.node].light_probes == LightProbeUsage::Off;
 }
 
-/// What the bake did not see shines as it does.
+/// Emission that was not baked keeps a weight of 1.
 std::vector<float> find_emission_weights(const Scene& scene, const ProbeVolumeView& volume) {
     std::vector<float> weights(scene.materials.size(), 1.0f);
     if (volume.layers.empty()) return weights;
@@ -79,14 +79,14 @@ Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& v
     SceneLight light;
     light.lights = runtime_lights(volume);
     light.emission_weights = find_emission_weights(scene, volume);
-    const bool has_movers = probes == ProbeLight::AsTheScene || probes == ProbeLight::OnePlace;
+    const bool lights_moving = probes == ProbeLight::AsTheScene || probes == ProbeLight::OnePlace;
     for (const MeshInstance& instance : scene.instances) {
         InstanceLight& lit = light.instances.emplace_back();
         const auto bounds = instance_bounds(scene, instance);
         if (!instance.contributes_gi && bounds) {
-            lit = light_mover(light_anchor(scene, instance, *bounds), volume, light.lights);
+            lit = light_of_moving(light_anchor(scene, instance, *bounds), volume, light.lights);
             if (takes_no_probes(scene, instance)) lit.light = pack_sh(volume.info.ambient);
-            if (!has_movers) lit.use = ProbeUse::Off;
+            if (!lights_moving) lit.use = ProbeUse::Off;
         }
         if (probes == ProbeLight::Nothing) lit.use = ProbeUse::Off;
         lit.visibility.resize(light.lights.size(), 1.0f);

@@ -11,53 +11,55 @@
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/runtime/runtime_lights.h>
 
-// How a volume lights a scene, as values: what every renderer of ours shades by, so that their
-// pictures agree. `SceneShader` traces rays with it, `runtime/gl` uploads it.
+// How a volume lights a scene, as values. All renderers of the tree shade by it, so that their
+// pictures agree: `SceneShader` traces rays with it, `render/gl` uploads it.
 
 namespace tetralight {
 
-/// Who takes light from the probes.
+/// Which objects take light from the probes.
 enum class ProbeLight : uint8_t {
-    AsTheScene,  ///< everything; things that move as each asks: `SceneNode::light_probes`
-    OnePlace,    ///< everything; things that move all from the centre of their bounds
-    StillOnly,   ///< what stands still alone
-    Nothing,     ///< nothing: the lights' direct terms and emission are left
+    AsTheScene,  ///< all; moving objects as their node says (`SceneNode::light_probes`)
+    OnePlace,    ///< all; moving objects at the center of their bounds
+    StillOnly,   ///< static objects only
+    Nothing,     ///< none: direct light and emission remain
 };
 
-/// Where the surface of one instance takes its probe light from.
+/// How the surface of one instance takes light from the probes.
 enum class ProbeUse : uint32_t {
-    Off,          ///< none
-    Given,        ///< one for the whole instance
-    ProxyVolume,  ///< a grid around it
-    EachPoint,    ///< a query at each point of its surface
+    Off,          ///< not at all
+    Given,        ///< one value for the whole instance
+    ProxyVolume,  ///< from a grid around it
+    EachPoint,    ///< by a query at each point of its surface
 };
 
-/// Probe light of points of still surfaces is looked up this far off them, so that a wall takes
+/// Offset along the normal, metres, at which static surfaces query the probes, so that a wall takes
 /// less of the light behind it.
 inline constexpr float kProbeNormalBias = 0.4f;
 
 /// How one instance of the scene is lit.
 struct InstanceLight {
     ProbeUse use = ProbeUse::EachPoint;
-    /// With `Given`.
+    /// For `Given`.
     PackedSh light{};
-    /// With `ProxyVolume`: index into `SceneLight::proxy_volumes`.
+    /// For `ProxyVolume`: index into `SceneLight::proxy_volumes`.
     uint32_t proxy_volume = kNoIndex;
-    /// One a light: what the static scene lets through to this instance, if it moves; else 1.
+    /// One a light: the fraction that the static scene lets through to this instance if it moves;
+    /// else 1.
     std::vector<float> visibility;
 };
 
 struct SceneLight {
-    /// Those whose direct term renderers add, world space.
+    /// Lights whose direct term renderers add, world space.
     std::vector<RuntimeLight> lights;
-    /// One an instance of the scene.
+    /// One for each instance of the scene.
     std::vector<InstanceLight> instances;
     std::vector<Lppv> proxy_volumes;
-    /// One a material: emission that the bake saw is dimmed as the volume's layers are.
+    /// One for each material: the weight of the volume's layer that holds its emission; 1 if the
+    /// emission was not baked.
     std::vector<float> emission_weights;
 };
 
-/// Error: a proxy volume that cannot be made; it names the node.
+/// Returns the error of a proxy volume that cannot be made; its message names the node.
 [[nodiscard]] Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& volume,
                                                   ProbeLight probes);
 

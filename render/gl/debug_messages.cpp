@@ -26,7 +26,9 @@ DebugMessages::DebugMessages() : first_(std::make_unique<std::string>()) {
 Status DebugMessages::check() {
     const GLenum error = glGetError();
     if (first_->empty() && error == GL_NO_ERROR) return Ok{};
-    Error result{first_->empty() ? str_cat("OpenGL: error ", error) : "OpenGL: " + *first_};
+    const auto code =
+        error == GL_OUT_OF_MEMORY ? ErrorCode::OutOfResources : ErrorCode::Unsupported;
+    Error result{code, first_->empty() ? str_cat("OpenGL: error ", error) : "OpenGL: " + *first_};
     first_->clear();
     return result;
 }

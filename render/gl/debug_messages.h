@@ -8,12 +8,13 @@
 
 namespace tetralight {
 
-/// Listens to what the current context says of its errors. Not beyond the context.
+/// Collects the error messages of the current context. Must not outlive the context.
 class DebugMessages {
   public:
     DebugMessages();
 
-    /// Error: OpenGL complained since the last call; its own words, the first of them.
+    /// Returns the first error that the driver reported since the last call, with the driver's
+    /// text: out_of_resources if memory is short, else unsupported.
     [[nodiscard]] Status check();
 
   private:

@@ -26,8 +26,11 @@ Status check_size(const RenderSettings& settings, uint32_t pixels_per_axis) {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     const uint64_t largest = uint64_t{pixels_per_axis} * std::max(settings.width, settings.height);
     if (largest <= static_cast<uint64_t>(most)) return Ok{};
-    return Error{str_cat("OpenGL: the picture is larger than ", most, " pixels a side: ", largest,
-                         pixels_per_axis == 1 ? "" : " with those for its antialiasing")};
+    const bool is_wide = settings.width >= settings.height;
+    return Error{ErrorCode::InvalidArgument, is_wide ? "width" : "height",
+                 str_cat(is_wide ? settings.width : settings.height),
+                 str_cat("OpenGL: the picture is larger than ", most, " pixels a side: ", largest,
+                         pixels_per_axis == 1 ? "" : " including those for antialiasing")};
 }
 
 }  // namespace tetralight

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// OpenGL's functions and numbers.
+// Functions and constants of OpenGL, and owners of its objects.
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
@@ -10,8 +10,8 @@
 
 namespace tetralight {
 
-/// Sole owner of an OpenGL object, deleted by `Delete(name)`. A context must be current as long as
-/// it lives.
+/// Sole owner of an OpenGL object, which `Delete(name)` deletes. A context must be current during
+/// its lifetime.
 template <auto Delete>
 class GlObject {
   public:
@@ -30,7 +30,7 @@ class GlObject {
         if (name_ != 0) Delete(name_);
     }
 
-    /// OpenGL's name of the object; 0: none.
+    /// OpenGL's name of the object; 0 if there is none.
     [[nodiscard]] GLuint name() const noexcept { return name_; }
 
   private:
@@ -68,8 +68,8 @@ using GlVertexArray = GlObject<detail::delete_vertex_array>;
     return name;
 }
 
-/// A buffer that holds `bytes` of `data` and does not change; of one element where there is none,
-/// because OpenGL has no empty buffers.
+/// An immutable buffer with a copy of `elements`. If `elements` is empty it holds one default
+/// element, because OpenGL has no empty buffers.
 template <class Container>
 [[nodiscard]] GlBuffer make_gl_buffer(const Container& elements) {
     using Element = typename Container::value_type;

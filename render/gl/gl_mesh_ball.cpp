@@ -10,7 +10,7 @@
 namespace tetralight {
 namespace {
 
-/// Fewer triangles a sphere where there are many: never more than some millions in all.
+/// Fewer triangles for more spheres, at most about 6 million in all.
 uint32_t find_subdivisions(uint32_t count) {
     if (count <= 4'096) return 3;
     if (count <= 16'384) return 2;
@@ -30,7 +30,7 @@ Result<GlMeshBall> GlMeshBall::make(const MeshBallSettings& settings, const Scen
     const glm::dvec4 bounds(settings.center, reach);
     auto renderer =
         Renderer::make(scene, volume, scene_light,
-                       {.shadow_map_size = shadow_map_size, .crowd_bounds = {&bounds, 1}});
+                       {.shadow_map_size = shadow_map_size, .sphere_bounds = {&bounds, 1}});
     if (!renderer) return renderer.error();
     GlMeshBall ball(settings, std::move(*renderer), volume);
     ball.proxy_volume_ = index;
@@ -98,7 +98,7 @@ Status GlMeshBall::query_light(std::span<GlInstance> memory) {
     return Ok{};
 }
 
-SphereInstances GlMeshBall::crowd() {
+SphereInstances GlMeshBall::sphere_instances() {
     return {&buffer_, positions_.size(), subdivisions_,
             light_ == BallLight::ProxyVolume ? proxy_volume_ : kNoIndex};
 }

@@ -12,28 +12,28 @@
 namespace tetralight {
 
 /// The mesh ball in OpenGL: spheres in one instance buffer, into which one batch query writes their
-/// light. A context must be current as long as it lives.
+/// light. A context must be current during its lifetime.
 class GlMeshBall {
   public:
-    /// `scene_light` is of `scene`, which may be empty. Errors: the renderer's, and those of the
-    /// ball's proxy volume.
+    /// `scene_light` belongs to `scene`, which may be empty. Returns the errors of `Renderer::make`
+    /// and of the ball's proxy volume.
     [[nodiscard]] static Result<GlMeshBall> make(const MeshBallSettings& settings,
                                                  const Scene& scene, SceneLight scene_light,
                                                  const ProbeVolumeView& volume,
                                                  uint32_t shadow_map_size);
 
-    /// Turns the ball and lights it: transforms, and with `Probes` their light, in place. This is
-    /// all that the CPU does for a frame.
+    /// Rotates the ball and updates its light: writes transforms and, for `BallLight::Probes`,
+    /// light into the instance buffer. This is all the work of the CPU for a frame.
     [[nodiscard]] Status set_frame(double angle_radians, BallLight light, Specular specular);
 
-    /// Seconds of the last batch query, its packing included; 0: there was none.
+    /// Seconds of the last batch query including packing; 0 before the first.
     [[nodiscard]] double query_seconds() const noexcept { return query_seconds_; }
 
     [[nodiscard]] std::span<const glm::vec3> positions() const noexcept { return positions_; }
 
     [[nodiscard]] Renderer& renderer() noexcept { return renderer_; }
 
-    [[nodiscard]] SphereInstances crowd();
+    [[nodiscard]] SphereInstances sphere_instances();
 
   private:
     GlMeshBall(const MeshBallSettings& settings, Renderer renderer, const ProbeVolumeView& volume);
@@ -45,7 +45,7 @@ class GlMeshBall {
     Renderer renderer_;
     std::vector<BallInstance> instances_;
     std::vector<glm::vec3> positions_;
-    std::vector<uint32_t> cells_;  // where the last query found each
+    std::vector<uint32_t> cells_;  // cell of each instance in the last query
     InstanceBuffer buffer_;
     uint32_t subdivisions_ = 0;
     uint32_t proxy_volume_ = kNoIndex;

@@ -9,15 +9,16 @@ namespace {
 
 constexpr uint32_t kBallSubdivisions = 3;
 
-/// Draws the scene with balls by a member of the renderer.
+/// Renders the scene with balls by a member function of the renderer.
 template <class Image>
 Result<Image> draw(Renderer& renderer, std::span<const LightBall> balls,
                    Result<Image> (Renderer::*draw)(const Camera&, const RenderSettings&,
                                                    std::span<const SphereInstances>),
                    const Camera& camera, const RenderSettings& settings) {
     InstanceBuffer instances = make_light_balls(renderer, balls, kBallSubdivisions);
-    SphereInstances crowd{&instances, balls.size(), kBallSubdivisions, kNoIndex, CastsShadows::No};
-    return (renderer.*draw)(camera, settings, std::span(&crowd, 1));
+    SphereInstances spheres{&instances, balls.size(), kBallSubdivisions, kNoIndex,
+                            CastsShadows::No};
+    return (renderer.*draw)(camera, settings, std::span(&spheres, 1));
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ InstanceBuffer make_light_balls(const Renderer& renderer, std::span<const LightB
         const glm::dvec3 scale(double{balls[i].radius});
         const glm::dvec3 place = balls[i].center - renderer.origin();
         set_transform(instance, glm::scale(glm::translate(glm::dmat4(1.0), place), scale));
-        instance.color = glm::vec4(glm::vec3(1.0f / 0.96f), 1.0f);  // 4 % would be mirrored
+        instance.color = glm::vec4(glm::vec3(1.0f / 0.96f), 1.0f);  // diffuse albedo is 0.96 of it
         instance.factors = glm::vec4(0.0f);
         instance.use = ProbeUse::Given;
         instance.direct = DirectUse::None;

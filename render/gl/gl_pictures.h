@@ -10,19 +10,19 @@
 
 namespace tetralight {
 
-/// Pictures of a scene by OpenGL without a window.
+/// Renders pictures of a scene by OpenGL without a window.
 class GlPictures {
   public:
-    /// Errors: there is no OpenGL 4.5, and the driver's.
+    /// Returns unsupported if there is no OpenGL 4.5, and the errors of the driver.
     [[nodiscard]] static Result<GlPictures> make(const Scene& scene, const ProbeVolumeView& volume,
                                                  const SceneLight& light);
 
-    /// The same by a context that is current.
+    /// The same with a given context, which must be current.
     [[nodiscard]] static Result<GlPictures> make(OffscreenContext context, const Scene& scene,
                                                  const ProbeVolumeView& volume,
                                                  const SceneLight& light);
 
-    /// Of them; refers to this.
+    /// A source that refers to this object.
     [[nodiscard]] PictureSource source();
 
   private:
@@ -33,7 +33,7 @@ class GlPictures {
     Renderer renderer_;
 };
 
-/// Balls as a crowd that shows its light and nothing else.
+/// Instances of balls that are lit only by their own light.
 [[nodiscard]] InstanceBuffer make_light_balls(const Renderer& renderer,
                                               std::span<const LightBall> balls,
                                               uint32_t subdivisions);

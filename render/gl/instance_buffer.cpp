@@ -7,8 +7,8 @@
 namespace tetralight {
 namespace {
 
-/// Instances are this many to a step, so that ranges begin where OpenGL lets them: offsets are
-/// multiples of 256 at most.
+/// Ranges hold a multiple of this many instances, so that their offsets are multiples of 256, the
+/// strictest alignment that OpenGL allows drivers to require.
 constexpr size_t kStep = 8;
 static_assert(kStep * sizeof(GlInstance) % 256 == 0);
 

@@ -14,31 +14,30 @@
 
 namespace tetralight {
 
-/// What lights of the runtime shine on an instance.
+/// Which direct lights an instance takes.
 enum class DirectUse : uint32_t {
-    Still,   ///< all, with the shadows of everything
-    Moving,  ///< those that light moving things; static shadows from the probes where they have
-             ///< them
-    None,
+    Still,   ///< all lights, with the shadows of all objects
+    Moving,  ///< lights that light moving objects; static shadows from the probes if they have them
+    None,    ///< none
 };
 
 /// One instance as shaders read it (std430).
 struct GlInstance {
     /// Rows of the affine matrix to the renderer's space.
     glm::vec4 rows[3]{};
-    /// Times the material's base colour and alpha.
+    /// Multiplies the material's base colour and alpha.
     glm::vec4 color{1.0f};
-    /// x: times the material's metallic; y: times its roughness; z: 1 = it mirrors lights.
+    /// x multiplies the material's metallic, y its roughness; z: 1 = it has highlights.
     glm::vec4 factors{1.0f, 1.0f, 0.0f, 0.0f};
     ProbeUse use = ProbeUse::Off;
     DirectUse direct = DirectUse::Still;
-    /// Index of its material among the renderer's.
+    /// Index of its material in the renderer.
     uint32_t material = 0;
-    /// 1: its surface is round, and triangles are only near to it.
+    /// 1 = the surface is a sphere that the triangles approximate.
     uint32_t is_round = 0;
-    /// What the static scene lets through of each channel's light.
+    /// For each occlusion channel: the fraction of its light that the static scene lets through.
     glm::vec4 occlusion{1.0f};
-    /// With `ProbeUse::Given`.
+    /// For `ProbeUse::Given`.
     PackedSh light{};
 };
 
@@ -48,7 +47,7 @@ static_assert(offsetof(GlInstance, use) == 80 && offsetof(GlInstance, light) == 
 /// Sets `GlInstance::rows`.
 void set_transform(GlInstance& instance, const glm::dmat4& space_from_instance);
 
-/// Instances in memory that OpenGL reads: one batch query writes their light in place
+/// Instances in a persistently mapped buffer: one batch query writes their light in place
 /// (`pack_instances` with `strided`).
 class InstanceBuffer {
   public:
@@ -56,16 +55,16 @@ class InstanceBuffer {
 
     [[nodiscard]] size_t size() const noexcept { return instances_.size(); }
 
-    /// Waits until what was drawn no longer reads them. They may be written until the next drawing.
+    /// Waits until the GPU no longer reads the instances. They may be written until the next draw.
     [[nodiscard]] std::span<GlInstance> begin_write();
 
-    /// To be called after drawing with it.
+    /// Call after each draw that reads the buffer.
     void end_draw();
 
     /// Binds a range to a storage buffer binding.
     void bind(GLuint binding, size_t first, size_t count) const;
 
-    /// The most instances that one binding takes. Ranges may begin at its multiples.
+    /// The largest number of instances in one binding. Ranges may begin at its multiples.
     [[nodiscard]] size_t range_size() const noexcept { return range_size_; }
 
   private:

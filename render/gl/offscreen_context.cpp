@@ -13,7 +13,8 @@ namespace tetralight {
 namespace {
 
 Error egl_error(const char* what) {
-    return {str_cat("OpenGL: ", what, " failed (EGL error ", eglGetError(), ")")};
+    return {ErrorCode::Unsupported,
+            str_cat("OpenGL: ", what, " failed (EGL error ", eglGetError(), ")")};
 }
 
 EGLDisplay find_display() {

@@ -5,11 +5,12 @@
 
 namespace tetralight {
 
-/// An OpenGL 4.5 core context without a window, current on the thread that made it: EGL on Mesa's
-/// surfaceless platform, else on EGL's default display. Software rendering (llvmpipe) is enough.
+/// An OpenGL 4.5 core context without a window, current on the thread that created it. It uses EGL
+/// on Mesa's surfaceless platform if available, else on EGL's default display. Software rendering
+/// (llvmpipe) is enough.
 class OffscreenContext {
   public:
-    /// Errors say which step failed and EGL's number for it.
+    /// Returns unsupported with the step that failed and EGL's error number.
     [[nodiscard]] static Result<OffscreenContext> create();
 
     OffscreenContext(OffscreenContext&& other) noexcept;

@@ -15,7 +15,7 @@ void main() {
 }
 )";
 
-// The twin of runtime/tone_map.cpp and bake/image/srgb.cpp.
+// The same functions as in runtime/tone_map.cpp and bake/image/srgb.cpp.
 constexpr const char* kFragment = R"(
 layout(binding = 0) uniform sampler2D radiance;
 layout(location = 0) uniform float exposure;

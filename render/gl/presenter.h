@@ -10,11 +10,11 @@
 
 namespace tetralight {
 
-/// Shows a target in a framebuffer of 8 bits a channel as `develop` does: exposed, tone-mapped
-/// (Khronos PBR Neutral) and sRGB-encoded. A context must be current as long as it lives.
+/// Copies a target into a framebuffer of 8 bits a channel as `develop` does: exposed, tone-mapped
+/// (Khronos PBR Neutral) and sRGB-encoded. A context must be current during its lifetime.
 class Presenter {
   public:
-    /// Error: the driver's log.
+    /// Returns unsupported with the driver's log if a shader does not compile.
     [[nodiscard]] static Result<Presenter> make();
 
     /// Fills `width` × `height` pixels of a framebuffer (0: the window's) with the resolved

@@ -8,10 +8,10 @@
 
 namespace tetralight {
 
-/// A proxy volume as two 3D textures, seven slabs of light and one of occlusion, in full precision.
+/// A proxy volume as two 3D textures in full precision: seven slabs of light, and occlusion.
 class ProxyTextures {
   public:
-    /// `origin`: world position of the renderer's space.
+    /// `origin`: world position of the origin of render space.
     ProxyTextures(const Lppv& lppv, const glm::dvec3& origin);
 
     void bind(GLuint constants_binding, GLuint light_unit, GLuint occlusion_unit) const;

@@ -9,7 +9,7 @@
 
 namespace tetralight {
 
-/// Radiance in floats and a depth buffer, with samples that `resolve` averages.
+/// A framebuffer with float radiance, depth, and samples that `resolve` averages.
 class RenderTarget {
   public:
     RenderTarget(uint32_t width, uint32_t height, uint32_t sample_count);
@@ -18,8 +18,9 @@ class RenderTarget {
 
     [[nodiscard]] uint32_t height() const noexcept { return height_; }
 
-    /// Makes it what is drawn to.
+    /// Makes it the target of draw calls.
     void bind() const;
+
     /// Averages the samples into `radiance`.
     void resolve() const;
 
@@ -29,7 +30,7 @@ class RenderTarget {
     /// The resolved picture.
     [[nodiscard]] ImageF read() const;
 
-    /// The depth buffer, top row first. Precondition: one sample.
+    /// The depth buffer, top row first. Precondition: one sample a pixel.
     [[nodiscard]] std::vector<float> read_depth() const;
 
   private:

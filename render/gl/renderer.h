@@ -20,68 +20,68 @@
 #include <tetralight/render/image_renderer.h>
 #include <tetralight/render/scene_light.h>
 
-// A small forward renderer in OpenGL 4.5: what `SceneShader` shows, from the same `SceneLight`, so
-// that the pictures of both agree. A context must be current as long as it lives.
+// A small forward renderer in OpenGL 4.5. It shades by the same `SceneLight` as `SceneShader`, so
+// that the pictures of both agree. A context must be current during its lifetime.
 //
 //     const auto context = OffscreenContext::create();
 //     auto renderer = Renderer::make(scene, volume, *make_scene_light(scene, volume, {}));
-//     const auto radiance = renderer->render(camera, settings, {});  // then develop(*radiance,
-//     ...)
+//     const auto radiance = renderer->render(camera, settings, {});
+//     const Image8 picture = develop(*radiance, settings.exposure);
 
 namespace tetralight {
 
 enum class CastsShadows : bool { No, Yes };
 
-/// Spheres to draw with the scene: instances of a unit sphere.
+/// Spheres that are drawn with the scene: instances of a unit sphere.
 struct SphereInstances {
     InstanceBuffer* instances = nullptr;
-    /// The first of them, to be drawn.
+    /// Number of instances that are drawn, from the first.
     size_t count = 0;
-    /// 0 to 4: triangles of each are 20 · 4^subdivisions.
+    /// 0 to 4; a sphere has 20 · 4^subdivisions triangles.
     uint32_t subdivisions = 3;
-    /// Of those that are lit by a proxy volume: index into `SceneLight::proxy_volumes`.
+    /// For instances that are lit by a proxy volume: index into `SceneLight::proxy_volumes`.
     uint32_t proxy_volume = kNoIndex;
     CastsShadows casts_shadows = CastsShadows::Yes;
 };
 
 struct RendererSettings {
-    /// Texels of a shadow map along each side.
+    /// Width and height of a shadow map in texels.
     uint32_t shadow_map_size = 2048;
-    /// Spheres (middle and radius, world space) around all places that crowds reach, for shadows.
-    std::span<const glm::dvec4> crowd_bounds = {};
+    /// Spheres (xyz: center, w: radius, world space) that bound all `SphereInstances`, for shadows.
+    std::span<const glm::dvec4> sphere_bounds = {};
 };
 
 class Renderer {
   public:
-    /// `volume` and `scene` are copied to OpenGL. Errors: the driver's.
+    /// Copies `volume` and `scene` into OpenGL buffers. Returns the errors of the driver.
     [[nodiscard]] static Result<Renderer> make(const Scene& scene, const ProbeVolumeView& volume,
                                                const SceneLight& light,
                                                const RendererSettings& settings = {});
 
-    /// Radiance as `render_view` gives it. `samples_per_axis` 1 is one sample a pixel; else four
-    /// and more.
+    /// Radiance as from `render_view`. With `samples_per_axis` 1 there is one sample a pixel, else
+    /// four or more.
     [[nodiscard]] Result<ImageF> render(const Camera& camera, const RenderSettings& settings,
-                                        std::span<const SphereInstances> crowds);
+                                        std::span<const SphereInstances> spheres);
 
-    /// Depth as `render_depth` gives it.
+    /// Depth as from `render_depth`.
     [[nodiscard]] Result<DepthImage> depth(const Camera& camera, const RenderSettings& settings,
-                                           std::span<const SphereInstances> crowds);
+                                           std::span<const SphereInstances> spheres);
 
-    /// Draws a frame: shadows, surfaces, sky. `target` is resolved.
+    /// Draws a frame (shadow maps, surfaces, sky) and resolves `target`.
     [[nodiscard]] Status draw(const Camera& camera, const RenderTarget& target,
-                              std::span<const SphereInstances> crowds);
+                              std::span<const SphereInstances> spheres);
 
-    /// World position of the space that crowds' transforms lead to.
+    /// World position of the origin of render space, to which the transforms of instances lead.
     [[nodiscard]] const glm::dvec3& origin() const noexcept { return origin_; }
 
-    /// Material of a sphere's instances: white, rough, metallic 1, which the instance's factors
-    /// scale.
+    /// Index of the material of sphere instances: white, roughness 1, metallic 1, to be scaled by
+    /// the factors of each instance.
     [[nodiscard]] uint32_t sphere_material(uint32_t subdivisions) const {
         return meshes_.sphere(subdivisions);
     }
 
   private:
-    /// Instances of one mesh that follow each other, with one proxy volume.
+    /// Consecutive instances of one mesh and one proxy volume.
     struct Batch {
         uint32_t mesh = 0;
         uint32_t first = 0;
@@ -89,7 +89,7 @@ class Renderer {
         uint32_t proxy_volume = kNoIndex;
         bool is_mirrored = false;
         bool moves = false;
-        glm::vec3 middle{0.0f};
+        glm::vec3 center{0.0f};
     };
 
     enum class Pass : uint8_t { Depth, MaskedDepth, Lit, Blended };
@@ -98,12 +98,12 @@ class Renderer {
              const RendererSettings& settings, RendererShaders shaders, DebugMessages messages);
 
     void add_instances(const Scene& scene, const SceneLight& light);
-    void draw_shadows(std::span<const SphereInstances> crowds);
-    void draw_depth(const glm::mat4& clip_from_space, std::span<const SphereInstances> crowds);
-    void draw_surfaces(std::span<const SphereInstances> crowds);
+    void draw_shadows(std::span<const SphereInstances> spheres);
+    void draw_depth(const glm::mat4& clip_from_space, std::span<const SphereInstances> spheres);
+    void draw_surfaces(std::span<const SphereInstances> spheres);
     void draw_blended(const glm::vec3& eye);
     void draw_batch(const Batch& batch, Pass pass);
-    void draw_crowd(const SphereInstances& crowd, Pass pass);
+    void draw_spheres(const SphereInstances& group, Pass pass);
     void write_frame(const Camera& camera, const RenderTarget& target);
     [[nodiscard]] glm::mat4 clip_from_space(const Camera& camera, const RenderTarget& target) const;
 

@@ -6,7 +6,7 @@
 
 namespace tetralight {
 
-/// Bindings of what the renderer's shaders read, beside those of the volume (0 to 4).
+/// Bindings of the renderer's shaders, in addition to those of the volume (0 to 4).
 enum RendererBinding : uint32_t {
     kFrameBinding = 1,  // uniform blocks
     kProxyBinding = 2,
@@ -27,12 +27,12 @@ enum RendererUniform : int32_t { kClipFromSpace = 0, kFirstInstance = 1 };
 
 struct RendererShaders {
     ShaderProgram depth;         ///< opaque surfaces
-    ShaderProgram masked_depth;  ///< surfaces with holes; blended ones let a share through
+    ShaderProgram masked_depth;  ///< surfaces with holes; blended ones in shadow maps
     ShaderProgram lit;
     ShaderProgram sky;
 };
 
-/// Error: the driver's log.
+/// Returns unsupported with the driver's log if a shader does not compile.
 [[nodiscard]] Result<RendererShaders> make_renderer_shaders();
 
 }  // namespace tetralight

@@ -12,7 +12,7 @@ namespace {
 
 struct Vertex {
     glm::vec3 position{0.0f};
-    glm::vec3 normal{0.0f};  ///< 0: that of the triangle
+    glm::vec3 normal{0.0f};  ///< 0 = use the normal of the triangle
     glm::vec2 uvs[2]{};
     glm::vec4 color{1.0f};
 };
@@ -47,7 +47,7 @@ GlTexture make_texture(const Texture& texture, GLenum format) {
     return GlTexture(name);
 }
 
-/// Texture coordinates that the mesh has.
+/// The texture coordinate set of a texture, counted from 1; 0 if the mesh lacks it.
 uint32_t uv_set(const TextureUse& use, const Mesh& mesh) {
     return use.texture == kNoIndex || mesh.uvs[use.uv_set].empty() ? 0 : 1 + use.uv_set;
 }

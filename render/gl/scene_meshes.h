@@ -16,43 +16,43 @@ namespace tetralight {
 /// The material of one mesh as shaders read it (std430).
 struct GlMaterial {
     glm::vec4 base_color{1.0f};
-    glm::vec4 emission{0.0f};  ///< w: weight of what an unlit material shows
+    glm::vec4 emission{0.0f};  ///< w: weight of an unlit material's colour
     /// Metallic, roughness, alpha cutoff.
     glm::vec4 factors{1.0f, 1.0f, 0.5f, 0.0f};
-    /// Texture coordinate sets, counted from 1, of base colour, metallic-roughness and emission; 0:
-    /// no texture. The fourth: 1 = unlit.
+    /// xyz: texture coordinate sets of base colour, metallic-roughness and emission, counted from
+    /// 1; 0 = no texture. w: 1 = unlit.
     glm::uvec4 textures{0};
     /// Two rows of each texture's transform.
     glm::vec4 uv_rows[6]{};
-    /// Its `AlphaMode`.
+    /// x: its `AlphaMode`.
     glm::uvec4 alpha_mode{0};
 };
 
 static_assert(sizeof(GlMaterial) == 176 && std::is_trivially_copyable_v<GlMaterial>);
 
-/// A mesh among all vertices and indices.
+/// The range of a mesh in the vertex and index buffers.
 struct GlMesh {
     uint32_t first_index = 0;
     uint32_t index_count = 0;
     int32_t first_vertex = 0;
     AlphaMode alpha_mode = AlphaMode::Opaque;
     bool is_double_sided = false;
-    /// Base colour, metallic-roughness, emission; 0: none.
+    /// Textures of base colour, metallic-roughness and emission; 0 = none.
     std::array<GLuint, 3> textures{};
 };
 
-/// The meshes of a scene, their materials and textures, and spheres of each fineness.
+/// The meshes of a scene, their materials and textures, and spheres of each subdivision.
 class SceneMeshes {
   public:
     static constexpr uint32_t kSphereCount = 5;
 
-    /// `emission_weights`: one a material.
+    /// `emission_weights`: one for each material.
     SceneMeshes(const Scene& scene, std::span<const float> emission_weights);
 
-    /// Makes vertices, indices and materials what is drawn from.
+    /// Binds vertices, indices and materials for draw calls.
     void bind(GLuint material_binding) const;
 
-    /// One a mesh of the scene, then the spheres, coarse to fine.
+    /// The meshes of the scene, then the spheres, coarse to fine.
     [[nodiscard]] const GlMesh& mesh(size_t index) const { return meshes_[index]; }
 
     /// Index of a sphere's mesh and material.
@@ -64,7 +64,7 @@ class SceneMeshes {
     GLuint texture(const Scene& scene, const TextureUse& use, GLenum format);
 
     std::vector<GlMesh> meshes_;
-    /// By texture of the scene: as colour, as data.
+    /// For each texture of the scene: [0] decoded from sRGB, [1] as linear data.
     std::array<std::vector<GlTexture>, 2> textures_;
     GlVertexArray arrays_;
     GlBuffer vertices_, indices_, materials_;

@@ -27,7 +27,7 @@ std::string program_log(GLuint program) {
     return log;
 }
 
-/// Compiles a stage and attaches it; the program then keeps it.
+/// Compiles a stage and attaches it to the program, which keeps it.
 Status attach(GLuint program, const ShaderStage& stage) {
     const GLuint shader = glCreateShader(stage.stage);
     const char* text = stage.source.text.c_str();
@@ -39,7 +39,7 @@ Status attach(GLuint program, const ShaderStage& stage) {
     if (is_compiled) {
         glAttachShader(program, shader);
     } else {
-        status = Error{name_shader_lines(stage.source, shader_log(shader))};
+        status = Error{ErrorCode::Unsupported, name_shader_lines(stage.source, shader_log(shader))};
     }
     glDeleteShader(shader);
     return status;
@@ -55,7 +55,7 @@ Result<ShaderProgram> ShaderProgram::create(std::span<const ShaderStage> stages)
     glLinkProgram(program.name());
     GLint is_linked = GL_FALSE;
     glGetProgramiv(program.name(), GL_LINK_STATUS, &is_linked);
-    if (!is_linked) return Error{program_log(program.name())};
+    if (!is_linked) return Error{ErrorCode::Unsupported, program_log(program.name())};
     return program;
 }
 

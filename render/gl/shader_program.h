@@ -15,10 +15,11 @@ struct ShaderStage {
     const ShaderSource& source;
 };
 
-/// A linked OpenGL program. A context must be current as long as it lives.
+/// A linked OpenGL program. A context must be current during its lifetime.
 class ShaderProgram {
   public:
-    /// Errors are the driver's log, with the name of the file before each line's number.
+    /// Returns unsupported with the driver's log, in which each line number follows the name of its
+    /// file.
     [[nodiscard]] static Result<ShaderProgram> create(std::span<const ShaderStage> stages);
 
     ShaderProgram(ShaderProgram&& other) noexcept;

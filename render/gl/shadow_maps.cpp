@@ -10,15 +10,15 @@
 namespace tetralight {
 namespace {
 
-/// Lights beyond have no shadows: OpenGL promises 2048 layers, memory does not.
-constexpr size_t kMostLayers = 48;
+/// Lights that need more layers than this cast no shadows: limits the memory of shadow maps.
+constexpr size_t kMaxLayers = 48;
 
-/// Clip space from 0 (near) to 1 (far).
-glm::mat4 sun_matrix(glm::vec3 direction, glm::vec4 box) {
-    const glm::vec3 middle(box);
+/// Clip from render space of a directional light; depth from 0 (near) to 1 (far).
+glm::mat4 sun_matrix(glm::vec3 direction, glm::vec4 bounds) {
+    const glm::vec3 center(bounds);
     const glm::vec3 up = std::abs(direction.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::mat4 view = glm::lookAtRH(middle - direction * box.w, middle, up);
-    return glm::orthoRH_ZO(-box.w, box.w, -box.w, box.w, 0.0f, 2.0f * box.w) * view;
+    const glm::mat4 view = glm::lookAtRH(center - direction * bounds.w, center, up);
+    return glm::orthoRH_ZO(-bounds.w, bounds.w, -bounds.w, bounds.w, 0.0f, 2.0f * bounds.w) * view;
 }
 
 /// Face i of a cube around a light: +x, -x, +y, -y, +z, -z.
@@ -44,7 +44,7 @@ GlLight make_light(const RuntimeLight& runtime) {
 
 }  // namespace
 
-ShadowMaps::ShadowMaps(std::span<const RuntimeLight> lights, glm::vec4 box, uint32_t size)
+ShadowMaps::ShadowMaps(std::span<const RuntimeLight> lights, glm::vec4 bounds, uint32_t size)
     : light_count_(static_cast<uint32_t>(lights.size())), size_(size) {
     std::vector<GlLight> gl_lights;
     std::vector<GlShadowLayer> gl_layers;
@@ -54,17 +54,18 @@ ShadowMaps::ShadowMaps(std::span<const RuntimeLight> lights, glm::vec4 box, uint
         const int layer_count = is_sun ? 1 : 6;
         const bool has_moving = runtime.channel != kNoIndex;
         const size_t needed = static_cast<size_t>(layer_count) * (has_moving ? 2 : 1);
-        if (layers_.size() + needed > kMostLayers) continue;
+        if (layers_.size() + needed > kMaxLayers) continue;
         light.shadow.z = layer_count;
-        const float reach = 1.01f * (glm::distance(runtime.light.position, glm::vec3(box)) + box.w);
+        const float reach =
+            1.01f * (glm::distance(runtime.light.position, glm::vec3(bounds)) + bounds.w);
         for (const auto casters : {ShadowCasters::All, ShadowCasters::Moving}) {
             if (casters == ShadowCasters::Moving && !has_moving) continue;
             light.shadow[casters == ShadowCasters::All ? 0 : 1] = static_cast<int>(layers_.size());
             for (int face = 0; face < layer_count; ++face) {
-                const glm::mat4 matrix = is_sun ? sun_matrix(runtime.light.direction, box)
+                const glm::mat4 matrix = is_sun ? sun_matrix(runtime.light.direction, bounds)
                                                 : face_matrix(runtime.light.position, face, reach);
                 layers_.push_back({matrix, casters});
-                const float texel = 2.0f * (is_sun ? box.w : 1.0f) / static_cast<float>(size);
+                const float texel = 2.0f * (is_sun ? bounds.w : 1.0f) / static_cast<float>(size);
                 gl_layers.push_back({matrix, {texel, is_sun ? 0.0f : 1.0f, 0.0f, 0.0f}});
             }
         }

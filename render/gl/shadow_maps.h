@@ -20,30 +20,30 @@ struct GlLight {
     glm::vec4 direction{0.0f};  ///< w: `LightType`
     glm::vec4 intensity{0.0f};  ///< w: `LightFalloff`
     glm::vec4 shape{0.0f};      ///< cosines of the inner and the outer cone, area
-    /// First layer with the shadows of everything, first layer with those of moving things, layers
-    /// of each (0: no shadows), channel of the probes' occlusion (-1: none).
+    /// x: first layer with the shadows of all objects; y: first layer with those of moving objects;
+    /// z: layers of each (0 = no shadows); w: occlusion channel of the probes (-1 = none).
     glm::ivec4 shadow{0, 0, 0, -1};
     glm::ivec4 lights_moving{1, 0, 0, 0};
 };
 
 static_assert(sizeof(GlLight) == 96 && std::is_trivially_copyable_v<GlLight>);
 
-/// Which casters a layer shows.
+/// Which objects a layer shows.
 enum class ShadowCasters : uint8_t { All, Moving };
 
 /// A layer of the shadow maps as shaders read it (std430).
 struct GlShadowLayer {
     glm::mat4 clip_from_space{1.0f};
-    /// x: size of a texel in the renderer's space, at depth 1 if y is 1.
+    /// x: size of a texel in render space; y: 1 = at depth 1.
     glm::vec4 texel{0.0f};
 };
 
-/// Depth maps of lights: suns have one layer, others six. Where probes hold the shadows of still
-/// things there are layers of moving things beside those of all.
+/// Depth maps of lights: one layer for a directional light, six for others. If probes store the
+/// occlusion of a light, it has a second set of layers with moving objects only.
 class ShadowMaps {
   public:
-    /// `box`: middle and radius of all that casts, in the renderer's space; lights are in it too.
-    ShadowMaps(std::span<const RuntimeLight> lights, glm::vec4 box, uint32_t size);
+    /// `bounds`: center and radius of all casters in render space. Lights may be outside.
+    ShadowMaps(std::span<const RuntimeLight> lights, glm::vec4 bounds, uint32_t size);
 
     /// Draws every layer: `draw(clip_from_space, casters)`.
     void draw(const std::function<void(const glm::mat4&, ShadowCasters)>& draw) const;

@@ -21,7 +21,7 @@ Mesh make_icosahedron() {
             mesh.positions.push_back(glm::normalize(corner));
         }
     }
-    // Its faces: the triples of corners that are nearest neighbours of each other.
+    // The faces are the triples of mutually nearest corners.
     constexpr float kEdge = 1.06f;
     const auto are_near = [&](uint32_t a, uint32_t b) {
         return glm::distance(mesh.positions[a], mesh.positions[b]) < kEdge;
@@ -41,12 +41,12 @@ Mesh make_icosahedron() {
     return mesh;
 }
 
-/// Cuts each triangle into four.
+/// Splits each triangle into four.
 void subdivide(Mesh& mesh) {
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-    const auto middle = [&](uint32_t a, uint32_t b) {
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> midpoints;
+    const auto midpoint = [&](uint32_t a, uint32_t b) {
         const auto [found, is_new] =
-            middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(mesh.positions.size()));
+            midpoints.try_emplace(std::minmax(a, b), static_cast<uint32_t>(mesh.positions.size()));
         if (is_new) {
             mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
         }
@@ -55,7 +55,7 @@ void subdivide(Mesh& mesh) {
     std::vector<uint32_t> indices;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
         const uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
-        const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        const uint32_t ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
         indices.insert(indices.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
     }
     mesh.indices = std::move(indices);

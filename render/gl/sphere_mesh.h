@@ -7,7 +7,7 @@
 
 namespace tetralight {
 
-/// A unit sphere of 20 · 4^subdivisions triangles: an icosahedron that is cut finer, with normals.
+/// A unit sphere of 20 · 4^subdivisions triangles: a subdivided icosahedron with normals.
 [[nodiscard]] Mesh make_sphere_mesh(uint32_t subdivisions);
 
 }  // namespace tetralight

@@ -8,7 +8,7 @@
 
 namespace tetralight {
 
-/// A `ShaderVolume` in OpenGL buffers. A context must be current as long as it lives.
+/// A `ShaderVolume` in OpenGL buffers. A context must be current during its lifetime.
 class VolumeBuffers {
   public:
     explicit VolumeBuffers(const ShaderVolume& volume);
@@ -16,7 +16,7 @@ class VolumeBuffers {
     VolumeBuffers& operator=(VolumeBuffers&& other) = delete;
     ~VolumeBuffers();
 
-    /// Binds them where runtime/shaders/query_volume.glsl expects them by default.
+    /// Binds the buffers at the default bindings of runtime/shaders/query_volume.glsl.
     void bind() const;
 
   private:

@@ -19,7 +19,8 @@ namespace {
 Error glfw_error(const char* what) {
     const char* words = nullptr;
     glfwGetError(&words);
-    return {std::string("OpenGL: ") + what + ": " + (words ? words : "no reason given")};
+    return {ErrorCode::Unsupported,
+            std::string("OpenGL: ") + what + ": " + (words ? words : "no reason given")};
 }
 
 WindowInput& input_of(GLFWwindow* window) {

@@ -10,30 +10,30 @@
 
 namespace tetralight {
 
-/// What the user did since the last `poll`.
+/// Input since the last `poll`.
 struct WindowInput {
-    /// Pixels that the mouse was dragged.
+    /// Mouse drag in pixels.
     glm::dvec2 drag{0.0};
-    /// Steps of its wheel.
+    /// Steps of the mouse wheel.
     double scroll = 0.0;
-    /// Keys that were pressed, as characters in upper case.
+    /// Pressed keys as upper-case characters.
     std::string keys;
 };
 
-/// A window with an OpenGL 4.5 core context, current on the thread that made it (GLFW: the main
-/// one).
+/// A window with an OpenGL 4.5 core context, current on the thread that created it. GLFW requires
+/// the main thread.
 class Window {
   public:
-    /// Errors: there is no screen, or no such context; GLFW's words.
+    /// Returns unsupported with GLFW's message if there is no screen or no such context.
     [[nodiscard]] static Result<Window> create(uint32_t width, uint32_t height,
                                                const std::string& title);
 
-    /// Pixels, which change when the user resizes it; 0 while it is hidden.
+    /// Size in pixels; 0 while the window is hidden.
     [[nodiscard]] glm::uvec2 size() const;
 
     void resize(uint32_t width, uint32_t height);
 
-    /// Takes what the user did; Escape closes.
+    /// Returns the input since the last call. Escape closes the window.
     [[nodiscard]] WindowInput poll();
 
     [[nodiscard]] bool is_closed() const;
@@ -41,7 +41,7 @@ class Window {
 
     void set_title(const std::string& title);
 
-    /// Shows what was drawn into framebuffer 0.
+    /// Shows framebuffer 0.
     void swap();
 
   private:

@@ -64,8 +64,8 @@ class GlMeshBallTest : public testing::Test {
                        Specular specular = Specular::Off) {
         const auto status = ball.set_frame(angle, light, specular);
         EXPECT_TRUE(status) << error_text(status.error());
-        const SphereInstances crowd = ball.crowd();
-        const auto image = ball.renderer().render(camera, small_settings(), {&crowd, 1});
+        const SphereInstances instances = ball.sphere_instances();
+        const auto image = ball.renderer().render(camera, small_settings(), {&instances, 1});
         EXPECT_TRUE(image) << error_text(image.error());
         return image ? *image : ImageF{};
     }
@@ -120,7 +120,7 @@ TEST_F(GlMeshBallTest, TakesItsLightFromOneBatchQueryInPlace) {
     auto ball = make(1023, volume);
     ASSERT_TRUE(ball);
     ASSERT_TRUE(ball->set_frame(1.0, BallLight::Probes, Specular::Off));
-    const auto instances = ball->crowd().instances->begin_write();
+    const auto instances = ball->sphere_instances().instances->begin_write();
     for (size_t i = 0; i < instances.size(); i += 97) {
         const auto view = volume.view();
         const auto expected = interpolate(view, locate(view, ball->positions()[i])).irradiance;
@@ -188,9 +188,9 @@ TEST_F(GlMeshBallTest, PresenterShowsWhatDevelopWrites) {
     auto ball = make(100, volume);
     ASSERT_TRUE(ball);
     ASSERT_TRUE(ball->set_frame(0.0, BallLight::Probes, Specular::On));
-    const SphereInstances crowd = ball->crowd();
+    const SphereInstances instances = ball->sphere_instances();
     const RenderTarget target(64, 48, 4);
-    ASSERT_TRUE(ball->renderer().draw(camera_, target, {&crowd, 1}));
+    ASSERT_TRUE(ball->renderer().draw(camera_, target, {&instances, 1}));
     const auto presenter = Presenter::make();
     ASSERT_TRUE(presenter) << error_text(presenter.error());
     GLuint texture = 0, frame = 0;

@@ -33,10 +33,11 @@ class WindowTest : public testing::Test {
         if (auto status = ball.set_frame(0.1, BallLight::Probes, Specular::On); !status) {
             return status;
         }
-        const SphereInstances crowd = ball.crowd();
+        const SphereInstances instances = ball.sphere_instances();
         meanwhile();
         const Camera camera = look_at({0, 0, 15}, {0, 0, 0}, 0.8);
-        if (auto status = ball.renderer().draw(camera, target, {&crowd, 1}); !status) return status;
+        if (auto status = ball.renderer().draw(camera, target, {&instances, 1}); !status)
+            return status;
         presenter.present(target, 0, size.x, size.y, 1.0f);
         window_->swap();
         return Ok{};

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/vec4.hpp>
+
+#include <tetralight/probes/packed_sh.h>
+
+namespace tetralight::detail {
+
+/// The uniform block `Frame` of the shaders (std140).
+struct Frame {
+    glm::vec4 eye;    ///< position in render space
+    glm::vec4 right;  ///< length: half the width of the picture at distance 1
+    glm::vec4 up;     ///< length: half the height of the picture at distance 1
+    glm::vec4 ahead;
+    glm::uvec4 counts;  ///< x: number of lights
+    glm::vec4 numbers;  ///< x: probe normal bias
+    PackedSh sky;
+};
+
+static_assert(sizeof(Frame) == 96 + sizeof(PackedSh));
+
+}  // namespace tetralight::detail
