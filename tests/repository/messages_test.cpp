@@ -31,7 +31,6 @@ const std::set<std::string> kStillToChange = {
     "bake/placement/adaptive_grid.cpp",
     "bake/scene/detail/gltf_document.cpp",
     "bake/scene/probe_groups_json.cpp",
-    "base/json_text.cpp",
     "cli/bake.cpp",
     "cli/grid_options.cpp",
     "cli/group_files.cpp",
@@ -70,6 +69,9 @@ TEST(Messages, OnlyPrintersIncludeErrorText) {
     }
 }
 
+/// Shortens the text of a library's exception before it becomes a message.
+const std::string kShortensExceptions = "base/json/json_text.cpp";
+
 TEST(Messages, NoSourceSearchesThem) {
     const std::string text = "(?:message|error_text\\([^;]*\\)|what\\(\\)|stderr_text)(?:\\(\\))?";
     const std::string search =
@@ -79,6 +81,7 @@ TEST(Messages, NoSourceSearchesThem) {
         if (folder == "tests") continue;
         for (const fs::path& file : source_files(folder)) {
             if (kStillToChange.contains(file.generic_string())) continue;
+            if (file == kShortensExceptions) continue;
             std::smatch match;
             const std::string code = without_comments_and_strings(read_text(file));
             EXPECT_FALSE(std::regex_search(code, match, branches)) << file << ": " << match.str();
