@@ -6,16 +6,19 @@
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/light_words.h>
 #include <tetralight/probes/build/quality.h>
+#include <tetralight/probes/volume_members.h>
 
 namespace tetralight::cli {
 namespace {
 
-/// Sections that no query reads (docs/file_format.md).
-constexpr const char* kColdSections[] = {
-    "validity", "health",   "exact_positions", "sources",          "group_names",
-    "lights",   "metadata", "light_names",     "light_states",     "occlusion_lights",
-    "layers",   "transfer", "layer_names",     "layer_irradiance", "sky",
-    "dering"};
+/// True for sections that no query reads (docs/file_format.md).
+bool is_cold_section(const std::string& name) {
+    bool is_cold = false;
+    for_each_volume_member([&](const char* section, MemberUse use, auto, auto) {
+        is_cold = is_cold || (name == section && use == MemberUse::Offline);
+    });
+    return is_cold;
+}
 
 Json groups_json(const ProbeVolumeView& volume) {
     const auto names = split_names(volume.group_names);
@@ -83,9 +86,7 @@ std::optional<Slivers> count_slivers(const ProbeVolumeView& volume) {
 std::vector<SectionFacts> section_facts(const ProbeFile& file) {
     std::vector<SectionFacts> sections;
     for (const auto& section : file.sections()) {
-        const bool is_cold =
-            std::ranges::find(kColdSections, section.name) != std::ranges::end(kColdSections);
-        sections.push_back({section.name, section.size, !is_cold});
+        sections.push_back({section.name, section.size, !is_cold_section(section.name)});
     }
     return sections;
 }

@@ -97,11 +97,6 @@ void store_lights(const std::vector<Share>& lights, ProbeVolume& volume) {
     }
 }
 
-template <class T>
-std::vector<T> copy(std::span<const T> elements) {
-    return {elements.begin(), elements.end()};
-}
-
 /// What both scenarios share, and what is the first one's.
 ProbeVolume without_light(const ProbeVolumeView& view) {
     ProbeVolumeView kept = view;
@@ -122,10 +117,10 @@ ProbeVolume without_light(const ProbeVolumeView& view) {
 /// `places`: where the lights of `b` went.
 void blend_occlusion(const ProbeVolumeView& a, const ProbeVolumeView& b, float t,
                      const std::vector<uint32_t>& places, ProbeVolume& volume) {
-    volume.occlusion = copy(a.occlusion.empty() ? b.occlusion : a.occlusion);
-    volume.occlusion_lights = copy(a.occlusion_lights);
+    const ProbeVolumeView& source = a.occlusion.empty() ? b : a;
+    volume.occlusion.assign(source.occlusion.begin(), source.occlusion.end());
+    volume.occlusion_lights.assign(source.occlusion_lights.begin(), source.occlusion_lights.end());
     if (a.occlusion.empty()) {
-        volume.occlusion_lights = copy(b.occlusion_lights);
         for (OcclusionLights& lights : volume.occlusion_lights) {
             for (uint32_t& light : lights) light = light < places.size() ? places[light] : kNoIndex;
         }

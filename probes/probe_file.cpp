@@ -8,6 +8,7 @@
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/detail/probe_file_layout.h>
+#include <tetralight/probes/volume_members.h>
 
 namespace tetralight {
 namespace {
@@ -47,7 +48,8 @@ uint64_t aligned(uint64_t offset) {
 std::vector<Part> make_parts(const ProbeVolumeView& volume, std::span<const ExtraSection> extra) {
     const std::span info(&volume.info, 1);
     std::vector<Part> parts{make_part("info", std::as_bytes(info), sizeof(VolumeInfo))};
-    detail::for_each_section(volume, [&](std::string_view name, const auto& elements) {
+    for_each_volume_member([&](const char* name, MemberUse, auto, auto view) {
+        const auto& elements = volume.*view;
         if (elements.empty()) return;
         parts.push_back(make_part(name, bytes_of(elements), sizeof elements[0]));
     });
@@ -109,8 +111,8 @@ struct ProbeFileReader {
             status = read_info(entry, bytes, file.view_.info);
             has_info = true;
         }
-        detail::for_each_section(file.view_, [&](std::string_view known, auto& elements) {
-            if (name == known) status = read_section(entry, bytes, elements);
+        for_each_volume_member([&](const char* known, MemberUse, auto, auto view) {
+            if (name == known) status = read_section(entry, bytes, file.view_.*view);
         });
         if (!status) return status.error().in("section \"" + name + "\"");
         return Ok{};
