@@ -49,9 +49,11 @@ bool has_control_character(std::string_view text) noexcept {
 
 Status check_characters(std::string_view name) {
     if (has_control_character(name)) {
-        return Error{"the name holds a line break or another control character"};
+        return Error{ErrorCode::InvalidArgument, "name", "",
+                     "the name holds a line break or another control character"};
     }
-    if (!is_utf8(name)) return Error{"the name is not UTF-8"};
+    if (!is_utf8(name))
+        return Error{ErrorCode::InvalidArgument, "name", "", "the name is not UTF-8"};
     return Ok{};
 }
 

@@ -12,18 +12,20 @@ namespace {
 
 Status check_positions(const ProbeVolumeView& a, const ProbeVolumeView& b) {
     if (a.positions.size() != b.positions.size()) {
-        return Error{str_cat("the volumes have ", a.positions.size(), " and ", b.positions.size(),
-                             " probes")};
+        return Error{ErrorCode::InvalidArgument, str_cat("the volumes have ", a.positions.size(),
+                                                         " and ", b.positions.size(), " probes")};
     }
     for (size_t i = 0; i < a.positions.size(); ++i) {
         if (a.positions[i] == b.positions[i] && a.info.world_origin == b.info.world_origin) {
             continue;
         }
-        return Error{str_cat("probe ", i, " is not at the same position in both volumes")};
+        return Error{ErrorCode::InvalidArgument,
+                     str_cat("probe ", i, " is not at the same position in both volumes")};
     }
-    if (!std::ranges::equal(a.cells, b.cells)) return Error{"the volumes have different cells"};
+    if (!std::ranges::equal(a.cells, b.cells))
+        return Error{ErrorCode::InvalidArgument, "the volumes have different cells"};
     if (a.irradiance.empty() != b.irradiance.empty()) {
-        return Error{"one of the volumes has light and the other none"};
+        return Error{ErrorCode::InvalidArgument, "one of the volumes has light and the other none"};
     }
     return Ok{};
 }
@@ -76,6 +78,7 @@ Result<std::vector<uint32_t>> add_lights(const std::vector<Share>& of_b,
             is_taken[i] = true;
         } else if (has_channel(share) && has_channels) {
             return Error{
+                ErrorCode::InvalidArgument,
                 str_cat("light \"", share.name,
                         "\" has occlusion, and the other volume has that of other lights, or in "
                         "another mixed-lighting mode")};
@@ -134,7 +137,9 @@ void blend_occlusion(const ProbeVolumeView& a, const ProbeVolumeView& b, float t
 }  // namespace
 
 Result<ProbeVolume> blend(const ProbeVolumeView& a, const ProbeVolumeView& b, float t) {
-    if (!(t >= 0.0f && t <= 1.0f)) return Error{str_cat("a blend of ", t, " is not in [0, 1]")};
+    if (!(t >= 0.0f && t <= 1.0f))
+        return Error{ErrorCode::InvalidArgument, "t", str_cat(t),
+                     str_cat("a blend of ", t, " is not in [0, 1]")};
     if (auto status = check_positions(a, b); !status) return status.error();
     std::vector<Share> lights = lights_of(a, 1.0f - t);
     const auto places = add_lights(lights_of(b, t), lights);

@@ -58,27 +58,31 @@ StreamHeader header_of(Bytes output) {
 Status check_output(Bytes output, uint64_t position_count) {
     const size_t magic_size = std::min(output.size(), tetgen::kTetrahedraMagic.size());
     if (std::memcmp(output.data(), tetgen::kTetrahedraMagic.data(), magic_size) != 0) {
-        return Error{"its output is not of a version that is known here"};
+        return Error{ErrorCode::Corrupt, "its output has an unknown format or version"};
     }
     if (output.size() < sizeof(StreamHeader)) return Ok{};
     const uint64_t count = header_of(output).count;
     const uint64_t limit = position_count * (position_count - 3) / 2;  // of any tetrahedralization
     if (count > std::min<uint64_t>(limit, kNoIndex / 4)) {
-        return Error{str_cat("its output has ", count, " tetrahedra over ", position_count,
+        return Error{ErrorCode::Corrupt,
+                     str_cat("its output has ", count, " tetrahedra over ", position_count,
                              " probes: more than there can be")};
     }
     if (output.size() <= sizeof(StreamHeader) + count * sizeof(StreamTetrahedron)) return Ok{};
-    return Error{str_cat("its output goes on after the ", count, " tetrahedra that it began with")};
+    return Error{ErrorCode::Corrupt,
+                 str_cat("its output is longer than its ", count, " tetrahedra")};
 }
 
 Result<std::vector<Cell>> cells_of(Bytes output) {
     if (output.size() < sizeof(StreamHeader)) {
-        return Error{str_cat("its output ends after ", output.size(), " bytes")};
+        return Error{ErrorCode::Corrupt,
+                     str_cat("its output ends after ", output.size(), " bytes")};
     }
     const uint64_t count = header_of(output).count;
     const Bytes payload = output.subspan(sizeof(StreamHeader));
     if (payload.size() != count * sizeof(Cell)) {
-        return Error{str_cat("its output ends after ", payload.size() / sizeof(Cell), " of ", count,
+        return Error{ErrorCode::Corrupt,
+                     str_cat("its output ends after ", payload.size() / sizeof(Cell), " of ", count,
                              " tetrahedra")};
     }
     std::vector<Cell> cells(count);

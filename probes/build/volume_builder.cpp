@@ -39,7 +39,8 @@ VolumeBuilder& VolumeBuilder::operator=(VolumeBuilder&&) noexcept = default;
 
 Status VolumeBuilder::add_group(ProbeGroup group) {
     if (std::ranges::find(groups_, group.name, &ProbeGroup::name) != groups_.end()) {
-        return Error{str_cat("group \"", group.name, "\": there are two groups of this name")};
+        return Error{ErrorCode::InvalidArgument, "name", group.name,
+                     str_cat("group \"", group.name, "\": there are two groups of this name")};
     }
     const auto alone = merge(std::span(&group, 1), settings_);
     if (!alone) return alone.error();
@@ -50,7 +51,8 @@ Status VolumeBuilder::add_group(ProbeGroup group) {
 Status VolumeBuilder::remove_group(std::string_view name) {
     const auto group = std::ranges::find(groups_, name, &ProbeGroup::name);
     if (group == groups_.end())
-        return Error{str_cat("group \"", name, "\": there is no such group")};
+        return Error{ErrorCode::NotFound, "name", std::string(name),
+                     str_cat("group \"", name, "\": there is no such group")};
     groups_.erase(group);
     return Ok{};
 }

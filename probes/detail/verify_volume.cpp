@@ -4,6 +4,7 @@
 #include <string>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/detail/verify_layers.h>
 #include <tetralight/probes/detail/verify_text.h>
 #include <tetralight/probes/is_finite.h>
@@ -37,11 +38,11 @@ bool is_finite(const CompactProbe& probe) {
 
 Status check_count(const char* name, size_t count, size_t expected, bool is_optional) {
     if (count == expected || (is_optional && count == 0)) return Ok{};
-    return Error{str_cat("section \"", name, "\": ", count, " elements instead of ", expected)};
+    return detail::section_error(name, str_cat(count, " elements instead of ", expected));
 }
 
 Error info_error(const std::string& what) {
-    return {"section \"info\": " + what};
+    return detail::section_error("info", what);
 }
 
 /// Whether the first cell has the vertices that cells of this dimension have: if it has not, the
@@ -84,9 +85,7 @@ template <class T, class Predicate>
 Status check_each(const char* name, std::span<const T> elements, const char* what,
                   Predicate is_good) {
     for (size_t i = 0; i < elements.size(); ++i) {
-        if (!is_good(elements[i])) {
-            return Error{str_cat("section \"", name, "\": element ", i, ": ", what)};
-        }
+        if (!is_good(elements[i])) return detail::element_error(name, i, what);
     }
     return Ok{};
 }
@@ -136,7 +135,8 @@ Status check_numbers(const ProbeVolumeView& v) {
 }
 
 Error cell_error(size_t cell, const std::string& what) {
-    return {str_cat("section \"cells\": cell ", cell, ": ", what)};
+    return {ErrorCode::Corrupt, str_cat("cells[", cell, "]"), "",
+            str_cat("section \"cells\": cell ", cell, ": ", what)};
 }
 
 /// A neighbor shares all vertices but one with the cell, and lists the cell as its neighbor.
@@ -217,7 +217,7 @@ Status check_tables(const ProbeVolumeView& v) {
     const auto has_cell = [&](const Seed& seed) { return seed.cell < v.cells.size(); };
     if (auto s = check_each("seeds", v.seeds, "is out of range", has_cell); !s) return s;
     if (!std::ranges::is_sorted(v.seeds, {}, &Seed::hilbert_index)) {
-        return Error{"section \"seeds\": is not sorted"};
+        return detail::section_error("seeds", "is not sorted");
     }
     const auto in_range = [&](const ProbeSource& source) {
         return source.group < groups &&

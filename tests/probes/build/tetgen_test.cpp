@@ -103,7 +103,7 @@ TEST_F(Tetgen, SurvivesAProgramThatHangs) {
 }
 
 TEST_F(Tetgen, RefusesGarbage) {
-    const std::string message = "fake: its output is not of a version that is known here";
+    const std::string message = "fake: its output has an unknown format or version";
     EXPECT_EQ(script_error("echo hello"), message);
     EXPECT_EQ(script_error("exec yes"), message);
     EXPECT_EQ(script_error("head -c 100000 /dev/zero"), message);
