@@ -150,7 +150,7 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.bounds = bounds_json(volume);
     facts.made_with = made_with(volume);
     facts.is_baked = !volume.irradiance.empty();
-    facts.radial_share = static_cast<double>(volume.info.radial_share);
+    facts.radial_fraction = static_cast<double>(volume.info.radial_fraction);
     facts.slivers = count_slivers(volume);
     if (volume.info.inner_cell_count > 0) facts.walks = measure_walks(volume);
     facts.seed_count = volume.seeds.size();
@@ -163,7 +163,7 @@ Json to_json(const VolumeFacts& facts) {
     json.update(facts.counts);
     json.update({{"is_baked", facts.is_baked},
                  {"bounds", facts.bounds},
-                 {"radial_share", facts.radial_share},
+                 {"radial_share", facts.radial_fraction},
                  {"slivers", slivers_json(facts)},
                  {"seeds", seeds_json(facts)},
                  {"walks", walks_json(facts)},

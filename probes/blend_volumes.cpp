@@ -136,7 +136,7 @@ void blend_occlusion(const ProbeVolumeView& a, const ProbeVolumeView& b, float t
 
 }  // namespace
 
-Result<ProbeVolume> blend(const ProbeVolumeView& a, const ProbeVolumeView& b, float t) {
+Result<ProbeVolume> blend_volumes(const ProbeVolumeView& a, const ProbeVolumeView& b, float t) {
     if (!(t >= 0.0f && t <= 1.0f))
         return Error{ErrorCode::InvalidArgument, "t", str_cat(t),
                      str_cat("a blend of ", t, " is not in [0, 1]")};

@@ -15,7 +15,7 @@ namespace tetralight {
 ///
 /// Errors: t is out of range; positions or cells differ; one has light and the other none; the
 /// occlusion is of different lights.
-[[nodiscard]] Result<ProbeVolume> blend(const ProbeVolumeView& a, const ProbeVolumeView& b,
-                                        float t);
+[[nodiscard]] Result<ProbeVolume> blend_volumes(const ProbeVolumeView& a, const ProbeVolumeView& b,
+                                                float t);
 
 }  // namespace tetralight

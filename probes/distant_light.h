@@ -41,7 +41,7 @@ static_assert(sizeof(DistantLight) == 192 && std::is_trivially_copyable_v<Distan
 [[nodiscard]] DistantLight distant_sun(glm::vec3 to_light, glm::vec3 irradiance) noexcept;
 
 /// Radiance from a unit direction, as far as four bands hold it; can be negative.
-[[nodiscard]] glm::vec3 evaluate(const DistantLight& light, glm::vec3 direction) noexcept;
+[[nodiscard]] glm::vec3 evaluate_radiance(const DistantLight& light, glm::vec3 direction) noexcept;
 
 /// Turns the light: rotated(R·d) = original(d). `target_from_source` is orthonormal. Exact up to
 /// rounding: the turned function is projected again by a quadrature that is exact for it.

@@ -85,16 +85,16 @@ uint64_t hilbert_index(std::array<uint32_t, 3> point) noexcept {
 uint64_t HilbertCube::index(const glm::dvec3& position) const noexcept {
     std::array<uint32_t, 3> point;
     for (int axis = 0; axis < 3; ++axis) {
-        const double step = (position[axis] - low[axis]) * scale;
+        const double step = (position[axis] - min[axis]) * scale;
         point[axis] = step > 0.0 ? static_cast<uint32_t>(std::min(step, kLargest)) : 0u;
     }
     return hilbert_index(point);
 }
 
-HilbertCube make_hilbert_cube(const glm::dvec3& low, const glm::dvec3& high) noexcept {
-    const glm::dvec3 size = high - low;
+HilbertCube make_hilbert_cube(const glm::dvec3& min, const glm::dvec3& max) noexcept {
+    const glm::dvec3 size = max - min;
     const double longest = std::max({size.x, size.y, size.z});
-    return {low, longest > 0.0 ? kLargest / longest : 0.0};
+    return {min, longest > 0.0 ? kLargest / longest : 0.0};
 }
 
 }  // namespace tetralight

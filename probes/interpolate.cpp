@@ -53,7 +53,7 @@ InterpolatedProbe interpolate(const ProbeVolumeView& volume,
     return detail::blend_probes(volume, location);
 }
 
-Status check(const InterpolationBatch& batch) {
+Status check_batch(const InterpolationBatch& batch) {
     const size_t count = batch.positions.size();
     if (!batch.hints.empty()) {
         const auto status = check_length("hints", batch.hints.size(), count);
@@ -77,7 +77,7 @@ void detail::BatchTasks::run(size_t task) noexcept {
 }
 
 Result<BatchReport> interpolate(const ProbeVolumeView& volume, const InterpolationBatch& batch) {
-    if (auto status = check(batch); !status) return status.error();
+    if (auto status = check_batch(batch); !status) return status.error();
     return detail::answer(volume, batch, 0, batch.positions.size());
 }
 

@@ -71,7 +71,7 @@ struct BatchReport {
 inline constexpr size_t kBatchTaskSize = 16384;
 
 /// Errors of a batch, as `interpolate` says them.
-[[nodiscard]] Status check(const InterpolationBatch& batch);
+[[nodiscard]] Status check_batch(const InterpolationBatch& batch);
 
 namespace detail {
 
@@ -94,7 +94,7 @@ template <class ParallelFor>
 [[nodiscard]] Result<BatchReport> interpolate(const ProbeVolumeView& volume,
                                               const InterpolationBatch& batch,
                                               ParallelFor&& parallel_for) {
-    if (auto status = check(batch); !status) return status.error();
+    if (auto status = check_batch(batch); !status) return status.error();
     detail::BatchTasks tasks{volume, batch};
     const size_t count = (batch.positions.size() + kBatchTaskSize - 1) / kBatchTaskSize;
     parallel_for(count, [&tasks](size_t task) { tasks.run(task); });

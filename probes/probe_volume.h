@@ -141,7 +141,7 @@ struct VolumeInfo {
     /// Cells [0, inner_cell_count) are inner cells (tetrahedra), the rest hull cells.
     uint32_t inner_cell_count = 0;
     /// Share of the radial direction in the hull rays (docs/conventions.md).
-    float radial_share = 0.0f;
+    float radial_fraction = 0.0f;
     /// Light where there is no probe: that of the environment alone.
     IrradianceSh ambient;
     /// Distance of the farthest probe from the local origin, metres.

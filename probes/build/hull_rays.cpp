@@ -9,7 +9,7 @@
 namespace tetralight {
 namespace {
 
-constexpr int kShareSteps = 64;
+constexpr int kFractionSteps = 64;
 
 /// What rounding alone can make of numbers of order 1.
 constexpr double kRounding = 1e-12;
@@ -111,9 +111,9 @@ void add_edge_normals(Hull& hull, const glm::dvec3& axis) {
     normalize_normals(hull);
 }
 
-void set_rays(Hull& hull, double radial_share) {
+void set_rays(Hull& hull, double radial_fraction) {
     for (HullVertex& v : hull.vertices) {
-        v.ray = glm::normalize(glm::mix(v.normal, v.radial, radial_share));
+        v.ray = glm::normalize(glm::mix(v.normal, v.radial, radial_fraction));
     }
 }
 
@@ -149,12 +149,12 @@ bool folds_anywhere(const Hull& hull) {
 
 /// Smallest share of the radial direction, in steps, for which no triangle folds.
 int find_radial_steps(Hull& hull) {
-    for (int step = 0; step < kShareSteps; ++step) {
-        set_rays(hull, static_cast<double>(step) / kShareSteps);
+    for (int step = 0; step < kFractionSteps; ++step) {
+        set_rays(hull, static_cast<double>(step) / kFractionSteps);
         if (!folds_anywhere(hull)) return step;
     }
     set_rays(hull, 1.0);
-    return kShareSteps;
+    return kFractionSteps;
 }
 
 }  // namespace
@@ -167,7 +167,7 @@ HullRays make_hull_rays(std::span<const glm::dvec3> positions,
     normalize(hull);
     if (tetrahedralization.dimension == Dimension::Space) {
         add_triangle_normals(hull);
-        rays.radial_share = static_cast<float>(find_radial_steps(hull)) / kShareSteps;
+        rays.radial_fraction = static_cast<float>(find_radial_steps(hull)) / kFractionSteps;
     } else {
         if (tetrahedralization.dimension == Dimension::Plane) {
             add_edge_normals(hull, tetrahedralization.axis);

@@ -13,7 +13,7 @@ struct HullRays {
     /// One a hull cell, in their order.
     std::vector<HullCellRays> cells;
     /// Share of the radial direction in every ray, 0..1.
-    float radial_share = 0.0f;
+    float radial_fraction = 0.0f;
 };
 
 /// Rays along which hull cells are extruded to infinity: at each hull vertex the angle-weighted

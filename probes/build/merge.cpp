@@ -90,7 +90,7 @@ size_t MergedProbes::welded_count() const {
     return static_cast<size_t>(std::ranges::count_if(sources, is_there)) - positions.size();
 }
 
-double flatness(const MergedProbes& probes) {
+double flat_tolerance(const MergedProbes& probes) {
     return 0.5 * probes.weld_radius;
 }
 

@@ -31,8 +31,8 @@ struct MergedProbes {
     std::vector<glm::dvec3> positions;
     /// Sorted.
     std::vector<std::string> group_names;
-    /// Every probe of every group, sorted by group, then index. Those that `leave_out` took away
-    /// have no probe.
+    /// Every probe of every group, sorted by group, then index. Those that `remove_probes` took
+    /// away have no probe.
     std::vector<ProbeSource> sources;
     /// No two positions are nearer to each other than this, metres.
     double weld_radius = 0.0;
@@ -53,7 +53,7 @@ struct MergedProbes {
 
 /// What `tetrahedralize` may take for flat: half the weld radius, so that positions that stand
 /// apart never fall together in a plane.
-[[nodiscard]] double flatness(const MergedProbes& probes);
+[[nodiscard]] double flat_tolerance(const MergedProbes& probes);
 
 /// Joins groups into one set. Two probes are welded when they are nearer to each other than the
 /// tolerance of both, so that a probe of a sparse part swallows none of a dense one. Clusters are

@@ -16,12 +16,12 @@ namespace {
 /// `tetrahedralize` with tetrahedra that are kept. Flat sets have few probes and are made anew.
 Tetrahedralization tetrahedralize_next(const MergedProbes& probes,
                                        detail::DelaunayTetrahedra& kept) {
-    const auto spread = detail::measure_spread(probes.positions, flatness(probes));
+    const auto spread = detail::measure_spread(probes.positions, flat_tolerance(probes));
     if (spread.dimension == Dimension::Space) {
         std::vector<Cell> cells = kept.change_to(probes.positions);
         if (!cells.empty()) return detail::with_hull_cells(std::move(cells), Dimension::Space);
     }
-    return tetrahedralize(probes.positions, flatness(probes));
+    return tetrahedralize(probes.positions, flat_tolerance(probes));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace tetralight {
 ///     ProbeVolume volume = builder.build();
 ///     require(builder.remove_group("hall"));
 ///     ProbeVolume next = builder.build();
-///     carry_light(volume.view(), next);
+///     copy_light(volume.view(), next);
 ///
 /// A volume depends on the groups alone, not on the way to them: it is
 /// `make_probe_volume(*merge(groups, settings))`, byte for byte.

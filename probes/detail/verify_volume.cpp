@@ -109,7 +109,7 @@ Status check_numbers(const ProbeVolumeView& v) {
             });
     };
     if (!is_finite(v.info.world_origin) || !is_finite(v.info.axis) || !is_finite(v.info.ambient) ||
-        !std::isfinite(v.info.extent) || !is_finite(v.info.seed_cube.low) ||
+        !std::isfinite(v.info.extent) || !is_finite(v.info.seed_cube.min) ||
         !std::isfinite(v.info.seed_cube.scale)) {
         return info_error("a number is not finite");
     }

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <tetralight/base/box.h>
+
 namespace tetralight::detail {
 
 /// A binary tree of bounding boxes over positions along a Hilbert curve. It needs no cell size, so
@@ -13,8 +15,7 @@ namespace tetralight::detail {
 class PositionTree {
   public:
     struct Node {
-        glm::dvec3 low{0.0};
-        glm::dvec3 high{0.0};
+        Box<glm::dvec3> bounds;
         uint32_t begin = 0;  ///< of the positions in it
         uint32_t end = 0;
         uint32_t second_child = 0;  ///< the first one follows its parent; 0 = a leaf

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include <tetralight/base/box.h>
 #include <tetralight/probes/build/detail/exact_places.h>
 #include <tetralight/probes/build/detail/lattice_fit.h>
 
@@ -33,17 +34,13 @@ struct NearerTo {
     }
 };
 
-/// Positions seen from the one in their middle.
-class ProbeVisibility {
+/// Positions relative to the one nearest to the center of their bounds.
+class CenteredPositions {
   public:
-    explicit ProbeVisibility(Positions positions) : positions_(positions) {
-        glm::dvec3 low = positions[0];
-        glm::dvec3 high = positions[0];
-        for (const glm::dvec3& p : positions) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-        middle_ = *std::ranges::min_element(positions, NearerTo{low * 0.5 + high * 0.5});
+    explicit CenteredPositions(Positions positions) : positions_(positions) {
+        auto bounds = Box<glm::dvec3>::empty();
+        for (const glm::dvec3& p : positions) bounds = union_of(bounds, p);
+        middle_ = *std::ranges::min_element(positions, NearerTo{bounds.center()});
         for (const glm::dvec3& p : positions)
             squares_.push_back(glm::dot(p - middle_, p - middle_));
     }
@@ -95,7 +92,7 @@ std::optional<Lattice> find_lattice(Positions positions) {
         float_step = std::max({float_step, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
     float_step *= 0x1p-23;
-    const ProbeVisibility visibility(positions);
+    const CenteredPositions visibility(positions);
     const std::vector<glm::dvec3> first = visibility.nearest(kFirstCount);
     LatticeFit fit(first);
     const auto is_near = [&] {

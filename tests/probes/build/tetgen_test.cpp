@@ -123,8 +123,8 @@ TEST_F(Tetgen, RefusesOutputThatIsTooShort) {
 }
 
 TEST_F(Tetgen, RefusesOutputThatGoesOn) {
-    const std::string message = str_cat("fake: its output goes on after the ", kCells.size(),
-                                        " tetrahedra that it began with");
+    const std::string message =
+        str_cat("fake: its output is longer than its ", kCells.size(), " tetrahedra");
     EXPECT_EQ(error(programs_.writer("fake", bytes_of(kCells), "echo")), message);
     EXPECT_EQ(error(programs_.writer("fake", bytes_of(kCells), "exec cat /dev/zero")), message);
 }

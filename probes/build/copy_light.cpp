@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/carry_light.h>
+#include <tetralight/probes/build/copy_light.h>
 
 #include <span>
 
@@ -23,19 +23,19 @@ std::vector<T> carry(std::span<const T> values, std::span<const uint32_t> twins,
 
 }  // namespace
 
-CarriedLight carry_light(const ProbeVolumeView& from, ProbeVolume& to) {
+CopiedLight copy_light(const ProbeVolumeView& from, ProbeVolume& to) {
     TETRALIGHT_ASSERT(from.exact_positions.size() == from.positions.size(),
-                      "carry_light from a volume without exact positions");
+                      "copy_light from a volume without exact positions");
     TETRALIGHT_ASSERT(to.exact_positions.size() == to.positions.size(),
-                      "carry_light to a volume without exact positions");
+                      "copy_light to a volume without exact positions");
     const detail::PositionTable table(from.exact_positions);
-    CarriedLight result;
+    CopiedLight result;
     std::vector<uint32_t> twins;
     for (uint32_t i = 0; i < to.exact_positions.size(); ++i) {
         twins.push_back(from.irradiance.empty() ? kNoIndex : table.find(to.exact_positions[i]));
         if (twins.back() == kNoIndex) result.unlit.push_back(i);
     }
-    result.carried_count = static_cast<uint32_t>(twins.size() - result.unlit.size());
+    result.copied_count = static_cast<uint32_t>(twins.size() - result.unlit.size());
     to.irradiance = carry(from.irradiance, twins, IrradianceSh());
     to.occlusion = carry(from.occlusion, twins, glm::vec4(1.0f));
     to.validity = carry(from.validity, twins, 0.0f);

@@ -8,9 +8,9 @@
 
 namespace tetralight {
 
-/// What `carry_light` did with the probes of a volume.
-struct CarriedLight {
-    uint32_t carried_count = 0;
+/// What `copy_light` did with the probes of a volume.
+struct CopiedLight {
+    uint32_t copied_count = 0;
     /// Probes that were at no position of the other volume, ascending.
     std::vector<uint32_t> unlit;
 };
@@ -24,6 +24,6 @@ struct CarriedLight {
 /// Probes that find no other are unlit until someone bakes them: no irradiance, occlusion 1,
 /// validity 0. Where `from` has no light (or no occlusion, or no validity), neither has `to`.
 /// Precondition: both have their exact positions.
-CarriedLight carry_light(const ProbeVolumeView& from, ProbeVolume& to);
+CopiedLight copy_light(const ProbeVolumeView& from, ProbeVolume& to);
 
 }  // namespace tetralight

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/leave_out.h>
+#include <tetralight/probes/build/remove_probes.h>
 
 #include <tetralight/base/contract.h>
 
 namespace tetralight {
 
-MergedProbes leave_out(MergedProbes probes, const std::vector<bool>& is_left_out) {
+MergedProbes remove_probes(MergedProbes probes, const std::vector<bool>& is_left_out) {
     TETRALIGHT_ASSERT(is_left_out.size() == probes.positions.size(), "one flag a probe");
     std::vector<uint32_t> place(probes.positions.size(), kNoIndex);
     uint32_t count = 0;
