@@ -51,7 +51,7 @@ Result<std::string> follow_links(const std::string& path) {
         end = link.starts_with('/') ? link : end.substr(0, end.rfind('/') + 1) + link;
     }
     return Error{ErrorCode::InvalidArgument,
-                 shown_path(path) + ": cannot write (its symbolic links lead in a circle)"};
+                 shown_path(path) + ": cannot write (its symbolic links form a cycle)"};
 }
 
 Result<FileWriter> FileWriter::open(const std::string& path) {

@@ -32,12 +32,12 @@ Status check_weight(std::string_view name, float weight) {
     if (std::isfinite(weight) && weight >= 0.0f) return Ok{};
     return Error{ErrorCode::InvalidArgument, "weights", str_cat(weight),
                  str_cat("layer \"", name, "\": weight ", weight, " is ",
-                         std::isnan(weight) ? "no number"
+                         std::isnan(weight) ? "not a number"
                          : weight < 0.0f    ? "negative"
                                             : "not finite")};
 }
 
-/// Whether a name is that of a layer, or what is behind its colon.
+/// True if a name is that of a layer, or the part after its colon.
 bool is_short_for(std::string_view name, std::string_view layer) {
     const size_t colon = layer.find(':');
     return name == layer || (colon != std::string_view::npos && name == layer.substr(colon + 1));

@@ -53,7 +53,7 @@ Result<std::vector<glm::dvec3>> world_positions(const ProbeGroup& group) {
     return positions;
 }
 
-/// Welds positions, one for each source, and points the sources at what is left of them.
+/// Welds positions, one for each source, and sets the probe of each source.
 void weld_sources(std::span<const glm::dvec3> positions, double tolerance, MergedProbes& merged) {
     std::vector<glm::dvec3> distinct;
     distinct.reserve(positions.size());

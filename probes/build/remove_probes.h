@@ -7,9 +7,9 @@
 
 namespace tetralight {
 
-/// The probes that are not to be left out, in the same order. Sources of those that are left out
-/// stay, with `kNoIndex` for their probe, so that every probe of every group is accounted for.
-/// Precondition: one flag a probe.
-[[nodiscard]] MergedProbes remove_probes(MergedProbes probes, const std::vector<bool>& is_left_out);
+/// Removes the marked probes and keeps the order of the others. The sources of removed probes stay,
+/// with `kNoIndex` for their probe, so that every probe of every group has an entry. Precondition:
+/// one flag a probe.
+[[nodiscard]] MergedProbes remove_probes(MergedProbes probes, const std::vector<bool>& is_removed);
 
 }  // namespace tetralight

@@ -31,7 +31,7 @@ const glm::dvec3& farthest(std::span<const glm::dvec3> positions, Measure measur
     return *std::ranges::max_element(positions, {}, measure);
 }
 
-/// Exact: whether four of the positions span a tetrahedron.
+/// Exact: true if four of the positions span a tetrahedron.
 bool has_tetrahedron(std::span<const glm::dvec3> positions) {
     const glm::dvec3& a = positions[0];
     const glm::dvec3& b =
@@ -47,14 +47,14 @@ bool is_flat(std::span<const glm::dvec3> positions, double flatness) {
            !has_tetrahedron(positions);
 }
 
-/// What the output has to begin with. Precondition: it is long enough.
+/// The header of the output. Precondition: it is long enough.
 StreamHeader header_of(Bytes output) {
     StreamHeader header;
     std::memcpy(&header, output.data(), sizeof header);
     return header;
 }
 
-/// Refuses output that cannot become tetrahedra of so many positions, however it goes on.
+/// Returns corrupt if output that begins like this cannot hold tetrahedra of so many positions.
 Status check_output(Bytes output, uint64_t position_count) {
     const size_t magic_size = std::min(output.size(), tetgen::kTetrahedraMagic.size());
     if (std::memcmp(output.data(), tetgen::kTetrahedraMagic.data(), magic_size) != 0) {

@@ -13,7 +13,8 @@
 namespace tetralight {
 namespace {
 
-/// `tetrahedralize` with tetrahedra that are kept. Flat sets have few probes and are made anew.
+/// `tetrahedralize` that reuses the tetrahedra of the last build. Flat sets have few probes and are
+/// built from scratch.
 Tetrahedralization tetrahedralize_next(const MergedProbes& probes,
                                        detail::DelaunayTetrahedra& kept) {
     const auto spread = detail::measure_spread(probes.positions, flat_tolerance(probes));

@@ -31,15 +31,15 @@ class VolumeBuilder {
     VolumeBuilder(VolumeBuilder&&) noexcept;
     VolumeBuilder& operator=(VolumeBuilder&&) noexcept;
 
-    /// Errors: those of `merge`; nothing changes then.
+    /// Returns the errors of `merge`; the builder is unchanged then.
     Status add_group(ProbeGroup group);
 
-    /// Error: there is no group of this name; nothing changes then.
+    /// Returns not_found if there is no group of this name; the builder is unchanged then.
     Status remove_group(std::string_view name);
 
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
 
-    /// A volume without light over the groups that are there now.
+    /// A volume without light over the current groups.
     [[nodiscard]] ProbeVolume build();
 
   private:

@@ -19,7 +19,7 @@ Status check_count(std::string_view section, size_t count, size_t expected) {
     return section_error(section, str_cat(count, " elements instead of ", expected));
 }
 
-/// Sections of plain floats, whatever they stand for.
+/// Checks sections whose elements consist of floats.
 template <class T>
 Status check_floats(std::string_view section, std::span<const T> elements) {
     static_assert(sizeof(T) % sizeof(float) == 0);

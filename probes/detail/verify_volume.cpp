@@ -45,8 +45,8 @@ Error info_error(const std::string& what) {
     return detail::section_error("info", what);
 }
 
-/// Whether the first cell has the vertices that cells of this dimension have: if it has not, the
-/// dimension is wrong and not every cell.
+/// Checks that the first cell has as many vertices as the dimension says. If not, the error is
+/// about the dimension, not about every cell.
 Status check_dimension(const ProbeVolumeView& v) {
     if (v.info.inner_cell_count == 0) return Ok{};
     const auto count = 4 - std::ranges::count(v.cells[0].vertices, kNoIndex);
@@ -62,7 +62,7 @@ Status check_counts(const ProbeVolumeView& v) {
             str_cat("dimension ", static_cast<uint32_t>(v.info.dimension), " is unknown"));
     }
     if (v.info.inner_cell_count > v.cells.size()) {
-        return info_error(str_cat("tetrahedron count ", v.info.inner_cell_count,
+        return info_error(str_cat("inner cell count ", v.info.inner_cell_count,
                                   " is more than the ", v.cells.size(), " cells"));
     }
     if (auto status = check_dimension(v); !status) return status;
@@ -170,8 +170,7 @@ struct CellShape {
     }
 };
 
-/// "vertex 7 is out of range (5 probes)", or nothing when it is in range, or unused as it should
-/// be.
+/// "vertex 7 is out of range (5)". Empty if it is in range, or is kNoIndex in an unused place.
 std::string index_problem(const char* what, uint32_t index, bool is_used, size_t count) {
     if (is_used ? index < count : index == kNoIndex) return {};
     return str_cat(what, " ", index, " is out of range (", is_used ? count : 0, ")");

@@ -22,7 +22,7 @@ Triangle outward_face(const Cell& cell, int corner) {
     return face;
 }
 
-/// Whether `there` lies on the other side of the face opposite a corner of `here`.
+/// True if `there` lies on the other side of the face opposite a corner of `here`.
 bool is_across(const Cell& here, uint32_t here_index, int corner, const Cell& there) {
     const Triangle face = outward_face(here, corner);
     for (int i = 0; i < 4; ++i) {
@@ -54,7 +54,7 @@ Status check_neighbors(const std::vector<Cell>& cells) {
             const uint32_t neighbor = cells[i].neighbors[corner];
             if (neighbor == kNoIndex || is_across(cells[i], i, corner, cells[neighbor])) continue;
             return Error{ErrorCode::Corrupt,
-                         str_cat("tetrahedra ", i, " and ", neighbor, " are no neighbors")};
+                         str_cat("tetrahedra ", i, " and ", neighbor, " are not neighbors")};
         }
     }
     return Ok{};
@@ -71,8 +71,8 @@ Status check_all_used(const std::vector<Cell>& cells, size_t position_count) {
                  str_cat("left out ", count, " of ", position_count, " probes")};
 }
 
-/// Whether the hull is one closed surface without a hole, which only a convex polyhedron's is when
-/// all its edges are convex as well.
+/// True if the hull is one closed surface without a hole. If all its edges are convex too, it is a
+/// convex polyhedron.
 bool is_one_sphere(const Tetrahedralization& cells, size_t position_count) {
     const uint32_t first = cells.inner_cell_count;
     const auto count = static_cast<uint32_t>(cells.cells.size()) - first;

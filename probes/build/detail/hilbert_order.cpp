@@ -13,7 +13,7 @@
 namespace tetralight::detail {
 namespace {
 
-/// A curve through so few positions is not worth its while.
+/// Fewer positions than this are sorted by x, y, z.
 constexpr size_t kFew = 8;
 
 struct Key {

@@ -34,12 +34,12 @@ class PositionTree {
     /// Parents come before their children; the first one is the root.
     [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
 
-    /// Which of the other positions, counted from the nearest as 1, says how far apart positions
-    /// are: the seventh. Of fewer than eight positions the one in the middle, since the farthest
-    /// may be far from all others.
+    /// The rank of the neighbor whose distance is the spacing, counted from the nearest as 1: the
+    /// seventh. With fewer than eight positions the median, because the farthest may be far from
+    /// all others.
     [[nodiscard]] static size_t spacing_rank(size_t position_count);
 
-    /// How far that one is from the position of this number. 0 for a single position.
+    /// The distance of that neighbor from a position. 0 for a single position.
     [[nodiscard]] double spacing(uint32_t position) const;
 
   private:
@@ -49,10 +49,10 @@ class PositionTree {
     std::vector<Node> nodes_;
 };
 
-/// The diagonal of the box around two nodes.
+/// The diagonal of the union of the bounds of two nodes.
 [[nodiscard]] double joint_diagonal(const PositionTree::Node& a, const PositionTree::Node& b);
 
-/// How far the boxes of two nodes are apart.
+/// The distance between the bounds of two nodes.
 [[nodiscard]] double gap(const PositionTree::Node& a, const PositionTree::Node& b);
 
 }  // namespace tetralight::detail
