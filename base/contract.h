@@ -9,7 +9,7 @@ namespace tetralight::detail {
 
 }  // namespace tetralight::detail
 
-/// Checks a precondition of a call (a programmer's error, never bad data). Compiled out by NDEBUG.
+/// Checks a precondition of a function: an error of the caller, never bad data. NDEBUG removes it.
 #ifdef NDEBUG
 #define TETRALIGHT_ASSERT(condition, why) static_cast<void>(0)
 #else

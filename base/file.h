@@ -14,8 +14,8 @@ namespace tetralight {
 [[nodiscard]] Result<std::vector<std::byte>> read_file(const std::string& path);
 
 /// Writes `parts` one after the other to a new file beside `path`, syncs it, then renames it over
-/// `path`: a failure leaves what was there before whole, and no half file behind.
-/// `-` and devices are written to as they are.
+/// `path`: after a failure the old file is whole and no partial file remains. `-` (stdout) and
+/// devices are written to directly.
 [[nodiscard]] Status write_file(const std::string& path,
                                 std::span<const std::span<const std::byte>> parts);
 

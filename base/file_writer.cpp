@@ -50,7 +50,8 @@ Result<std::string> follow_links(const std::string& path) {
         const std::string link(memory, static_cast<size_t>(length));
         end = link.starts_with('/') ? link : end.substr(0, end.rfind('/') + 1) + link;
     }
-    return Error{shown_path(path) + ": cannot write (its symbolic links lead in a circle)"};
+    return Error{ErrorCode::InvalidArgument,
+                 shown_path(path) + ": cannot write (its symbolic links form a cycle)"};
 }
 
 Result<FileWriter> FileWriter::open(const std::string& path) {

@@ -10,17 +10,17 @@
 
 namespace tetralight {
 
-/// Writes a file piece by piece, and lets it appear at `path` only when all of it is there:
+/// Writes a file piece by piece, and lets it appear at `path` only when it is complete:
 ///
 ///     auto writer = FileWriter::open(path);
 ///     if (!writer) return writer.error();
 ///     ... writer->write(bytes) ... return writer->commit();
 ///
-/// Until then `path` keeps what it held. Without `commit` nothing is left behind; where the file
-/// system has unnamed files (O_TMPFILE) that holds for a killed process, too.
+/// Until then `path` keeps its old content. Without `commit` no file remains; on file systems with
+/// unnamed files (O_TMPFILE) this holds for a killed process, too.
 class FileWriter {
   public:
-    /// `-` (stdout, as messages call it) and devices are written to as they are.
+    /// `-` (stdout) and devices are written to directly.
     [[nodiscard]] static Result<FileWriter> open(const std::string& path);
 
     FileWriter(FileWriter&& other) noexcept = default;
@@ -29,7 +29,7 @@ class FileWriter {
 
     [[nodiscard]] Status write(std::span<const std::byte> bytes);
 
-    /// Syncs the file and puts it in its place. To be called once, at the end.
+    /// Syncs the file and renames it to `path`. Call it once, at the end.
     [[nodiscard]] Status commit();
 
   private:
@@ -45,8 +45,8 @@ class FileWriter {
     Descriptor file_;
 };
 
-/// The path that a chain of symbolic links ends at, there or not. Errors: the links lead in a
-/// circle.
+/// The path that a chain of symbolic links ends at, whether it exists or not. Returns an error if
+/// the links form a cycle.
 [[nodiscard]] Result<std::string> follow_links(const std::string& path);
 
 }  // namespace tetralight

@@ -26,7 +26,7 @@ uint64_t number_in(const char* path, const std::string& word) {
     return kUnknown;
 }
 
-/// What is left of the limit of the control group that a container runs in.
+/// Free memory within the limit of the control group of a container.
 uint64_t free_in_group() {
     const uint64_t limit = number_in("/sys/fs/cgroup/memory.max", "");  // "max" is no number
     const uint64_t used = number_in("/sys/fs/cgroup/memory.current", "");

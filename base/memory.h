@@ -6,8 +6,8 @@
 
 namespace tetralight {
 
-/// Bytes of memory that this process may still allocate: the system's free memory, or what is left
-/// of the limit of its control group. The largest number if the system does not say.
+/// Bytes of memory that this process may still allocate: the free memory of the system, or of its
+/// control group if that is less. The largest number if the system does not tell.
 [[nodiscard]] uint64_t free_memory();
 
 /// "20.3 GB", to a tenth.

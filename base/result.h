@@ -9,7 +9,7 @@
 
 namespace tetralight {
 
-/// A value, or the reason why there is none. The only way in which bad data is reported.
+/// A value, or the error that prevented it. All functions report bad data this way.
 template <class T>
 class [[nodiscard]] Result {
   public:
@@ -19,7 +19,7 @@ class [[nodiscard]] Result {
 
     [[nodiscard]] explicit operator bool() const noexcept { return value_.has_value(); }
 
-    /// The value. Precondition: there is one.
+    /// Precondition: there is a value.
     [[nodiscard]] T& operator*() & { return checked(); }
 
     [[nodiscard]] const T& operator*() const& { return const_cast<Result*>(this)->checked(); }
@@ -30,7 +30,7 @@ class [[nodiscard]] Result {
 
     [[nodiscard]] const T* operator->() const { return &const_cast<Result*>(this)->checked(); }
 
-    /// The reason. Precondition: there is no value.
+    /// The error. Precondition: there is no value.
     [[nodiscard]] const Error& error() const {
         TETRALIGHT_ASSERT(!value_, "error() of a Result that holds a value");
         return error_;
@@ -46,7 +46,7 @@ class [[nodiscard]] Result {
     Error error_;
 };
 
-/// The value of a call that only succeeds or fails: `return Ok{};`.
+/// The value of a function that returns only success or an error: `return Ok{};`.
 struct Ok {
     bool operator==(const Ok&) const = default;
 };

@@ -6,8 +6,8 @@
 
 namespace tetralight {
 
-/// A path as messages show it, in one line: control characters and bytes that are no UTF-8 as
-/// `\x1b`, an empty path as `""`, a very long one without its middle.
+/// A path as messages show it, in one line: control characters and bytes that are not UTF-8 as
+/// `\x1b`, an empty path as `""`, a very long one shortened in the middle.
 [[nodiscard]] std::string shown_path(std::string_view path);
 
 }  // namespace tetralight

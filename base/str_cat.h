@@ -31,7 +31,7 @@ void append_text(std::string& out, Number number) {
 }  // namespace detail
 
 /// Joins strings and numbers: `str_cat("probe ", 7, ": ", 0.5)`. Numbers are written in the
-/// shortest form that reads back to the same value, whatever the locale.
+/// shortest form that reads back to the same value, in every locale.
 template <class... Parts>
 [[nodiscard]] std::string str_cat(const Parts&... parts) {
     std::string out;

@@ -12,7 +12,7 @@ bool is_in(char byte, int low, int high) {
     return value >= low && value <= high;
 }
 
-/// Bytes of the character that these begin with; 0: there is none. Precondition: not empty.
+/// Length of the character at the beginning; 0 if it is not valid UTF-8. Precondition: not empty.
 size_t character_length(std::string_view bytes) {
     const char lead = bytes[0];
     if (is_in(lead, 0x00, 0x7f)) return 1;
@@ -21,7 +21,7 @@ size_t character_length(std::string_view bytes) {
                           : is_in(lead, 0xf0, 0xf4) ? 4
                                                     : 0;
     if (length == 0 || bytes.size() < length) return 0;
-    // Where the second byte may not be any: shorter forms exist, surrogates, beyond U+10FFFF.
+    // Some lead bytes limit the second one: no overlong forms, surrogates, or beyond U+10FFFF.
     const int low = lead == '\xe0' ? 0xa0 : lead == '\xf0' ? 0x90 : 0x80;
     const int high = lead == '\xed' ? 0x9f : lead == '\xf4' ? 0x8f : 0xbf;
     if (!is_in(bytes[1], low, high)) return 0;
@@ -49,9 +49,11 @@ bool has_control_character(std::string_view text) noexcept {
 
 Status check_characters(std::string_view name) {
     if (has_control_character(name)) {
-        return Error{"the name holds a line break or another control character"};
+        return Error{ErrorCode::InvalidArgument, "name", "",
+                     "the name holds a line break or another control character"};
     }
-    if (!is_utf8(name)) return Error{"the name is not UTF-8"};
+    if (!is_utf8(name))
+        return Error{ErrorCode::InvalidArgument, "name", "", "the name is not UTF-8"};
     return Ok{};
 }
 

@@ -77,7 +77,7 @@ void slivers(int side) {
     for (glm::dvec3& p : positions) p = glm::dvec3(placed * glm::dvec4(p, 1.0));
     const auto sliver_percent = [](const ProbeVolume& volume) {
         const std::span cells = std::span(volume.cells).first(volume.info.inner_cell_count);
-        return 100.0 * measure_quality(volume.exact_positions, cells).sliver_share();
+        return 100.0 * measure_quality(volume.exact_positions, cells).sliver_fraction();
     };
 
     const ProbeGroup group = make_group("bench", positions);

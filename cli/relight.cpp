@@ -183,7 +183,7 @@ struct Relight {
     [[nodiscard]] Status blend_with(ProbeVolume& volume) const {
         const auto file = open_probe_file(blend_path);
         if (!file) return file.error();
-        auto blended = blend(volume.view(), file->view(), static_cast<float>(blend_share));
+        auto blended = blend_volumes(volume.view(), file->view(), static_cast<float>(blend_share));
         if (!blended) return blended.error().in(blend_path);
         volume = std::move(*blended);
         return Ok{};

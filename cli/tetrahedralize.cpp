@@ -43,8 +43,8 @@ struct Tetrahedralize {
     }
 
     [[nodiscard]] Result<Tetrahedralization> cells_over(const MergedProbes& probes) const {
-        if (backend == "cgal") return tetrahedralize(probes.positions, flatness(probes));
-        return tetrahedralize_with_tetgen(probes.positions, flatness(probes),
+        if (backend == "cgal") return tetrahedralize(probes.positions, flat_tolerance(probes));
+        return tetrahedralize_with_tetgen(probes.positions, flat_tolerance(probes),
                                           find_tetgen_program());
     }
 

@@ -6,16 +6,19 @@
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/light_words.h>
 #include <tetralight/probes/build/quality.h>
+#include <tetralight/probes/volume_members.h>
 
 namespace tetralight::cli {
 namespace {
 
-/// Sections that no query reads (docs/file_format.md).
-constexpr const char* kColdSections[] = {
-    "validity", "health",   "exact_positions", "sources",          "group_names",
-    "lights",   "metadata", "light_names",     "light_states",     "occlusion_lights",
-    "layers",   "transfer", "layer_names",     "layer_irradiance", "sky",
-    "dering"};
+/// True for sections that no query reads (docs/file_format.md).
+bool is_cold_section(const std::string& name) {
+    bool is_cold = false;
+    for_each_volume_member([&](const char* section, MemberUse use, auto, auto) {
+        is_cold = is_cold || (name == section && use == MemberUse::Offline);
+    });
+    return is_cold;
+}
 
 Json groups_json(const ProbeVolumeView& volume) {
     const auto names = split_names(volume.group_names);
@@ -83,9 +86,7 @@ std::optional<Slivers> count_slivers(const ProbeVolumeView& volume) {
 std::vector<SectionFacts> section_facts(const ProbeFile& file) {
     std::vector<SectionFacts> sections;
     for (const auto& section : file.sections()) {
-        const bool is_cold =
-            std::ranges::find(kColdSections, section.name) != std::ranges::end(kColdSections);
-        sections.push_back({section.name, section.size, !is_cold});
+        sections.push_back({section.name, section.size, !is_cold_section(section.name)});
     }
     return sections;
 }
@@ -149,7 +150,7 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.bounds = bounds_json(volume);
     facts.made_with = made_with(volume);
     facts.is_baked = !volume.irradiance.empty();
-    facts.radial_share = static_cast<double>(volume.info.radial_share);
+    facts.radial_fraction = static_cast<double>(volume.info.radial_fraction);
     facts.slivers = count_slivers(volume);
     if (volume.info.inner_cell_count > 0) facts.walks = measure_walks(volume);
     facts.seed_count = volume.seeds.size();
@@ -162,7 +163,7 @@ Json to_json(const VolumeFacts& facts) {
     json.update(facts.counts);
     json.update({{"is_baked", facts.is_baked},
                  {"bounds", facts.bounds},
-                 {"radial_share", facts.radial_share},
+                 {"radial_share", facts.radial_fraction},
                  {"slivers", slivers_json(facts)},
                  {"seeds", seeds_json(facts)},
                  {"walks", walks_json(facts)},

@@ -37,7 +37,7 @@ struct VolumeFacts {
     Json bounds;
     Json made_with;
     bool is_baked = false;
-    double radial_share = 0.0;
+    double radial_fraction = 0.0;
     /// None in volumes that have no tetrahedra.
     std::optional<Slivers> slivers;
     /// None in volumes without probes.

@@ -13,7 +13,7 @@
 #include <tetralight/bake/virtual_offset.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/build/group_spacing.h>
-#include <tetralight/probes/build/leave_out.h>
+#include <tetralight/probes/build/remove_probes.h>
 
 namespace tetralight {
 namespace {
@@ -143,7 +143,7 @@ Result<PreparedProbes> prepare_probes(const Scene& scene, MergedProbes merged,
     const std::vector<uint8_t> invalid = kept(probe_visibility.is_inside, is_left_out);
     prepared.is_invalid.assign(invalid.begin(), invalid.end());
     prepared.left_out_count = merged.positions.size() - prepared.health.size();
-    prepared.merged = leave_out(std::move(merged), is_left_out);
+    prepared.merged = remove_probes(std::move(merged), is_left_out);
     for (size_t i = 0; i < prepared.health.size(); ++i) {
         const glm::vec3 offset = prepared.health[i].virtual_offset;
         prepared.moved_count += offset != glm::vec3(0.0f);

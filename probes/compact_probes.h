@@ -13,18 +13,19 @@ namespace tetralight {
 /// Without irradiance there are no compact probes.
 void make_compact_probes(ProbeVolume& volume);
 
-/// The largest |coefficient|; what `Layer::largest` is of a layer.
+/// The largest |coefficient|, as `Layer::largest` holds it for a layer.
 [[nodiscard]] float largest_coefficient(std::span<const IrradianceSh> irradiance) noexcept;
 
 /// The smallest power of two that brings a coefficient of this size to at most 2^12.
 [[nodiscard]] float compact_scale(float largest) noexcept;
 
-/// What a compact probe holds, in floats.
+/// The values of a compact probe as floats.
 [[nodiscard]] IrradianceSh compact_irradiance(const CompactProbe& probe, float scale) noexcept;
 [[nodiscard]] glm::vec4 compact_occlusion(const CompactProbe& probe) noexcept;
 
-/// Compact probes that differ by more than a step of half precision from the floats that they stand
-/// for. 0 where there are no floats. Precondition: as many of each as there are, or none.
+/// Number of compact probes that differ from the volume's floats by more than one step of half
+/// precision. 0 if the volume has no floats. Precondition: each array holds one element a probe or
+/// is empty.
 [[nodiscard]] uint32_t count_wrong_compact_probes(const ProbeVolumeView& volume) noexcept;
 
 }  // namespace tetralight

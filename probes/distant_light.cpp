@@ -47,7 +47,7 @@ DistantLight distant_sun(glm::vec3 to_light, glm::vec3 irradiance) noexcept {
     return light;
 }
 
-glm::vec3 evaluate(const DistantLight& light, glm::vec3 direction) noexcept {
+glm::vec3 evaluate_radiance(const DistantLight& light, glm::vec3 direction) noexcept {
     const auto basis = distant_basis(direction);
     glm::vec3 sum(0.0f);
     for (int i = 0; i < kDistantCoefficientCount; ++i) sum += light.coefficients[i] * basis[i];
@@ -63,7 +63,7 @@ DistantLight rotate(const DistantLight& source, const glm::mat3& target_from_sou
         for (int column = 0; column < kAzimuthCount; ++column) {
             const double azimuth = 2.0 * std::numbers::pi * column / kAzimuthCount;
             const glm::dvec3 to(radius * std::cos(azimuth), radius * std::sin(azimuth), z);
-            const glm::dvec3 value(evaluate(source, glm::vec3(source_from_target * to)));
+            const glm::dvec3 value(evaluate_radiance(source, glm::vec3(source_from_target * to)));
             const auto basis = distant_basis(glm::vec3(to));
             for (int i = 0; i < kDistantCoefficientCount; ++i) {
                 sums[i] += value * (weight * static_cast<double>(basis[i]));

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 // Light from infinitely far away as spherical harmonics of order 3: a sky, a sun. One band more
-// than probes have, because what a probe gathers of a sky that it sees a part of needs it.
+// than probes have, because a probe that sees only a part of the sky needs it.
 
 namespace tetralight {
 
@@ -41,10 +41,10 @@ static_assert(sizeof(DistantLight) == 192 && std::is_trivially_copyable_v<Distan
 [[nodiscard]] DistantLight distant_sun(glm::vec3 to_light, glm::vec3 irradiance) noexcept;
 
 /// Radiance from a unit direction, as far as four bands hold it; can be negative.
-[[nodiscard]] glm::vec3 evaluate(const DistantLight& light, glm::vec3 direction) noexcept;
+[[nodiscard]] glm::vec3 evaluate_radiance(const DistantLight& light, glm::vec3 direction) noexcept;
 
-/// Turns the light: rotated(R·d) = original(d). `target_from_source` is orthonormal. Exact up to
-/// rounding: the turned function is projected again by a quadrature that is exact for it.
+/// Rotates the light: rotated(R·d) = original(d). `target_from_source` is orthonormal. Exact up to
+/// rounding: the rotated function is projected again by a quadrature that is exact for it.
 [[nodiscard]] DistantLight rotate(const DistantLight& source,
                                   const glm::mat3& target_from_source) noexcept;
 

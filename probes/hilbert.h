@@ -14,19 +14,19 @@ inline constexpr int kHilbertBits = 21;
 /// "Programming the Hilbert curve"). Points near along the curve are near in space.
 [[nodiscard]] uint64_t hilbert_index(std::array<uint32_t, 3> point) noexcept;
 
-/// A cube as the lattice of a Hilbert curve.
+/// A cube in which a Hilbert curve orders positions.
 struct HilbertCube {
-    glm::dvec3 low{0.0};
-    /// Lattice steps a metre; 0 = everything is one point.
+    glm::dvec3 min{0.0};
+    /// Lattice points a metre; 0 = all positions are one point.
     double scale = 0.0;
 
-    /// Index of the lattice point below a position; positions outside are moved to the cube's side.
+    /// Index of the lattice point below a position; positions outside are clamped to the cube.
     [[nodiscard]] uint64_t index(const glm::dvec3& position) const noexcept;
 
     bool operator==(const HilbertCube&) const = default;
 };
 
-/// The smallest cube that holds the box from `low` to `high`, with the box in its lower corner.
-[[nodiscard]] HilbertCube make_hilbert_cube(const glm::dvec3& low, const glm::dvec3& high) noexcept;
+/// The smallest cube that contains the box from `min` to `max` and begins at `min`.
+[[nodiscard]] HilbertCube make_hilbert_cube(const glm::dvec3& min, const glm::dvec3& max) noexcept;
 
 }  // namespace tetralight

@@ -18,7 +18,7 @@ Status check_outputs(const InterpolationBatch& batch, size_t count) {
     const bool has_irradiance = !batch.irradiance.memory.empty();
     const bool has_occlusion = !batch.occlusion.memory.empty();
     if (count > 0 && !has_irradiance && !has_occlusion) {
-        return Error{"neither irradiance nor occlusion is asked for"};
+        return Error{ErrorCode::InvalidArgument, "neither irradiance nor occlusion has an output"};
     }
     if (has_irradiance) {
         const auto status = check_length("irradiance", batch.irradiance.capacity(), count);
@@ -35,11 +35,15 @@ Status check_outputs(const InterpolationBatch& batch, size_t count) {
 
 Status check_outside(const OutsideHull& outside) {
     if (outside.policy > OutsidePolicy::Ambient) {
-        return Error{str_cat("outside has policy ", static_cast<uint32_t>(outside.policy))};
+        return Error{ErrorCode::InvalidArgument, "outside.policy",
+                     str_cat(static_cast<uint32_t>(outside.policy)),
+                     str_cat("outside has policy ", static_cast<uint32_t>(outside.policy))};
     }
     const bool is_length = std::isfinite(outside.fade_distance) && outside.fade_distance > 0.0f;
     if (outside.policy != OutsidePolicy::Ambient || is_length) return Ok{};
-    return Error{str_cat("fade_distance is ", outside.fade_distance, ", not a length")};
+    return Error{
+        ErrorCode::InvalidArgument, "outside.fade_distance", str_cat(outside.fade_distance),
+        str_cat("fade_distance is ", outside.fade_distance, "; it must be positive and finite")};
 }
 
 }  // namespace
@@ -49,7 +53,7 @@ InterpolatedProbe interpolate(const ProbeVolumeView& volume,
     return detail::blend_probes(volume, location);
 }
 
-Status check(const InterpolationBatch& batch) {
+Status check_batch(const InterpolationBatch& batch) {
     const size_t count = batch.positions.size();
     if (!batch.hints.empty()) {
         const auto status = check_length("hints", batch.hints.size(), count);
@@ -73,7 +77,7 @@ void detail::BatchTasks::run(size_t task) noexcept {
 }
 
 Result<BatchReport> interpolate(const ProbeVolumeView& volume, const InterpolationBatch& batch) {
-    if (auto status = check(batch); !status) return status.error();
+    if (auto status = check_batch(batch); !status) return status.error();
     return detail::answer(volume, batch, 0, batch.positions.size());
 }
 

@@ -11,14 +11,14 @@
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/probes/query_output.h>
 
-// What light arrives at a position, for one object or a million instances in one call.
+// Interpolates the light at positions: of one object, or of a million instances in one call.
 //
 //     std::vector<PackedSh> light(positions.size());
 //     auto report = interpolate(volume, {.positions = positions, .irradiance = light});
 
 namespace tetralight {
 
-/// What a volume answers for one position.
+/// The interpolated light at one position.
 struct InterpolatedProbe {
     IrradianceSh irradiance;
     /// Four channels, 1 = lit.
@@ -39,39 +39,41 @@ struct InterpolationBatch {
     /// In: where each walk starts; out: the cell found, for the next frame. May be empty: then
     /// walks start near the cells of the positions before them.
     std::span<uint32_t> hints = {};
-    /// Either may be left out, not both.
+    /// At least one of the two outputs must be set.
     ShOutput irradiance = {};
     OcclusionOutput occlusion = {};
     OutsideHull outside = {};
-    /// Not empty: answer along a Morton curve, which makes positions in no order faster. Two for
-    /// each position; what it holds is of no use afterwards.
+    /// Scratch memory of two elements a position. If given, positions are answered along a Morton
+    /// curve, which is faster for positions in random order.
     std::span<uint64_t> sort_memory = {};
 };
 
-/// What a batch met.
+/// Counters of a batch.
 struct BatchReport {
     /// Positions that are not finite: their answer is the ambient light.
     uint64_t not_finite_count = 0;
     /// Cells that were tested.
     uint64_t step_count = 0;
-    /// Walks that did not end by themselves.
+    /// Walks that ended by searching all cells.
     uint64_t fallback_count = 0;
 
     bool operator==(const BatchReport&) const = default;
 };
 
-/// Locates and blends every position of the batch. Errors: no output at all, a span that is shorter
-/// than `positions` needs (the message says both lengths), answers over each other or at odd
-/// addresses, a fade that is no length. Thread-safe on one volume; allocates nothing. `locate` says
-/// what may differ between calls.
+/// Locates and blends every position of the batch. Thread-safe on one volume; allocates nothing.
+/// `locate` documents what may differ between calls.
+///
+/// Returns invalid_argument if neither output is set, a span is too short for `positions` (the
+/// message holds both lengths), answers overlap or are not aligned, or the fade distance is not
+/// positive and finite. `Error::field` is the member of the batch.
 [[nodiscard]] Result<BatchReport> interpolate(const ProbeVolumeView& volume,
                                               const InterpolationBatch& batch);
 
 /// Positions of one task of a parallel batch.
 inline constexpr size_t kBatchTaskSize = 16384;
 
-/// Errors of a batch, as `interpolate` says them.
-[[nodiscard]] Status check(const InterpolationBatch& batch);
+/// Returns the errors that `interpolate` returns for a batch.
+[[nodiscard]] Status check_batch(const InterpolationBatch& batch);
 
 namespace detail {
 
@@ -94,19 +96,18 @@ template <class ParallelFor>
 [[nodiscard]] Result<BatchReport> interpolate(const ProbeVolumeView& volume,
                                               const InterpolationBatch& batch,
                                               ParallelFor&& parallel_for) {
-    if (auto status = check(batch); !status) return status.error();
+    if (auto status = check_batch(batch); !status) return status.error();
     detail::BatchTasks tasks{volume, batch};
     const size_t count = (batch.positions.size() + kBatchTaskSize - 1) / kBatchTaskSize;
     parallel_for(count, [&tasks](size_t task) { tasks.run(task); });
     return BatchReport{tasks.not_finite_count, tasks.step_count, tasks.fallback_count};
 }
 
-/// Locations of many positions, as `interpolate` finds them. Precondition: as many locations as
-/// positions.
+/// Locates many positions as `interpolate` does. Precondition: as many locations as positions.
 void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
             std::span<CellLocation> locations, const OutsideHull& outside = {});
 
-/// Blends at known locations: `interpolate` without the walk. Errors as there.
+/// Blends at known locations: `interpolate` without the walk. Returns the same errors.
 [[nodiscard]] Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
                            const ShOutput& irradiance, const OcclusionOutput& occlusion);
 

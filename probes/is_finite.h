@@ -6,7 +6,7 @@
 
 namespace tetralight {
 
-/// Whether no coordinate is NaN or infinite.
+/// True if no coordinate is NaN or infinite.
 template <class T>
 [[nodiscard]] bool is_finite(const glm::vec<3, T>& v) noexcept {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

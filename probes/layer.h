@@ -9,14 +9,14 @@
 
 namespace tetralight {
 
-/// One of the layers that a volume's light is the weighted sum of: that of the sun, the sky, a lamp
-/// or a material, by `layer_names`. "rest" is what no other layer has.
+/// One of the layers whose weighted sum is the light of a volume: the light of the sun, the sky, a
+/// lamp or a material, by `layer_names`. "rest" is the light that is in no other layer.
 struct Layer {
-    /// What the resident light holds of it; 1 = as it was baked.
+    /// Its factor in the volume's light; 1 = as it was baked.
     float weight = 1.0f;
     /// The largest |coefficient| of its irradiance at any probe.
     float largest = 0.0f;
-    /// Its share of the volume's ambient light.
+    /// The ambient light of this layer at weight 1.
     IrradianceSh ambient;
     std::array<uint32_t, 3> reserved{};
 

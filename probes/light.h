@@ -11,7 +11,7 @@ enum class LightType : uint32_t {
     Directional = 0,
     Point = 1,
     Spot = 2,
-    /// Shine from one side only, brightest along `direction` (Lambert): `extras.shape` of a light.
+    /// Emits from one side only, brightest along `direction` (Lambert): `extras.shape` of a light.
     Rectangle = 3,
     Disc = 4,
 };
@@ -25,15 +25,15 @@ enum class LightFalloff : uint32_t {
     Legacy = 3,              ///< 1 / (1 + 25 (d/range)²), faded to 0 from 0.8 of the range on
 };
 
-/// Which share of a light is baked into the probes (docs/conventions.md).
+/// Which part of a light is baked into the probes (docs/conventions.md).
 enum class LightMode : uint32_t {
-    Mixed = 0,     ///< its bounces; whoever shades adds the direct term with a shadow
+    Mixed = 0,     ///< its bounces; the runtime adds the direct term with a shadow
     Baked = 1,     ///< its bounces and its direct light
-    Realtime = 2,  ///< nothing; whoever shades adds the direct term with a shadow
+    Realtime = 2,  ///< nothing; the runtime adds the direct term with a shadow
 };
 
 /// A light with the meaning and units of glTF's KHR_lights_punctual, and what that leaves out.
-/// Stored in probe volumes as it stands, so that whoever shades can add the direct term of `Mixed`
+/// Stored in probe volumes in this layout, so that a runtime can add the direct term of `Mixed`
 /// lights.
 struct Light {
     LightType type = LightType::Directional;
@@ -67,7 +67,7 @@ struct Light {
 
 static_assert(sizeof(Light) == 88 && alignof(Light) == 4 && std::is_trivially_copyable_v<Light>);
 
-/// Light that arrives at one position from one light, shadows left out.
+/// Light that arrives at one position from one light, without shadows.
 struct Illumination {
     /// Irradiance on a surface that faces the light: E(n) = irradiance · max(0, n · to_light).
     glm::vec3 irradiance{0.0f};
@@ -77,12 +77,12 @@ struct Illumination {
 };
 
 /// Irradiance on a surface that faces a point light of intensity 1 at a distance > 0: the formula
-/// of the light's falloff. 1 for directional lights. A range of 0 leaves what depends on it out.
+/// of the light's falloff, without its factors of the range if that is 0. 1 for directional lights.
 [[nodiscard]] float evaluate_falloff(const Light& light, float distance) noexcept;
 
-/// Share of a light's intensity that leaves it towards a place from which `to_light` (unit) points
-/// back: the squared ramp between a spot light's cosines (KHR_lights_punctual), the cosine of
-/// rectangles and discs on their front, 1 for the others.
+/// Fraction of a light's intensity that it emits along −`to_light` (unit): the squared ramp between
+/// a spot light's cosines (KHR_lights_punctual), the cosine of rectangles and discs on their front,
+/// 1 for the others.
 [[nodiscard]] float evaluate_emission_profile(const Light& light, glm::vec3 to_light) noexcept;
 
 /// Area of a rectangle or disc, square metres; 0 for the others. With it,

@@ -73,7 +73,7 @@ bool LiveLight::step(uint32_t probe_count) {
     if (!is_under_way_) return true;
     const uint32_t back = 1 - published_.load();
     Set& set = sets_[back];
-    // Once nobody reads it nobody can begin to: readers begin with the published set.
+    // Once its reader count is 0 it stays 0: readers begin with the published set.
     if (!is_set_free_ && set.reader_count.load() != 0) return false;
     is_set_free_ = true;
     const uint32_t end = next_probe_ + std::min(probe_count, volume_.probe_count() - next_probe_);

@@ -10,8 +10,8 @@
 #include <tetralight/base/result.h>
 #include <tetralight/probes/probe_volume.h>
 
-// A volume whose light changes while others read it: one thread recombines layers, some probes a
-// frame, and any number of threads query what was finished last.
+// A volume whose light changes while other threads read it: one thread recombines layers, some
+// probes a frame, and any number of threads query the last complete result.
 //
 //     LiveLight light(file->view());
 //     auto status = light.begin(weights);                     // when a lamp is dimmed
@@ -27,30 +27,31 @@ namespace tetralight {
 ///
 /// Memory model. `begin` and `step` are for one thread at a time (the writer); `read` and readings
 /// are for any. All hand-overs are sequentially consistent atomics: publishing is a store of the
-/// set's number after its probes are written; a reader counts itself in on a set, then makes sure
-/// that it is still the published one; the writer publishes first and looks at the count of the
-/// other set afterwards. So either the reader sees the new number and lets go, or the writer sees
-/// the count and waits. Nothing blocks: `step` does nothing while somebody still reads the set that
-/// it would overwrite.
+/// set's number after its probes are written; a reader increments the count of a set, then checks
+/// that the set is still the published one; the writer publishes first and looks at the count of
+/// the other set afterwards. So either the reader sees the new number and releases the set, or the
+/// writer sees the count and waits. No call blocks: `step` does nothing while a reader still holds
+/// the set that it would overwrite.
 ///
 /// Queries see half precision: 64 bytes a probe and set. No allocation after the constructor.
 class LiveLight {
     struct Set;
 
   public:
-    /// Keeps the view, whose owner must outlive this. The light is the one that the volume has.
-    /// Error: the volume has no layers.
+    /// Keeps the view, whose owner must outlive this object. It begins with the light of the
+    /// volume. Returns invalid_argument if the volume has no layers.
     [[nodiscard]] static Result<LiveLight> make(const ProbeVolumeView& volume);
 
     LiveLight(LiveLight&& other) noexcept;
     LiveLight& operator=(LiveLight&&) = delete;
     ~LiveLight() = default;
 
-    /// Begins to recombine; one that was under way is given up. Errors: as `check_weights`.
+    /// Begins a recombination and abandons an unfinished one. Returns the errors of
+    /// `check_weights`.
     [[nodiscard]] Status begin(std::span<const float> weights);
 
-    /// Recombines up to `probe_count` more probes, and publishes when they were the last ones.
-    /// Whether nothing is left to do.
+    /// Recombines up to `probe_count` more probes, and publishes the light after the last one. True
+    /// when the recombination is done.
     bool step(uint32_t probe_count);
 
     /// What one reader queries. Destroy it soon: the next change of light waits for it.

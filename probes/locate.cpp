@@ -9,8 +9,6 @@
 #include <tetralight/probes/is_finite.h>
 
 namespace tetralight {
-namespace {}  // namespace
-
 LocationTrace trace_location(const ProbeVolumeView& volume, glm::vec3 position,
                              uint32_t hint) noexcept {
     if (volume.cells.empty() || !is_finite(position)) return {};

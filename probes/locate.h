@@ -21,7 +21,7 @@ struct CellLocation {
     bool operator==(const CellLocation&) const = default;
 };
 
-/// What is answered outside the hull of the probes. Every choice is continuous across the hull.
+/// The light outside the hull of the probes. Every policy is continuous across the hull.
 enum class OutsidePolicy : uint8_t {
     Extrapolate,  ///< the light of the hull, carried outwards along its normals (hull cells)
     Clamp,        ///< the light of the closest point of the hull
@@ -30,18 +30,18 @@ enum class OutsidePolicy : uint8_t {
 
 struct OutsideHull {
     OutsidePolicy policy = OutsidePolicy::Extrapolate;
-    /// Policy Ambient: metres from the hull where only ambient light is left, > 0.
+    /// Policy Ambient: distance from the hull at which the light has faded to ambient, metres, > 0.
     float fade_distance = 10.0f;
 
     bool operator==(const OutsideHull&) const = default;
 };
 
-/// Finds the cell that holds a world position, and the weights of its probes.
+/// Finds the cell that contains a world position, and the weights of its probes.
 ///
-/// Walks from cell to cell, beginning at `hint`: the cell of the last query near by, or of the same
-/// object in the last frame. Any value is allowed; without a cell's index the walk begins at the
-/// volume's nearest seed. Ends always: after a bounded number of steps the
-/// cells around, and at last all cells, are searched. Cost: the number of cells between the hint
+/// Walks from cell to cell, beginning at `hint`: the cell of a previous query near by, or of the
+/// same object in the last frame. Any value is allowed; if it is not the index of a cell, the walk
+/// begins at the volume's nearest seed. The walk always ends: after a bounded number of steps the
+/// cells around, and finally all cells, are searched. Cost: the number of cells between the hint
 /// and the position. Thread-safe.
 ///
 /// The light of an answer is a function of its position up to rounding. Where cells meet, the hint
@@ -51,16 +51,16 @@ struct OutsideHull {
                                   uint32_t hint = kNoIndex,
                                   const OutsideHull& outside = {}) noexcept;
 
-/// A location and what finding it took.
+/// A location and the cost of finding it.
 struct LocationTrace {
     CellLocation location;
     /// Cells that were tested.
     uint32_t step_count = 0;
-    /// The walk did not end by itself: all cells were searched.
+    /// The walk did not reach the position: all cells were searched.
     bool is_fallback = false;
 };
 
-/// `locate` with the counters that benchmarks and reports show.
+/// `locate` with counters for benchmarks and reports.
 [[nodiscard]] LocationTrace trace_location(const ProbeVolumeView& volume, glm::vec3 position,
                                            uint32_t hint = kNoIndex) noexcept;
 

@@ -7,12 +7,12 @@
 #include <tetralight/probes/light.h>
 #include <tetralight/probes/no_index.h>
 
-// How baked and real-time light share the lights of a scene, so that each term counts exactly once.
+// Which terms of each light are baked and which are added in real time; each counts exactly once.
 // docs/mixed_lighting.md has the table of what is baked and what is added at run time.
 
 namespace tetralight {
 
-/// What becomes of the shadows of `Mixed` lights.
+/// How the shadows of `Mixed` lights are made.
 enum class MixedLighting : uint32_t {
     Indirect = 0,    ///< real-time shadows of everything: probes hold the bounces alone
     Shadowmask = 1,  ///< probes also hold how much of each light they see: static shadows
@@ -22,7 +22,7 @@ enum class MixedLighting : uint32_t {
 /// "indirect", "shadowmask", "subtractive".
 [[nodiscard]] const char* name_of(MixedLighting mode) noexcept;
 
-/// What a bake takes of one light.
+/// The terms of one light that a bake computes.
 struct BakedTerms {
     bool has_direct = false;     ///< its direct light is in the probes
     bool has_bounces = false;    ///< its bounces are in the probes
@@ -35,17 +35,17 @@ struct BakedTerms {
 /// light and bounces. Sky and emission always count.
 [[nodiscard]] BakedTerms baked_terms(LightMode light, MixedLighting mode) noexcept;
 
-/// Whether a light of this type can have occlusion: area lights cannot.
+/// True if a light of this type can have occlusion. Rectangles and discs cannot.
 [[nodiscard]] bool can_have_occlusion(LightType type) noexcept;
 
-/// What a bake decided on one of a volume's lights.
+/// How a bake treated one of the volume's lights.
 struct LightState {
     MixedLighting mixed_lighting = MixedLighting::Indirect;
     /// The channel of the probes' occlusion that is this light's, 0 to 3; kNoIndex: none.
     uint32_t channel = kNoIndex;
-    /// The layer that its light is in; kNoIndex: the volume has no layers, or none has it.
+    /// The layer of its light; kNoIndex: no layer of the volume holds it.
     uint32_t layer = kNoIndex;
-    /// Not zero: it is `Mixed` in the scene, found no channel, and was baked.
+    /// Not zero: it is `Mixed` in the scene, but was baked because no channel was free.
     uint32_t fell_back = 0;
 
     bool operator==(const LightState&) const = default;

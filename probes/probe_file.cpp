@@ -8,6 +8,7 @@
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/detail/probe_file_layout.h>
+#include <tetralight/probes/volume_members.h>
 
 namespace tetralight {
 namespace {
@@ -47,7 +48,8 @@ uint64_t aligned(uint64_t offset) {
 std::vector<Part> make_parts(const ProbeVolumeView& volume, std::span<const ExtraSection> extra) {
     const std::span info(&volume.info, 1);
     std::vector<Part> parts{make_part("info", std::as_bytes(info), sizeof(VolumeInfo))};
-    detail::for_each_section(volume, [&](std::string_view name, const auto& elements) {
+    for_each_volume_member([&](const char* name, MemberUse, auto, auto view) {
+        const auto& elements = volume.*view;
         if (elements.empty()) return;
         parts.push_back(make_part(name, bytes_of(elements), sizeof elements[0]));
     });
@@ -65,7 +67,7 @@ std::vector<Part> make_parts(const ProbeVolumeView& volume, std::span<const Extr
 
 Status read_section(const SectionEntry& entry, std::span<const std::byte> bytes,
                     std::string_view& out) {
-    if (entry.element_size != 1) return Error{"wrong element size"};
+    if (entry.element_size != 1) return Error{ErrorCode::Corrupt, "wrong element size"};
     out = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     return Ok{};
 }
@@ -74,11 +76,12 @@ template <class T>
 Status read_section(const SectionEntry& entry, std::span<const std::byte> bytes,
                     std::span<const T>& out) {
     if (entry.element_size != sizeof(T)) {
-        return Error{
-            str_cat("elements have ", entry.element_size, " bytes instead of ", sizeof(T))};
+        return Error{ErrorCode::Corrupt, str_cat("elements have ", entry.element_size,
+                                                 " bytes instead of ", sizeof(T))};
     }
     if (entry.element_count >= kNoIndex) {
         return Error{
+            ErrorCode::Corrupt,
             str_cat(entry.element_count, " elements are more than 32-bit indices can name")};
     }
     out = {reinterpret_cast<const T*>(bytes.data()), entry.element_count};
@@ -88,7 +91,8 @@ Status read_section(const SectionEntry& entry, std::span<const std::byte> bytes,
 Status read_info(const SectionEntry& entry, std::span<const std::byte> bytes, VolumeInfo& info) {
     std::span<const VolumeInfo> one;
     if (auto status = read_section(entry, bytes, one); !status) return status;
-    if (one.size() != 1) return Error{str_cat(one.size(), " elements instead of 1")};
+    if (one.size() != 1)
+        return Error{ErrorCode::Corrupt, str_cat(one.size(), " elements instead of 1")};
     info = one[0];
     return Ok{};
 }
@@ -109,11 +113,13 @@ struct ProbeFileReader {
             status = read_info(entry, bytes, file.view_.info);
             has_info = true;
         }
-        detail::for_each_section(file.view_, [&](std::string_view known, auto& elements) {
-            if (name == known) status = read_section(entry, bytes, elements);
+        for_each_volume_member([&](const char* known, MemberUse, auto, auto view) {
+            if (name == known) status = read_section(entry, bytes, file.view_.*view);
         });
-        if (!status) return status.error().in("section \"" + name + "\"");
-        return Ok{};
+        if (status) return Ok{};
+        Error error = status.error().in("section \"" + name + "\"");
+        error.field = name;
+        return error;
     }
 
     static Result<ProbeFile> open(MappedFile mapping) {
@@ -124,7 +130,8 @@ struct ProbeFileReader {
         for (const SectionEntry& entry : *table) {
             if (auto status = reader.read(entry); !status) return status.error();
         }
-        if (!reader.has_info) return Error{"section \"info\" is missing"};
+        if (!reader.has_info)
+            return Error{ErrorCode::Corrupt, "info", "", "section \"info\" is missing"};
         return std::move(reader.file);
     }
 

@@ -37,8 +37,8 @@ class ProbeFile {
 
     [[nodiscard]] const std::vector<Section>& sections() const noexcept { return sections_; }
 
-    /// The bytes of a section whose elements have this size, aligned to 64 bytes; for those that
-    /// are no part of the volume. Nothing when it is not there, or of another element size.
+    /// The bytes of a section, aligned to 64 bytes: for sections that are not members of the
+    /// volume. None if the file has no section of this name and element size.
     [[nodiscard]] std::optional<std::span<const std::byte>> section_bytes(
         std::string_view name, uint64_t element_size) const noexcept;
 
@@ -52,25 +52,30 @@ class ProbeFile {
 };
 
 /// Opens a file and verifies all of it: checksums, structure, every index and number. Reads the
-/// whole file once. Use it for files from anywhere. Errors name the path, the section and the
-/// value.
+/// whole file once. Use it for files that are not trusted.
+///
+/// Returns corrupt if the bytes are wrong (checksum, layout or meaning; `Error::field` is the
+/// section or element), unsupported if a newer version wrote the file, and otherwise the reason why
+/// the system cannot read it: not_found, unavailable, out_of_resources. Messages begin with the
+/// path.
 [[nodiscard]] Result<ProbeFile> open_probe_file(const std::string& path);
 
-/// Opens a file by its header and section table alone, in the time of two page reads. Queries test
-/// every index where they use it, so that a corrupt section gives wrong light or the ambient result
-/// but never a read out of range.
+/// Opens a file and reads only its header and section table, in the time of two page reads. Queries
+/// test every index where they use it, so that a corrupt section gives wrong light or the ambient
+/// result but never a read out of range.
 [[nodiscard]] Result<ProbeFile> open_probe_file_lazy(const std::string& path);
 
-/// Does what `open_probe_file` adds to `open_probe_file_lazy`; for a background thread.
+/// The verification that `open_probe_file` does and `open_probe_file_lazy` does not; for a
+/// background thread.
 [[nodiscard]] Status verify(const ProbeFile& file);
 
 /// Checks that a volume in memory holds what every query relies on: counts that agree, indices in
 /// range, neighbors that are each other's neighbors, finite numbers.
 [[nodiscard]] Status verify(const ProbeVolumeView& volume);
 
-/// A section that is no part of the volume: what a tool keeps beside it. Readers skip it.
+/// A section that is not a member of the volume: data of a tool. Readers skip it.
 struct ExtraSection {
-    std::string_view name;  ///< at most 24 bytes, none of a section of the volume
+    std::string_view name;  ///< at most 24 bytes; not the name of a member of the volume
     std::span<const std::byte> bytes;
     uint64_t element_size = 1;
 };

@@ -84,8 +84,8 @@ struct Seed {
 
 static_assert(sizeof(Seed) == 16 && std::is_trivially_copyable_v<Seed>);
 
-/// Where a probe came from. Several sources share one probe when they were welded; a source has
-/// none when its probe was left out of the volume, for lying in geometry.
+/// Where a probe came from. Several sources have one probe if they were welded. A source has none
+/// if its probe was removed from the volume because it was inside geometry.
 struct ProbeSource {
     uint32_t group = 0;  ///< index into `group_names`
     uint32_t index = 0;  ///< in the group
@@ -108,15 +108,15 @@ struct alignas(64) CompactProbe {
 
 static_assert(sizeof(CompactProbe) == 64 && std::is_trivially_copyable_v<CompactProbe>);
 
-/// How far a baked probe can be trusted.
+/// Quality of the light of a baked probe.
 struct ProbeHealth {
-    /// Of its irradiance, as a share of it: root mean square over all normals. 0: not known.
+    /// Relative standard error of its irradiance: root mean square over all normals. 0: not known.
     float standard_error = 0.0f;
-    /// To the nearest surface, metres; infinite: there is none.
+    /// Distance to the nearest surface, metres; infinite if there is no surface.
     float surface_distance = std::numeric_limits<float>::infinity();
-    /// From the probe to where its light was gathered: out of what it lies in.
+    /// Virtual offset: from the probe to the position outside of geometry that its rays start from.
     glm::vec3 virtual_offset{0.0f};
-    /// Not zero: its light is that of the healthy probes around it.
+    /// Not zero: the probe is invalid, and its light was interpolated from valid probes around it.
     uint32_t is_dilated = 0;
 
     bool operator==(const ProbeHealth&) const = default;
@@ -124,7 +124,7 @@ struct ProbeHealth {
 
 static_assert(sizeof(ProbeHealth) == 24 && std::is_trivially_copyable_v<ProbeHealth>);
 
-/// Whose visibility each channel of a probe's occlusion is: lights by index, kNoIndex for none.
+/// The light of each channel of a probe's occlusion, by index; kNoIndex for none.
 using OcclusionLights = std::array<uint32_t, 4>;
 
 /// The fixed-size facts of a volume.
@@ -138,11 +138,11 @@ struct VolumeInfo {
     /// that lie beside it along the normal, or around it across the direction.
     glm::dvec3 axis{0.0};
     Dimension dimension = Dimension::None;
-    /// Cells [0, inner_cell_count) are inner cells (tetrahedra), the rest hull cells.
+    /// Cells [0, inner_cell_count) are inner cells (tetrahedra), all others hull cells.
     uint32_t inner_cell_count = 0;
-    /// Share of the radial direction in the hull rays (docs/conventions.md).
-    float radial_share = 0.0f;
-    /// Light where there is no probe: that of the environment alone.
+    /// Fraction of the radial direction in the hull rays (docs/conventions.md).
+    float radial_fraction = 0.0f;
+    /// Light of the environment alone, for positions without a probe.
     IrradianceSh ambient;
     /// Distance of the farthest probe from the local origin, metres.
     float extent = 0.0f;
@@ -162,10 +162,10 @@ struct ProbeVolumeView {
     std::span<const glm::vec3> positions;      ///< relative to `info.world_origin`
     std::span<const IrradianceSh> irradiance;  ///< empty: not baked, every answer is ambient
     std::span<const glm::vec4> occlusion;      ///< empty: (1, 1, 1, 1); 1 = lit
-    std::span<const float> validity;           ///< empty: 1; share of front faces or sky seen
-    std::span<const ProbeHealth> health;       ///< empty: not known
-    /// The three above in half precision (`make_compact_probes`). Queries read these where they are
-    /// there and `irradiance` and `occlusion` are not touched; empty: queries read the floats.
+    std::span<const float> validity;      ///< empty: 1; fraction of samples that hit no back face
+    std::span<const ProbeHealth> health;  ///< empty: not known
+    /// Irradiance, occlusion and validity in half precision (`make_compact_probes`). Queries read
+    /// these instead of `irradiance` and `occlusion`; if empty, they read the floats.
     std::span<const CompactProbe> compact;
     std::span<const glm::dvec3> exact_positions;  ///< world positions that were tetrahedralized
 

@@ -52,7 +52,8 @@ Status check_strides(const char* name, const StridedOutput& output, size_t count
                      size_t answer_count) {
     const auto address = reinterpret_cast<uintptr_t>(output.memory.data());
     if ((address | output.answer_stride | output.value_stride) % size != 0) {
-        return Error{str_cat(name, " does not lie at multiples of ", size, " bytes")};
+        return Error{ErrorCode::InvalidArgument, name, "",
+                     str_cat(name, " is not aligned to ", size, " bytes")};
     }
     if (answer_count <= 1) return Ok{};
     const size_t answer = (count - 1) * output.value_stride + size;
@@ -60,13 +61,15 @@ Status check_strides(const char* name, const StridedOutput& output, size_t count
     const bool is_apart = output.value_stride >= size && output.answer_stride >= size &&
                           (output.answer_stride >= answer || output.value_stride >= array);
     if (is_apart) return Ok{};
-    return Error{str_cat(name, " has a stride of ", output.answer_stride, " bytes, and answers of ",
+    return Error{ErrorCode::InvalidArgument, name, "",
+                 str_cat(name, " has a stride of ", output.answer_stride, " bytes, and answers of ",
                          count * size)};
 }
 
 Status check_length(const char* name, size_t length, size_t needed) {
     if (length >= needed) return Ok{};
     return Error{
+        ErrorCode::InvalidArgument, name, "",
         str_cat(name, " has room for ", length, " answers, but there are ", needed, " positions")};
 }
 

@@ -10,8 +10,8 @@
 #include <tetralight/probes/packed_sh.h>
 #include <tetralight/probes/sh.h>
 
-// Where a batch of queries writes. The memory is the caller's and may be part of an instance buffer
-// with other things between the answers:
+// Where a batch of queries writes its answers. The caller owns the memory, which may be an instance
+// buffer with other members between the answers:
 //
 //     struct Instance { glm::mat4 world; PackedSh light; };
 //     strided(std::as_writable_bytes(std::span(instances)).subspan(64), ShFormat::Packed,
@@ -40,11 +40,11 @@ struct StridedOutput {
     size_t answer_stride = 0;
     size_t value_stride = 0;
 
-    /// Answers of `count` values of `size` bytes that fit.
+    /// Number of answers of `count` values of `size` bytes that the memory can hold.
     [[nodiscard]] size_t capacity(size_t count, size_t size) const noexcept;
 };
 
-/// Where irradiance goes; default: nowhere.
+/// Output of irradiance; none by default.
 struct ShOutput : StridedOutput {
     ShFormat format = ShFormat::Coefficients;
 
@@ -60,7 +60,7 @@ struct ShOutput : StridedOutput {
     }
 };
 
-/// Where occlusion goes, four floats each; default: nowhere.
+/// Output of occlusion, four floats each; none by default.
 struct OcclusionOutput : StridedOutput {
     OcclusionOutput() = default;
     OcclusionOutput(std::span<glm::vec4> answers) noexcept;
@@ -71,22 +71,22 @@ struct OcclusionOutput : StridedOutput {
     [[nodiscard]] size_t capacity() const noexcept { return StridedOutput::capacity(4, 4); }
 };
 
-/// Array of structures: answers `answer_stride` bytes apart, each in one piece.
+/// Array of structures: answers `answer_stride` bytes apart, the values of each contiguous.
 [[nodiscard]] ShOutput strided(std::span<std::byte> memory, ShFormat format,
                                size_t answer_stride) noexcept;
 [[nodiscard]] OcclusionOutput strided_occlusion(std::span<std::byte> memory,
                                                 size_t answer_stride) noexcept;
 
-/// Structure of arrays: value 0 of all answers, then value 1 of all ... The memory is cut into one
-/// array a value.
+/// Structure of arrays: value 0 of all answers, then value 1 of all, and so on. The memory is
+/// divided into one array for each value.
 [[nodiscard]] ShOutput arrays(std::span<std::byte> memory, ShFormat format) noexcept;
 
-/// Whether answers of `count` values of `size` bytes lie apart from each other, each value at a
-/// place for its type. Errors name the stride.
+/// Returns invalid_argument if answers of `count` values of `size` bytes would overlap, or a value
+/// would not be aligned to its size. The message holds the stride.
 [[nodiscard]] Status check_strides(const char* name, const StridedOutput& output, size_t count,
                                    size_t size, size_t answer_count);
 
-/// Error that says both lengths: `name` has room for fewer answers than there are positions.
+/// Returns invalid_argument, with both lengths in the message, if `length` is less than `needed`.
 [[nodiscard]] Status check_length(const char* name, size_t length, size_t needed);
 
 }  // namespace tetralight

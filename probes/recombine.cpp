@@ -30,13 +30,14 @@ std::string listed(const ProbeVolumeView& volume) {
 
 Status check_weight(std::string_view name, float weight) {
     if (std::isfinite(weight) && weight >= 0.0f) return Ok{};
-    return Error{str_cat("layer \"", name, "\": weight ", weight, " is ",
-                         std::isnan(weight) ? "no number"
+    return Error{ErrorCode::InvalidArgument, "weights", str_cat(weight),
+                 str_cat("layer \"", name, "\": weight ", weight, " is ",
+                         std::isnan(weight) ? "not a number"
                          : weight < 0.0f    ? "negative"
                                             : "not finite")};
 }
 
-/// Whether a name is that of a layer, or what is behind its colon.
+/// True if a name is that of a layer, or the part after its colon.
 bool is_short_for(std::string_view name, std::string_view layer) {
     const size_t colon = layer.find(':');
     return name == layer || (colon != std::string_view::npos && name == layer.substr(colon + 1));
@@ -51,7 +52,9 @@ Result<size_t> find_named(const ProbeVolumeView& volume, std::string_view name) 
     if (count == 1) {
         return static_cast<size_t>(std::ranges::find_if(names, is_meant) - names.begin());
     }
-    return Error{str_cat(count == 0 ? "there is no layer \"" : "there are several layers \"", name,
+    return Error{count == 0 ? ErrorCode::NotFound : ErrorCode::InvalidArgument, "weights",
+                 std::string(name),
+                 str_cat(count == 0 ? "there is no layer \"" : "there are several layers \"", name,
                          "\"; ", listed(volume))};
 }
 
@@ -73,7 +76,8 @@ Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
         if (auto status = check_weight(change.name, change.weight); !status) return status.error();
         if (*layer >= weights.size()) continue;
         if (is_changed[*layer]) {
-            return Error{str_cat("layer \"", change.name, "\" is given two weights")};
+            return Error{ErrorCode::InvalidArgument, "weights", std::string(change.name),
+                         str_cat("layer \"", change.name, "\" is given two weights")};
         }
         is_changed[*layer] = true;
         weights[*layer] = change.weight;
@@ -97,15 +101,18 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
                                      std::span<const float> weights) {
     const size_t layer_count = volume.layers.size();
     if (layer_count == 0) {
-        return Error{"the volume holds no layers (bake it with --layers to change its light)"};
+        return Error{ErrorCode::InvalidArgument,
+                     "the volume holds no layers (bake it with --layers to change its light)"};
     }
     if (volume.layer_irradiance.size() != layer_count * volume.positions.size()) {
-        return Error{str_cat("section \"layer_irradiance\": ", volume.layer_irradiance.size(),
+        return Error{ErrorCode::Corrupt, "layer_irradiance", "",
+                     str_cat("section \"layer_irradiance\": ", volume.layer_irradiance.size(),
                              " elements for ", layer_count, " layers of ", volume.positions.size(),
                              " probes")};
     }
     if (weights.size() != layer_count) {
-        return Error{str_cat(weights.size(), " weights for ", layer_count, " layers")};
+        return Error{ErrorCode::InvalidArgument, "weights", "",
+                     str_cat(weights.size(), " weights for ", layer_count, " layers")};
     }
     const auto names = split_names(volume.layer_names);
     RecombinedInfo info;
@@ -122,7 +129,8 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
     }
     if (!(bound < 1e37)) {
         const size_t k = brightest.second;
-        return Error{str_cat("layer \"", k < names.size() ? names[k] : "", "\": weight ",
+        return Error{ErrorCode::InvalidArgument, "weights", str_cat(weights[k]),
+                     str_cat("layer \"", k < names.size() ? names[k] : "", "\": weight ",
                              weights[k], " makes its light too bright to be finite")};
     }
     info.compact_scale = compact_scale(static_cast<float>(bound));

@@ -10,7 +10,7 @@
 #include <tetralight/probes/probe_volume.h>
 
 // Light that can change after the bake. A volume with layers keeps the light of each (the sun, the
-// sky, a lamp, a material); what queries read is their weighted sum, written anew in place:
+// sky, a lamp, a material); queries read their weighted sum, which is rewritten in place:
 //
 //     const auto weights = layer_weights(volume.view(), {{"lamp", 0.0f}, {"neon", 2.0f}});
 //     if (!weights) return weights.error();
@@ -20,7 +20,7 @@
 
 namespace tetralight {
 
-/// A layer by its name, or by what is behind the colon of it: "lamp" for "light:lamp".
+/// A layer by its name, or by the part after its colon: "lamp" for "light:lamp".
 struct LayerWeight {
     std::string_view name;
     float weight = 1.0f;
@@ -29,34 +29,34 @@ struct LayerWeight {
 /// The weights that the volume's light has now.
 [[nodiscard]] std::vector<float> layer_weights(const ProbeVolumeView& volume);
 
-/// The same with some of them replaced. Errors: no layer, or more than one, has a name (the message
-/// lists the layers); a weight is negative or not finite.
+/// The same with some of them replaced. Returns not_found if no layer has a name (the message lists
+/// the layers), and invalid_argument if several have it or a weight is negative or not finite.
 [[nodiscard]] Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
                                                        std::span<const LayerWeight> changes);
 
-/// The index of a layer by its full name; kNoIndex: there is none.
+/// The index of a layer by its full name; kNoIndex if there is no such layer.
 [[nodiscard]] uint32_t find_layer(const ProbeVolumeView& volume, std::string_view name) noexcept;
 
-/// The weight that a light has now: that of its layer, 1 without one. Whoever adds the direct term
-/// of a `Mixed` light multiplies it by this.
+/// The current weight of a light: that of its layer, or 1 without a layer. A runtime multiplies the
+/// direct term of a `Mixed` light by it.
 [[nodiscard]] float light_weight(const ProbeVolumeView& volume, size_t light) noexcept;
 
-/// What follows from the weights for the volume as a whole.
+/// Values of the whole volume that follow from the weights.
 struct RecombinedInfo {
-    /// Of compact probes: from the bound Σ w_k · largest_k, so that it is known beforehand.
+    /// Scale of compact probes: from the bound Σ w_k · largest_k, so that it is known beforehand.
     float compact_scale = 0.0f;
     IrradianceSh ambient;
 
     bool operator==(const RecombinedInfo&) const = default;
 };
 
-/// Errors: the volume has no layers; not one weight for each layer; a weight that is negative or
-/// not finite, or so large that light would not be finite.
+/// Returns invalid_argument if the volume has no layers, if there is not one weight a layer, or if
+/// a weight is negative, not finite, or so large that the light would not be finite.
 [[nodiscard]] Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
                                                    std::span<const float> weights);
 
 /// Probes [begin, end) of the sum, into spans that begin with probe `begin`. Either may be empty.
-/// Of compact probes the irradiance alone is written. Precondition: `check_weights`, whose scale it
+/// Only the irradiance of compact probes is written. Precondition: `check_weights`, whose scale it
 /// takes; the layers hold all probes.
 void recombine_probes(const ProbeVolumeView& volume, std::span<const float> weights, size_t begin,
                       size_t end, std::span<IrradianceSh> irradiance,
@@ -66,9 +66,9 @@ void recombine_probes(const ProbeVolumeView& volume, std::span<const float> weig
 inline constexpr size_t kRecombineTaskSize = 4096;
 
 /// Rewrites the volume's light as Σ w_k · layer_k, added in the order of the layers: irradiance,
-/// compact probes where there are some, ambient light, and the weights that the layers record.
-/// Where no layer is anywhere negative, neither is the sum. The same bits for any tasks. Errors as
-/// `check_weights`.
+/// compact probes if there are any, ambient light, and the weights that the layers record.
+/// If no layer is negative anywhere, neither is the sum. The same bits for any tasks. Returns the
+/// errors of `check_weights`.
 ///
 /// `parallel_for(count, task)` calls task(0) .. task(count − 1) in any order, on any threads, and
 /// returns when all are done.

@@ -15,12 +15,13 @@ namespace {
 
 Status check_transfer(const ProbeVolumeView& volume, const char* layer) {
     if (volume.transfer.size() != volume.positions.size() || volume.sky.size() != 1) {
-        return Error{
-            "the volume holds no transfer of distant light (bake it with --layers sky,"
-            "transfer)"};
+        return Error{ErrorCode::InvalidArgument,
+                     "the volume holds no transfer of distant light (bake it with --layers sky,"
+                     "transfer)"};
     }
     if (find_layer(volume, layer) != kNoIndex) return Ok{};
-    return Error{str_cat("the volume holds no layer \"", layer, "\" to relight")};
+    return Error{ErrorCode::NotFound, "layer", layer,
+                 str_cat("the volume holds no layer \"", layer, "\" to relight")};
 }
 
 /// Fills a layer with `light_of(probe)`, without ringing where that was asked for.
@@ -28,7 +29,8 @@ template <class LightOf>
 Status fill_layer(ProbeVolume& volume, uint32_t layer, LightOf light_of) {
     const size_t count = volume.positions.size();
     if (volume.layer_irradiance.size() != volume.layers.size() * count) {
-        return Error{"section \"layer_irradiance\" is missing"};
+        return Error{ErrorCode::Corrupt, "layer_irradiance", "",
+                     "section \"layer_irradiance\" is missing"};
     }
     const auto light = std::span(volume.layer_irradiance).subspan(layer * count, count);
     for (size_t i = 0; i < count; ++i) {
@@ -55,7 +57,7 @@ IrradianceSh open_irradiance(const DistantLight& sky) {
 Status relight_sky(ProbeVolume& volume, const DistantLight& sky) {
     if (auto status = check_transfer(volume.view(), "sky"); !status) return status;
     if (!std::ranges::all_of(sky.coefficients, [](const glm::vec3& c) { return is_finite(c); })) {
-        return Error{"the sky is not finite"};
+        return Error{ErrorCode::InvalidArgument, "sky", "", "the sky is not finite"};
     }
     const uint32_t layer = find_layer(volume.view(), "sky");
     volume.sky[0] = sky;
@@ -75,13 +77,15 @@ Result<uint32_t> movable_sun(const ProbeVolumeView& volume) {
         ++count;
     }
     if (count == 1) return sun;
-    return Error{str_cat("layer \"sun\" holds ", count, " suns; only one alone can be moved")};
+    return Error{ErrorCode::InvalidArgument,
+                 str_cat("layer \"sun\" holds ", count, " suns; only one alone can be moved")};
 }
 
 Status relight_sun(ProbeVolume& volume, glm::vec3 direction, glm::vec3 irradiance) {
     const auto sun = movable_sun(volume.view());
     if (!sun) return sun.error();
-    if (!is_finite(direction) || !is_finite(irradiance)) return Error{"the sun is not finite"};
+    if (!is_finite(direction) || !is_finite(irradiance))
+        return Error{ErrorCode::InvalidArgument, "sun", "", "the sun is not finite"};
     Light& light = volume.lights[*sun];
     light.direction = direction;
     light.intensity = irradiance;

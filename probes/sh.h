@@ -94,7 +94,7 @@ struct RadianceShSum {
 [[nodiscard]] glm::vec3 evaluate_irradiance(const IrradianceSh& irradiance,
                                             glm::vec3 normal) noexcept;
 
-/// Turns the function with its light: rotated(R·d) = original(d). `target_from_source` is
+/// Rotates the light: rotated(R·d) = original(d). `target_from_source` is
 /// orthonormal; a reflection is allowed. Exact up to rounding for every rotation.
 [[nodiscard]] RadianceSh rotate(const RadianceSh& source,
                                 const glm::mat3& target_from_source) noexcept;

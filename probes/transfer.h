@@ -10,15 +10,15 @@
 
 namespace tetralight {
 
-/// How one probe answers to light from far away: a matrix from the coefficients of distant
-/// radiance to those of its irradiance (precomputed radiance transfer: Sloan, Kautz & Snyder 2002).
-/// What arrives straight away and what arrives by reflection are apart, since probes hold only the
-/// latter of `Mixed` suns.
+/// Transfer of one probe: a matrix from the coefficients of distant radiance to those of its
+/// irradiance (precomputed radiance transfer: Sloan, Kautz & Snyder 2002).
+/// Direct and reflected light are separate, because probes hold only the reflected light of `Mixed`
+/// suns.
 struct ProbeTransfer {
     template <class T>
     using Matrix = std::array<std::array<T, kDistantCoefficientCount>, kShCoefficientCount>;
 
-    /// The same for all colours: nothing tints what is seen straight away.
+    /// Direct light: one matrix for all colours.
     Matrix<float> direct{};
     Matrix<glm::vec3> bounced{};
 

@@ -84,7 +84,7 @@ bool redirect(const ChildStreams& streams) {
     ::_exit(127);
 }
 
-/// Turns the new process into the program.
+/// Replaces the new process by the program.
 [[noreturn]] void execute(const ChildPlan& plan) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != plan.parent) ::_exit(127);  // the parent ended before the line above

@@ -9,7 +9,7 @@
 #include <string_view>
 
 // SHA-256 (FIPS 180-4): names for content that others may have made. Unlike xxHash, which finds
-// damage, it lets nobody make two different contents of one hash.
+// damage, no two different contents with one hash can be made.
 
 struct evp_md_ctx_st;
 

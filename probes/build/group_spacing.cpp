@@ -14,7 +14,7 @@ namespace {
 using detail::PositionTree;
 
 double distance_to_box(const PositionTree::Node& node, const glm::dvec3& p) {
-    return glm::distance(p, glm::clamp(p, node.low, node.high));
+    return glm::distance(p, glm::clamp(p, node.bounds.min, node.bounds.max));
 }
 
 /// Lowers `nearest` to the distance of the nearest position of a node that is not `from` itself.

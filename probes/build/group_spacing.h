@@ -9,9 +9,8 @@
 
 namespace tetralight {
 
-/// How far each of some probes is from the nearest other probe of a group that it belongs to,
-/// metres; infinite when it is alone there. Other groups have no say, so that adding one changes
-/// nothing.
+/// For each of the given probes the distance to the nearest other probe of one of its groups,
+/// metres; infinite if there is none. Other groups do not count, so adding one changes nothing.
 [[nodiscard]] std::vector<double> group_spacing(const MergedProbes& merged,
                                                 std::span<const uint32_t> probes);
 

@@ -9,17 +9,17 @@
 namespace tetralight {
 namespace {
 
-constexpr int kShareSteps = 64;
+constexpr int kFractionSteps = 64;
 
-/// What rounding alone can make of numbers of order 1.
+/// Bound of the rounding error of numbers of order 1.
 constexpr double kRounding = 1e-12;
 
 double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Whether a triangle with these edges has no area but what rounding makes: such triangles stand
-/// along the edges of lattices. Their normals mean nothing, and no query ends in their cells.
+/// True if a triangle with these edges has no area beyond rounding: such triangles occur along the
+/// edges of lattices. Their normals are arbitrary, and no query ends in their cells.
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b) {
     constexpr double kThinnest = 1e-9;
     const double longest = std::max(glm::dot(a, a), glm::dot(b, b));
@@ -111,13 +111,13 @@ void add_edge_normals(Hull& hull, const glm::dvec3& axis) {
     normalize_normals(hull);
 }
 
-void set_rays(Hull& hull, double radial_share) {
+void set_rays(Hull& hull, double radial_fraction) {
     for (HullVertex& v : hull.vertices) {
-        v.ray = glm::normalize(glm::mix(v.normal, v.radial, radial_share));
+        v.ray = glm::normalize(glm::mix(v.normal, v.radial, radial_fraction));
     }
 }
 
-/// Whether g0 + g1 t + g2 t² stays positive for all t ≥ 0. Slopes that rounding alone can make (of
+/// True if g0 + g1 t + g2 t² stays positive for all t ≥ 0. Slopes that rounding alone can make (of
 /// unit vectors in a hull of size 1) count as zero.
 bool stays_positive(double g0, double g1, double g2) {
     if (std::abs(g1) < kRounding) g1 = 0.0;
@@ -147,14 +147,14 @@ bool folds_anywhere(const Hull& hull) {
     return std::ranges::any_of(hull.cells, [&](const auto& t) { return folds(hull, t); });
 }
 
-/// Smallest share of the radial direction, in steps, for which no triangle folds.
+/// Smallest fraction of the radial direction, in steps, for which no triangle folds.
 int find_radial_steps(Hull& hull) {
-    for (int step = 0; step < kShareSteps; ++step) {
-        set_rays(hull, static_cast<double>(step) / kShareSteps);
+    for (int step = 0; step < kFractionSteps; ++step) {
+        set_rays(hull, static_cast<double>(step) / kFractionSteps);
         if (!folds_anywhere(hull)) return step;
     }
     set_rays(hull, 1.0);
-    return kShareSteps;
+    return kFractionSteps;
 }
 
 }  // namespace
@@ -167,7 +167,7 @@ HullRays make_hull_rays(std::span<const glm::dvec3> positions,
     normalize(hull);
     if (tetrahedralization.dimension == Dimension::Space) {
         add_triangle_normals(hull);
-        rays.radial_share = static_cast<float>(find_radial_steps(hull)) / kShareSteps;
+        rays.radial_fraction = static_cast<float>(find_radial_steps(hull)) / kFractionSteps;
     } else {
         if (tetrahedralization.dimension == Dimension::Plane) {
             add_edge_normals(hull, tetrahedralization.axis);

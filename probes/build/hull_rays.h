@@ -12,13 +12,13 @@ namespace tetralight {
 struct HullRays {
     /// One a hull cell, in their order.
     std::vector<HullCellRays> cells;
-    /// Share of the radial direction in every ray, 0..1.
-    float radial_share = 0.0f;
+    /// Fraction of the radial direction in every ray, 0..1.
+    float radial_fraction = 0.0f;
 };
 
 /// Rays along which hull cells are extruded to infinity: at each hull vertex the angle-weighted
 /// normal (Thürmer & Wüthrich 1998), blended with the direction from the hull's interior by the
-/// smallest share, the same for all vertices, for which no hull cell folds over at any distance.
+/// smallest fraction, the same for all vertices, for which no hull cell folds over at any distance.
 [[nodiscard]] HullRays make_hull_rays(std::span<const glm::dvec3> positions,
                                       const Tetrahedralization& tetrahedralization);
 

@@ -11,7 +11,7 @@
 
 namespace tetralight {
 ProbeVolume make_probe_volume(const MergedProbes& probes) {
-    return make_probe_volume(probes, tetrahedralize(probes.positions, flatness(probes)));
+    return make_probe_volume(probes, tetrahedralize(probes.positions, flat_tolerance(probes)));
 }
 
 ProbeVolume make_probe_volume(const MergedProbes& probes, Tetrahedralization cells) {
@@ -22,7 +22,7 @@ ProbeVolume make_probe_volume(const MergedProbes& probes, Tetrahedralization cel
     volume.info.axis = cells.axis;
     volume.info.dimension = cells.dimension;
     volume.info.inner_cell_count = cells.inner_cell_count;
-    volume.info.radial_share = hull.radial_share;
+    volume.info.radial_fraction = hull.radial_fraction;
     volume.positions.reserve(probes.positions.size());
     for (const glm::dvec3& p : probes.positions) {
         const glm::vec3 local(p - volume.info.world_origin);

@@ -5,6 +5,8 @@
 #include <glm/common.hpp>
 #include <tuple>
 
+#include <tetralight/base/box.h>
+
 namespace tetralight {
 namespace {
 
@@ -26,13 +28,9 @@ std::vector<uint32_t> first_cells(size_t probe_count, std::span<const Cell> cell
 
 Seeds make_seeds(std::span<const glm::vec3> positions, std::span<const Cell> cells) {
     if (positions.empty()) return {};
-    glm::vec3 low = positions[0];
-    glm::vec3 high = positions[0];
-    for (const glm::vec3& p : positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    Seeds result{make_hilbert_cube(glm::dvec3(low), glm::dvec3(high)), {}};
+    auto bounds = Box<glm::vec3>::empty();
+    for (const glm::vec3& p : positions) bounds = union_of(bounds, p);
+    Seeds result{make_hilbert_cube(glm::dvec3(bounds.min), glm::dvec3(bounds.max)), {}};
     const std::vector<uint32_t> cell_of_probe = first_cells(positions.size(), cells);
     for (size_t i = 0; i < positions.size(); i += kProbesPerSeed) {
         const uint64_t index = result.cube.index(glm::dvec3(positions[i]));

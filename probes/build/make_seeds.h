@@ -11,7 +11,7 @@
 namespace tetralight {
 
 /// Where walks without a hint start: every eighth probe with one of its cells, along a Hilbert
-/// curve. As dense as the probes wherever they are, whatever the size of their bounding box.
+/// curve. Their density follows that of the probes and does not depend on the bounding box.
 struct Seeds {
     HilbertCube cube;
     std::vector<Seed> seeds;

@@ -18,17 +18,21 @@ namespace {
 constexpr double kFarthest = 1e18;
 
 Error position_error(const ProbeGroup& group, size_t index, const char* what, glm::dvec3 p) {
-    return {str_cat("group \"", group.name, "\": probe ", index, ": position ", what, " (", p.x,
+    return {ErrorCode::InvalidArgument, str_cat("probes[", index, "].position"),
+            str_cat(p.x, ", ", p.y, ", ", p.z),
+            str_cat("group \"", group.name, "\": probe ", index, ": position ", what, " (", p.x,
                     ", ", p.y, ", ", p.z, ")")};
 }
 
 Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
-    if (group.name.empty()) return Error{"a probe group has no name"};
+    if (group.name.empty())
+        return Error{ErrorCode::InvalidArgument, "name", "", "a probe group has no name"};
     if (const auto status = check_characters(group.name); !status) {
         return status.error().in(str_cat("group \"", group.name, "\""));
     }
     if (previous != nullptr && previous->name == group.name) {
-        return Error{str_cat("group \"", group.name, "\": there are two groups of this name")};
+        return Error{ErrorCode::InvalidArgument, "name", group.name,
+                     str_cat("group \"", group.name, "\": there are two groups of this name")};
     }
     return Ok{};
 }
@@ -49,7 +53,7 @@ Result<std::vector<glm::dvec3>> world_positions(const ProbeGroup& group) {
     return positions;
 }
 
-/// Welds positions, one for each source, and points the sources at what is left of them.
+/// Welds positions, one for each source, and sets the probe of each source.
 void weld_sources(std::span<const glm::dvec3> positions, double tolerance, MergedProbes& merged) {
     std::vector<glm::dvec3> distinct;
     distinct.reserve(positions.size());
@@ -86,7 +90,7 @@ size_t MergedProbes::welded_count() const {
     return static_cast<size_t>(std::ranges::count_if(sources, is_there)) - positions.size();
 }
 
-double flatness(const MergedProbes& probes) {
+double flat_tolerance(const MergedProbes& probes) {
     return 0.5 * probes.weld_radius;
 }
 
@@ -116,6 +120,7 @@ Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettin
     }
     if (positions.size() >= kNoIndex / 8) {
         return Error{
+            ErrorCode::InvalidArgument,
             str_cat(positions.size(), " probes are more than 32-bit cell indices can name")};
     }
     weld_sources(positions, settings.weld_tolerance, merged);

@@ -14,11 +14,11 @@
 namespace tetralight {
 
 struct MergeSettings {
-    /// Probes nearer to each other than this share of the local spacing become one. The spacing at
-    /// a probe is its distance to its seventh nearest neighbor (of fewer than eight probes to the
-    /// one in the middle), so that probes far away have no say in it, and 10 m at most: 1e-4 never
-    /// welds probes more than 1 mm apart. Whatever this is, probes are welded that floats could not
-    /// tell apart. Precondition: not negative.
+    /// Probes nearer to each other than this fraction of the local spacing become one. The spacing
+    /// at a probe is the distance to its seventh nearest neighbor (with fewer than eight probes the
+    /// median one), so that probes far away do not affect it, and 10 m at most: 1e-4 never welds
+    /// probes more than 1 mm apart. Probes that floats cannot distinguish are always welded.
+    /// Precondition: not negative.
     double weld_tolerance = 1e-4;
 
     bool operator==(const MergeSettings&) const = default;
@@ -31,14 +31,14 @@ struct MergedProbes {
     std::vector<glm::dvec3> positions;
     /// Sorted.
     std::vector<std::string> group_names;
-    /// Every probe of every group, sorted by group, then index. Those that `leave_out` took away
-    /// have no probe.
+    /// Every probe of every group, sorted by group, then index. Those that `remove_probes`
+    /// removed have no probe.
     std::vector<ProbeSource> sources;
     /// No two positions are nearer to each other than this, metres.
     double weld_radius = 0.0;
-    /// One a group: whether it asked for dering.
+    /// One a group: true if its light is to be deringed.
     std::vector<bool> group_dering;
-    /// One a group: whether its probes are part of a lattice. They were moved exactly onto it then.
+    /// One a group: true if its probes are part of a lattice. They were moved exactly onto it.
     std::vector<bool> group_is_lattice;
     /// The longest of these moves, metres: a few float steps of the group's largest coordinate, and
     /// never more than a thousandth of the distance between neighbors in the lattice.
@@ -51,17 +51,17 @@ struct MergedProbes {
     [[nodiscard]] size_t welded_count() const;
 };
 
-/// What `tetrahedralize` may take for flat: half the weld radius, so that positions that stand
-/// apart never fall together in a plane.
-[[nodiscard]] double flatness(const MergedProbes& probes);
+/// Distance from a plane below which `tetrahedralize` treats merged probes as flat: half the weld
+/// radius, so that distinct positions stay distinct in the plane.
+[[nodiscard]] double flat_tolerance(const MergedProbes& probes);
 
-/// Joins groups into one set. Two probes are welded when they are nearer to each other than the
-/// tolerance of both, so that a probe of a sparse part swallows none of a dense one. Clusters are
-/// closed transitively; the lexicographically smallest position stands for its cluster.
+/// Joins groups into one set. Two probes are welded if they are nearer to each other than the
+/// tolerances of both, so that probes of a sparse part do not absorb those of a dense one. Clusters
+/// are closed transitively; the lexicographically smallest position represents its cluster.
 ///
-/// Errors: a group without a name, with control characters (a line break) or bytes that are not
-/// UTF-8 in it, or with the name of another; a position that is not finite or beyond 1e18 (they
-/// name the group and the index).
+/// Returns invalid_argument if the name of a group is empty, used twice, not UTF-8 or holds control
+/// characters, or if a position is not finite or a coordinate exceeds 1e18 (the message holds the
+/// group and the index).
 [[nodiscard]] Result<MergedProbes> merge(std::span<const ProbeGroup> groups,
                                          const MergeSettings& settings = {});
 

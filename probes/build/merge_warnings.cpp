@@ -53,7 +53,7 @@ void add_flat(const MergedProbes& probes, Dimension dimension, std::vector<std::
     if (detail::measure_spread(probes.positions, meant).dimension <= dimension) return;
     warnings.push_back(str_cat(probes.positions.size(), " probes lie ",
                                is_plane ? "in one plane" : "on one line", " (thinner than ",
-                               rounded(2.0 * flatness(probes)), " m): the volume is made of ",
+                               rounded(2.0 * flat_tolerance(probes)), " m): the volume is made of ",
                                is_plane ? "triangles" : "segments"));
 }
 

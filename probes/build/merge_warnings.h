@@ -8,9 +8,9 @@
 
 namespace tetralight {
 
-/// What a user may not expect of merged probes and the dimension of their volume, one line each:
-/// groups without a probe, no probes at all, most probes welded, a set that counts as flat although
-/// it is not. A set within 1e-6 of its size from a plane (a line) was meant to be flat.
+/// Warnings about merged probes and the dimension of their volume, one line each:
+/// groups without a probe, no probes at all, most probes welded, a set that is treated as flat
+/// although it is not: one that deviates from a plane (a line) by more than 1e-6 of its size.
 [[nodiscard]] std::vector<std::string> merge_warnings(const MergedProbes& probes,
                                                       Dimension dimension);
 

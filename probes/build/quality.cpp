@@ -21,7 +21,7 @@ double tetrahedron_quality(const glm::dvec3& a, const glm::dvec3& b, const glm::
     return std::numbers::sqrt2 * six_volumes / (rms_edge * rms_edge * rms_edge);
 }
 
-double QualityReport::sliver_share() const {
+double QualityReport::sliver_fraction() const {
     return tetrahedra == 0 ? 0.0 : static_cast<double>(slivers) / static_cast<double>(tetrahedra);
 }
 

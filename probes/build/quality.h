@@ -23,7 +23,7 @@ struct QualityReport {
     double smallest = 1.0;
 
     /// Slivers among all tetrahedra, 0 to 1.
-    [[nodiscard]] double sliver_share() const;
+    [[nodiscard]] double sliver_fraction() const;
 
     bool operator==(const QualityReport&) const = default;
 };

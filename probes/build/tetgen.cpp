@@ -31,7 +31,7 @@ const glm::dvec3& farthest(std::span<const glm::dvec3> positions, Measure measur
     return *std::ranges::max_element(positions, {}, measure);
 }
 
-/// Exact: whether four of the positions span a tetrahedron.
+/// Exact: true if four of the positions span a tetrahedron.
 bool has_tetrahedron(std::span<const glm::dvec3> positions) {
     const glm::dvec3& a = positions[0];
     const glm::dvec3& b =
@@ -47,38 +47,42 @@ bool is_flat(std::span<const glm::dvec3> positions, double flatness) {
            !has_tetrahedron(positions);
 }
 
-/// What the output has to begin with. Precondition: it is long enough.
+/// The header of the output. Precondition: it is long enough.
 StreamHeader header_of(Bytes output) {
     StreamHeader header;
     std::memcpy(&header, output.data(), sizeof header);
     return header;
 }
 
-/// Refuses output that cannot become tetrahedra of so many positions, however it goes on.
+/// Returns corrupt if output that begins like this cannot hold tetrahedra of so many positions.
 Status check_output(Bytes output, uint64_t position_count) {
     const size_t magic_size = std::min(output.size(), tetgen::kTetrahedraMagic.size());
     if (std::memcmp(output.data(), tetgen::kTetrahedraMagic.data(), magic_size) != 0) {
-        return Error{"its output is not of a version that is known here"};
+        return Error{ErrorCode::Corrupt, "its output has an unknown format or version"};
     }
     if (output.size() < sizeof(StreamHeader)) return Ok{};
     const uint64_t count = header_of(output).count;
     const uint64_t limit = position_count * (position_count - 3) / 2;  // of any tetrahedralization
     if (count > std::min<uint64_t>(limit, kNoIndex / 4)) {
-        return Error{str_cat("its output has ", count, " tetrahedra over ", position_count,
+        return Error{ErrorCode::Corrupt,
+                     str_cat("its output has ", count, " tetrahedra over ", position_count,
                              " probes: more than there can be")};
     }
     if (output.size() <= sizeof(StreamHeader) + count * sizeof(StreamTetrahedron)) return Ok{};
-    return Error{str_cat("its output goes on after the ", count, " tetrahedra that it began with")};
+    return Error{ErrorCode::Corrupt,
+                 str_cat("its output is longer than its ", count, " tetrahedra")};
 }
 
 Result<std::vector<Cell>> cells_of(Bytes output) {
     if (output.size() < sizeof(StreamHeader)) {
-        return Error{str_cat("its output ends after ", output.size(), " bytes")};
+        return Error{ErrorCode::Corrupt,
+                     str_cat("its output ends after ", output.size(), " bytes")};
     }
     const uint64_t count = header_of(output).count;
     const Bytes payload = output.subspan(sizeof(StreamHeader));
     if (payload.size() != count * sizeof(Cell)) {
-        return Error{str_cat("its output ends after ", payload.size() / sizeof(Cell), " of ", count,
+        return Error{ErrorCode::Corrupt,
+                     str_cat("its output ends after ", payload.size() / sizeof(Cell), " of ", count,
                              " tetrahedra")};
     }
     std::vector<Cell> cells(count);

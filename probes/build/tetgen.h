@@ -9,8 +9,8 @@
 
 namespace tetralight {
 
-/// Where the program `tetralight-tetgen` is. TetGen (AGPL-3.0-or-later) can end its process, and
-/// is linked by that program alone.
+/// The program `tetralight-tetgen`. TetGen (AGPL-3.0-or-later) can abort its process, and only that
+/// program links it.
 struct TetgenProgram {
     /// A path; a name without a slash is looked up in PATH.
     std::string path = "tetralight-tetgen";
@@ -21,11 +21,12 @@ struct TetgenProgram {
 /// The same as `tetrahedralize`, with TetGen in a child process instead of CGAL: equal cells
 /// wherever no five positions lie on an empty sphere, other ones of the same quality elsewhere.
 /// Positions in a plane, on a line or in one point never reach TetGen; `tetrahedralize` takes them.
-/// Thread-safe; the library stays usable whatever the program does.
+/// Thread-safe. A failure of the program does not affect the library.
 ///
-/// Errors, all naming the program: it cannot be started, crashes, fails, runs too long or writes
-/// something else than a Delaunay tetrahedralization of all positions, which exact arithmetic
-/// checks.
+/// Messages of errors begin with the program. Returns not_found or unavailable if it cannot be
+/// started, unsupported if it crashes or fails, out_of_resources if it exceeds the time limit, and
+/// corrupt if exact arithmetic finds that its output is not a Delaunay tetrahedralization of all
+/// positions.
 [[nodiscard]] Result<Tetrahedralization> tetrahedralize_with_tetgen(
     std::span<const glm::dvec3> positions, double flatness = 0.0,
     const TetgenProgram& program = {});

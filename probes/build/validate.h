@@ -9,7 +9,7 @@
 
 namespace tetralight {
 
-/// What `validate` counted. A sound volume has only zeros in the first block.
+/// The counts of `validate`. In a valid volume all of the first block are zero.
 struct ValidationReport {
     uint32_t inverted_cells = 0;          ///< not positively oriented
     uint32_t non_delaunay_faces = 0;      ///< a neighbor's vertex strictly inside a circumsphere
@@ -20,11 +20,11 @@ struct ValidationReport {
     uint32_t wrong_compact_probes = 0;    ///< halves are not the rounded floats
     bool has_bad_metadata = false;        ///< not one JSON object (`check_metadata`)
 
-    /// Sum over the inner cells, and what the hull encloses: m³; m² in a plane, m on a line.
+    /// Measure of all inner cells, and of the hull: m³; m² in a plane, m on a line.
     double cell_measure = 0.0;
     double hull_measure = 0.0;
-    /// What rounding can make of their difference: much where probes are far apart and the hull is
-    /// thin.
+    /// Bound of the rounding error of their difference: large if probes are far apart and the hull
+    /// is thin.
     double measure_rounding = 0.0;
 
     /// One line a kind of problem; empty = valid.
@@ -33,9 +33,9 @@ struct ValidationReport {
 
 /// Checks the geometry of a volume whose structure is sound (see `verify`): the Delaunay property
 /// under exact arithmetic on the stored double positions, orientation, convexity of the hull, every
-/// probe present, sum of the cells = content of the hull. Compact probes have to say what the
-/// floats say. Flat volumes are checked in their plane. A volume without exact positions is checked
-/// on its float ones.
+/// probe present, sum of the cells = content of the hull. Compact probes have to equal the
+/// rounded floats. Flat volumes are checked in their plane. A volume without exact positions is
+/// checked on its float ones.
 [[nodiscard]] ValidationReport validate(const ProbeVolumeView& volume);
 
 }  // namespace tetralight

@@ -13,15 +13,16 @@
 namespace tetralight {
 namespace {
 
-/// `tetrahedralize` with tetrahedra that are kept. Flat sets have few probes and are made anew.
+/// `tetrahedralize` that reuses the tetrahedra of the last build. Flat sets have few probes and are
+/// built from scratch.
 Tetrahedralization tetrahedralize_next(const MergedProbes& probes,
                                        detail::DelaunayTetrahedra& kept) {
-    const auto spread = detail::measure_spread(probes.positions, flatness(probes));
+    const auto spread = detail::measure_spread(probes.positions, flat_tolerance(probes));
     if (spread.dimension == Dimension::Space) {
         std::vector<Cell> cells = kept.change_to(probes.positions);
         if (!cells.empty()) return detail::with_hull_cells(std::move(cells), Dimension::Space);
     }
-    return tetrahedralize(probes.positions, flatness(probes));
+    return tetrahedralize(probes.positions, flat_tolerance(probes));
 }
 
 }  // namespace
@@ -39,7 +40,8 @@ VolumeBuilder& VolumeBuilder::operator=(VolumeBuilder&&) noexcept = default;
 
 Status VolumeBuilder::add_group(ProbeGroup group) {
     if (std::ranges::find(groups_, group.name, &ProbeGroup::name) != groups_.end()) {
-        return Error{str_cat("group \"", group.name, "\": there are two groups of this name")};
+        return Error{ErrorCode::InvalidArgument, "name", group.name,
+                     str_cat("group \"", group.name, "\": there are two groups of this name")};
     }
     const auto alone = merge(std::span(&group, 1), settings_);
     if (!alone) return alone.error();
@@ -50,7 +52,8 @@ Status VolumeBuilder::add_group(ProbeGroup group) {
 Status VolumeBuilder::remove_group(std::string_view name) {
     const auto group = std::ranges::find(groups_, name, &ProbeGroup::name);
     if (group == groups_.end())
-        return Error{str_cat("group \"", name, "\": there is no such group")};
+        return Error{ErrorCode::NotFound, "name", std::string(name),
+                     str_cat("group \"", name, "\": there is no such group")};
     groups_.erase(group);
     return Ok{};
 }

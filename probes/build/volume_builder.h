@@ -20,7 +20,7 @@ namespace tetralight {
 ///     ProbeVolume volume = builder.build();
 ///     require(builder.remove_group("hall"));
 ///     ProbeVolume next = builder.build();
-///     carry_light(volume.view(), next);
+///     copy_light(volume.view(), next);
 ///
 /// A volume depends on the groups alone, not on the way to them: it is
 /// `make_probe_volume(*merge(groups, settings))`, byte for byte.
@@ -31,15 +31,15 @@ class VolumeBuilder {
     VolumeBuilder(VolumeBuilder&&) noexcept;
     VolumeBuilder& operator=(VolumeBuilder&&) noexcept;
 
-    /// Errors: those of `merge`; nothing changes then.
+    /// Returns the errors of `merge`; the builder is unchanged then.
     Status add_group(ProbeGroup group);
 
-    /// Error: there is no group of this name; nothing changes then.
+    /// Returns not_found if there is no group of this name; the builder is unchanged then.
     Status remove_group(std::string_view name);
 
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
 
-    /// A volume without light over the groups that are there now.
+    /// A volume without light over the current groups.
     [[nodiscard]] ProbeVolume build();
 
   private:

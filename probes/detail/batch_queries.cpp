@@ -36,7 +36,7 @@ bool BatchQueries::locate_block() {
     if (done_ >= stream_length_) return false;
     fill();
     walk();
-    finish_open();
+    resolve_remaining();
     apply_policy();
     for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
         const size_t first = stream * QueryBlock::kStreamSize;
@@ -51,7 +51,7 @@ bool BatchQueries::locate_block() {
 }
 
 void BatchQueries::fill() {
-    block_.open_count = 0;
+    block_.unresolved_count = 0;
     for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
         const size_t begin = stream * stream_length_ + done_;
         const size_t end = std::min({(stream + 1) * stream_length_, input_.positions.size(),
@@ -158,20 +158,21 @@ void BatchQueries::walk() {
     for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
         const size_t first = stream * QueryBlock::kStreamSize;
         for (size_t query = first; query < first + block_.count[stream]; ++query) {
-            block_.open[block_.open_count] = static_cast<uint32_t>(query);
-            block_.open_cell[block_.open_count++] =
+            block_.unresolved[block_.unresolved_count] = static_cast<uint32_t>(query);
+            block_.unresolved_cell[block_.unresolved_count++] =
                 block_.start[QueryBlock::start_index(query, stream)];
         }
     }
 }
 
-void BatchQueries::finish_open() {
+void BatchQueries::resolve_remaining() {
     report_.step_count += std::exchange(block_.step_count, 0);
     uint32_t previous = kNoIndex;
-    for (size_t i = 0; i < block_.open_count; ++i) {
-        const size_t query = block_.open[i];
+    for (size_t i = 0; i < block_.unresolved_count; ++i) {
+        const size_t query = block_.unresolved[i];
         const glm::vec3& position = input_.positions[source_[query]];
-        const uint32_t start = block_.open_cell[i] == kNoIndex ? previous : block_.open_cell[i];
+        const uint32_t start =
+            block_.unresolved_cell[i] == kNoIndex ? previous : block_.unresolved_cell[i];
         const LocationTrace trace = trace_location(volume_, position, start);
         report_.step_count += trace.step_count;
         report_.fallback_count += trace.is_fallback;

@@ -20,14 +20,15 @@ class BatchQueries {
         std::span<const glm::vec3> positions;
         /// As in `InterpolationBatch`; written to when a block is located.
         std::span<uint32_t> hints;
-        /// Low 32 bits: the order to answer in. Empty: as they come.
+        /// Low 32 bits: the index of the position to answer next. Empty: in the order of
+        /// `positions`.
         std::span<const uint64_t> order;
         OutsideHull outside;
     };
 
     BatchQueries(const ProbeVolumeView& volume, const Input& input, const QueryKernels& kernels);
 
-    /// Locates the next block. False: there is none.
+    /// Locates the next block. False if all positions are located.
     [[nodiscard]] bool locate_block();
 
     [[nodiscard]] const QueryBlock& block() const { return block_; }
@@ -43,7 +44,7 @@ class BatchQueries {
     void choose_starts(size_t stream);
     void prefetch_starts() const;
     void walk();
-    void finish_open();
+    void resolve_remaining();
     void apply_policy();
     [[nodiscard]] bool has_tetrahedra() const;
     [[nodiscard]] uint32_t start_near(uint32_t cell) const;

@@ -75,7 +75,7 @@ class Blender {
         std::fill_n(scales_.irradiance(), 27, volume.info.compact_scale);
     }
 
-    /// Whether this code knows the volume's kind; else the scalar twin does.
+    /// True if this code supports the volume; otherwise the scalar twin blends.
     [[nodiscard]] bool is_able() const { return is_compact_ || has_floats_; }
 
     HWY_INLINE void prefetch(const CellLocation& location) const {

@@ -15,7 +15,7 @@ inline uint32_t vertex_at(const ProbeVolumeView& volume, const Cell& cell, int i
 }
 
 /// `interpolate`, in the order of operations that all kernels share: Σ w_i p_i first, then the
-/// ambient share.
+/// ambient part.
 inline InterpolatedProbe blend_probes(const ProbeVolumeView& volume,
                                       const CellLocation& location) noexcept {
     if (location.cell >= volume.cells.size() || volume.positions.empty()) {

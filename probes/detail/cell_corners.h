@@ -10,8 +10,9 @@
 
 namespace tetralight::detail {
 
-/// A position relative to the volume's local origin. Far away only the direction matters; nearer,
-/// double can tell the hull's corners apart: positions beyond `kFarthestExtents` are drawn in.
+/// A position relative to the volume's local origin. Far away only the direction matters, and
+/// double could not distinguish the hull's corners: positions beyond `kFarthestExtents` are moved
+/// to it.
 inline glm::dvec3 local_position(const VolumeInfo& info, const glm::vec3& position) noexcept {
     constexpr double kFarthestExtents = 65536.0;
     const glm::dvec3 local = glm::dvec3(position) - info.world_origin;

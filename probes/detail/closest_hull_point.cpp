@@ -99,7 +99,7 @@ class Descent {
         if (corner_count_ == 1) consider_weights({1.0, 0.0, 0.0});
         for (int i = 0; i < (corner_count_ == 3 ? 3 : corner_count_ - 1); ++i) {
             const int j = (i + 1) % corner_count_;
-            const double share = closest_on_edge(corners[i], corners[j]);
+            const double fraction = closest_on_edge(corners[i], corners[j]);
             glm::dvec3 weights(0.0);
             weights[i] = 1.0 - share;
             weights[j] = share;
@@ -151,12 +151,12 @@ CellLocation clamp_to_hull(const ProbeVolumeView& volume, const glm::vec3& posit
     const glm::dvec3 weights = point->weights / sum + 0.0;  // -0 becomes 0
     CellLocation clamped{point->cell, 0.0f, glm::vec4(weights, 0.0)};
     if (outside.policy == OutsidePolicy::Ambient) {
-        // Positions that were drawn in are as far away as they look.
-        const double drawn_in =
+        // Positions that `local_position` moved nearer count with their true distance.
+        const double moved_by =
             glm::distance(glm::dvec3(position) - volume.info.world_origin, local);
-        const double share =
-            (point->distance + drawn_in) / static_cast<double>(outside.fade_distance);
-        clamped.ambient = static_cast<float>(std::min(1.0, share));
+        const double fraction =
+            (point->distance + moved_by) / static_cast<double>(outside.fade_distance);
+        clamped.ambient = static_cast<float>(std::min(1.0, fraction));
         clamped.weights *= 1.0f - clamped.ambient;
     }
     return clamped;

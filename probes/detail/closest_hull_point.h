@@ -22,7 +22,7 @@ struct HullPoint {
                                                           const glm::dvec3& position,
                                                           uint32_t hull_cell) noexcept;
 
-/// Replaces a location in a hull cell by what the policies Clamp and Ambient answer.
+/// Replaces a location in a hull cell by that of the policies Clamp and Ambient.
 [[nodiscard]] CellLocation clamp_to_hull(const ProbeVolumeView& volume, const glm::vec3& position,
                                          const CellLocation& location,
                                          const OutsideHull& outside) noexcept;

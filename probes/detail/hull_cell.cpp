@@ -117,7 +117,7 @@ std::optional<glm::dvec3> weights_of_origin(const std::array<glm::dvec3, 3>& q) 
 /// The first t ≥ 0 where the cubic is zero; none where it is negative from the beginning. A hull
 /// triangle that is thinner than steps of its float positions may face inwards and turn outwards as
 /// it grows: there the cubic rises above zero first.
-std::optional<double> first_meeting(const Cubic& cubic) {
+std::optional<double> first_crossing(const Cubic& cubic) {
     if (cubic[0] > 0) return first_root(cubic);
     if (cubic[0] == 0) return 0.0;
     const double top = extrema(cubic)[1];
@@ -127,7 +127,7 @@ std::optional<double> first_meeting(const Cubic& cubic) {
     return high <= kFarthestRoot ? std::optional(bracketed_root(cubic, top, high)) : std::nullopt;
 }
 
-/// Length of the longest corner; none when it is no length to scale by.
+/// Length of the longest corner; none if it is 0 or not finite.
 std::optional<double> length_scale(std::span<const glm::dvec3> corners) {
     double scale = 0;
     for (const glm::dvec3& corner : corners) scale = std::max(scale, glm::dot(corner, corner));
@@ -148,7 +148,7 @@ std::optional<glm::dvec3> hull_cell_weights(const std::array<glm::dvec3, 3>& cor
         p[i] = corners[i] * unit;
         v[i] = glm::dvec3(rays.rays[i]);
     }
-    const std::optional<double> t = first_meeting(plane_cubic(p, v));
+    const std::optional<double> t = first_crossing(plane_cubic(p, v));
     if (!t) return std::nullopt;
     for (int i = 0; i < 3; ++i) p[i] += *t * v[i];
     return weights_of_origin(p);
@@ -169,7 +169,7 @@ std::optional<glm::dvec2> hull_edge_weights(const std::array<glm::dvec3, 2>& cor
     const Cubic cubic{-determinant(p[0], p[1], axis),
                       -determinant(v[0], p[1], axis) - determinant(p[0], v[1], axis),
                       -determinant(v[0], v[1], axis), 0.0};
-    const std::optional<double> t = first_meeting(cubic);
+    const std::optional<double> t = first_crossing(cubic);
     if (!t) return std::nullopt;
     const glm::dvec3 a = p[0] + *t * v[0];
     const glm::dvec3 edge = p[1] + *t * v[1] - a;

@@ -19,7 +19,7 @@ inline constexpr double kFlatTriangle = 1e-24;
 
 /// Barycentric weights of the origin in a hull cell, i.e. of the one triangle (p_i + t v_i), t ≥ 0,
 /// whose plane holds the origin first (Cupisz, GDC 2012). They sum to 1; a negative one says
-/// that the origin lies beyond that edge's wall. None: the origin is behind the hull triangle, or
+/// that the origin lies beyond that edge's wall. None if the origin is behind the hull triangle, or
 /// no such plane exists.
 ///
 /// `corners` are relative to the queried position. Free of absolute thresholds: lengths are

@@ -9,8 +9,11 @@ namespace {
 class HullWalk {
   public:
     HullWalk(const ProbeVolumeView& volume, const QueryKernels& kernels, QueryBlock& block)
-        : volume_(volume), kernels_(kernels), block_(block), open_count_(block.open_count) {
-        block.open_count = 0;
+        : volume_(volume),
+          kernels_(kernels),
+          block_(block),
+          unresolved_count_(block.unresolved_count) {
+        block.unresolved_count = 0;
     }
 
     void run() {
@@ -32,21 +35,22 @@ class HullWalk {
         uint32_t steps = 0;
     };
 
-    /// Takes the next open query; those that are not in a hull cell stay open.
+    /// Takes the next unresolved query; those that are not in a hull cell stay unresolved.
     void begin_query(size_t lane) {
-        while (next_ < open_count_) {
-            walkers_[lane] = {block_.open[next_], block_.open_cell[next_]};
+        while (next_ < unresolved_count_) {
+            walkers_[lane] = {block_.unresolved[next_], block_.unresolved_cell[next_]};
             ++next_;
             if (load(lane)) {
                 ++active_count_;
                 return;
             }
-            leave_open(walkers_[lane]);
+            leave_unresolved(walkers_[lane]);
         }
         walkers_[lane] = {};
     }
 
-    /// Puts a lane's hull cell, relative to its query, into the lanes. False: it is none.
+    /// Puts a lane's hull cell, relative to its query, into the lanes. False if it is not a hull
+    /// cell.
     bool load(size_t lane) {
         const Walker& walker = walkers_[lane];
         const uint32_t hull_index = walker.cell - volume_.info.inner_cell_count;
@@ -88,21 +92,21 @@ class HullWalk {
         }
     }
 
-    void end_query(size_t lane, bool is_open) {
-        if (is_open) leave_open(walkers_[lane]);
+    void end_query(size_t lane, bool is_unresolved) {
+        if (is_unresolved) leave_unresolved(walkers_[lane]);
         --active_count_;
         begin_query(lane);
     }
 
-    void leave_open(const Walker& walker) {
-        block_.open[block_.open_count] = walker.query;
-        block_.open_cell[block_.open_count++] = walker.cell;
+    void leave_unresolved(const Walker& walker) {
+        block_.unresolved[block_.unresolved_count] = walker.query;
+        block_.unresolved_cell[block_.unresolved_count++] = walker.cell;
     }
 
     const ProbeVolumeView& volume_;
     const QueryKernels& kernels_;
     QueryBlock& block_;
-    size_t open_count_;
+    size_t unresolved_count_;
     size_t next_ = 0;
     size_t active_count_ = 0;
     std::array<Walker, HullLanes::kCount> walkers_;

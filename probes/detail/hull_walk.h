@@ -5,8 +5,9 @@
 
 namespace tetralight::detail {
 
-/// Walks the open queries of a block over the hull cells of a volume of dimension Space, several at
-/// a time. Those that go back inside, or meet anything unusual, stay open.
+/// Walks the unresolved queries of a block over the hull cells of a volume of dimension Space,
+/// several at a time. Queries that return to inner cells, or need the general code, stay
+/// unresolved.
 void walk_hull(const ProbeVolumeView& volume, const QueryKernels& kernels, QueryBlock& block);
 
 }  // namespace tetralight::detail

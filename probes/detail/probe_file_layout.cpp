@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/detail/section_error.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -14,19 +15,19 @@ namespace tetralight::detail {
 namespace {
 
 Error not_a_probe_file(const char* why) {
-    return {std::string("not a probe file (") + why + ")"};
+    return {ErrorCode::Corrupt, std::string("not a probe file (") + why + ")"};
 }
 
 Status check_entry(const SectionEntry& entry, uint64_t end_of_previous, uint64_t file_size) {
     const std::string name = section_name(entry);
     if (entry.offset % kAlignment != 0 || entry.offset < end_of_previous) {
-        return Error{str_cat("section \"", name, "\": offset ", entry.offset, " is out of place")};
+        return section_error(name, str_cat("offset ", entry.offset, " is out of place"));
     }
     const uint64_t room = file_size - std::min(entry.offset, file_size);
     if (entry.element_size == 0 || entry.element_count > room / entry.element_size) {
-        return Error{str_cat("section \"", name, "\": ", entry.element_count, " elements of ",
-                             entry.element_size, " bytes at ", entry.offset,
-                             " do not fit in the file of ", file_size, " bytes")};
+        return section_error(
+            name, str_cat(entry.element_count, " elements of ", entry.element_size, " bytes at ",
+                          entry.offset, " do not fit in the file of ", file_size, " bytes"));
     }
     return Ok{};
 }
@@ -60,21 +61,24 @@ Result<std::span<const SectionEntry>> read_section_table(std::span<const std::by
     std::memcpy(&header, file.data(), sizeof header);
     if (header.magic != kMagic) return not_a_probe_file("wrong first bytes");
     if (header.version != kFileVersion) {
-        return Error{str_cat("file version ", header.version,
+        return Error{ErrorCode::Unsupported, "version", str_cat(header.version),
+                     str_cat("file version ", header.version,
                              " is not supported (this program reads ", kFileVersion, ")")};
     }
     if (header.file_size != file.size()) {
-        return Error{str_cat("the file has ", file.size(), " bytes, but its header says ",
-                             header.file_size)};
+        return Error{ErrorCode::Corrupt, str_cat("the file has ", file.size(),
+                                                 " bytes, but its header says ", header.file_size)};
     }
     const uint64_t table_size = uint64_t{header.section_count} * sizeof(SectionEntry);
     if (header.section_count > kMaxSectionCount || table_size > file.size() - sizeof header) {
-        return Error{str_cat("section count ", header.section_count, " is out of range")};
+        return Error{ErrorCode::Corrupt,
+                     str_cat("section count ", header.section_count, " is out of range")};
     }
     const auto* entries = reinterpret_cast<const SectionEntry*>(file.data() + sizeof header);
     const std::span table(entries, header.section_count);
     if (header.checksum != header_checksum(header, table)) {
-        return Error{"the header or the section table is corrupt (wrong checksum)"};
+        return Error{ErrorCode::Corrupt,
+                     "the header or the section table is corrupt (wrong checksum)"};
     }
     uint64_t end = sizeof header + table_size;
     for (const SectionEntry& entry : table) {
@@ -88,16 +92,17 @@ Status verify_checksums(std::span<const std::byte> file, std::span<const Section
     uint64_t end = sizeof(FileHeader) + table.size_bytes();
     for (const SectionEntry& entry : table) {
         if (!are_zero(file.subspan(end, entry.offset - end))) {
-            return Error{
-                str_cat("bytes before section \"", section_name(entry), "\" are not zero")};
+            return Error{ErrorCode::Corrupt, str_cat("bytes before section \"", section_name(entry),
+                                                     "\" are not zero")};
         }
         if (checksum(file.subspan(entry.offset, entry.size())) != entry.checksum) {
-            return Error{
-                str_cat("section \"", section_name(entry), "\" is corrupt (wrong checksum)")};
+            return Error{ErrorCode::Corrupt, str_cat("section \"", section_name(entry),
+                                                     "\" is corrupt (wrong checksum)")};
         }
         end = entry.offset + entry.size();
     }
-    if (!are_zero(file.subspan(end))) return Error{"bytes after the last section are not zero"};
+    if (!are_zero(file.subspan(end)))
+        return Error{ErrorCode::Corrupt, "bytes after the last section are not zero"};
     return Ok{};
 }
 

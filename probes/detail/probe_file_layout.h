@@ -73,36 +73,4 @@ static_assert(sizeof(SectionEntry) == 64 && std::is_trivially_copyable_v<Section
 [[nodiscard]] Status verify_checksums(std::span<const std::byte> file,
                                       std::span<const SectionEntry> table);
 
-/// Calls `visit(name, span)` for each section that a view holds, in file order. `View` is
-/// `ProbeVolumeView` or const; spans are passed by reference so that a reader can fill them.
-template <class View, class Visit>
-void for_each_section(View& view, Visit&& visit) {
-    // What queries read.
-    visit("compact", view.compact);
-    visit("positions", view.positions);
-    visit("cells", view.cells);
-    visit("hull_rays", view.hull_rays);
-    visit("seeds", view.seeds);
-    // The rest.
-    visit("irradiance", view.irradiance);
-    visit("occlusion", view.occlusion);
-    visit("validity", view.validity);
-    visit("health", view.health);
-    visit("exact_positions", view.exact_positions);
-    visit("sources", view.sources);
-    visit("group_names", view.group_names);
-    visit("lights", view.lights);
-    visit("light_names", view.light_names);
-    visit("metadata", view.metadata);
-    // Light that can change after the bake.
-    visit("light_states", view.light_states);
-    visit("occlusion_lights", view.occlusion_lights);
-    visit("layers", view.layers);
-    visit("layer_names", view.layer_names);
-    visit("layer_irradiance", view.layer_irradiance);
-    visit("transfer", view.transfer);
-    visit("sky", view.sky);
-    visit("dering", view.dering);
-}
-
 }  // namespace tetralight::detail

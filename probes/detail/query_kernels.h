@@ -17,10 +17,10 @@
 
 namespace tetralight::detail {
 
-/// Tetrahedra that a query of a block tests before its walk is left open.
+/// Tetrahedra that a query of a block tests before its walk is left unresolved.
 inline constexpr uint32_t kWalkLimit = 256;
 
-/// Queries that are worked on together. They belong to a few streams; the walks of one stream
+/// Queries that are processed together. They belong to a few streams; the walks of one stream
 /// follow each other, those of different streams run interleaved so that one computes while
 /// another waits for memory.
 struct QueryBlock {
@@ -43,11 +43,11 @@ struct QueryBlock {
 
     /// Out: where queries are.
     std::array<CellLocation, kSize> location;
-    /// Out: queries whose walk left the tetrahedra, or met anything unusual, and the cell where it
-    /// did.
-    std::array<uint32_t, kSize> open;
-    std::array<uint32_t, kSize> open_cell;
-    size_t open_count = 0;
+    /// Out: unresolved queries, whose walk left the tetrahedra or needs the general code, and the
+    /// cell that it reached.
+    std::array<uint32_t, kSize> unresolved;
+    std::array<uint32_t, kSize> unresolved_cell;
+    size_t unresolved_count = 0;
     /// Out: cells tested.
     uint64_t step_count = 0;
 };
@@ -64,11 +64,11 @@ struct HullLanes {
     alignas(64) std::array<std::array<Lanes<double>, 3>, 3> rays{};
     /// Out: as `hull_cell_weights`.
     alignas(64) std::array<Lanes<double>, 3> weights{};
-    /// Out: false: there are no weights, or only `hull_cell_weights` can find them.
+    /// Out: false if the cell gives no weights, or only `hull_cell_weights` can find them.
     Lanes<bool> is_known{};
 };
 
-/// Where blended probes go: location i is answer `answers[i]`.
+/// Output of blended probes: location i is answer `answers[i]`.
 struct BlendTarget {
     std::span<const uint32_t> answers;
     const ShOutput& irradiance;
@@ -77,7 +77,7 @@ struct BlendTarget {
 
 struct QueryKernels {
     /// Walks through the tetrahedra of a volume of dimension Space, until a position is found or
-    /// its walk is left open.
+    /// its walk is left unresolved.
     void (*walk_tetrahedra)(const ProbeVolumeView& volume, QueryBlock& block);
     /// Weights of each lane's query in its hull cell.
     void (*hull_weights)(HullLanes& lanes);
@@ -88,7 +88,7 @@ struct QueryKernels {
 
 [[nodiscard]] const QueryKernels& scalar_kernels() noexcept;
 
-/// The fastest of this machine.
+/// The fastest kernels that this machine supports.
 [[nodiscard]] const QueryKernels& query_kernels() noexcept;
 
 }  // namespace tetralight::detail

@@ -24,8 +24,8 @@ void walk_query(const ProbeVolumeView& volume, QueryBlock& block, size_t query, 
     const glm::dvec3 position(block.x[query], block.y[query], block.z[query]);
     std::array<glm::dvec3, 4> corners;
     const auto leave_open = [&](uint32_t at) {
-        block.open[block.open_count] = static_cast<uint32_t>(query);
-        block.open_cell[block.open_count++] = at;
+        block.unresolved[block.unresolved_count] = static_cast<uint32_t>(query);
+        block.unresolved_cell[block.unresolved_count++] = at;
     };
     if (start != kNoIndex) cell = start;
     uint32_t previous = kNoIndex;

@@ -8,21 +8,18 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/dering.h>
+#include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/detail/verify_text.h>
 
 namespace tetralight::detail {
 namespace {
 
-Error in_section(std::string_view section, const std::string& what) {
-    return {str_cat("section \"", section, "\": ", what)};
-}
-
 Status check_count(std::string_view section, size_t count, size_t expected) {
     if (count == 0 || count == expected) return Ok{};
-    return in_section(section, str_cat(count, " elements instead of ", expected));
+    return section_error(section, str_cat(count, " elements instead of ", expected));
 }
 
-/// Sections of plain floats, whatever they stand for.
+/// Checks sections whose elements consist of floats.
 template <class T>
 Status check_floats(std::string_view section, std::span<const T> elements) {
     static_assert(sizeof(T) % sizeof(float) == 0);
@@ -30,7 +27,7 @@ Status check_floats(std::string_view section, std::span<const T> elements) {
     const size_t each = sizeof(T) / sizeof(float);
     for (size_t i = 0; i < elements.size() * each; ++i) {
         if (std::isfinite(floats[i])) continue;
-        return in_section(section, str_cat("element ", i / each, ": is not finite"));
+        return element_error(section, i / each, "is not finite");
     }
     return Ok{};
 }
@@ -39,7 +36,7 @@ template <class T, class Predicate>
 Status check_each(std::string_view section, std::span<const T> elements, Predicate is_good) {
     for (size_t i = 0; i < elements.size(); ++i) {
         if (is_good(elements[i])) continue;
-        return in_section(section, str_cat("element ", i, ": is out of range"));
+        return element_error(section, i, "is out of range");
     }
     return Ok{};
 }
@@ -60,7 +57,8 @@ Status check_counts(const ProbeVolumeView& v) {
     const size_t probes = v.positions.size();
     const size_t names = split_names(v.layer_names).size();
     if (names != v.layers.size()) {
-        return in_section("layer_names", str_cat(names, " names for ", v.layers.size(), " layers"));
+        return section_error("layer_names",
+                             str_cat(names, " names for ", v.layers.size(), " layers"));
     }
     for (const Status& status :
          {check_count("light_states", v.light_states.size(), v.lights.size()),

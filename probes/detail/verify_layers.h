@@ -6,8 +6,8 @@
 
 namespace tetralight::detail {
 
-/// What docs/file_format.md says of the sections of mixed lighting, layers and transfer. Errors
-/// name the section.
+/// Checks the sections of mixed lighting, layers and transfer as docs/file_format.md specifies
+/// them. Returns corrupt; the field is the section or its element.
 [[nodiscard]] Status check_layers(const ProbeVolumeView& volume);
 
 }  // namespace tetralight::detail

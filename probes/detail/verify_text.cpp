@@ -6,20 +6,13 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/utf8.h>
+#include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
-namespace {
-
-Error section_error(std::string_view section, const std::string& what) {
-    return {str_cat("section \"", section, "\": ", what)};
-}
-
-}  // namespace
-
 Status check_names(std::string_view section, std::string_view names) {
     if (!names.empty() && names.back() != '\n') {
-        return section_error(section, "the last name does not end");
+        return section_error(section, "the last name has no line break at its end");
     }
     const auto lines = split_names(names);
     const auto bad = std::ranges::find_if_not(lines, is_utf8);
@@ -34,7 +27,7 @@ Status check_sorted_names(std::string_view section, std::string_view names) {
         if (lines[i - 1] < lines[i]) continue;
         const bool is_same = lines[i - 1] == lines[i];
         return section_error(section, str_cat("name ", i, " \"", lines[i], "\" ",
-                                              is_same ? "stands twice" : "is not in sorted order"));
+                                              is_same ? "occurs twice" : "is not in sorted order"));
     }
     return Ok{};
 }

@@ -5,7 +5,8 @@
 
 #include <tetralight/base/result.h>
 
-// What docs/file_format.md says of the sections that hold text. Errors name the section.
+// Checks the sections that hold text as docs/file_format.md specifies them. They return corrupt;
+// the field is the section.
 
 namespace tetralight::detail {
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/detail/verify_layers.h>
 #include <tetralight/probes/detail/verify_text.h>
 #include <tetralight/probes/is_finite.h>
@@ -37,15 +38,15 @@ bool is_finite(const CompactProbe& probe) {
 
 Status check_count(const char* name, size_t count, size_t expected, bool is_optional) {
     if (count == expected || (is_optional && count == 0)) return Ok{};
-    return Error{str_cat("section \"", name, "\": ", count, " elements instead of ", expected)};
+    return detail::section_error(name, str_cat(count, " elements instead of ", expected));
 }
 
 Error info_error(const std::string& what) {
-    return {"section \"info\": " + what};
+    return detail::section_error("info", what);
 }
 
-/// Whether the first cell has the vertices that cells of this dimension have: if it has not, the
-/// dimension is wrong and not every cell.
+/// Checks that the first cell has as many vertices as the dimension says. If not, the error is
+/// about the dimension, not about every cell.
 Status check_dimension(const ProbeVolumeView& v) {
     if (v.info.inner_cell_count == 0) return Ok{};
     const auto count = 4 - std::ranges::count(v.cells[0].vertices, kNoIndex);
@@ -61,7 +62,7 @@ Status check_counts(const ProbeVolumeView& v) {
             str_cat("dimension ", static_cast<uint32_t>(v.info.dimension), " is unknown"));
     }
     if (v.info.inner_cell_count > v.cells.size()) {
-        return info_error(str_cat("tetrahedron count ", v.info.inner_cell_count,
+        return info_error(str_cat("inner cell count ", v.info.inner_cell_count,
                                   " is more than the ", v.cells.size(), " cells"));
     }
     if (auto status = check_dimension(v); !status) return status;
@@ -84,9 +85,7 @@ template <class T, class Predicate>
 Status check_each(const char* name, std::span<const T> elements, const char* what,
                   Predicate is_good) {
     for (size_t i = 0; i < elements.size(); ++i) {
-        if (!is_good(elements[i])) {
-            return Error{str_cat("section \"", name, "\": element ", i, ": ", what)};
-        }
+        if (!is_good(elements[i])) return detail::element_error(name, i, what);
     }
     return Ok{};
 }
@@ -110,7 +109,7 @@ Status check_numbers(const ProbeVolumeView& v) {
             });
     };
     if (!is_finite(v.info.world_origin) || !is_finite(v.info.axis) || !is_finite(v.info.ambient) ||
-        !std::isfinite(v.info.extent) || !is_finite(v.info.seed_cube.low) ||
+        !std::isfinite(v.info.extent) || !is_finite(v.info.seed_cube.min) ||
         !std::isfinite(v.info.seed_cube.scale)) {
         return info_error("a number is not finite");
     }
@@ -136,7 +135,8 @@ Status check_numbers(const ProbeVolumeView& v) {
 }
 
 Error cell_error(size_t cell, const std::string& what) {
-    return {str_cat("section \"cells\": cell ", cell, ": ", what)};
+    return {ErrorCode::Corrupt, str_cat("cells[", cell, "]"), "",
+            str_cat("section \"cells\": cell ", cell, ": ", what)};
 }
 
 /// A neighbor shares all vertices but one with the cell, and lists the cell as its neighbor.
@@ -170,8 +170,7 @@ struct CellShape {
     }
 };
 
-/// "vertex 7 is out of range (5 probes)", or nothing when it is in range, or unused as it should
-/// be.
+/// "vertex 7 is out of range (5)". Empty if it is in range, or is kNoIndex in an unused place.
 std::string index_problem(const char* what, uint32_t index, bool is_used, size_t count) {
     if (is_used ? index < count : index == kNoIndex) return {};
     return str_cat(what, " ", index, " is out of range (", is_used ? count : 0, ")");
@@ -217,7 +216,7 @@ Status check_tables(const ProbeVolumeView& v) {
     const auto has_cell = [&](const Seed& seed) { return seed.cell < v.cells.size(); };
     if (auto s = check_each("seeds", v.seeds, "is out of range", has_cell); !s) return s;
     if (!std::ranges::is_sorted(v.seeds, {}, &Seed::hilbert_index)) {
-        return Error{"section \"seeds\": is not sorted"};
+        return detail::section_error("seeds", "is not sorted");
     }
     const auto in_range = [&](const ProbeSource& source) {
         return source.group < groups &&

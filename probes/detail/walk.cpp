@@ -20,10 +20,10 @@ double longest_square(const std::array<glm::dvec3, 4>& corners, int count) {
     return square;
 }
 
-/// Beyond this two neighbors that send the walk to each other are a cycle, not rounding.
+/// If two neighbors send the walk to each other by more than this, it is a cycle, not rounding.
 constexpr double kSettleTolerance = 1e-9;
 
-/// Of the cells that were considered, the one that comes nearest to holding the position.
+/// The cell, of those considered, that is nearest to containing the position.
 struct Best {
     CellLocation location;
     double measure = -std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ CellWeights precise_tetrahedron_weights(const std::array<glm::dvec3, 4>& corners
 
 CellLocation finish(uint32_t cell, const CellWeights& cell_weights) noexcept {
     const CellWeights clamped{glm::max(cell_weights.weights, glm::dvec4(0.0))};
-    // + 0 turns -0 into 0.
+    // + 0 changes −0 into 0.
     const glm::vec4 weights(clamped.weights / clamped.sum() + 0.0);
     if (!std::isfinite(weights.x + weights.y + weights.z + weights.w)) return {};
     return {cell, 0.0f, weights};
@@ -95,9 +95,9 @@ uint32_t Walk::start_cell() const noexcept {
     return cell < volume_.cells.size() ? cell : 0u;
 }
 
-/// Where a walk goes on depends on nothing but the cell: one that comes back to a cell goes round
-/// for ever. It is caught by waiting for it at a cell that is chosen anew after 1, 2, 4... steps
-/// (Brent 1980, "An Improved Monte Carlo Factorization Algorithm").
+/// The next cell of a walk depends only on the current one: a walk that returns to a cell cycles
+/// for ever. It is detected by comparing with a cell that is replaced after 1, 2, 4... steps (Brent
+/// 1980, "An Improved Monte Carlo Factorization Algorithm").
 LocationTrace Walk::run(uint32_t start) const noexcept {
     uint32_t cell = start;
     uint32_t landmark = kNoIndex;
@@ -210,7 +210,7 @@ LocationTrace Walk::search_near(uint32_t start) const {
     return {is_found ? best.location : CellLocation{}, static_cast<uint32_t>(found)};
 }
 
-/// The fallback that cannot fail: the cell that comes nearest to holding the position.
+/// The fallback that cannot fail: the cell that is nearest to containing the position.
 CellLocation Walk::search_all() const {
     Best best;
     for (uint32_t cell = 0; cell < volume_.cells.size(); ++cell) {

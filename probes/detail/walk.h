@@ -12,7 +12,7 @@
 
 namespace tetralight::detail {
 
-/// Times the cube of the longest square edge: the square of what rounding can make of a sum of
+/// Times the cube of the longest squared edge: the square of the rounding error of a sum of
 /// weights.
 inline constexpr double kSliverRounding = 1e-24;
 
@@ -26,7 +26,7 @@ struct CellWeights {
     /// In the order of a four-lane sum, so that vector code gives the same bits.
     [[nodiscard]] double sum() const { return (weights.x + weights.z) + (weights.y + weights.w); }
 
-    /// Smallest weight as a share of the sum: ≥ 0 inside the cell.
+    /// Smallest weight divided by the sum: ≥ 0 inside the cell.
     [[nodiscard]] double inside_measure() const;
 
     [[nodiscard]] int most_negative() const;
@@ -35,7 +35,7 @@ struct CellWeights {
 /// Weights of the origin in a tetrahedron. `corners` are relative to the queried position.
 [[nodiscard]] CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept;
 
-/// The same for cells that are too flat for it: in the widest floats that there are.
+/// The same in long double, for cells that are too flat for double.
 [[nodiscard]] CellWeights precise_tetrahedron_weights(
     const std::array<glm::dvec3, 4>& corners) noexcept;
 

@@ -170,8 +170,8 @@ class StreamWalk {
     }
 
     HWY_INLINE void leave_open(uint32_t cell) {
-        block_.open[block_.open_count] = static_cast<uint32_t>(query_);
-        block_.open_cell[block_.open_count++] = cell;
+        block_.unresolved[block_.unresolved_count] = static_cast<uint32_t>(query_);
+        block_.unresolved_cell[block_.unresolved_count++] = cell;
         ++query_;
         previous_ = kNoIndex;
         steps_ = 0;

@@ -70,7 +70,7 @@ TEST_F(FileWriterTest, RefusesLinksThatLeadInACircle) {
     const auto writer = FileWriter::open(loop);
     ASSERT_FALSE(writer);
     EXPECT_EQ(error_text(writer.error()),
-              loop + ": cannot write (its symbolic links lead in a circle)");
+              loop + ": cannot write (its symbolic links form a cycle)");
     EXPECT_TRUE(fs::is_symlink(loop));
 }
 

@@ -35,7 +35,7 @@ void give_occlusion(ProbeVolume& volume, float value) {
 }
 
 std::string error_of(const ProbeVolume& a, const ProbeVolume& b, float t) {
-    const auto blended = blend(a.view(), b.view(), t);
+    const auto blended = blend_volumes(a.view(), b.view(), t);
     EXPECT_FALSE(blended);
     return blended ? "" : error_text(blended.error());
 }
@@ -44,7 +44,7 @@ TEST(BlendVolumes, BlendsLightAmbientAndOcclusion) {
     ProbeVolume a = scenario(1.0f), b = scenario(3.0f);
     give_occlusion(a, 1.0f);
     give_occlusion(b, 0.0f);
-    const auto blended = blend(a.view(), b.view(), 0.25f);
+    const auto blended = blend_volumes(a.view(), b.view(), 0.25f);
     ASSERT_TRUE(blended) << error_text(blended.error());
     for (size_t i = 0; i < 15; ++i) {
         EXPECT_EQ(blended->irradiance[i], 0.75f * a.irradiance[i] + 0.25f * b.irradiance[i]);
@@ -59,13 +59,13 @@ TEST(BlendVolumes, BlendsLightAmbientAndOcclusion) {
 
 TEST(BlendVolumes, EndsAreTheScenarios) {
     const ProbeVolume a = scenario(1.0f), b = scenario(3.0f);
-    EXPECT_EQ(blend(a.view(), b.view(), 0.0f)->irradiance, a.irradiance);
-    EXPECT_EQ(blend(a.view(), b.view(), 1.0f)->irradiance, b.irradiance);
+    EXPECT_EQ(blend_volumes(a.view(), b.view(), 0.0f)->irradiance, a.irradiance);
+    EXPECT_EQ(blend_volumes(a.view(), b.view(), 1.0f)->irradiance, b.irradiance);
 }
 
 TEST(BlendVolumes, LightsThatMovedAreThereTwiceByTheirShares) {
     const ProbeVolume a = scenario(1.0f), b = scenario(3.0f, {1, 0, 0});
-    const auto blended = blend(a.view(), b.view(), 0.5f);
+    const auto blended = blend_volumes(a.view(), b.view(), 0.5f);
     ASSERT_TRUE(blended);
     ASSERT_EQ(blended->lights.size(), 2u);
     EXPECT_EQ(blended->lights[0].intensity, glm::vec3(0.5f));
@@ -77,7 +77,7 @@ TEST(BlendVolumes, OcclusionOfOneScenarioAloneIsKeptForItsLights) {
     const ProbeVolume a = scenario(1.0f);
     ProbeVolume b = scenario(3.0f, {1, 0, 0});
     give_occlusion(b, 0.5f);
-    const auto blended = blend(a.view(), b.view(), 0.5f);
+    const auto blended = blend_volumes(a.view(), b.view(), 0.5f);
     ASSERT_TRUE(blended) << error_text(blended.error());
     EXPECT_EQ(blended->occlusion, b.occlusion);
     EXPECT_EQ(blended->occlusion_lights[0][1], 1u);  // the second light now

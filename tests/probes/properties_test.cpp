@@ -92,8 +92,7 @@ void check_weights(const CellLocation& location) {
     RC_ASSERT(std::abs(w.x + w.y + w.z + w.w - 1.0f) <= 1e-5f);
 }
 
-void check_positions(const Positions& positions, uint64_t seed, size_t count,
-                     Survey& probe_visibility) {
+void check_positions(const Positions& positions, uint64_t seed, size_t count, Survey& survey) {
     const ProbeVolume volume = test::make_random_volume(positions, seed);
     const ProbeVolumeView view = volume.view();
     const test::LocationOracle oracle(view);
@@ -112,36 +111,34 @@ void check_positions(const Positions& positions, uint64_t seed, size_t count,
                             volume.info.inner_cell_count, " inner), but beside it by ",
                             miss.distance, " m"));
         }
-        probe_visibility.largest_miss = std::max(probe_visibility.largest_miss, miss.share());
-        probe_visibility.steps += trace.step_count;
-        probe_visibility.most_steps = std::max(probe_visibility.most_steps, trace.step_count);
-        probe_visibility.fallbacks += trace.is_fallback;
+        survey.largest_miss = std::max(survey.largest_miss, miss.share());
+        survey.steps += trace.step_count;
+        survey.most_steps = std::max(survey.most_steps, trace.step_count);
+        survey.fallbacks += trace.is_fallback;
     }
-    probe_visibility.count += count;
+    survey.count += count;
 }
 
-void report(const std::string& name, const Survey& probe_visibility) {
-    testing::Test::RecordProperty("positions", std::to_string(probe_visibility.count));
-    testing::Test::RecordProperty("most_steps", std::to_string(probe_visibility.most_steps));
-    testing::Test::RecordProperty("fallbacks", std::to_string(probe_visibility.fallbacks));
-    std::cout << str_cat(
-        name, ": ", probe_visibility.count, " positions, ",
-        static_cast<double>(probe_visibility.steps) / static_cast<double>(probe_visibility.count),
-        " steps, at most ", probe_visibility.most_steps, ", ", probe_visibility.fallbacks,
-        " fallbacks, largest miss ", probe_visibility.largest_miss, "\n");
+void report(const std::string& name, const Survey& survey) {
+    testing::Test::RecordProperty("positions", std::to_string(survey.count));
+    testing::Test::RecordProperty("most_steps", std::to_string(survey.most_steps));
+    testing::Test::RecordProperty("fallbacks", std::to_string(survey.fallbacks));
+    std::cout << str_cat(name, ": ", survey.count, " positions, ",
+                         static_cast<double>(survey.steps) / static_cast<double>(survey.count),
+                         " steps, at most ", survey.most_steps, ", ", survey.fallbacks,
+                         " fallbacks, largest miss ", survey.largest_miss, "\n");
 }
 
 TEST_P(Properties, EveryPositionIsFoundInItsCellWithConvexWeights) {
     constexpr int kCaseCount = 40;
     const size_t budget = test::is_nightly() ? 10'000'000 : 100'000;
     const size_t largest = test::is_nightly() ? 100'000 : 10'000;
-    Survey probe_visibility;
+    Survey survey;
     for_sets(kCaseCount, largest, [&](const Positions& positions, uint64_t seed) {
-        const bool is_last = probe_visibility.set_count++ == kCaseCount;
-        check_positions(positions, seed, is_last ? budget / 2 : budget / 2 / kCaseCount,
-                        probe_visibility);
+        const bool is_last = survey.set_count++ == kCaseCount;
+        check_positions(positions, seed, is_last ? budget / 2 : budget / 2 / kCaseCount, survey);
     });
-    report(family.name, probe_visibility);
+    report(family.name, survey);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Properties, testing::Range<size_t>(0, test::sized_families().size()),
@@ -153,10 +150,9 @@ INSTANTIATE_TEST_SUITE_P(All, Properties, testing::Range<size_t>(0, test::sized_
 void check_large(const char* name) {
     const auto families = test::sized_families();
     const auto family = std::ranges::find(families, std::string(name), &test::SizedFamily::name);
-    Survey probe_visibility;
-    test::check_property(
-        1, [&] { check_positions(family->make(100'000, 3), 3, 100'000, probe_visibility); });
-    report(family->name, probe_visibility);
+    Survey survey;
+    test::check_property(1, [&] { check_positions(family->make(100'000, 3), 3, 100'000, survey); });
+    report(family->name, survey);
 }
 
 TEST(LargeProperties, EveryPositionOfARandomSetIsFound) {

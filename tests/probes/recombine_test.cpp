@@ -101,7 +101,7 @@ TEST(Recombine, RefusesBadWeights) {
         return status ? "" : error_text(status.error());
     };
     EXPECT_EQ(error({1.0f, -0.5f}), "layer \"light:lamp\": weight -0.5 is negative");
-    EXPECT_EQ(error({std::nanf(""), 1.0f}), "layer \"sun\": weight nan is no number");
+    EXPECT_EQ(error({std::nanf(""), 1.0f}), "layer \"sun\": weight nan is not a number");
     EXPECT_EQ(error({kInfinity, 1.0f}), "layer \"sun\": weight inf is not finite");
     EXPECT_EQ(error({1.0f}), "1 weights for 2 layers");
     EXPECT_EQ(error({1e38f, 1.0f}),

@@ -208,9 +208,9 @@ TEST(PackInstances, RefusesAnswersOverEachOtherAndAtOddAddresses) {
     EXPECT_EQ(error_of(strided(bytes, ShFormat::Packed, 108), occlusion),
               "irradiance has a stride of 108 bytes, and answers of 112");
     EXPECT_EQ(error_of(strided(bytes.subspan(1), ShFormat::Packed, 112), occlusion),
-              "irradiance does not lie at multiples of 4 bytes");
+              "irradiance is not aligned to 4 bytes");
     EXPECT_EQ(error_of(strided(bytes, ShFormat::Packed, 114), occlusion),
-              "irradiance does not lie at multiples of 4 bytes");
+              "irradiance is not aligned to 4 bytes");
     const auto floats = std::as_writable_bytes(std::span(occlusion));
     EXPECT_EQ(error_of(light, strided_occlusion(floats, 8)),
               "occlusion has a stride of 8 bytes, and answers of 16");
@@ -227,7 +227,8 @@ TEST(PackInstances, RefusesChoicesOutsideTheHullThatAreNone) {
                 .error());
     };
     EXPECT_EQ(error_of({static_cast<OutsidePolicy>(9), 1.0f}), "outside has policy 9");
-    EXPECT_EQ(error_of({OutsidePolicy::Ambient, -1.0f}), "fade_distance is -1, not a length");
+    EXPECT_EQ(error_of({OutsidePolicy::Ambient, -1.0f}),
+              "fade_distance is -1; it must be positive and finite");
     EXPECT_EQ(light.arrays[0][0], glm::vec4(0.0f));
 }
 

@@ -15,8 +15,8 @@ constexpr uint64_t make_corner(uint32_t vertex, uint32_t neighbor) {
     return uint64_t{vertex} << 32 | neighbor;
 }
 
-/// Sorts two corners and says whether they were in the wrong order; without a branch, because
-/// nothing could predict it.
+/// Sorts two corners and returns 1 if they were in the wrong order. Without a branch, because its
+/// outcome cannot be predicted.
 inline uint32_t sort_two(uint64_t& a, uint64_t& b) {
     const uint64_t low = a < b ? a : b;
     const uint64_t high = a < b ? b : a;
@@ -49,7 +49,7 @@ inline Cell make_sorted_cell(std::array<uint64_t, 4> corners, int vertex_count) 
 /// beside the result: a counting sort by the first vertex as they come, then a comparison sort of
 /// the few cells that share it.
 ///
-/// Whoever has the cells goes through them twice in the same order, their corners sorted:
+/// The caller visits its cells twice in the same order, their corners sorted:
 ///
 ///     CellSorter sorter(probe_count);
 ///     for (each cell) sorter.count(cell.vertices[0]);

@@ -8,7 +8,7 @@
 
 #include <tetralight/probes/probe_volume.h>
 
-// Everything that is asked of CGAL but tetrahedra (probes/build/detail/delaunay.h).
+// The uses of CGAL other than tetrahedra (probes/build/detail/delaunay.h).
 
 namespace tetralight::detail {
 
@@ -20,12 +20,12 @@ namespace tetralight::detail {
 [[nodiscard]] int orientation(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                               const glm::dvec3& d);
 
-/// Exact: whether `position` lies strictly inside the circumsphere of a positively oriented
+/// Exact: true if `position` lies strictly inside the circumsphere of a positively oriented
 /// tetrahedron.
 [[nodiscard]] bool is_in_circumsphere(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
                                       const glm::dvec3& d, const glm::dvec3& position);
 
-/// The same in a plane: exact sign of cross(b − a, c − a), and whether `position` lies strictly
+/// The same in a plane: exact sign of cross(b − a, c − a), and true if `position` lies strictly
 /// inside the circle through a counter-clockwise triangle.
 [[nodiscard]] int orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c);
 [[nodiscard]] bool is_in_circumcircle(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,

@@ -22,7 +22,7 @@ Triangle outward_face(const Cell& cell, int corner) {
     return face;
 }
 
-/// Whether `there` lies on the other side of the face opposite a corner of `here`.
+/// True if `there` lies on the other side of the face opposite a corner of `here`.
 bool is_across(const Cell& here, uint32_t here_index, int corner, const Cell& there) {
     const Triangle face = outward_face(here, corner);
     for (int i = 0; i < 4; ++i) {
@@ -36,13 +36,13 @@ Status check_indices(const std::vector<Cell>& cells, size_t position_count) {
     for (size_t i = 0; i < cells.size(); ++i) {
         for (const uint32_t vertex : cells[i].vertices) {
             if (vertex < position_count) continue;
-            return Error{str_cat("tetrahedron ", i, ": vertex ", vertex, " is out of range (",
-                                 position_count, ")")};
+            return Error{ErrorCode::Corrupt, str_cat("tetrahedron ", i, ": vertex ", vertex,
+                                                     " is out of range (", position_count, ")")};
         }
         for (const uint32_t neighbor : cells[i].neighbors) {
             if (neighbor < cells.size() || neighbor == kNoIndex) continue;
-            return Error{str_cat("tetrahedron ", i, ": neighbor ", neighbor, " is out of range (",
-                                 cells.size(), ")")};
+            return Error{ErrorCode::Corrupt, str_cat("tetrahedron ", i, ": neighbor ", neighbor,
+                                                     " is out of range (", cells.size(), ")")};
         }
     }
     return Ok{};
@@ -53,7 +53,8 @@ Status check_neighbors(const std::vector<Cell>& cells) {
         for (int corner = 0; corner < 4; ++corner) {
             const uint32_t neighbor = cells[i].neighbors[corner];
             if (neighbor == kNoIndex || is_across(cells[i], i, corner, cells[neighbor])) continue;
-            return Error{str_cat("tetrahedra ", i, " and ", neighbor, " are no neighbors")};
+            return Error{ErrorCode::Corrupt,
+                         str_cat("tetrahedra ", i, " and ", neighbor, " are not neighbors")};
         }
     }
     return Ok{};
@@ -66,11 +67,12 @@ Status check_all_used(const std::vector<Cell>& cells, size_t position_count) {
     }
     const auto count = std::ranges::count(is_used, false);
     if (count == 0) return Ok{};
-    return Error{str_cat("left out ", count, " of ", position_count, " probes")};
+    return Error{ErrorCode::Corrupt,
+                 str_cat("left out ", count, " of ", position_count, " probes")};
 }
 
-/// Whether the hull is one closed surface without a hole, which only a convex polyhedron's is when
-/// all its edges are convex as well.
+/// True if the hull is one closed surface without a hole. If all its edges are convex too, it is a
+/// convex polyhedron.
 bool is_one_sphere(const Tetrahedralization& cells, size_t position_count) {
     const uint32_t first = cells.inner_cell_count;
     const auto count = static_cast<uint32_t>(cells.cells.size()) - first;
@@ -111,7 +113,7 @@ Status check_geometry(const Tetrahedralization& cells, std::span<const glm::dvec
     // Triangles that pair up bound what their tetrahedra fill: the sums differ by rounding alone.
     report.cell_measure = report.hull_measure;
     const std::vector<std::string> problems = report.problems();
-    return problems.empty() ? Status(Ok{}) : Error{problems[0]};
+    return problems.empty() ? Status(Ok{}) : Error{ErrorCode::Corrupt, problems[0]};
 }
 
 }  // namespace
@@ -124,7 +126,7 @@ Result<Tetrahedralization> check_tetrahedra(std::vector<Cell> tetrahedra,
 
     auto cells = canonical_cells(std::move(tetrahedra), Dimension::Space);
     if (cells.cells.size() == cells.inner_cell_count || !is_one_sphere(cells, positions.size())) {
-        return Error{"the hull is not closed"};
+        return Error{ErrorCode::Corrupt, "the hull is not closed"};
     }
     if (auto status = check_geometry(cells, positions); !status) return status.error();
     return cells;

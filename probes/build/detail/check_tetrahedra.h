@@ -10,13 +10,12 @@
 
 namespace tetralight::detail {
 
-/// `canonical_cells` of tetrahedra that come from somewhere else, when they are a Delaunay
-/// tetrahedralization of the positions. Nothing is assumed of the numbers in them; kNoIndex
-/// neighbors are outside the hull.
+/// `canonical_cells` of tetrahedra from another program, if they are a Delaunay tetrahedralization
+/// of the positions. Their indices are not trusted; kNoIndex neighbors are outside the hull.
 ///
-/// Errors: an index is out of range, tetrahedra are not each other's neighbors, positions are left
-/// out, and what `validate` finds under exact arithmetic: inverted tetrahedra, faces that break the
-/// Delaunay property, a hull that is not convex, or not in one piece.
+/// Returns corrupt if an index is out of range, tetrahedra are not each other's neighbors,
+/// positions are missing, or `validate` finds an error by exact arithmetic: inverted tetrahedra,
+/// faces that break the Delaunay property, a hull that is not convex, or not in one piece.
 [[nodiscard]] Result<Tetrahedralization> check_tetrahedra(std::vector<Cell> tetrahedra,
                                                           std::span<const glm::dvec3> positions);
 

@@ -152,7 +152,7 @@ void DelaunayTetrahedra::State::insert_missing(std::span<const glm::dvec3> wante
     }
 }
 
-/// Changes the triangulation to other positions unless making it anew takes less time.
+/// Changes the triangulation to other positions unless building it from scratch takes less time.
 bool DelaunayTetrahedra::State::change_to(std::span<const glm::dvec3> wanted) {
     const PositionTable table(positions);
     std::vector<Vertex> found(wanted.size());

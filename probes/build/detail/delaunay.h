@@ -25,7 +25,7 @@ class DelaunayTetrahedra {
     DelaunayTetrahedra(DelaunayTetrahedra&&) noexcept;
     DelaunayTetrahedra& operator=(DelaunayTetrahedra&&) noexcept;
 
-    /// `delaunay_tetrahedra` of these positions, whatever the set was before.
+    /// `delaunay_tetrahedra` of these positions. The result does not depend on the set before.
     [[nodiscard]] std::vector<Cell> change_to(std::span<const glm::dvec3> positions);
 
   private:

@@ -57,7 +57,7 @@ class Placement {
         for (int i = 0; i < 3; ++i) lies_along_axes_ &= axis_of(exact_frame_[i]) < 3;
     }
 
-    /// Whether each coordinate is the same, bit for bit, wherever its index is.
+    /// True if each coordinate is the same, bit for bit, wherever its index is.
     [[nodiscard]] bool is_exact_grid() const {
         if (!lies_along_axes_) return false;
         for (int step = 0; step < 3; ++step) {
@@ -76,7 +76,7 @@ class Placement {
         return true;
     }
 
-    /// Whether the steps stand across each other, but for rounding.
+    /// True if the steps are perpendicular to each other up to rounding.
     [[nodiscard]] bool is_rectangular() const {
         constexpr double kAcross = 1e-4;
         return std::abs(glm::dot(frame_[0], frame_[1])) < kAcross &&

@@ -13,7 +13,7 @@ namespace tetralight::detail {
 /// lines and planes along the steps are straight in exact arithmetic. A grid along the axes of
 /// which that is so already comes back as it is.
 ///
-/// Rectangular lattices that were turned alike keep common planes, whatever their steps and
+/// Rectangular lattices with the same rotation keep common planes, for all steps and
 /// origins, as long as this moves no position by more than a thousandth of the shortest step.
 [[nodiscard]] std::vector<glm::dvec3> exact_places(std::span<const glm::dvec3> positions,
                                                    const Lattice& lattice);

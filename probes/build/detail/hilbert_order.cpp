@@ -7,12 +7,13 @@
 #include <numeric>
 #include <tuple>
 
+#include <tetralight/base/box.h>
 #include <tetralight/probes/hilbert.h>
 
 namespace tetralight::detail {
 namespace {
 
-/// A curve through so few positions is not worth its while.
+/// Fewer positions than this are sorted by x, y, z.
 constexpr size_t kFew = 8;
 
 struct Key {
@@ -32,13 +33,9 @@ void sort_by_coordinates(Positions positions, std::span<uint32_t> order) {
 }
 
 HilbertCube cube_around(Positions positions, std::span<const uint32_t> order) {
-    glm::dvec3 low = positions[order[0]];
-    glm::dvec3 high = low;
-    for (const uint32_t i : order) {
-        low = glm::min(low, positions[i]);
-        high = glm::max(high, positions[i]);
-    }
-    return make_hilbert_cube(low, high);
+    auto bounds = Box<glm::dvec3>::empty();
+    for (const uint32_t i : order) bounds = union_of(bounds, positions[i]);
+    return make_hilbert_cube(bounds.min, bounds.max);
 }
 
 /// The corners of a cube with a size have different indices, so each call deals with fewer.

@@ -79,7 +79,7 @@ void link_hull(std::span<Cell> hull, uint32_t first_index, int face_size) {
     }
 }
 
-/// Tells an inner cell of the hull cell across the face of the corner that they do not share.
+/// Links an inner cell with the hull cell across the face of the corner that they do not share.
 void link_inner_cell(Cell& inner, const Cell& hull_cell, uint32_t hull_index, int face_size) {
     const auto first = hull_cell.vertices.begin();
     const auto last = first + face_size;

@@ -9,7 +9,7 @@
 namespace tetralight::detail {
 
 /// The places origin + i·steps[0] + j·steps[1] + k·steps[2], of `rank` independent short steps.
-/// Columns beyond the rank stand across the others.
+/// Columns beyond the rank are perpendicular to the others.
 struct Lattice {
     glm::dvec3 origin{0.0};
     glm::dmat3 steps{1.0};
@@ -45,7 +45,7 @@ struct Lattice {
     return lattice.origin + lattice.steps * index;
 }
 
-/// Whether a position is off its place by less than a tenth of a step.
+/// True if a position is less than a tenth of a step from its place.
 [[nodiscard]] bool is_near_place(const Lattice& lattice, const glm::dvec3& position);
 
 /// Makes the lattice just fine enough to have a place at `position`, which has none yet: by a step

@@ -14,7 +14,7 @@
 namespace tetralight::detail {
 namespace {
 
-/// The share of the places in their box that positions must fill is 1 / this.
+/// Positions must fill at least 1 / this of the places in their box.
 constexpr double kPlacesPerPosition = 32.0;
 
 double largest_of(std::span<const glm::dvec3> vectors) {

@@ -19,7 +19,7 @@ class LatticeFit {
     explicit LatticeFit(std::span<const glm::dvec3> first) : first_(first) {}
 
     /// Makes the lattice just fine enough to have a place near every position, and moves it as near
-    /// to them as it can be. False if that is no lattice any more.
+    /// to them as it can be. False if the result is not a lattice.
     [[nodiscard]] bool fit(std::span<const glm::dvec3> positions);
 
     [[nodiscard]] const Lattice& lattice() const { return lattice_; }

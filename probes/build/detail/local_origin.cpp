@@ -11,7 +11,7 @@
 namespace tetralight::detail {
 namespace {
 
-/// So many positions, evenly spaced along the curve, show where the bulk is.
+/// Number of positions, evenly spaced along the curve, that the bulk is estimated from.
 constexpr size_t kSampleCount = 4096;
 
 /// The middle half of the coordinates along each axis.

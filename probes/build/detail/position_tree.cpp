@@ -35,7 +35,7 @@ class Nearest {
 };
 
 double distance_to(const Node& node, const glm::dvec3& p) {
-    return glm::distance(glm::clamp(p, node.low, node.high), p);
+    return glm::distance(glm::clamp(p, node.bounds.min, node.bounds.max), p);
 }
 
 /// Visits near nodes first, so that most of the far ones need not be entered.
@@ -89,11 +89,10 @@ PositionTree::PositionTree(std::span<const glm::dvec3> positions) : positions_(p
 
 void PositionTree::add_node(uint32_t begin, uint32_t end) {
     const auto number = static_cast<uint32_t>(nodes_.size());
-    nodes_.push_back({positions_[begin], positions_[begin], begin, end, 0});
+    nodes_.push_back({{positions_[begin], positions_[begin]}, begin, end, 0});
     if (end - begin < 2 * kLeafSize) {
         for (uint32_t i = begin; i < end; ++i) {
-            nodes_[number].low = glm::min(nodes_[number].low, positions_[i]);
-            nodes_[number].high = glm::max(nodes_[number].high, positions_[i]);
+            nodes_[number].bounds = union_of(nodes_[number].bounds, positions_[i]);
         }
         return;
     }
@@ -102,8 +101,7 @@ void PositionTree::add_node(uint32_t begin, uint32_t end) {
     const auto second = static_cast<uint32_t>(nodes_.size());
     add_node(middle, end);
     nodes_[number].second_child = second;
-    nodes_[number].low = glm::min(nodes_[number + 1].low, nodes_[second].low);
-    nodes_[number].high = glm::max(nodes_[number + 1].high, nodes_[second].high);
+    nodes_[number].bounds = union_of(nodes_[number + 1].bounds, nodes_[second].bounds);
 }
 
 size_t PositionTree::spacing_rank(size_t position_count) {
@@ -116,11 +114,12 @@ double PositionTree::spacing(uint32_t position) const {
 }
 
 double joint_diagonal(const PositionTree::Node& a, const PositionTree::Node& b) {
-    return glm::distance(glm::min(a.low, b.low), glm::max(a.high, b.high));
+    return glm::length(union_of(a.bounds, b.bounds).size());
 }
 
 double gap(const PositionTree::Node& a, const PositionTree::Node& b) {
-    return glm::length(glm::max(glm::max(a.low - b.high, b.low - a.high), 0.0));
+    return glm::length(
+        glm::max(glm::max(a.bounds.min - b.bounds.max, b.bounds.min - a.bounds.max), 0.0));
 }
 
 }  // namespace tetralight::detail

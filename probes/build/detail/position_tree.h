@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <tetralight/base/box.h>
+
 namespace tetralight::detail {
 
 /// A binary tree of bounding boxes over positions along a Hilbert curve. It needs no cell size, so
@@ -13,8 +15,7 @@ namespace tetralight::detail {
 class PositionTree {
   public:
     struct Node {
-        glm::dvec3 low{0.0};
-        glm::dvec3 high{0.0};
+        Box<glm::dvec3> bounds;
         uint32_t begin = 0;  ///< of the positions in it
         uint32_t end = 0;
         uint32_t second_child = 0;  ///< the first one follows its parent; 0 = a leaf
@@ -33,12 +34,12 @@ class PositionTree {
     /// Parents come before their children; the first one is the root.
     [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
 
-    /// Which of the other positions, counted from the nearest as 1, says how far apart positions
-    /// are: the seventh. Of fewer than eight positions the one in the middle, since the farthest
-    /// may be far from all others.
+    /// The rank of the neighbor whose distance is the spacing, counted from the nearest as 1: the
+    /// seventh. With fewer than eight positions the median, because the farthest may be far from
+    /// all others.
     [[nodiscard]] static size_t spacing_rank(size_t position_count);
 
-    /// How far that one is from the position of this number. 0 for a single position.
+    /// The distance of that neighbor from a position. 0 for a single position.
     [[nodiscard]] double spacing(uint32_t position) const;
 
   private:
@@ -48,10 +49,10 @@ class PositionTree {
     std::vector<Node> nodes_;
 };
 
-/// The diagonal of the box around two nodes.
+/// The diagonal of the union of the bounds of two nodes.
 [[nodiscard]] double joint_diagonal(const PositionTree::Node& a, const PositionTree::Node& b);
 
-/// How far the boxes of two nodes are apart.
+/// The distance between the bounds of two nodes.
 [[nodiscard]] double gap(const PositionTree::Node& a, const PositionTree::Node& b);
 
 }  // namespace tetralight::detail

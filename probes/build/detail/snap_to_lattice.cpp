@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include <tetralight/base/box.h>
 #include <tetralight/probes/build/detail/exact_places.h>
 #include <tetralight/probes/build/detail/lattice_fit.h>
 
@@ -18,7 +19,7 @@ namespace {
 /// Fewer positions are too few to call them a lattice.
 constexpr size_t kFewest = 8;
 
-/// So many positions around the middle decide whether it is worth while to look at the others.
+/// Number of positions around the center that decide if the others are examined.
 constexpr size_t kFirstCount = 64;
 
 using Positions = std::span<const glm::dvec3>;
@@ -33,24 +34,20 @@ struct NearerTo {
     }
 };
 
-/// Positions seen from the one in their middle.
-class ProbeVisibility {
+/// Positions relative to the one nearest to the center of their bounds.
+class CenteredPositions {
   public:
-    explicit ProbeVisibility(Positions positions) : positions_(positions) {
-        glm::dvec3 low = positions[0];
-        glm::dvec3 high = positions[0];
-        for (const glm::dvec3& p : positions) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
-        middle_ = *std::ranges::min_element(positions, NearerTo{low * 0.5 + high * 0.5});
+    explicit CenteredPositions(Positions positions) : positions_(positions) {
+        auto bounds = Box<glm::dvec3>::empty();
+        for (const glm::dvec3& p : positions) bounds = union_of(bounds, p);
+        center_ = *std::ranges::min_element(positions, NearerTo{bounds.center()});
         for (const glm::dvec3& p : positions)
-            squares_.push_back(glm::dot(p - middle_, p - middle_));
+            squares_.push_back(glm::dot(p - center_, p - center_));
     }
 
-    [[nodiscard]] const glm::dvec3& middle() const { return middle_; }
+    [[nodiscard]] const glm::dvec3& middle() const { return center_; }
 
-    /// The nearest ones, relative to the middle, nearest first.
+    /// The nearest ones, relative to the center, nearest first.
     [[nodiscard]] std::vector<glm::dvec3> nearest(size_t count) const {
         std::vector<double> sorted = squares_;
         count = std::min(count, sorted.size());
@@ -61,17 +58,17 @@ class ProbeVisibility {
         return result;
     }
 
-    /// Those not farther away than the root of `square`, relative to the middle.
+    /// Those not farther away than the root of `square`, relative to the center.
     [[nodiscard]] std::vector<glm::dvec3> within(double square) const {
         std::vector<glm::dvec3> result;
         for (size_t i = 0; i < positions_.size(); ++i) {
-            if (squares_[i] <= square) result.push_back(positions_[i] - middle_);
+            if (squares_[i] <= square) result.push_back(positions_[i] - center_);
         }
         return result;
     }
 
     /// The square of the smallest distance that is longer than the root of `square`; infinite if
-    /// there is none.
+    /// no distance is longer.
     [[nodiscard]] double square_beyond(double square) const {
         double smallest = std::numeric_limits<double>::infinity();
         for (const double s : squares_) {
@@ -82,8 +79,8 @@ class ProbeVisibility {
 
   private:
     Positions positions_;
-    glm::dvec3 middle_{0.0};
-    std::vector<double> squares_;  ///< of the distances from the middle
+    glm::dvec3 center_{0.0};
+    std::vector<double> squares_;  ///< of the distances from the center
 };
 
 /// The lattice that positions are near to, if they are. A fit to the positions within some distance
@@ -95,7 +92,7 @@ std::optional<Lattice> find_lattice(Positions positions) {
         float_step = std::max({float_step, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
     float_step *= 0x1p-23;
-    const ProbeVisibility visibility(positions);
+    const CenteredPositions visibility(positions);
     const std::vector<glm::dvec3> first = visibility.nearest(kFirstCount);
     LatticeFit fit(first);
     const auto is_near = [&] {

@@ -11,7 +11,7 @@ namespace tetralight::detail {
 /// move, metres; else leaves all as they are.
 ///
 /// A position may be off its place by a float's step at the largest coordinate, and by a thousandth
-/// of the lattice's shortest step. Holes are fine, but the 64 positions around the middle must fill
+/// of the lattice's shortest step. Holes are fine, but the 64 positions around the center must fill
 /// 1/32 of the places that they span, and there must be eight or more. The moves are not much
 /// longer (see `exact_places`): lines and planes of the lattice are straight in exact arithmetic
 /// then, so that no tetrahedron between its positions is flat however it was turned or rounded to

@@ -17,10 +17,10 @@ namespace {
 /// Positions nearer to each other than this are one: squares of such lengths leave the floats.
 constexpr double kNearest = 1e-15;
 
-/// A few steps of a float, as a share of its value: nearer positions cannot be told apart.
+/// A few steps of a float, relative to its value: nearer positions cannot be distinguished.
 constexpr double kFloatSteps = 4e-7;
 
-/// Where probes are farther apart, in an open field, twins are no farther apart than in a house.
+/// An upper bound of the spacing: in an open field duplicates are no farther apart than in a house.
 constexpr double kLargestSpacing = 10.0;
 
 bool is_before(const glm::dvec3& a, const glm::dvec3& b) {

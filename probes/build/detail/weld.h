@@ -18,7 +18,7 @@ struct Weld {
 /// Joins positions that are nearer to each other than both of their radii, transitively. The radius
 /// of a position is `tolerance` times the local spacing, and at least a few steps of the floats
 /// that hold it relative to the local origin. The local spacing is the distance to the seventh
-/// nearest neighbor (of fewer than eight positions to the one in the middle), 10 m at most.
+/// nearest neighbor (with fewer than eight positions the median one), 10 m at most.
 /// Precondition: distinct, in Hilbert order. Cost: O(n log n), for clouds of near duplicates too.
 [[nodiscard]] Weld weld(std::span<const glm::dvec3> positions, double tolerance);
 

@@ -29,7 +29,7 @@ struct Hull {
 
 TEST(HullRays, OfARegularTetrahedronAreRadial) {
     const Hull hull({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}});
-    EXPECT_EQ(hull.rays.radial_share, 0.0f);
+    EXPECT_EQ(hull.rays.radial_fraction, 0.0f);
     for (size_t i = 0; i < hull.rays.cells.size(); ++i) {
         for (int k = 0; k < 3; ++k) {
             const uint32_t v = hull.cells.cells[1 + i].vertices[k];
@@ -72,7 +72,7 @@ TEST(HullRays, TakeNoMoreOfTheRadialDirectionThanNeeded) {
     // A box's angle-weighted vertex normals are its diagonals: nothing folds.
     std::vector<glm::dvec3> box;
     for (int i = 0; i < 8; ++i) box.emplace_back(i & 1 ? 3 : 0, i & 2 ? 1 : 0, i & 4 ? 2 : 0);
-    EXPECT_EQ(Hull(box).rays.radial_share, 0.0f);
+    EXPECT_EQ(Hull(box).rays.radial_fraction, 0.0f);
 }
 
 TEST(HullCell, FindsTheWeightsOfPositionsThatItWasExtrudedThrough) {

@@ -72,8 +72,8 @@ TEST(MakeProbeVolume, MakesHardlyAnySliverInALatticeWithHoles) {
         const auto angle = static_cast<double>(seed);
         EXPECT_EQ(quality_over(test::turned(lattice, angle)).slivers, 0u);
         const auto typed = test::moved(lattice, glm::dvec3(0.1), {0.3, 0.7, 0.9});
-        EXPECT_LE(quality_over(typed).sliver_share(), 0.005);
-        EXPECT_LE(quality_over(test::turned(typed, angle)).sliver_share(), 0.005);
+        EXPECT_LE(quality_over(typed).sliver_fraction(), 0.005);
+        EXPECT_LE(quality_over(test::turned(typed, angle)).sliver_fraction(), 0.005);
     }
 }
 

@@ -16,7 +16,7 @@ using Lines = std::vector<std::string>;
 
 Lines warnings_of(const std::vector<ProbeGroup>& groups) {
     const MergedProbes merged = *merge(groups);
-    const auto cells = tetrahedralize(merged.positions, flatness(merged));
+    const auto cells = tetrahedralize(merged.positions, flat_tolerance(merged));
     return merge_warnings(merged, cells.dimension);
 }
 

@@ -37,10 +37,10 @@ TEST(MeasureQuality, CountsSliversAndFlatTetrahedra) {
     EXPECT_EQ(report.tetrahedra, 4u);
     EXPECT_EQ(report.slivers, 2u);
     EXPECT_EQ(report.flat, 1u);
-    EXPECT_EQ(report.sliver_share(), 0.5);
+    EXPECT_EQ(report.sliver_fraction(), 0.5);
     EXPECT_EQ(report.smallest,
               tetrahedron_quality(positions[0], positions[1], positions[2], positions[5]));
-    EXPECT_EQ(measure_quality({}, {}).sliver_share(), 0.0);
+    EXPECT_EQ(measure_quality({}, {}).sliver_fraction(), 0.0);
 }
 
 }  // namespace

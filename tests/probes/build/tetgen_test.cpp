@@ -103,7 +103,7 @@ TEST_F(Tetgen, SurvivesAProgramThatHangs) {
 }
 
 TEST_F(Tetgen, RefusesGarbage) {
-    const std::string message = "fake: its output is not of a version that is known here";
+    const std::string message = "fake: its output has an unknown format or version";
     EXPECT_EQ(script_error("echo hello"), message);
     EXPECT_EQ(script_error("exec yes"), message);
     EXPECT_EQ(script_error("head -c 100000 /dev/zero"), message);
@@ -123,8 +123,8 @@ TEST_F(Tetgen, RefusesOutputThatIsTooShort) {
 }
 
 TEST_F(Tetgen, RefusesOutputThatGoesOn) {
-    const std::string message = str_cat("fake: its output goes on after the ", kCells.size(),
-                                        " tetrahedra that it began with");
+    const std::string message =
+        str_cat("fake: its output is longer than its ", kCells.size(), " tetrahedra");
     EXPECT_EQ(error(programs_.writer("fake", bytes_of(kCells), "echo")), message);
     EXPECT_EQ(error(programs_.writer("fake", bytes_of(kCells), "exec cat /dev/zero")), message);
 }

@@ -67,7 +67,7 @@ TEST(CheckTetrahedra, RefusesIndicesOutOfRange) {
 TEST(CheckTetrahedra, RefusesNeighborsThatAreNone) {
     Cell cell = kOneTetrahedron;
     cell.neighbors[1] = 0;
-    EXPECT_EQ(problem({cell}, kCorners), "tetrahedra 0 and 0 are no neighbors");
+    EXPECT_EQ(problem({cell}, kCorners), "tetrahedra 0 and 0 are not neighbors");
     std::vector<Cell> cells = delaunay_tetrahedra(test::random_positions(50, 2));
     std::swap(cells[7].neighbors[0], cells[7].neighbors[1]);
     problem(cells, test::random_positions(50, 2));

@@ -31,7 +31,7 @@ TEST(PositionTree, BoxesHoldTheirPositionsAndLeavesAreSmall) {
     uint32_t in_leaves = 0;
     for (const auto& node : tree.nodes()) {
         for (uint32_t i = node.begin; i < node.end; ++i) {
-            EXPECT_EQ(glm::clamp(positions[i], node.low, node.high), positions[i]);
+            EXPECT_EQ(glm::clamp(positions[i], node.bounds.min, node.bounds.max), positions[i]);
         }
         if (!node.is_leaf()) continue;
         in_leaves += node.size();

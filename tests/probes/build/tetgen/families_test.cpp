@@ -28,8 +28,9 @@ MergedProbes merged(std::vector<glm::dvec3> positions) {
 
 /// Holds that both give the same volume, or, where there are several, equally good ones.
 void expect_agreement(const MergedProbes& probes) {
-    const auto ours = tetrahedralize(probes.positions, flatness(probes));
-    const auto theirs = tetrahedralize_with_tetgen(probes.positions, flatness(probes), kTetgen);
+    const auto ours = tetrahedralize(probes.positions, flat_tolerance(probes));
+    const auto theirs =
+        tetrahedralize_with_tetgen(probes.positions, flat_tolerance(probes), kTetgen);
     ASSERT_TRUE(theirs) << error_text(theirs.error());
     ASSERT_EQ(theirs->dimension, ours.dimension);
     if (ours.dimension != Dimension::Space || test::is_unique_delaunay(ours, probes.positions)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/leave_out.h>
+#include <tetralight/probes/build/remove_probes.h>
 
 #include <gtest/gtest.h>
 
@@ -22,11 +22,11 @@ MergedProbes merged(size_t count) {
     return std::move(*probes);
 }
 
-TEST(LeaveOut, KeepsTheOthersInOrderAndAccountsForAll) {
+TEST(RemoveProbes, KeepsTheOthersInOrderAndAccountsForAll) {
     const MergedProbes before = merged(30);
     std::vector<bool> is_left_out(30, false);
     for (size_t i = 0; i < 30; i += 3) is_left_out[i] = true;
-    const MergedProbes after = leave_out(before, is_left_out);
+    const MergedProbes after = remove_probes(before, is_left_out);
     ASSERT_EQ(after.positions.size(), 20u);
     ASSERT_EQ(after.sources.size(), before.sources.size());
     for (size_t i = 0; i < before.sources.size(); ++i) {
@@ -43,18 +43,18 @@ TEST(LeaveOut, KeepsTheOthersInOrderAndAccountsForAll) {
         EXPECT_EQ(after.positions[i], before.positions[i / 2 * 3 + 1 + i % 2]);
 }
 
-TEST(LeaveOut, CountsOnlyProbesThatAreThereAsWelded) {
+TEST(RemoveProbes, CountsOnlyProbesThatAreThereAsWelded) {
     const MergedProbes before = merged(30);
     EXPECT_EQ(before.welded_count(), 2u);
     std::vector<bool> is_left_out(30, false);
     is_left_out[before.sources[0].probe] = true;
-    EXPECT_EQ(leave_out(before, is_left_out).welded_count(), 1u);
+    EXPECT_EQ(remove_probes(before, is_left_out).welded_count(), 1u);
 }
 
-TEST(LeaveOut, GivesSoundVolumes) {
+TEST(RemoveProbes, GivesSoundVolumes) {
     std::vector<bool> is_left_out(100, false);
     for (size_t i = 0; i < 100; i += 7) is_left_out[i] = true;
-    const ProbeVolume volume = make_probe_volume(leave_out(merged(100), is_left_out));
+    const ProbeVolume volume = make_probe_volume(remove_probes(merged(100), is_left_out));
     EXPECT_TRUE(verify(volume.view()));
     EXPECT_TRUE(validate(volume.view()).problems().empty());
 }

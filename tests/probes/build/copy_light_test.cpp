@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/build/carry_light.h>
+#include <tetralight/probes/build/copy_light.h>
 
 #include <gtest/gtest.h>
 
@@ -29,13 +29,13 @@ ProbeVolume make_baked_volume(std::vector<glm::dvec3> positions) {
     return volume;
 }
 
-TEST(CarryLight, MovesLightWithItsProbe) {
+TEST(CopyLight, MovesLightWithItsProbe) {
     const auto positions = test::random_positions(100, 1);
     const ProbeVolume from = make_baked_volume(positions);
     const std::vector<glm::dvec3> some(positions.begin() + 30, positions.end());
     ProbeVolume to = make_unlit_volume(some);
-    const CarriedLight carried = carry_light(from.view(), to);
-    EXPECT_EQ(carried.carried_count, 70u);
+    const CopiedLight carried = copy_light(from.view(), to);
+    EXPECT_EQ(carried.copied_count, 70u);
     EXPECT_TRUE(carried.unlit.empty());
     EXPECT_EQ(to, [&] {
         ProbeVolume expected = make_baked_volume(some);
@@ -45,14 +45,14 @@ TEST(CarryLight, MovesLightWithItsProbe) {
     EXPECT_TRUE(verify(to.view()));
 }
 
-TEST(CarryLight, LeavesNewProbesUnlitAndNamesThem) {
+TEST(CopyLight, LeavesNewProbesUnlitAndNamesThem) {
     auto positions = test::random_positions(100, 2);
     const ProbeVolume from = make_baked_volume(positions);
     positions[7].x += 1e-12;  // no longer the same bits
     positions.push_back({0.5, 0.5, 0.5});
     ProbeVolume to = make_unlit_volume(positions);
-    const CarriedLight carried = carry_light(from.view(), to);
-    EXPECT_EQ(carried.carried_count, 99u);
+    const CopiedLight carried = copy_light(from.view(), to);
+    EXPECT_EQ(carried.copied_count, 99u);
     ASSERT_EQ(carried.unlit.size(), 2u);
     for (const uint32_t probe : carried.unlit) {
         const glm::dvec3& p = to.exact_positions[probe];
@@ -64,28 +64,28 @@ TEST(CarryLight, LeavesNewProbesUnlitAndNamesThem) {
     EXPECT_TRUE(verify(to.view()));
 }
 
-TEST(CarryLight, LeavesOutWhatTheOtherVolumeDoesNotHave) {
+TEST(CopyLight, LeavesOutWhatTheOtherVolumeDoesNotHave) {
     const auto positions = test::random_positions(20, 3);
     ProbeVolume to = make_unlit_volume(positions);
-    carry_light(test::make_lit_volume(positions).view(), to);
+    copy_light(test::make_lit_volume(positions).view(), to);
     EXPECT_EQ(to.irradiance.size(), 20u);
     EXPECT_TRUE(to.occlusion.empty());
     EXPECT_TRUE(to.validity.empty());
 }
 
-TEST(CarryLight, FromAVolumeThatIsNotBakedCarriesNothing) {
+TEST(CopyLight, FromAVolumeThatIsNotBakedCarriesNothing) {
     const auto positions = test::random_positions(20, 4);
     ProbeVolume to = make_unlit_volume(positions);
-    const CarriedLight carried = carry_light(make_unlit_volume(positions).view(), to);
-    EXPECT_EQ(carried.carried_count, 0u);
+    const CopiedLight carried = copy_light(make_unlit_volume(positions).view(), to);
+    EXPECT_EQ(carried.copied_count, 0u);
     EXPECT_EQ(carried.unlit.size(), 20u);
     EXPECT_TRUE(to.irradiance.empty());
 }
 
-TEST(CarryLight, BetweenEmptyVolumesCarriesNothing) {
+TEST(CopyLight, BetweenEmptyVolumesCarriesNothing) {
     ProbeVolume to = make_unlit_volume({});
-    const CarriedLight carried = carry_light(ProbeVolume().view(), to);
-    EXPECT_EQ(carried.carried_count, 0u);
+    const CopiedLight carried = copy_light(ProbeVolume().view(), to);
+    EXPECT_EQ(carried.copied_count, 0u);
     EXPECT_TRUE(carried.unlit.empty());
 }
 
