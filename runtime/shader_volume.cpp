@@ -74,8 +74,9 @@ void add_seeds(const ProbeVolumeView& volume, ShaderVolume& shader) {
         shader.seeds[i / 4][static_cast<int>(i % 4)] = cell < volume.cells.size() ? cell : 0;
     }
     shader.constants.seed_min = glm::vec4(grid.low, 0.0f);
-    shader.constants.seed_scale = glm::vec4(voxels_a_metre(grid.voxel.x), voxels_a_metre(grid.voxel.y),
-                                        voxels_a_metre(grid.voxel.z), 0.0f);
+    shader.constants.seed_scale =
+        glm::vec4(voxels_a_metre(grid.voxel.x), voxels_a_metre(grid.voxel.y),
+                  voxels_a_metre(grid.voxel.z), 0.0f);
     shader.constants.seed_size = glm::uvec4(grid.size, 0);
 }
 
@@ -165,8 +166,8 @@ ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
     }
     const auto cell_count = static_cast<uint32_t>(volume.cells.size());
     shader.constants.counts = {volume.probe_count(), cell_count,
-                           static_cast<uint32_t>(inner_cell_count(volume)),
-                           static_cast<uint32_t>(volume.info.dimension)};
+                               static_cast<uint32_t>(inner_cell_count(volume)),
+                               static_cast<uint32_t>(volume.info.dimension)};
     add_probes(volume, shader);
     add_cells(volume, shader);
     add_seeds(volume, shader);
