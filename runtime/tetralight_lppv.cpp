@@ -55,12 +55,13 @@ Result<LppvGrid> make_grid(const tetralight_lppv_box& box) {
     const bool is_finite = std::all_of(floats, floats + sizeof constants / sizeof(float),
                                        [](float value) { return std::isfinite(value); });
     if (is_finite) return grid;
-    return Error{str_cat("the box is too large or too thin for shaders: low (", constants.low.x,
-                         ", ", constants.low.y, ", ", constants.low.z, "), 1 / size (",
-                         constants.size_inverse.x, ", ", constants.size_inverse.y, ", ",
-                         constants.size_inverse.z, "), 1 / scale ",
-                         constants.local_from_world[0][0], ", ", constants.local_from_world[1][1],
-                         ", ", constants.local_from_world[2][2])};
+    return Error{
+        ErrorCode::InvalidArgument,
+        str_cat("the box is too large or too thin for shaders: low (", constants.low.x, ", ",
+                constants.low.y, ", ", constants.low.z, "), 1 / size (", constants.size_inverse.x,
+                ", ", constants.size_inverse.y, ", ", constants.size_inverse.z, "), 1 / scale ",
+                constants.local_from_world[0][0], ", ", constants.local_from_world[1][1], ", ",
+                constants.local_from_world[2][2])};
 }
 
 /// Bytes that a fill allocates at most: the grid's light, the cells of one task, and the texture.
