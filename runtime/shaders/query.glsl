@@ -15,8 +15,7 @@ TETRALIGHT_CONST uint tetralight_walk_limit = 1024u;
 TETRALIGHT_CONST float tetralight_sliver = 5e-5f;
 TETRALIGHT_CONST float tetralight_sliver_scale = 1e-18f;
 TETRALIGHT_CONST float tetralight_least_sum = 1e-15f;
-// If two neighbors send the walk to each other and their measures are below this, the cause is not
-// only rounding.
+// A walk between two cells accepts the better one if its measure is at least this: rounding error.
 TETRALIGHT_CONST float tetralight_settled = -1e-4f;
 TETRALIGHT_CONST float tetralight_outside = -1e30f;
 
