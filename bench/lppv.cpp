@@ -144,7 +144,7 @@ class Frames {
             const TexelBox box = atlas_.texels(id);
             bool is_changed = false;
             for (uint32_t i = 0; i < 64 && !is_changed; ++i) {
-                const glm::uvec3 texel = box.low + 1u + glm::uvec3(i % 2, i / 2 % 2, i / 4);
+                const glm::uvec3 texel = box.min + 1u + glm::uvec3(i % 2, i / 2 % 2, i / 4);
                 for (uint32_t slab = 0; slab < 4; ++slab) {
                     const glm::uvec3 at = texel + glm::uvec3(80 * slab, 0, 0);
                     is_changed |= fetch_texel(before_, at) != fetch_texel(atlas_.texture(), at);

@@ -181,7 +181,7 @@ struct LppvCommand {
     void report(const Lppv& lppv, double fill_seconds, double write_seconds) const {
         const LppvGrid& points = lppv.grid;
         Json json{{"output", output},
-                  {"bounds", bounds_json(points.low, points.high, points.world_from_local)},
+                  {"bounds", bounds_json(points.min, points.max, points.world_from_local)},
                   {"resolution", to_json(points.resolution)},
                   {"spacing", cli::to_json(points.spacing())},
                   {"points", points.point_count()},

@@ -20,7 +20,7 @@ constexpr const char* kAxes[] = {"x", "y", "z"};
 
 /// Whether a box has no thickness along an axis, but for rounding.
 bool is_flat(const LppvGrid& grid, int axis) {
-    const glm::dvec3 size = grid.high - grid.low;
+    const glm::dvec3 size = grid.max - grid.min;
     return size[axis] <= 1e-9 * std::max({size.x, size.y, size.z});
 }
 
@@ -122,13 +122,13 @@ Result<LppvGrid> LppvGridOptions::make_grid(const Scene& scene,
     LppvSettings chosen = settings;
     chosen.bounds = LppvBounds::AutomaticWorld;
     if (!bounds.empty()) {
-        world.low = {bounds[0], bounds[1], bounds[2]};
-        world.high = {bounds[3], bounds[4], bounds[5]};
+        world.min = {bounds[0], bounds[1], bounds[2]};
+        world.max = {bounds[3], bounds[4], bounds[5]};
     }
     if (!orientation.empty()) {
         chosen.bounds = LppvBounds::Custom;
         chosen.custom_box = {
-            0.5 * (world.low + world.high), world.high - world.low,
+            0.5 * (world.min + world.max), world.max - world.min,
             glm::dquat(orientation[3], orientation[0], orientation[1], orientation[2])};
     }
     auto grid = make_grid({glm::dmat4(1.0), std::span(&world, 1)}, chosen);

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Installs the ship set: libraries, headers, the shader library, and what CMake and pkg-config need
-# to find them. CPack makes a Debian package of it (docs/embed.md). Beside it the command.
-include(GNUInstallDirs)
+# Installs the ship set (libraries, headers, shaders, and the files by which CMake and pkg-config
+# find them) and the command. CPack makes a Debian package of the ship set (docs/embed.md).
 include(CMakePackageConfigHelpers)
 
 set(ship_modules base probes lppv runtime)
@@ -12,17 +11,19 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tetralight)
 foreach(module ${ship_modules})
   install(TARGETS tetralight_${module} EXPORT tetralight
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${module}/ DESTINATION ${header_folder}/${module}
-          COMPONENT dev FILES_MATCHING PATTERN "*.h"
-          PATTERN build EXCLUDE PATTERN hash EXCLUDE PATTERN json EXCLUDE PATTERN vdb EXCLUDE
-          PATTERN shaders EXCLUDE)
+  # Public headers include headers of detail/. The other folders in a module, for example lppv/vdb,
+  # are not part of the ship set.
+  foreach(folder ${module} ${module}/detail)
+    file(GLOB headers ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+    install(FILES ${headers} DESTINATION ${header_folder}/${folder} COMPONENT dev)
+  endforeach()
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/runtime/shaders/ DESTINATION ${shader_folder}
         COMPONENT dev FILES_MATCHING PATTERN "*.glsl")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE COMPONENT dev
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libtetralight-dev RENAME copyright)
 
-# The command, and the page of `tetralight serve` when it was built.
+# The command, and the page of `tetralight serve` if it is built.
 if(TARGET tetralight_cli)
   install(TARGETS tetralight_cli RUNTIME COMPONENT program)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/viewer/ OPTIONAL COMPONENT program

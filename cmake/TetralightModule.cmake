@@ -1,18 +1,36 @@
 # SPDX-License-Identifier: Apache-2.0
+include(GNUInstallDirs)
 
-# tetralight_options(TARGET): how all of our own code is compiled.
+# Queries, bakes and tests are several times slower without optimization. Builds of Tetralight itself
+# and of projects that add it as a subdirectory often have an empty CMAKE_BUILD_TYPE by mistake.
+function(tetralight_warn_without_optimization)
+  get_property(has_configurations GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  if(has_configurations)
+    return()
+  endif()
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
+  get_directory_property(directory_options COMPILE_OPTIONS)
+  set(flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} ${directory_options}")
+  if(NOT flags MATCHES "[-/]O")
+    message(WARNING "Tetralight is built without optimization (CMAKE_BUILD_TYPE is "
+      "\"${CMAKE_BUILD_TYPE}\" and no flag contains -O): queries are several times slower. "
+      "Set CMAKE_BUILD_TYPE to Release or RelWithDebInfo.")
+  endif()
+endfunction()
+
+# tetralight_options(TARGET): the compiler options of all our own code.
 function(tetralight_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  # No contraction: the same bytes from every compiler and processor of one instruction set.
+  # Without contraction of floating-point operations every compiler gives the same bytes.
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor>
     -ffp-contract=off)
-  if(PROJECT_IS_TOP_LEVEL)
+  if(TETRALIGHT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
   if(TETRALIGHT_SANITIZE)
-    # GCC 12 sees uninitialized values in instrumented standard headers.
+    # GCC 12 reports uninitialized values in instrumented standard headers.
     target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)
     target_compile_options(${target} PUBLIC
       -fsanitize=${TETRALIGHT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -20,17 +38,19 @@ function(tetralight_options target)
   endif()
 endfunction()
 
-# Headers are included as <tetralight/FOLDER/header.h>, in the build tree as where they are installed:
-# here through links to the source folders.
+# Headers are included as <tetralight/FOLDER/header.h> in the build tree and in the install tree. In
+# the build tree these paths are links to the source folders.
 set(tetralight_include_dir ${PROJECT_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${tetralight_include_dir}/tetralight)
-foreach(folder base settings probes lppv runtime bake pipeline render server cli bench)
-  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${tetralight_include_dir}/tetralight/${folder}
-       COPY_ON_ERROR SYMBOLIC)
+foreach(folder base probes lppv runtime bake pipeline settings render server cli bench)
+  if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${folder})
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${tetralight_include_dir}/tetralight/${folder}
+         COPY_ON_ERROR SYMBOLIC)
+  endif()
 endforeach()
 
 # tetralight_module(NAME SOURCES a.cpp... [PUBLIC lib...] [PRIVATE lib...]):
-# a folder of the architecture as the library tetralight::NAME.
+# the library tetralight::NAME from one folder of docs/architecture.md.
 function(tetralight_module name)
   cmake_parse_arguments(module "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target tetralight_${name})
@@ -38,13 +58,13 @@ function(tetralight_module name)
   add_library(tetralight::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${tetralight_include_dir}> $<INSTALL_INTERFACE:include>)
+    $<BUILD_INTERFACE:${tetralight_include_dir}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${module_PUBLIC} PRIVATE ${module_PRIVATE})
   tetralight_options(${target})
 endfunction()
 
-# tetralight_ship(NAME): the module belongs to the ship set, which games may build without
-# exceptions and RTTI.
+# tetralight_ship(NAME): the module belongs to the ship set, which is built without exceptions and
+# RTTI so that a game can be built without them.
 function(tetralight_ship name)
   target_compile_options(tetralight_${name} PRIVATE -fno-exceptions -fno-rtti)
 endfunction()

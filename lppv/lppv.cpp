@@ -35,25 +35,25 @@ void make_band_2_constant(std::vector<IrradianceSh>& irradiance) {
     }
 }
 
-/// Row after row of beams, back and forth, so that each beam is beside the one before it.
+/// Beams in rows, back and forth, so that consecutive beams are adjacent.
 detail::LppvBeam beam_of(const LppvGrid& grid, size_t index, size_t beams_y) {
     const size_t z = index / beams_y;
     const size_t y = z % 2 == 0 ? index % beams_y : beams_y - 1 - index % beams_y;
     constexpr uint32_t kSide = detail::LppvFillTasks::kBeamSide;
-    const glm::uvec3 low(0, y * kSide, z * kSide);
-    return {low, glm::min(grid.resolution - low, glm::uvec3(grid.resolution.x, kSide, kSide))};
+    const glm::uvec3 min(0, y * kSide, z * kSide);
+    return {min, glm::min(grid.resolution - min, glm::uvec3(grid.resolution.x, kSide, kSide))};
 }
 
-/// The two grid points beside a coordinate, and the share of the second.
+/// The two grid points beside a coordinate, and the weight of the second.
 struct Pair {
-    uint32_t low = 0;
-    uint32_t high = 0;
-    float share = 0.0f;
+    uint32_t lower = 0;
+    uint32_t upper = 0;
+    float fraction = 0.0f;
 };
 
 Pair pair_at(double coordinate, uint32_t count) {
-    const auto low = std::min(static_cast<uint32_t>(coordinate), count - 1);
-    return {low, std::min(low + 1, count - 1), static_cast<float>(coordinate - low)};
+    const auto lower = std::min(static_cast<uint32_t>(coordinate), count - 1);
+    return {lower, std::min(lower + 1, count - 1), static_cast<float>(coordinate - lower)};
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ LppvFillTasks::LppvFillTasks(const ProbeVolumeView& from, const LppvFill& how, L
     const size_t beams_z = (size.z + kBeamSide - 1) / kBeamSide;
     beams_y = (size.y + kBeamSide - 1) / kBeamSide;
     beam_count = beams_y * beams_z;
-    // What a task writes to while it looks for cells stays in the processor's own cache.
+    // The output of a task stays in the cache of one core while it locates its points.
     constexpr size_t kTaskPoints = 8192;
     const size_t points =
         size_t{size.x} * std::min(size.y, kBeamSide) * std::min(size.z, kBeamSide);
@@ -84,9 +84,9 @@ size_t LppvFillTasks::count() const noexcept {
     return (beam_count + beams_per_task - 1) / beams_per_task;
 }
 
-/// Cells are found in an order in which each point is beside the one before it, so that the walk
-/// from cell to cell is short; light is blended in the order of the grid, so that memory is written
-/// from front to back.
+/// Points are located in an order in which consecutive points are neighbors, so that the walk from
+/// cell to cell is short. Light is blended in the order of the grid, so that memory is written in
+/// order.
 void LppvFillTasks::run(size_t task) const {
     const GridPositions position_of(lppv.grid);
     std::vector<glm::vec3> positions;
@@ -98,7 +98,7 @@ void LppvFillTasks::run(size_t task) const {
         const LppvBeam beam = beam_of(lppv.grid, i, beams_y);
         const auto first = static_cast<uint32_t>(positions.size());
         serpentine.walk(beam.size, [&](const glm::uvec3& point) {
-            positions.push_back(position_of(beam.low + point));
+            positions.push_back(position_of(beam.min + point));
             places.push_back(first + (point.z * beam.size.y + point.y) * beam.size.x + point.x);
         });
         beams.push_back(beam);
@@ -106,27 +106,27 @@ void LppvFillTasks::run(size_t task) const {
     std::vector<CellLocation> found(positions.size()), locations(positions.size());
     locate(volume, positions, found, fill.outside);
     for (size_t i = 0; i < found.size(); ++i) locations[places[i]] = found[i];
-    std::span<const CellLocation> rest = locations;
+    std::span<const CellLocation> remaining = locations;
     for (const LppvBeam& beam : beams) {
-        write_beam(beam, rest.first(beam.point_count()));
-        rest = rest.subspan(beam.point_count());
+        write_beam(beam, remaining.first(beam.point_count()));
+        remaining = remaining.subspan(beam.point_count());
     }
 }
 
-/// Rows that follow each other in memory are written together.
+/// Writes consecutive rows in memory together.
 void LppvFillTasks::write_beam(const LppvBeam& beam,
                                std::span<const CellLocation> locations) const {
-    const bool is_in_one_piece = beams_y == 1;
-    const size_t count = is_in_one_piece ? locations.size() : beam.size.x;
+    const bool is_contiguous = beams_y == 1;
+    const size_t count = is_contiguous ? locations.size() : beam.size.x;
     for (size_t i = 0; i < locations.size(); i += count) {
         const size_t row = i / beam.size.x;
-        const glm::uvec3 start = beam.low + glm::uvec3(0, row % beam.size.y, row / beam.size.y);
+        const glm::uvec3 start = beam.min + glm::uvec3(0, row % beam.size.y, row / beam.size.y);
         const size_t at = lppv.grid.point_index(start);
         const std::span irradiance = std::span(lppv.irradiance).subspan(at, count);
         OcclusionOutput occlusion;
         if (!lppv.occlusion.empty()) occlusion = std::span(lppv.occlusion).subspan(at, count);
         const auto status = blend(volume, locations.subspan(i, count), irradiance, occlusion);
-        TETRALIGHT_ASSERT(status, "there is room for the light of each location");
+        TETRALIGHT_ASSERT(status, "the output has one element per location");
         if (fill.quality != LppvQuality::Low) continue;
         for (IrradianceSh& sh : irradiance) {
             std::fill(sh.coefficients.begin() + kFirstOfBand2, sh.coefficients.end(),
@@ -137,7 +137,8 @@ void LppvFillTasks::write_beam(const LppvBeam& beam,
 
 Status check_fill(const LppvGrid& grid, const LppvFill& fill) {
     if (fill.validity.empty() || fill.validity.size() == grid.point_count()) return Ok{};
-    return Error{str_cat("validity has ", fill.validity.size(), " values, but the grid has ",
+    return Error{ErrorCode::InvalidArgument, "validity", str_cat(fill.validity.size()),
+                 str_cat("validity has ", fill.validity.size(), " values, but the grid has ",
                          grid.point_count(), " points")};
 }
 
@@ -163,11 +164,12 @@ InterpolatedProbe sample_lppv(const Lppv& lppv, glm::vec3 position) noexcept {
     InterpolatedProbe sum{{}, glm::vec4(lppv.occlusion.empty() ? 1.0f : 0.0f)};
     for (int corner = 0; corner < 8; ++corner) {
         const bool is_x = (corner & 1) != 0, is_y = (corner & 2) != 0, is_z = (corner & 4) != 0;
-        const float weight = (is_x ? x.share : 1.0f - x.share) * (is_y ? y.share : 1.0f - y.share) *
-                             (is_z ? z.share : 1.0f - z.share);
+        const float weight = (is_x ? x.fraction : 1.0f - x.fraction) *
+                             (is_y ? y.fraction : 1.0f - y.fraction) *
+                             (is_z ? z.fraction : 1.0f - z.fraction);
         if (weight == 0.0f) continue;
         const size_t i = lppv.grid.point_index(
-            {is_x ? x.high : x.low, is_y ? y.high : y.low, is_z ? z.high : z.low});
+            {is_x ? x.upper : x.lower, is_y ? y.upper : y.lower, is_z ? z.upper : z.lower});
         sum.irradiance += lppv.irradiance[i] * weight;
         if (!lppv.occlusion.empty()) sum.occlusion += lppv.occlusion[i] * weight;
     }

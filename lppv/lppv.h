@@ -13,45 +13,45 @@
 
 namespace tetralight {
 
-/// Which bands of the light vary from point to point of a grid.
+/// The bands of the light that vary between the points of a grid.
 enum class LppvQuality : uint8_t {
-    Low,     ///< L0 and L1; there is no L2
+    Low,     ///< L0 and L1, without L2
     Normal,  ///< L0 and L1; L2 is the same for the whole object, the mean over its grid
     Full,    ///< all nine coefficients
 };
 
-/// A light probe proxy volume: the light around one object as a grid.
+/// A light probe proxy volume: a grid of light around one object.
 struct Lppv {
     LppvGrid grid;
     LppvQuality quality = LppvQuality::Full;
-    /// One a grid point, x fastest, then y. Band 2 is 0 in `Low`, the same everywhere in `Normal`.
+    /// One per grid point, x fastest, then y. Band 2 is 0 in `Low` and constant in `Normal`.
     std::vector<IrradianceSh> irradiance;
-    /// Four channels, 1 = lit. Empty: (1, 1, 1, 1).
+    /// Four channels per grid point, 1 = lit. Empty: all are (1, 1, 1, 1).
     std::vector<glm::vec4> occlusion;
-    /// Of each grid point, as it was handed in. Empty: 1.
+    /// One per grid point, copied from `LppvFill::validity`. Empty: all are 1.
     std::vector<float> validity;
-    /// Invalid points that took the light of the nearest valid one.
+    /// Number of invalid points that took the light of the nearest valid point.
     uint64_t replaced_count = 0;
 
     bool operator==(const Lppv&) const = default;
 };
 
-/// How a grid is filled.
+/// The settings of `fill_lppv`.
 struct LppvFill {
     LppvQuality quality = LppvQuality::Full;
-    /// One a grid point: 1 = free, 0 = inside geometry. Empty: all are free.
+    /// One per grid point: 1 = free, 0 = inside geometry. Empty: all points are free.
     std::span<const float> validity = {};
-    /// Points below this take the light of the nearest point that is not. When all are below it,
-    /// all keep their own.
+    /// A point with a lower validity takes the light of the nearest point with at least this one.
+    /// If there is no such point, all points keep their light.
     float min_validity = 0.5f;
     OutsideHull outside = {};
 };
 
 namespace detail {
 
-/// Some rows of a grid, side by side.
+/// Adjacent rows of a grid.
 struct LppvBeam {
-    glm::uvec3 low{0};
+    glm::uvec3 min{0};
     glm::uvec3 size{0};
 
     [[nodiscard]] size_t point_count() const noexcept { return size_t{size.x} * size.y * size.z; }
@@ -76,15 +76,15 @@ struct LppvFillTasks {
 };
 
 [[nodiscard]] Status check_fill(const LppvGrid& grid, const LppvFill& fill);
-/// What needs the whole grid: light of invalid points, the constant band 2.
+/// The steps that need all points: the light of invalid points and the constant band 2.
 void finish_lppv(const LppvFill& fill, Lppv& lppv);
 
 }  // namespace detail
 
-/// Fills `lppv.grid` with a volume's light on the caller's threads (`interpolate` says what
-/// `parallel_for` is), in the memory that `lppv` has where that is enough. The same bytes for any
-/// number of threads. Cost: one query a grid point. Error: `validity` is not as long as the grid
-/// has points; nothing is changed.
+/// Fills `lppv.grid` with the light of a probe volume on the caller's threads (`interpolate`
+/// describes `parallel_for`). Reuses the memory of `lppv` if it suffices. Gives the same bytes for
+/// any number of threads. Cost: one query per grid point. Returns invalid_argument, and changes
+/// nothing, if `validity` does not have one value per grid point.
 template <class ParallelFor>
 [[nodiscard]] Status fill_lppv(const ProbeVolumeView& volume, const LppvFill& fill, Lppv& lppv,
                                ParallelFor&& parallel_for) {
@@ -95,10 +95,10 @@ template <class ParallelFor>
     return Ok{};
 }
 
-/// The same on this thread.
+/// The same on the calling thread.
 [[nodiscard]] Status fill_lppv(const ProbeVolumeView& volume, const LppvFill& fill, Lppv& lppv);
 
-/// A new one, filled. Errors as `fill_lppv`.
+/// Makes and fills a proxy volume. Errors: those of `fill_lppv`.
 template <class ParallelFor>
 [[nodiscard]] Result<Lppv> make_lppv(const ProbeVolumeView& volume, const LppvGrid& grid,
                                      const LppvFill& fill, ParallelFor&& parallel_for) {
@@ -112,8 +112,8 @@ template <class ParallelFor>
 [[nodiscard]] Result<Lppv> make_lppv(const ProbeVolumeView& volume, const LppvGrid& grid,
                                      const LppvFill& fill);
 
-/// The light at a world position: trilinear between grid points, and that of the outermost ones
-/// outside of them. The twin of runtime/shaders/lppv.glsl. Thread-safe.
+/// The light at a world position: trilinear between grid points; outside the grid, the light at the
+/// nearest position in it. The twin of runtime/shaders/lppv.glsl. Thread-safe.
 [[nodiscard]] InterpolatedProbe sample_lppv(const Lppv& lppv, glm::vec3 position) noexcept;
 
 }  // namespace tetralight

@@ -15,13 +15,13 @@
 namespace tetralight {
 namespace {
 
-/// Copies of the outer texels around each volume.
+/// Width of the copies of the outer texels around each volume.
 constexpr uint32_t kGuard = 1;
 
 /// Grid points of one parallel task.
 constexpr size_t kTaskPoints = 4096;
 
-/// Band 2 of a whole volume, its mean; nothing else.
+/// The mean of band 2 over a volume, without the other bands.
 PackedSh mean_band_2(std::span<const PackedSh> light) {
     constexpr glm::vec4 PackedSh::*kVectors[] = {&PackedSh::shb_r, &PackedSh::shb_g,
                                                  &PackedSh::shb_b, &PackedSh::shc};
@@ -34,7 +34,7 @@ PackedSh mean_band_2(std::span<const PackedSh> light) {
     return mean;
 }
 
-/// Light of each point as seven slabs have it.
+/// Gives each point the light that seven slabs store.
 void apply(LppvQuality quality, const PackedSh& band_2, std::span<PackedSh> light) {
     if (quality == LppvQuality::Full) return;
     for (PackedSh& sh : light) {
@@ -62,8 +62,8 @@ std::vector<uint32_t> probes_of_groups(const ProbeVolumeView& volume,
                                        std::span<const uint32_t> groups) {
     std::vector<uint32_t> probes;
     for (const ProbeSource& source : volume.sources) {
-        const bool is_in = std::ranges::find(groups, source.group) != groups.end();
-        if (is_in && source.probe < volume.probe_count()) probes.push_back(source.probe);
+        const bool is_member = std::ranges::find(groups, source.group) != groups.end();
+        if (is_member && source.probe < volume.probe_count()) probes.push_back(source.probe);
     }
     std::ranges::sort(probes);
     const auto repeated = std::ranges::unique(probes);
@@ -80,11 +80,12 @@ Result<uint32_t> LppvAtlas::add(const LppvGrid& grid, LppvQuality quality, LppvR
         return status.error();
     }
     const glm::uvec3 size = grid.resolution + 2 * kGuard;
-    const auto low = packing_.allocate(size);
-    if (!low) {
-        return Error{str_cat("the atlas has no room for ", size.x, " x ", size.y, " x ", size.z,
-                             " texels; ", packing_.used(), " of ", packing_.capacity(),
-                             " are in use")};
+    const auto min = packing_.allocate(size);
+    if (!min) {
+        return Error{
+            ErrorCode::OutOfResources,
+            str_cat("the atlas has no room for ", size.x, " x ", size.y, " x ", size.z, " texels; ",
+                    packing_.used(), " of ", packing_.capacity(), " are in use")};
     }
     uint32_t id = static_cast<uint32_t>(volumes_.size());
     if (free_ids_.empty()) {
@@ -98,26 +99,30 @@ Result<uint32_t> LppvAtlas::add(const LppvGrid& grid, LppvQuality quality, LppvR
     volume.grid = volume.filled_grid = grid;
     volume.quality = quality;
     volume.refresh = refresh;
-    volume.is_there = volume.is_due = true;
+    volume.is_used = volume.is_due = true;
     volume.nearest_valid = nearest_valid_points(grid, validity);
-    volume.texels = {*low, size};
+    volume.texels = {*min, size};
     ++size_;
     return id;
 }
 
 void LppvAtlas::remove(uint32_t id) {
-    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_there, "a volume of the atlas");
-    packing_.release(volumes_[id].texels.low, volumes_[id].texels.size);
+    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_used,
+                      "id is the id of a volume in the atlas");
+    packing_.release(volumes_[id].texels.min, volumes_[id].texels.size);
     volumes_[id] = {};
     free_ids_.push_back(id);
     --size_;
 }
 
 void LppvAtlas::move(uint32_t id, const LppvGrid& grid, std::span<const float> validity) {
-    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_there, "a volume of the atlas");
+    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_used,
+                      "id is the id of a volume in the atlas");
     Volume& volume = volumes_[id];
-    TETRALIGHT_ASSERT(grid.resolution == volume.grid.resolution, "a volume keeps its resolution");
-    TETRALIGHT_ASSERT(detail::check_fill(grid, {.validity = validity}), "a validity of each point");
+    TETRALIGHT_ASSERT(grid.resolution == volume.grid.resolution,
+                      "the grid has the resolution of the volume");
+    TETRALIGHT_ASSERT(detail::check_fill(grid, {.validity = validity}),
+                      "validity is empty or has one value per grid point");
     std::vector<uint32_t> nearest = nearest_valid_points(grid, validity);
     if (grid == volume.grid && nearest == volume.nearest_valid) return;
     volume.grid = grid;
@@ -126,12 +131,13 @@ void LppvAtlas::move(uint32_t id, const LppvGrid& grid, std::span<const float> v
 }
 
 void LppvAtlas::mark(uint32_t id) {
-    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_there, "a volume of the atlas");
+    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_used,
+                      "id is the id of a volume in the atlas");
     volumes_[id].is_due = true;
 }
 
 bool LppvAtlas::needs_refill(const Volume& volume, const detail::ChangedProbes& changed) const {
-    if (!volume.is_there) return false;
+    if (!volume.is_used) return false;
     if (volume.is_due || volume.refresh == LppvRefresh::EveryFrame) return true;
     if (volume.refresh == LppvRefresh::Manual) return false;
     return changed.light(volume.lit_by);
@@ -158,7 +164,7 @@ LppvAtlasReport LppvAtlas::begin_refresh(const ProbeVolumeView& volume, const Pr
     return report;
 }
 
-/// Memory of one task.
+/// The memory of one task.
 struct LppvAtlas::Scratch {
     std::vector<glm::vec3> positions;
     std::vector<CellLocation> locations;
@@ -182,7 +188,7 @@ void LppvAtlas::run_task(const ProbeVolumeView& volume, std::span<const uint32_t
     }
 }
 
-/// Each volume is a batch of its own, so that its answers do not depend on what else is filled.
+/// Each volume is one batch, so that its light does not depend on the other volumes.
 void LppvAtlas::fill(const ProbeVolumeView& probes, Volume& volume, Scratch& scratch) {
     scratch.resize(volume.grid.point_count());
     const detail::GridPositions position_of(volume.grid);
@@ -191,7 +197,7 @@ void LppvAtlas::fill(const ProbeVolumeView& probes, Volume& volume, Scratch& scr
     }
     locate(probes, scratch.positions, scratch.locations);
     const auto status = blend(probes, scratch.locations, scratch.light, scratch.occlusion);
-    TETRALIGHT_ASSERT(status, "there is room for the light of each location");
+    TETRALIGHT_ASSERT(status, "the output has one element per location");
     detail::replace_invalid(volume.nearest_valid, std::span(scratch.light), scratch.occlusion);
     volume.band_2 = {};
     if (volume.quality != LppvQuality::Low) volume.band_2 = mean_band_2(scratch.light);
@@ -217,7 +223,7 @@ void LppvAtlas::write(const Volume& volume, Scratch& scratch) {
                                 texels[slab]);
         }
     }
-    detail::write_guarded(texture_, volume.texels.low + kGuard, volume.grid.resolution,
+    detail::write_guarded(texture_, volume.texels.min + kGuard, volume.grid.resolution,
                           scratch.texels);
 }
 
@@ -228,12 +234,14 @@ LppvAtlasReport LppvAtlas::refresh(const ProbeVolumeView& volume, const ProbeCha
 }
 
 TexelBox LppvAtlas::texels(uint32_t id) const {
-    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_there, "a volume of the atlas");
+    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_used,
+                      "id is the id of a volume in the atlas");
     return volumes_[id].texels;
 }
 
 LppvAtlasConstants LppvAtlas::constants(uint32_t id) const {
-    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_there, "a volume of the atlas");
+    TETRALIGHT_ASSERT(id < volumes_.size() && volumes_[id].is_used,
+                      "id is the id of a volume in the atlas");
     const Volume& volume = volumes_[id];
     const LppvGrid& grid = volume.filled_grid;
     LppvAtlasConstants constants;
@@ -241,12 +249,12 @@ LppvAtlasConstants LppvAtlas::constants(uint32_t id) const {
     texture_from_local[3].w = 1.0;
     for (int i = 0; i < 3; ++i) {
         const double size = texture_.size[i];
-        const double middle = volume.texels.low[i] + kGuard + 0.5;
+        const double center = volume.texels.min[i] + kGuard + 0.5;
         const double scale = grid.step[i] > 0.0 ? 1.0 / (grid.step[i] * size) : 0.0;
         texture_from_local[i][i] = scale;
-        texture_from_local[3][i] = middle / size - grid.first[i] * scale;
-        constants.low[i] = static_cast<float>(middle / size);
-        constants.high[i] = static_cast<float>((middle + grid.resolution[i] - 1.0) / size);
+        texture_from_local[3][i] = center / size - grid.first[i] * scale;
+        constants.low[i] = static_cast<float>(center / size);
+        constants.high[i] = static_cast<float>((center + grid.resolution[i] - 1.0) / size);
     }
     constants.texture_from_world = glm::mat4(texture_from_local * grid.local_from_world);
     constants.shb_r = volume.band_2.shb_r;

@@ -15,66 +15,66 @@
 #include <tetralight/lppv/detail/changed_probes.h>
 #include <tetralight/lppv/lppv_texture.h>
 
-// The proxy volumes of many objects in one 3D texture, refilled only where the light around them
-// may have changed.
+// The proxy volumes of many objects in one 3D texture. A refresh refills only the volumes whose
+// light may have changed.
 //
 //     LppvAtlas atlas({.slab_size = {64, 64, 32}});
 //     const auto id = atlas.add(grid, LppvQuality::Normal, LppvRefresh::Automatic);
 //     ... each frame: atlas.move(*id, moved_grid); atlas.refresh(volume, {});
-//     upload atlas.texture(), or the boxes of what the report says was refilled
+//     upload atlas.texture(), or the boxes of the volumes in LppvAtlasReport::refilled
 
 namespace tetralight {
 
-/// When a volume of an atlas is filled again.
+/// The condition under which a volume of an atlas is refilled.
 enum class LppvRefresh : uint8_t {
-    Automatic,   ///< when it moved, or lies among probes that changed
+    Automatic,   ///< if it moved or lies in a cell of a changed probe
     EveryFrame,  ///< with every call of `refresh`
-    Manual,      ///< after `mark`; what it shows stays behind the object until then
+    Manual,      ///< after `mark`; until then the grid stays where it was filled
 };
 
 struct LppvAtlasSettings {
-    /// Texels of one slab. Each volume takes its grid's resolution and two more along each axis.
+    /// Texels of one slab. Each volume takes the resolution of its grid plus 2 along each axis.
     glm::uvec3 slab_size{64, 64, 32};
     LppvLayout layout = LppvLayout::FourSlabs;
     LppvTexelFormat format = LppvTexelFormat::Half;
 };
 
-/// What became different in the probe volume since the last refresh.
+/// The changes of the probe volume since the last refresh.
 struct ProbeChange {
     /// Probes whose light or occlusion changed.
     std::span<const uint32_t> probes = {};
-    /// Everything may have: other probes, other cells, other ambient light.
+    /// True if positions, cells or the ambient light may have changed too.
     bool is_everything = false;
 };
 
-/// The probes that groups of a volume were welded into, sorted. Precondition: indices into
+/// The probes that come from groups of a volume, sorted. Precondition: indices into
 /// `group_names`.
 [[nodiscard]] std::vector<uint32_t> probes_of_groups(const ProbeVolumeView& volume,
                                                      std::span<const uint32_t> groups);
 
-/// Texels of one slab.
+/// A box of texels in one slab.
 struct TexelBox {
-    glm::uvec3 low{0};
+    glm::uvec3 min{0};
     glm::uvec3 size{0};
 
     bool operator==(const TexelBox&) const = default;
 };
 
 struct LppvAtlasReport {
-    /// Ids of the volumes that were filled, sorted.
+    /// Ids of the refilled volumes, sorted.
     std::vector<uint32_t> refilled;
-    /// Grid points of those.
+    /// Number of grid points in them.
     uint64_t point_count = 0;
 };
 
-/// What a shader needs of one volume beside the atlas, as std140 has it.
+/// The shader constants of one volume in the atlas, in std140 layout.
 struct LppvAtlasConstants {
-    /// To texture coordinates in the first slab.
+    /// Maps to texture coordinates in the first slab.
     glm::mat4 texture_from_world{1.0f};
-    /// The middles of the volume's outer texels.
+    /// The centers of the volume's outer texels, in texture coordinates.
     glm::vec4 low{0.0f};
     glm::vec4 high{0.0f};
-    /// For four slabs: band 2 of the whole object; 0 in quality `Low`.
+    /// For four slabs: band 2 of the object, 0 in quality `Low`.
     glm::vec4 shb_r{0.0f}, shb_g{0.0f}, shb_b{0.0f}, shc{0.0f};
 
     bool operator==(const LppvAtlasConstants&) const = default;
@@ -83,32 +83,31 @@ struct LppvAtlasConstants {
 static_assert(sizeof(LppvAtlasConstants) == 160 &&
               std::is_trivially_copyable_v<LppvAtlasConstants>);
 
-/// Proxy volumes packed into one texture. The bytes of a volume are a function of its grid, its
-/// quality, its validity and the probe volume alone: refilling a part and refilling everything give
-/// the same ones, on any number of threads. Outside the hull of the probes the light is
-/// extrapolated.
+/// Proxy volumes packed into one texture. The bytes of a volume depend only on its grid, its
+/// quality, its validity and the probe volume, so that a partial and a complete refill give the
+/// same bytes on any number of threads. Outside the hull of the probes the light is extrapolated.
 class LppvAtlas {
   public:
     explicit LppvAtlas(const LppvAtlasSettings& settings);
 
-    /// Finds room for a volume; the next refresh fills it. Ids of removed volumes are used again.
-    /// Points whose `validity` is below that of `LppvFill` take the light of the nearest point
-    /// whose is not; empty: all are free. Errors: there is no room (the message says for what),
-    /// `validity` is not as long as the grid has points.
+    /// Allocates texels for a volume, which the next refresh fills, and returns its id. Ids of
+    /// removed volumes are reused. `validity` and its threshold are those of `LppvFill`. Returns
+    /// out_of_resources if the atlas is full, and invalid_argument if `validity` does not have one
+    /// value per grid point.
     [[nodiscard]] Result<uint32_t> add(const LppvGrid& grid, LppvQuality quality,
                                        LppvRefresh refresh, std::span<const float> validity = {});
 
-    // Precondition of what follows: `id` is that of a volume which was added and not removed.
+    // Precondition of the following functions: `id` is the id of a volume in the atlas.
 
     void remove(uint32_t id);
-    /// Preconditions: the grid has the resolution that the volume was added with, and as many
-    /// points as `validity` has values, if it has any.
+    /// Preconditions: the grid has the volume's resolution, and `validity` is empty or has one
+    /// value per grid point.
     void move(uint32_t id, const LppvGrid& grid, std::span<const float> validity = {});
-    /// Has the next refresh fill the volume, whatever its mode.
+    /// The next refresh refills the volume in every mode.
     void mark(uint32_t id);
 
-    /// Fills the volumes that need it, on the caller's threads (`interpolate` says what
-    /// `parallel_for` is).
+    /// Refills the volumes whose light may have changed, on the caller's threads (`interpolate`
+    /// describes `parallel_for`).
     template <class ParallelFor>
     LppvAtlasReport refresh(const ProbeVolumeView& volume, const ProbeChange& change,
                             ParallelFor&& parallel_for) {
@@ -122,24 +121,24 @@ class LppvAtlas {
 
     [[nodiscard]] const LppvTexture& texture() const noexcept { return texture_; }
 
-    /// Where the volume lies in each slab, guard texels included.
+    /// The texels of the volume in each slab, with its guard texels.
     [[nodiscard]] TexelBox texels(uint32_t id) const;
 
-    /// For the grid that the volume was last filled with.
+    /// The constants for the grid at the time of the last refill.
     [[nodiscard]] LppvAtlasConstants constants(uint32_t id) const;
 
-    /// Volumes that are there.
+    /// Number of volumes.
     [[nodiscard]] size_t size() const noexcept { return size_; }
 
   private:
     struct Volume {
-        LppvGrid grid;         ///< where the object is
-        LppvGrid filled_grid;  ///< where it was when it was filled
+        LppvGrid grid;         ///< of the object now
+        LppvGrid filled_grid;  ///< of the object at the last refill
         LppvQuality quality = LppvQuality::Normal;
         LppvRefresh refresh = LppvRefresh::Automatic;
-        bool is_there = false;
+        bool is_used = false;
         bool is_due = false;
-        std::vector<uint32_t> nearest_valid;  ///< of each point; empty: itself
+        std::vector<uint32_t> nearest_valid;  ///< per point; empty: the point itself
         TexelBox texels;
         detail::LitBy lit_by;
         PackedSh band_2{};
@@ -159,11 +158,11 @@ class LppvAtlas {
     detail::BoxPacking packing_;
     std::vector<Volume> volumes_;
     std::vector<uint32_t> free_ids_;
-    std::vector<size_t> task_starts_;  ///< into the ids to fill
+    std::vector<size_t> task_starts_;  ///< indices into the ids to refill
     size_t size_ = 0;
 };
 
-/// The light that a shader finds in an atlas at a world position, for `sample_sh9`; the twin of
+/// The light in an atlas at a world position, for `sample_sh9`, and its occlusion; the twins of
 /// runtime/shaders/lppv.glsl.
 [[nodiscard]] PackedSh sample_lppv_atlas(const LppvTexture& atlas,
                                          const LppvAtlasConstants& constants,

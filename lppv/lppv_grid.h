@@ -10,8 +10,8 @@
 
 #include <tetralight/base/result.h>
 
-// Light probe proxy volumes (LPPVs): an object larger than the space between probes gets a grid of
-// light of its own. This header says where the points of that grid are; lppv/lppv.h fills it.
+// Light probe proxy volumes (LPPVs): an object that is larger than the distance between probes gets
+// a grid of light. This header places the points of the grid; lppv/lppv.h fills it.
 //
 //     const auto grid = make_lppv_grid({world_from_object, parts}, {.density = 2.0});
 //     const auto lppv = make_lppv(volume, *grid, {});
@@ -19,49 +19,48 @@
 
 namespace tetralight {
 
-/// Which box a grid fills.
+/// The box of a grid.
 enum class LppvBounds : uint8_t {
-    AutomaticLocal,  ///< around the object in its own space: turns and scales with it, fits tightly
-    AutomaticWorld,  ///< around the object along the world's axes
+    AutomaticLocal,  ///< of the object in its own space: tight, rotates and scales with it
+    AutomaticWorld,  ///< of the object along the world's axes
     Custom,          ///< `LppvSettings::custom_box`
 };
 
-/// Where the number of grid points along each axis comes from.
+/// The number of grid points along each axis.
 enum class LppvResolution : uint8_t {
     Automatic,  ///< density × size of the box
     Custom,     ///< `LppvSettings::resolution`
 };
 
-/// Which numbers of grid points are allowed.
+/// The allowed numbers of grid points along an axis.
 enum class LppvLimits : uint8_t {
     Any,    ///< 1 to kMaxLppvResolution
-    Unity,  ///< the nearest power of two up to 32; larger requests become 32
+    Unity,  ///< rounded to the nearest power of two up to 32
 };
 
-/// Where in the box the grid points lie. A single one lies in the middle either way.
+/// The positions of the grid points in the box. A single point lies at the center.
 enum class LppvPlacement : uint8_t {
-    CellCorners,  ///< the outer ones on the faces of the box
-    CellCenters,  ///< half a spacing inside: better where the faces touch walls
+    CellCorners,  ///< outer points on the faces of the box
+    CellCenters,  ///< outer points half a spacing inside: better if the faces touch walls
 };
 
 inline constexpr uint32_t kMaxLppvResolution = 256;
 inline constexpr uint32_t kMaxUnityLppvResolution = 32;
 
-/// A box of one mesh of an object.
+/// The bounding box of one mesh of an object.
 struct LppvPart {
     glm::dmat4 world_from_part{1.0};
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
+    glm::dvec3 min{0.0};
+    glm::dvec3 max{0.0};
 };
 
-/// What a grid wraps: the object's own meshes, and those of its children that are to share its
-/// grid.
+/// The meshes that a grid encloses: those of the object, and of the children that use its grid.
 struct LppvObject {
     glm::dmat4 world_from_object{1.0};
     std::span<const LppvPart> parts = {};
 };
 
-/// A box of any orientation in an object's space.
+/// An oriented box in an object's space.
 struct LppvBox {
     glm::dvec3 center{0.0};
     glm::dvec3 size{1.0};
@@ -74,23 +73,23 @@ struct LppvSettings {
     LppvBounds bounds = LppvBounds::AutomaticLocal;
     LppvBox custom_box = {};
     LppvResolution resolution_mode = LppvResolution::Automatic;
-    /// Grid points a metre: an axis has max(1, round(density · metres)) of them.
+    /// Grid points per metre: an axis has max(1, round(density · metres)) points.
     double density = 1.0;
     glm::uvec3 resolution{4, 4, 4};
     LppvLimits limits = LppvLimits::Any;
     LppvPlacement placement = LppvPlacement::CellCorners;
 };
 
-/// A grid of points in a box: point (i, j, k) is at first + (i, j, k) · step of the box's space.
+/// A grid of points in a box: point (i, j, k) is at first + (i, j, k) · step in the local space.
 struct LppvGrid {
     /// Affine and invertible; may scale, shear and mirror.
     glm::dmat4 world_from_local{1.0};
     glm::dmat4 local_from_world{1.0};
-    /// The box.
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
+    /// The box, in the local space.
+    glm::dvec3 min{0.0};
+    glm::dvec3 max{0.0};
     glm::dvec3 first{0.0};
-    /// 0 where an axis has one point or no thickness.
+    /// 0 along an axis of one point or without thickness.
     glm::dvec3 step{0.0};
     glm::uvec3 resolution{1};
 
@@ -103,7 +102,7 @@ struct LppvGrid {
         return (size_t{point.z} * resolution.y + point.y) * resolution.x + point.x;
     }
 
-    /// The point of an index.
+    /// The inverse of `point_index`.
     [[nodiscard]] glm::uvec3 point(size_t index) const noexcept {
         const size_t row = index / resolution.x;
         return {index % resolution.x, row % resolution.y, row / resolution.y};
@@ -114,18 +113,19 @@ struct LppvGrid {
     /// Metres between points along each axis.
     [[nodiscard]] glm::dvec3 spacing() const noexcept;
 
-    /// Where a world position lies between the points: (i, j, k), clamped to the outermost. NaN
-    /// counts as 0.
+    /// Grid coordinates (i, j, k) of a world position, clamped to the outermost points. NaN gives
+    /// 0.
     [[nodiscard]] glm::dvec3 point_coordinates(const glm::dvec3& position) const noexcept;
 
     bool operator==(const LppvGrid&) const = default;
 };
 
-/// The grid of an object. An object scaled to nothing along an axis, and a box without thickness,
-/// are fine: a density gives such an axis one point; a custom resolution keeps its number, so that
-/// an object that is squashed flat keeps its place in an atlas, all of them at one place. Errors
-/// say the value: bounds that are not finite or reversed, an object without parts, a transform that
-/// is not affine or flattens it askew, and more points than are allowed.
+/// The grid of an object. The box may have no thickness along an axis, and the transform may scale
+/// an axis to 0. A density gives such an axis one point. A custom resolution keeps its number of
+/// points, which then coincide, so that a flat object keeps its texels in an atlas. Returns
+/// invalid_argument, with the setting as field, if bounds are not finite or are reversed, if the
+/// object has no parts, if the transform is not affine or is singular in a direction other than its
+/// axes, or if the number of points exceeds the limit.
 [[nodiscard]] Result<LppvGrid> make_lppv_grid(const LppvObject& object,
                                               const LppvSettings& settings);
 

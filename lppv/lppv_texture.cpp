@@ -15,12 +15,12 @@
 namespace tetralight {
 namespace {
 
-/// Where a position lies in the volume: 0 to 1 from edge to edge of the outer texels.
+/// Coordinates in the volume: 0 to 1 from edge to edge of the outer texels.
 glm::vec3 volume_coordinates(const LppvConstants& constants, const glm::vec3& position) {
-    const glm::vec3 place = constants.params.y == 1.0f
+    const glm::vec3 local = constants.params.y == 1.0f
                                 ? glm::vec3(constants.local_from_world * glm::vec4(position, 1.0f))
                                 : position;
-    return (place - glm::vec3(constants.low)) * glm::vec3(constants.size_inverse);
+    return (local - glm::vec3(constants.low)) * glm::vec3(constants.size_inverse);
 }
 
 uint32_t texel_index(float coordinate, uint32_t size) {
@@ -105,16 +105,16 @@ glm::vec4 fetch_texel(const LppvTexture& texture, glm::uvec3 texel) noexcept {
 
 glm::vec4 filter_texture(const LppvTexture& texture, glm::vec3 uvw) noexcept {
     const glm::vec3 at = uvw * glm::vec3(texture.size) - 0.5f;
-    const glm::vec3 low = glm::floor(at);
-    const glm::vec3 share = at - low;
+    const glm::vec3 lower = glm::floor(at);
+    const glm::vec3 fraction = at - lower;
     glm::vec4 sum(0.0f);
     for (int corner = 0; corner < 8; ++corner) {
         float weight = 1.0f;
         glm::uvec3 texel;
         for (int axis = 0; axis < 3; ++axis) {
-            const bool is_high = (corner >> axis & 1) != 0;
-            weight *= is_high ? share[axis] : 1.0f - share[axis];
-            texel[axis] = texel_index(low[axis] + (is_high ? 1.0f : 0.0f), texture.size[axis]);
+            const bool is_upper = (corner >> axis & 1) != 0;
+            weight *= is_upper ? fraction[axis] : 1.0f - fraction[axis];
+            texel[axis] = texel_index(lower[axis] + (is_upper ? 1.0f : 0.0f), texture.size[axis]);
         }
         if (weight != 0.0f) sum += weight * fetch_texel(texture, texel);
     }
@@ -139,7 +139,7 @@ glm::vec4 sample_lppv_occlusion(const LppvTexture& texture, const LppvConstants&
                                 glm::vec3 position) noexcept {
     if (texture.layout == LppvLayout::SevenSlabs) return glm::vec4(1.0f);
     glm::vec3 uvw = volume_coordinates(constants, position);
-    // The high side is left to the sampler, which clamps at the texture's edge.
+    // At the upper end the sampler clamps, because the slab ends at the edge of the texture.
     uvw.x = std::max(0.25f * uvw.x + 0.75f, 0.75f + 0.5f * constants.params.z);
     return filter_texture(texture, uvw);
 }

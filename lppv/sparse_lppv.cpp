@@ -13,7 +13,7 @@ namespace {
 constexpr double kLargestBlock = 1 << 20;
 constexpr size_t kBlocksPerTask = kBatchTaskSize / kSparseBlockPoints;
 
-/// 21 bits an axis, in the order of `sorted`.
+/// 21 bits per axis; the order of keys is that of `sorted`.
 uint64_t key_of(int64_t x, int64_t y, int64_t z) {
     constexpr int64_t kOffset = int64_t{1} << 20;
     return static_cast<uint64_t>(z + kOffset) << 42 | static_cast<uint64_t>(y + kOffset) << 21 |
@@ -34,17 +34,18 @@ SparseBlocks::SparseBlocks(double spacing) : spacing_(spacing) {
     TETRALIGHT_ASSERT(spacing > 0.0 && std::isfinite(spacing), "spacing is positive");
 }
 
-Status SparseBlocks::add_box(const glm::dvec3& low, const glm::dvec3& high) {
+Status SparseBlocks::add_box(const glm::dvec3& min, const glm::dvec3& max) {
     std::array<int64_t, 3> first{}, last{};
     double count = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
-        // The cell that holds a position lies between its point and the next.
-        const double a = std::floor(std::floor(low[axis] / spacing_) / kSparseBlockSide);
-        const double b = std::floor((std::floor(high[axis] / spacing_) + 1.0) / kSparseBlockSide);
+        // The grid cell of a position lies between the point below it and the next one.
+        const double a = std::floor(std::floor(min[axis] / spacing_) / kSparseBlockSide);
+        const double b = std::floor((std::floor(max[axis] / spacing_) + 1.0) / kSparseBlockSide);
         if (!(a >= -kLargestBlock && b < kLargestBlock && a <= b)) {
-            return Error{str_cat("a box from ", low[axis], " to ", high[axis],
-                                 " m reaches beyond a sparse grid of spacing ", spacing_,
-                                 " m: it ends ", kLargestBlock * kSparseBlockSide * spacing_,
+            return Error{ErrorCode::InvalidArgument,
+                         str_cat("a box from ", min[axis], " to ", max[axis],
+                                 " m is outside the sparse grid: with a spacing of ", spacing_,
+                                 " m it ends ", kLargestBlock * kSparseBlockSide * spacing_,
                                  " m from the origin")};
         }
         count *= b - a + 1.0;
@@ -52,9 +53,10 @@ Status SparseBlocks::add_box(const glm::dvec3& low, const glm::dvec3& high) {
         last[static_cast<size_t>(axis)] = static_cast<int64_t>(b);
     }
     const auto too_many = [](double blocks) {
-        return Error{str_cat("a sparse grid of ", blocks * kSparseBlockPoints,
-                             " points or more is too large: ",
-                             kMaxSparseBlocks * kSparseBlockPoints, " are the most")};
+        return Error{ErrorCode::InvalidArgument,
+                     str_cat("a sparse grid of ", blocks * kSparseBlockPoints,
+                             " points or more is too large: the limit is ",
+                             kMaxSparseBlocks * kSparseBlockPoints)};
     };
     if (count > kMaxSparseBlocks) return too_many(count);
     for (int64_t z = first[2]; z <= last[2]; ++z) {
@@ -108,7 +110,7 @@ void SparseFillTasks::run(size_t task) const {
         batch.occlusion = std::span(lppv.occlusion).subspan(begin, positions.size());
     }
     const auto report = interpolate(volume, batch);
-    TETRALIGHT_ASSERT(report, "the spans of a task are as long as its positions");
+    TETRALIGHT_ASSERT(report, "the outputs of a task have one element per position");
 }
 
 }  // namespace detail

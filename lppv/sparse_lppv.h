@@ -10,8 +10,8 @@
 #include <tetralight/base/result.h>
 #include <tetralight/lppv/lppv.h>
 
-// A grid of light for a world that is kilometres wide: points only where something is, in blocks of
-// 8³ as OpenVDB stores them.
+// A grid of light for a world of many kilometres: points only near geometry and probes, in blocks
+// of 8³ points, the leaves of OpenVDB.
 //
 //     SparseBlocks blocks(spacing);
 //     for (position : probes) blocks.add_box(position - reach, position + reach);
@@ -22,20 +22,20 @@ namespace tetralight {
 /// Grid points along a side of a block.
 inline constexpr int kSparseBlockSide = 8;
 inline constexpr size_t kSparseBlockPoints = 512;
-/// As many points as the largest dense grid has.
+/// The number of points equals that of the largest dense grid.
 inline constexpr size_t kMaxSparseBlocks = (size_t{1} << 24) / kSparseBlockPoints;
 
-/// Blocks of an endless grid along the world's axes, whose point (i, j, k) is at (i, j, k) ·
-/// spacing. Block (a, b, c) holds the points from (8a, 8b, 8c) to (8a + 7, 8b + 7, 8c + 7).
+/// Blocks of an infinite grid along the world's axes with point (i, j, k) at (i, j, k) · spacing.
+/// Block (a, b, c) contains the points from (8a, 8b, 8c) to (8a + 7, 8b + 7, 8c + 7).
 class SparseBlocks {
   public:
     /// Precondition: spacing > 0, metres.
     explicit SparseBlocks(double spacing);
 
-    /// Adds the blocks of the cells that meet a box, so that every position in it lies between
-    /// points. Errors say the number: more than kMaxSparseBlocks, and a box that is not finite or
-    /// lies beyond 2²⁰ blocks from the origin.
-    [[nodiscard]] Status add_box(const glm::dvec3& low, const glm::dvec3& high);
+    /// Adds the blocks of all grid cells that overlap a box, so that every position in it lies
+    /// between points. Returns invalid_argument if there are more than kMaxSparseBlocks, or if the
+    /// box is not finite or extends further than 2²⁰ blocks from the origin.
+    [[nodiscard]] Status add_box(const glm::dvec3& min, const glm::dvec3& max);
 
     [[nodiscard]] double spacing() const noexcept { return spacing_; }
 
@@ -47,12 +47,13 @@ class SparseBlocks {
     std::unordered_set<uint64_t> keys_;
 };
 
+/// The light of a sparse grid.
 struct SparseLppv {
     double spacing = 1.0;
     std::vector<glm::ivec3> blocks;
-    /// kSparseBlockPoints a block, x fastest, then y.
+    /// kSparseBlockPoints per block, x fastest, then y.
     std::vector<IrradianceSh> irradiance;
-    /// As many, or none: (1, 1, 1, 1).
+    /// Four channels per point, 1 = lit. Empty: all are (1, 1, 1, 1).
     std::vector<glm::vec4> occlusion;
 
     bool operator==(const SparseLppv&) const = default;
@@ -60,7 +61,7 @@ struct SparseLppv {
 
 namespace detail {
 
-/// Task i of `make_sparse_lppv` fills some blocks.
+/// The parallel part of `make_sparse_lppv`: each task fills some blocks.
 struct SparseFillTasks {
     const ProbeVolumeView& volume;
     SparseLppv& lppv;
@@ -69,14 +70,14 @@ struct SparseFillTasks {
     void run(size_t task) const;
 };
 
-/// With room for every point.
+/// Allocated for all points, without light.
 [[nodiscard]] SparseLppv empty_sparse_lppv(const ProbeVolumeView& volume,
                                            const SparseBlocks& blocks);
 
 }  // namespace detail
 
-/// Fills all points of the blocks, all nine coefficients, on the caller's threads (`interpolate`
-/// says what `parallel_for` is). The same bytes for any number of threads.
+/// Fills all nine coefficients at all points of the blocks on the caller's threads (`interpolate`
+/// describes `parallel_for`). Gives the same bytes for any number of threads.
 template <class ParallelFor>
 [[nodiscard]] SparseLppv make_sparse_lppv(const ProbeVolumeView& volume, const SparseBlocks& blocks,
                                           ParallelFor&& parallel_for) {

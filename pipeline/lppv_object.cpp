@@ -21,8 +21,8 @@ void add_instance(const Scene& scene, uint32_t index, SceneObject& object) {
     LppvPart part{instance.world_from_mesh, glm::dvec3(mesh.positions[0]),
                   glm::dvec3(mesh.positions[0])};
     for (const glm::vec3& position : mesh.positions) {
-        part.low = glm::min(part.low, glm::dvec3(position));
-        part.high = glm::max(part.high, glm::dvec3(position));
+        part.min = glm::min(part.min, glm::dvec3(position));
+        part.max = glm::max(part.max, glm::dvec3(position));
     }
     object.parts.push_back(part);
     object.instances.push_back(index);

@@ -9,15 +9,15 @@ namespace {
 
 using Coefficients = std::array<glm::vec3, kShCoefficientCount>;
 
-/// K_i: what is before each polynomial of the basis.
+/// K_i: the factor of each polynomial of the basis.
 constexpr std::array<float, kShCoefficientCount> kBasisConstants{
     0.2820948f, 0.4886025f, 0.4886025f, 0.4886025f, 1.0925484f,
     1.0925484f, 0.3153916f, 1.0925484f, 0.5462742f};
 
-/// The sign that Condon and Shortley give the functions of odd m.
+/// The Condon-Shortley sign of the functions of odd m.
 constexpr std::array<float, kShCoefficientCount> kCondonShortley{1, -1, 1, -1, 1, -1, 1, -1, 1};
 
-/// The engine's axes: columns are where ours lie in it.
+/// The columns are our axes in the axes of the engine.
 glm::mat3 engine_from_ours(Engine engine) {
     switch (engine) {
         case Engine::Unity:
@@ -36,7 +36,7 @@ float units_a_metre(Engine engine) {
     return engine == Engine::Unreal ? 100.0f : 1.0f;
 }
 
-/// Irradiance / π as the factors of the polynomials 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y².
+/// Irradiance / π as factors of the polynomials 1, y, z, x, xy, yz, 3z² − 1, xz, x² − y².
 Coefficients polynomial_factors(const IrradianceSh& irradiance) {
     Coefficients factors = irradiance.coefficients;
     for (size_t i = 0; i < factors.size(); ++i) {

@@ -6,8 +6,8 @@
 
 #include <tetralight/probes/sh.h>
 
-// Light, positions and directions as engines have them. docs/embed.md has the table, and the
-// formula by which each engine evaluates these numbers.
+// Light, positions and directions in the conventions of engines. docs/embed.md has the table and
+// the formula by which each engine evaluates these numbers.
 //
 //     const glm::vec3 at = position_from_engine(Engine::Unity, transform.position);
 //     const IrradianceSh light = interpolate(volume, locate(volume, at)).irradiance;

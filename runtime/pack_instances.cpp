@@ -10,7 +10,7 @@
 namespace tetralight {
 namespace {
 
-/// An array of `PackedShArrays` and the float4 that goes there.
+/// An array of `PackedShArrays` and its float4 of `PackedSh`.
 struct ShVector {
     const char* name;
     std::span<glm::vec4> PackedShArrays::*array;
@@ -27,7 +27,7 @@ constexpr ShVector kShVectors[] = {
     {"shc", &PackedShArrays::shc, &PackedSh::shc},
 };
 
-/// All lengths, before the first answer is written.
+/// Checks all lengths before anything is written.
 Status check_lengths(const InstanceBatch& batch) {
     const size_t count = batch.positions.size();
     for (const ShVector& vector : kShVectors) {
@@ -52,9 +52,11 @@ void scatter(std::span<const PackedSh> answers, const PackedShArrays& arrays, si
 Status check(const InstanceBatch& batch) {
     if (batch.arrays.empty()) {
         if (batch.packed.memory.empty() || batch.packed.format == ShFormat::Packed) return Ok{};
-        return Error{"packed is not of the format Packed"};
+        return Error{ErrorCode::InvalidArgument, "packed", "",
+                     "packed does not have the format Packed"};
     }
-    if (!batch.packed.memory.empty()) return Error{"both arrays and packed are asked for"};
+    if (!batch.packed.memory.empty())
+        return Error{ErrorCode::InvalidArgument, "packed", "", "arrays and packed are both given"};
     return check_lengths(batch);
 }
 
@@ -68,7 +70,7 @@ InterpolationBatch without_arrays(const InstanceBatch& batch) {
     return all;
 }
 
-/// Instances [begin, begin + answers.size()), their light in `answers`.
+/// Writes the light of the instances [begin, begin + answers.size()) to `answers`.
 InterpolationBatch part_of(const InterpolationBatch& all, size_t begin,
                            std::span<PackedSh> answers) {
     InterpolationBatch part = all;
@@ -87,7 +89,7 @@ void add(BatchReport& sum, const BatchReport& part) {
     sum.fallback_count += part.fallback_count;
 }
 
-/// Answers go through a block on the stack and from there to their arrays.
+/// Writes the light through a block on the stack to its arrays.
 Result<BatchReport> pack_arrays(const ProbeVolumeView& volume, const InterpolationBatch& all,
                                 const PackedShArrays& arrays) {
     constexpr size_t kBlockSize = 128;

@@ -15,7 +15,7 @@ const LightState& state_of(const ProbeVolumeView& volume, size_t light) {
     return light < volume.light_states.size() ? volume.light_states[light] : kPlain;
 }
 
-/// The brightest mixed sun; kNoIndex: there is none.
+/// The brightest mixed sun, or kNoIndex.
 uint32_t main_sun(const ProbeVolumeView& volume) {
     uint32_t sun = kNoIndex;
     for (uint32_t i = 0; i < volume.lights.size(); ++i) {

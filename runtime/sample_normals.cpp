@@ -7,7 +7,7 @@
 namespace tetralight {
 namespace {
 
-/// E(n)/π as a polynomial in x, y and z, in the form that needs the fewest products.
+/// E(n)/π as a polynomial in x, y and z, in the form with the fewest products.
 detail::NormalPolynomial polynomial_of(const PackedSh& sh, int channel) {
     const glm::vec4& a = channel == 0 ? sh.sha_r : channel == 1 ? sh.sha_g : sh.sha_b;
     const glm::vec4& b = channel == 0 ? sh.shb_r : channel == 1 ? sh.shb_g : sh.shb_b;

@@ -8,11 +8,11 @@
 
 namespace tetralight {
 
-/// Irradiance / π that one unshadowed light adds to a surface: the direct term of a light that is
-/// not `Baked`.
+/// Irradiance / π of one unshadowed light on a surface: the direct term of a light that is not
+/// `Baked`.
 [[nodiscard]] glm::vec3 direct_light(const Light& light, glm::vec3 position,
                                      glm::vec3 normal) noexcept;
-/// The same of light whose arrival is known.
+/// The same for light whose direction and irradiance are known.
 [[nodiscard]] glm::vec3 direct_light(const Illumination& arriving, glm::vec3 normal) noexcept;
 
 /// Exitant radiance of a Lambert surface under probe light and `direct` (a sum of `direct_light`,

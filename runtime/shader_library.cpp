@@ -16,7 +16,7 @@ bool is_part_of(std::string_view file, ShaderPart part) {
     return part == ShaderPart::Query && file.starts_with("query");
 }
 
-/// What a shader of a language begins with.
+/// The first line of a shader.
 std::string_view head_of(ShaderLanguage language) {
     switch (language) {
         case ShaderLanguage::Glsl450:
@@ -29,12 +29,12 @@ std::string_view head_of(ShaderLanguage language) {
     return {};
 }
 
-/// Lines of a file are numbered from this times the file's place in the shader, which is how places
-/// are told apart: some drivers take no note of the number of the file behind it. The last file,
-/// the shader's own text, may be longer.
+/// The lines of file i are numbered from this times i, so that the line identifies the file: some
+/// drivers ignore the file number of `#line`. Only the last file, the shader's own text, may be
+/// longer.
 constexpr size_t kLineStep = 2000;
 
-/// A name between quotes: compilers disagree on what a backslash does there.
+/// A name between quotes. Compilers treat a backslash in it differently.
 std::string quoted(std::string_view name) {
     std::string quoted = "\"";
     for (const char character : name) {
@@ -44,7 +44,7 @@ std::string quoted(std::string_view name) {
     return quoted + '"';
 }
 
-/// Takes a number off the front of `rest`.
+/// Parses a number at the front of `rest` and removes it.
 std::optional<size_t> take_number(std::string_view& rest) {
     size_t number = 0;
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
@@ -53,8 +53,8 @@ std::optional<size_t> take_number(std::string_view& rest) {
     return number;
 }
 
-/// A `#line` of a shader's own, moved to where lines of its file are numbered.
-std::string moved_line(std::string_view line, size_t first) {
+/// A line of a file. The number of a `#line` directive is shifted to the numbers of the file.
+std::string shifted_line(std::string_view line, size_t first) {
     std::string_view rest = line;
     for (const std::string_view word : {"#", "line"}) {
         rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
@@ -69,7 +69,7 @@ std::string moved_line(std::string_view line, size_t first) {
 void append_glsl(std::string& to, std::string_view from, size_t first) {
     while (!from.empty()) {
         const size_t end = std::min(from.find('\n'), from.size());
-        to += moved_line(from.substr(0, end), first);
+        to += shifted_line(from.substr(0, end), first);
         to += '\n';
         from.remove_prefix(std::min(end + 1, from.size()));
     }
@@ -87,7 +87,7 @@ void append(ShaderSource& source, ShaderLanguage language, const ShaderFile& fil
     source.files.emplace_back(file.name);
 }
 
-/// One line of a log, with its file's name if it begins with a place.
+/// One line of a log; a position at its front gets the name of the file.
 std::string name_line(const ShaderSource& source, std::string_view line) {
     std::string_view rest = line;
     for (const std::string_view kind : {"ERROR: ", "WARNING: "}) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-// The shader library as text, so that a program needs no files beside it. The same files are
+// The shader library as text, so that a program needs no files at run time. The same files are
 // installed in share/tetralight/shaders/.
 //
 //     const ShaderSource source =
@@ -16,44 +16,45 @@
 
 namespace tetralight {
 
-/// A piece of shader text and the name that errors give it.
+/// A part of a shader and its name in error messages.
 struct ShaderFile {
     std::string_view name;
     std::string_view text;
 };
 
-/// All files of the library, in an order in which they can follow each other.
+/// All files of the library, in a valid order of composition.
 [[nodiscard]] std::span<const ShaderFile> shader_files() noexcept;
 
 enum class ShaderLanguage {
     Glsl450,
-    GlslEs300,  ///< the same with textures instead of storage buffers
+    GlslEs300,  ///< reads the volume from textures instead of storage buffers
     Hlsl,
 };
 
-/// What a shader uses of the library. Every part brings `Sh` along.
+/// Parts of the library. Every part includes `Sh`. All names begin with `tetralight_`.
 enum class ShaderPart {
-    Sh,     ///< sample_sh9, sample_sh4, probe_occlusion, add_layer, instance_normal
-    Lppv,   ///< sample_lppv_4, sample_lppv_7, their atlas forms and occlusion
-    Query,  ///< locate, interpolate
+    Sh,     ///< tetralight_sample_sh9, _sample_sh4, _probe_occlusion, _add_layer, _instance_normal
+    Lppv,   ///< tetralight_sample_lppv_4, _sample_lppv_7, their atlas forms and occlusion
+    Query,  ///< tetralight_locate, tetralight_interpolate
 };
 
-/// A whole shader.
+/// A composed shader.
 struct ShaderSource {
     std::string text;
-    /// The names of its files in their order.
+    /// The names of its files, in order.
     std::vector<std::string> files;
 };
 
-/// Puts the version, the parts of the library and the shader's own text together, each with a
-/// `#line` directive. `own` must not have a `#version` of its own.
+/// Composes the version, the parts of the library and the shader's own text, each with a `#line`
+/// directive. `own` must not contain a `#version`. In GLSL the lines of file i begin at 2000 i, so
+/// that the line alone identifies the file: some drivers ignore the file number of `#line`.
 [[nodiscard]] ShaderSource compose_shader(ShaderLanguage language,
                                           std::initializer_list<ShaderPart> parts,
                                           const ShaderFile& own);
 
-/// A compiler's log with files by name: GLSL compilers know lines by number alone, and write
-/// `0:6012`, `0(6012)` or `ERROR: 0:6012` (Mesa, NVIDIA, glslang and ANGLE), which becomes
-/// `lit.frag:12`. Logs of HLSL have the names already.
+/// A compiler's log with file names instead of numbers: `0:6012`, `0(6012)` and `ERROR: 0:6012`
+/// (Mesa, NVIDIA, glslang and ANGLE) become `lit.frag:12`. Logs of HLSL compilers contain the
+/// names.
 [[nodiscard]] std::string name_shader_lines(const ShaderSource& source, std::string_view log);
 
 }  // namespace tetralight

@@ -10,18 +10,18 @@
 namespace tetralight {
 namespace {
 
-using namespace glm;  // the words of the shader language
+using namespace glm;  // the types and functions of the shader language
 
-/// The vectors of one of the shader's arrays.
+/// An array of the shader as vectors.
 template <class Vector, class Element>
 std::span<const Vector> vectors_of(const std::vector<Element>& elements) {
     return {reinterpret_cast<const Vector*>(elements.data()),
             elements.size() * sizeof(Element) / sizeof(Vector)};
 }
 
-/// The shader's text as members of a struct whose other members are what it reads.
+/// The text of the shader as members of a struct; the other members are the data that it reads.
 struct Shader {
-// The files in the order of the shader.
+// The files in the order of a composed shader.
 // clang-format off
 #define TETRALIGHT_CPP
 #include <tetralight/runtime/shaders/begin.glsl>

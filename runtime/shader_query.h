@@ -7,14 +7,15 @@
 #include <tetralight/probes/locate.h>
 #include <tetralight/runtime/shader_volume.h>
 
-// The functions of runtime/shaders/query.glsl on the CPU, for tests and for engines that check what
-// their shaders do. They are the shader's own text, compiled as C++ with GLM: in floats, from the
-// shader's arrays. Queries of the CPU are in probes/interpolate.h: in double, and faster.
+// The functions of runtime/shaders/query.glsl on the CPU, for tests and for engines that check
+// their shaders: the text of the shader, compiled as C++ with GLM. They compute in floats and read
+// the shader's arrays. The queries of the CPU (probes/interpolate.h) compute in double and are
+// faster.
 
 namespace tetralight {
 
-/// Finds the cell that holds a world position, and the weights of its probes, always with the
-/// policy `Extrapolate`. Thread-safe.
+/// Finds the cell that contains a world position, and the weights of its probes, with the policy
+/// `Extrapolate`. Thread-safe.
 [[nodiscard]] CellLocation locate(const ShaderVolume& volume, glm::vec3 position,
                                   uint32_t hint = kNoIndex) noexcept;
 

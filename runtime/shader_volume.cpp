@@ -10,8 +10,8 @@
 namespace tetralight {
 namespace {
 
-/// A number as the sum of two floats. `volatile`, since GCC 12 takes a pair of doubles that became
-/// floats and doubles again for the doubles they were, and finds no rest.
+/// A double as the sum of two floats. `volatile` because GCC 12 removes the conversions of a pair
+/// of doubles to float and back, so that the difference becomes 0.
 struct TwoFloats {
     float whole = 0.0f;
     float rest = 0.0f;
@@ -23,9 +23,9 @@ struct TwoFloats {
     }
 };
 
-/// A regular grid over the box of the probes, of about as many voxels as there are probes.
+/// A regular grid over the bounding box of the probes, with about one voxel per probe.
 struct SeedGrid {
-    glm::vec3 low{0.0f};
+    glm::vec3 min{0.0f};
     glm::vec3 voxel{0.0f};
     glm::uvec3 size{1};
 
@@ -33,19 +33,19 @@ struct SeedGrid {
 
     [[nodiscard]] glm::vec3 center(size_t index) const {
         const glm::uvec3 place(index % size.x, index / size.x % size.y, index / size.x / size.y);
-        return low + voxel * (glm::vec3(place) + 0.5f);
+        return min + voxel * (glm::vec3(place) + 0.5f);
     }
 };
 
 SeedGrid make_seed_grid(std::span<const glm::vec3> positions) {
     SeedGrid grid;
-    grid.low = positions[0];
+    grid.min = positions[0];
     glm::vec3 high = positions[0];
     for (const glm::vec3& position : positions) {
-        grid.low = glm::min(grid.low, position);
+        grid.min = glm::min(grid.min, position);
         high = glm::max(high, position);
     }
-    const glm::vec3 box = high - grid.low;
+    const glm::vec3 box = high - grid.min;
     const float longest = std::max({box.x, box.y, box.z});
     if (!(longest > 0.0f) || !(longest < std::numeric_limits<float>::max())) return grid;
     constexpr float kFinest = 4096.0f;
@@ -73,9 +73,10 @@ void add_seeds(const ProbeVolumeView& volume, ShaderVolume& shader) {
         const uint32_t cell = locations[i].cell;
         shader.seeds[i / 4][static_cast<int>(i % 4)] = cell < volume.cells.size() ? cell : 0;
     }
-    shader.constants.seed_min = glm::vec4(grid.low, 0.0f);
-    shader.constants.seed_scale = glm::vec4(voxels_a_metre(grid.voxel.x), voxels_a_metre(grid.voxel.y),
-                                        voxels_a_metre(grid.voxel.z), 0.0f);
+    shader.constants.seed_min = glm::vec4(grid.min, 0.0f);
+    shader.constants.seed_scale =
+        glm::vec4(voxels_a_metre(grid.voxel.x), voxels_a_metre(grid.voxel.y),
+                  voxels_a_metre(grid.voxel.z), 0.0f);
     shader.constants.seed_size = glm::uvec4(grid.size, 0);
 }
 
@@ -165,8 +166,8 @@ ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
     }
     const auto cell_count = static_cast<uint32_t>(volume.cells.size());
     shader.constants.counts = {volume.probe_count(), cell_count,
-                           static_cast<uint32_t>(inner_cell_count(volume)),
-                           static_cast<uint32_t>(volume.info.dimension)};
+                               static_cast<uint32_t>(inner_cell_count(volume)),
+                               static_cast<uint32_t>(volume.info.dimension)};
     add_probes(volume, shader);
     add_cells(volume, shader);
     add_seeds(volume, shader);

@@ -11,12 +11,12 @@
 #include <tetralight/probes/packed_sh.h>
 #include <tetralight/probes/probe_volume.h>
 
-// A probe volume as shaders read it: one uniform block and five arrays of 16-byte elements, ready
-// to upload. runtime/shaders/query_volume.glsl declares them: storage buffers (std430), structured
-// buffers, or textures of 2048 texels a row.
+// A probe volume for shaders: one uniform block and five arrays of 16-byte elements, ready to
+// upload. runtime/shaders/query_volume.glsl declares them as storage buffers (std430), structured
+// buffers, or textures with 2048 texels per row.
 //
 //     const ShaderVolume volume = make_shader_volume(file->view());
-//     upload(volume.constants); upload(volume.positions); ... // bindings as in query_volume.glsl
+//     upload(volume.constants); upload(volume.positions); ...  // bindings: query_volume.glsl
 //     const CellLocation location = locate(volume, position, kNoIndex);  // runtime/shader_query.h
 
 namespace tetralight {
@@ -24,10 +24,10 @@ namespace tetralight {
 /// The uniform block `TetralightVolume` (std140; a constant buffer in HLSL).
 struct ShaderVolumeConstants {
     glm::vec4 origin{0.0f};       ///< xyz: world position of the local origin; w: `extent`
-    glm::vec4 origin_rest{0.0f};  ///< xyz: what rounding the origin to floats left out
+    glm::vec4 origin_rest{0.0f};  ///< xyz: rounding error of `origin`
     glm::vec4 axis{0.0f};         ///< xyz: `VolumeInfo::axis`
-    glm::vec4 seed_min{0.0f};     ///< xyz: lower corner of the seed grid, local
-    glm::vec4 seed_scale{0.0f};   ///< xyz: voxels of the seed grid a metre
+    glm::vec4 seed_min{0.0f};     ///< xyz: minimum corner of the seed grid, local
+    glm::vec4 seed_scale{0.0f};   ///< xyz: voxels of the seed grid per metre
     glm::uvec4 seed_size{1};      ///< xyz: voxels along each axis
     glm::uvec4 counts{0};         ///< probes, cells, inner cells, `Dimension`
     PackedSh ambient{};
@@ -56,8 +56,8 @@ struct PackedProbe {
 
 static_assert(sizeof(PackedProbe) == 128 && std::is_trivially_copyable_v<PackedProbe>);
 
-/// One cell in `ShaderVolume::cells`. Every index is one of the volume, or kNoIndex for neighbors
-/// that are not there: shaders test none of them.
+/// One cell in `ShaderVolume::cells`. Vertices are valid indices, neighbors are valid indices or
+/// kNoIndex, so that shaders need not check them.
 struct ShaderCell {
     glm::uvec4 vertices{0};
     glm::uvec4 neighbors{kNoIndex};
@@ -67,26 +67,26 @@ struct ShaderCell {
 
 static_assert(sizeof(ShaderCell) == 32 && std::is_trivially_copyable_v<ShaderCell>);
 
-/// The uniform block and the arrays, in the order of their bindings. None is empty.
+/// The uniform block and the arrays, in the order of their bindings. No array is empty.
 struct ShaderVolume {
     ShaderVolumeConstants constants;
-    std::vector<glm::vec4> positions;  ///< xyz local, one a probe
-    std::vector<PackedProbe> light;    ///< one a probe
+    std::vector<glm::vec4> positions;  ///< xyz local, one per probe
+    std::vector<PackedProbe> light;    ///< one per probe
     std::vector<ShaderCell> cells;
-    std::vector<glm::vec4> hull_rays;  ///< xyz, three a hull cell
-    std::vector<glm::uvec4> seeds;     ///< four voxels each: a cell at the voxel's centre
+    std::vector<glm::vec4> hull_rays;  ///< xyz, three per hull cell
+    std::vector<glm::uvec4> seeds;     ///< four voxels each: the cell at the voxel's center
 
     bool operator==(const ShaderVolume&) const = default;
 };
 
-/// Texels of a row where the arrays are textures; the last row is filled up.
+/// Texels per row if the arrays are textures. The last row is padded.
 inline constexpr size_t kShaderTextureWidth = 2048;
 
-/// Makes the arrays from a volume; its light is what queries read (`compact` where it is there).
-/// The volume may be an unverified file. Cost: as one query a probe.
+/// Makes the arrays of a volume. The light is the light that queries read: `compact` if the volume
+/// has it. The volume may be an unverified file. Cost: about one query per probe.
 [[nodiscard]] ShaderVolume make_shader_volume(const ProbeVolumeView& volume);
 
-/// Bytes that it allocates, what it hands out and what it needs meanwhile.
+/// Bytes that `make_shader_volume` allocates, for the result and for temporary data.
 [[nodiscard]] size_t shader_volume_memory(const ProbeVolumeView& volume);
 
 }  // namespace tetralight

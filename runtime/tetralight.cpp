@@ -5,7 +5,6 @@
 #include <cstring>
 #include <new>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/runtime/detail/c_arrays.h>
 #include <tetralight/runtime/detail/c_volume.h>
@@ -36,13 +35,20 @@ static_assert(sizeof(PackedSh) == sizeof(tetralight_light::packed));
 
 using OpenFile = Result<ProbeFile> (*)(const std::string& path);
 
+/// A path that is too long or leads to a folder is not a wrong number: there is no such file.
+CallError open_error(const Error& error) {
+    CallError failed(error);
+    if (failed.status == TETRALIGHT_BAD_VALUE) failed.status = TETRALIGHT_BAD_FILE;
+    return failed;
+}
+
 tetralight_status open_with(OpenFile open, const char* path, tetralight_volume** volume,
                             tetralight_error* error) {
     CallError wrong = check_pointer("path", path);
     if (!wrong) wrong = check_pointer("volume", volume);
     if (wrong) return finish(wrong, error);
     auto file = open(path);
-    if (!file) return finish({TETRALIGHT_BAD_FILE, error_text(file.error())}, error);
+    if (!file) return finish(open_error(file.error()), error);
     auto* opened = new (std::nothrow) tetralight_volume(std::move(*file));
     if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for a volume"}, error);
     *volume = opened;
@@ -51,12 +57,12 @@ tetralight_status open_with(OpenFile open, const char* path, tetralight_volume**
 
 CallError check_outside(const tetralight_batch& batch) {
     if (batch.outside > TETRALIGHT_AMBIENT) {
-        return {TETRALIGHT_BAD_VALUE, str_cat("outside is ", batch.outside)};
+        return {TETRALIGHT_BAD_VALUE, str_cat("outside is out of range: ", batch.outside)};
     }
     const bool fades = batch.outside == TETRALIGHT_AMBIENT;
     if (fades && !(batch.fade_distance > 0.0f && std::isfinite(batch.fade_distance))) {
         return {TETRALIGHT_BAD_VALUE,
-                str_cat("fade_distance is ", batch.fade_distance, ", not a length")};
+                str_cat("fade_distance is not positive and finite: ", batch.fade_distance)};
     }
     return {};
 }
@@ -83,7 +89,7 @@ CallError check_hints(const tetralight_array& hints, size_t count) {
 
 CallError check_batch(const tetralight_batch& batch) {
     if (batch.sh_format > TETRALIGHT_SH_HALF) {
-        return {TETRALIGHT_BAD_VALUE, str_cat("sh_format is ", batch.sh_format)};
+        return {TETRALIGHT_BAD_VALUE, str_cat("sh_format is out of range: ", batch.sh_format)};
     }
     if (auto wrong = check_outside(batch)) return wrong;
     if (batch.count == 0) return {};
@@ -166,17 +172,17 @@ InstanceBatch part_of(const tetralight_instances& instances, size_t begin,
     return part;
 }
 
-/// Answers blocks of positions with `answer(begin, positions)`, and adds up what they met.
+/// Calls `answer(begin, positions)` for each block of positions and adds up the reports.
 template <class Answer>
 tetralight_status answer_blocks(const tetralight_const_array& positions, size_t count,
                                 tetralight_report* report, tetralight_error* error, Answer answer) {
     tetralight_report sum{0, 0};
     PositionBlocks blocks(positions, count);
     while (blocks.next()) {
-        const Result<BatchReport> met = answer(blocks.begin(), blocks.positions());
-        if (!met) return finish({TETRALIGHT_BAD_VALUE, error_text(met.error())}, error);
-        sum.not_finite_count += met->not_finite_count;
-        sum.step_count += met->step_count;
+        const Result<BatchReport> report_of_block = answer(blocks.begin(), blocks.positions());
+        if (!report_of_block) return finish(report_of_block.error(), error);
+        sum.not_finite_count += report_of_block->not_finite_count;
+        sum.step_count += report_of_block->step_count;
     }
     if (report) *report = sum;
     return succeed(error);
@@ -199,6 +205,14 @@ tetralight_const_array bytes_of(const std::vector<Element>& elements) {
 
 }  // namespace
 
+uint32_t tetralight_version(void) noexcept {
+    return TETRALIGHT_VERSION_NUMBER;
+}
+
+const char* tetralight_version_string(void) noexcept {
+    return TETRALIGHT_VERSION_STRING;
+}
+
 tetralight_status tetralight_open(const char* path, tetralight_volume** volume,
                                   tetralight_error* error) noexcept {
     return open_with(open_probe_file, path, volume, error);
@@ -213,7 +227,7 @@ tetralight_status tetralight_verify(const tetralight_volume* volume,
                                     tetralight_error* error) noexcept {
     if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
     const auto status = verify(volume->file);
-    if (!status) return finish({TETRALIGHT_BAD_FILE, error_text(status.error())}, error);
+    if (!status) return finish(status.error(), error);
     return succeed(error);
 }
 

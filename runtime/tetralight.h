@@ -16,22 +16,42 @@
  *     tetralight_query(volume, position, NULL, &light, &error);
  *     tetralight_close(volume);
  *
- * Every call gives TETRALIGHT_OK or a code, and a message in `error`, which may be NULL; it is
- * empty with TETRALIGHT_OK. A call that fails writes nothing else; what it was to write keeps its
- * value. NULL and pointers at odd addresses, wrong strides and short buffers are codes, never
- * crashes; that a pointer leads to memory that is there is the caller's promise. No exception
- * leaves a call.
+ * Errors: every call returns a status. `error` receives a message, empty with TETRALIGHT_OK; it may
+ * be NULL. A call that fails leaves its outputs unchanged. NULL, misaligned pointers, wrong strides
+ * and short buffers are reported as statuses. The caller guarantees that every other pointer leads
+ * to memory of the size that it states. No exception leaves a call.
  *
- * Memory: queries and packing allocate none. The calls that need much (recombine, fill_lppv,
- * make_shader_volume) ask for all of it first, and give TETRALIGHT_OUT_OF_MEMORY where the system
- * refuses. That does not hold for messages and the like (below 64 KiB a call), nor where a system
- * promises more memory than it has, nor where other threads take it meanwhile: then the program
- * ends.
+ * Memory: queries and packing do not allocate. The calls that need much memory (recombine,
+ * fill_lppv, make_shader_volume) first ask for all of it, and return TETRALIGHT_OUT_OF_MEMORY if
+ * the system refuses. The program still ends in three cases: if a message or another small piece
+ * (below 64 KiB a call) cannot be allocated, if the system promises more memory than it has, and if
+ * another thread takes the memory in between (docs/decisions/0037-memory-through-the-c-api.md).
  *
  * Threads: calls on different volumes are independent. Calls that take a `const` volume may run on
- * one volume at the same time. The others (recombine, close) need it for themselves.
+ * one volume at the same time. The others (recombine, close) must run alone on their volume.
  *
- * Space is right-handed, Y up, metres; light is linear Rec.709 (docs/conventions.md). */
+ * Space is right-handed, Y up, in metres; light is linear Rec.709 (docs/conventions.md). */
+
+/* The version of this header. `tetralight_version` has that of the library. */
+#define TETRALIGHT_VERSION_MAJOR 0
+#define TETRALIGHT_VERSION_MINOR 1
+#define TETRALIGHT_VERSION_PATCH 0
+#define TETRALIGHT_VERSION_STRING "0.1.0"
+#define TETRALIGHT_VERSION_NUMBER \
+    (TETRALIGHT_VERSION_MAJOR * 10000 + TETRALIGHT_VERSION_MINOR * 100 + TETRALIGHT_VERSION_PATCH)
+
+/* Marks the functions of the C API. Empty for the static libraries that this project builds. Define
+ * TETRALIGHT_SHARED where a shared library is built or used, and TETRALIGHT_BUILDING_SHARED too
+ * where it is built. */
+#if !defined(TETRALIGHT_SHARED)
+#define TETRALIGHT_API
+#elif defined(_WIN32) && defined(TETRALIGHT_BUILDING_SHARED)
+#define TETRALIGHT_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define TETRALIGHT_API __declspec(dllimport)
+#else
+#define TETRALIGHT_API __attribute__((visibility("default")))
+#endif
 
 #ifdef __cplusplus
 #define TETRALIGHT_NOEXCEPT noexcept
@@ -42,21 +62,33 @@ extern "C" {
 
 typedef enum tetralight_status {
     TETRALIGHT_OK = 0,
-    /** A pointer that is needed is NULL, or one is not aligned to its type. */
+    /** A required pointer is NULL, or a pointer is not aligned to its type. */
     TETRALIGHT_BAD_POINTER = 1,
-    /** A stride or an enumerator that makes no sense, or a number that is not finite. */
+    /** A stride, an enumerator or a number is out of range, or a number is not finite. */
     TETRALIGHT_BAD_VALUE = 2,
-    /** A buffer is shorter than its count needs. */
+    /** A buffer is too short for its count. */
     TETRALIGHT_SHORT_BUFFER = 3,
-    /** The file cannot be opened or is no whole probe file. */
+    /** There is no such file, or the path does not lead to a regular file. */
     TETRALIGHT_BAD_FILE = 4,
-    /** The volume has not what is asked for. */
+    /** The volume does not contain the requested item. */
     TETRALIGHT_NOT_THERE = 5,
-    /** The system has not as many bytes as the message says. */
-    TETRALIGHT_OUT_OF_MEMORY = 6
+    /** The system refuses the number of bytes that the message gives. */
+    TETRALIGHT_OUT_OF_MEMORY = 6,
+    /** The bytes of the file are wrong: opening it again fails again. */
+    TETRALIGHT_CORRUPT = 7,
+    /** The file is valid, but this version of the library cannot read it. */
+    TETRALIGHT_UNSUPPORTED = 8,
+    /** The file cannot be read now (I/O error, permissions, network): try again later. */
+    TETRALIGHT_UNAVAILABLE = 9,
+    /** Memory or file descriptors are used up: try again later. */
+    TETRALIGHT_OUT_OF_RESOURCES = 10,
+    /** There is no space left for a file that is written. */
+    TETRALIGHT_DISK_FULL = 11,
+    /** The caller stopped the work. */
+    TETRALIGHT_CANCELLED = 12
 } tetralight_status;
 
-/** One line that says what was wrong and where; ends with '\0', cut off if it is longer. */
+/** One line that says what is wrong and where, ends with '\0'; a longer message is truncated. */
 typedef struct tetralight_error {
     char message[512];
 } tetralight_error;
@@ -64,47 +96,47 @@ typedef struct tetralight_error {
 /** An open probe volume. */
 typedef struct tetralight_volume tetralight_volume;
 
-/** What a volume holds. */
+/** The contents of a volume. */
 typedef struct tetralight_info {
     uint32_t probe_count;
     uint32_t cell_count;
-    /** Cells from this one on lie outside of the hull of the probes. */
+    /** Cells with this index or a higher one lie outside the hull of the probes. */
     uint32_t inner_cell_count;
     /** 0 none, 1 one probe, 2 probes on a line, 3 in a plane, 4 in space. */
     uint32_t dimension;
-    /** Not zero: it has what its name says. */
+    /** 1 if the volume has baked light and occlusion, else 0. */
     uint32_t has_light, has_occlusion;
-    /** Layers that `tetralight_recombine` can weigh. */
+    /** Number of layers, and of weights that `tetralight_recombine` takes. */
     uint32_t layer_count;
 } tetralight_info;
 
-/** A layer of light: the sun, the sky, a lamp. */
+/** A layer of light: the sun, the sky, a light of the scene. */
 typedef struct tetralight_layer {
-    /** As "light:lamp", ends with '\0'; cut off if it is longer. */
+    /** For example "light:lamp", ends with '\0'; a longer name is truncated. */
     char name[128];
-    /** What the volume's light has of it now; 1 = as it was baked. */
+    /** Its weight in the volume's light; 1 = as baked. */
     float weight;
 } tetralight_layer;
 
-/** What is answered outside the hull of the probes (probes/locate.h). */
+/** The light outside the hull of the probes (probes/locate.h). */
 typedef enum tetralight_outside {
     TETRALIGHT_EXTRAPOLATE = 0,
     TETRALIGHT_CLAMP = 1,
-    /** As clamp, fading to the volume's ambient light over `fade_distance`. */
+    /** As clamp, fading to the ambient light of the volume over `fade_distance`. */
     TETRALIGHT_AMBIENT = 2
 } tetralight_outside;
 
-/** How irradiance is written. */
+/** The format of irradiance in an array. */
 typedef enum tetralight_sh_format {
     /** 27 floats: nine RGB coefficients, E(n) = sum of E_i Y_i(n). */
     TETRALIGHT_SH_COEFFICIENTS = 0,
-    /** 28 floats: seven float4 for shaders, which evaluate to E(n) / pi. */
+    /** 28 floats: seven float4 for shaders, which evaluate E(n) / pi from them. */
     TETRALIGHT_SH_PACKED = 1,
-    /** 27 half floats, as the coefficients. */
+    /** 27 half floats: the same coefficients. */
     TETRALIGHT_SH_HALF = 2
 } tetralight_sh_format;
 
-/** No cell: a hint that asks to start at the nearest seed. */
+/** No cell. As a hint: the search starts at the nearest seed. */
 #define TETRALIGHT_NO_CELL 0xffffffffu
 
 /** The light at one position. */
@@ -113,55 +145,56 @@ typedef struct tetralight_light {
     float packed[28];
     /** Four channels, 1 = lit. */
     float occlusion[4];
-    /** Barycentric weights of the cell's probes, >= 0. */
+    /** Barycentric weights of the cell's probes, >= 0; they sum to 1. */
     float weights[4];
-    /** The cell that holds the position, or TETRALIGHT_NO_CELL: the light is ambient. */
+    /** The cell that contains the position, or TETRALIGHT_NO_CELL if the light is ambient. */
     uint32_t cell;
 } tetralight_light;
 
-/** An array of the caller's: element i begins at byte i * stride. */
+/** An array of the caller. Element i begins at byte i * stride. */
 typedef struct tetralight_array {
     void* data;
     /** Bytes from `data` to the end of the buffer. */
     size_t size;
-    /** Bytes from element to element; 0 = no gap between elements. */
+    /** Bytes from one element to the next; 0 = elements without gaps. */
     size_t stride;
 } tetralight_array;
 
-/** The same, only read. */
+/** The same for an array that is only read. */
 typedef struct tetralight_const_array {
     const void* data;
     size_t size;
     size_t stride;
 } tetralight_const_array;
 
-/** Many positions in one call. Arrays whose `data` is NULL are left out. */
+/** Many positions in one call. An array whose `data` is NULL is not written. */
 typedef struct tetralight_batch {
     size_t count;
     /** Three floats each, world space. */
     tetralight_const_array positions;
-    /** uint32_t each, without gaps; in: where walks start, out: the cells found. May be NULL. */
+    /** uint32_t each, without gaps. In: the cells where searches start. Out: the cells found. May
+     * be NULL. */
     tetralight_array hints;
     tetralight_array sh;
     /** A tetralight_sh_format. */
     uint32_t sh_format;
-    /** Four floats each. Of sh and occlusion one may be NULL. */
+    /** Four floats each. Either `sh` or `occlusion` may be NULL. */
     tetralight_array occlusion;
     /** A tetralight_outside. */
     uint32_t outside;
-    /** Metres, > 0; read where `outside` is TETRALIGHT_AMBIENT alone. */
+    /** Metres, > 0; read only if `outside` is TETRALIGHT_AMBIENT. */
     float fade_distance;
 } tetralight_batch;
 
-/** What a batch met. */
+/** Counts of a batch. */
 typedef struct tetralight_report {
-    /** Positions that are not finite: their answer is the ambient light. */
+    /** Positions that are not finite; they receive the ambient light. */
     uint64_t not_finite_count;
-    /** Cells that were tested. */
+    /** Cells that the searches tested. */
     uint64_t step_count;
 } tetralight_report;
 
-/** Instances as renderers upload them: the seven float4 in an array each. */
+/** Instances as renderers upload them: one array for each of the seven float4. */
 typedef struct tetralight_instances {
     size_t count;
     tetralight_const_array positions;
@@ -172,63 +205,71 @@ typedef struct tetralight_instances {
     tetralight_array occlusion;
 } tetralight_instances;
 
-/** Opens a file and verifies all of it: for files from anywhere. `*volume` is to be closed. */
-tetralight_status tetralight_open(const char* path, tetralight_volume** volume,
-                                  tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** The version of the library: major * 10000 + minor * 100 + patch. Thread-safe. */
+TETRALIGHT_API uint32_t tetralight_version(void) TETRALIGHT_NOEXCEPT;
 
-/** Opens a file by its header and section table alone. A corrupt section gives wrong light or the
- * ambient light, never a read out of range; `tetralight_verify` finds it. */
-tetralight_status tetralight_open_lazy(const char* path, tetralight_volume** volume,
-                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** The same as text, for example "0.1.0". Thread-safe. */
+TETRALIGHT_API const char* tetralight_version_string(void) TETRALIGHT_NOEXCEPT;
 
-/** Does what `tetralight_open` adds to `tetralight_open_lazy`; for a background thread. */
-tetralight_status tetralight_verify(const tetralight_volume* volume,
-                                    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** Opens a file and verifies all of it: for files from any source. Close `*volume` after use. */
+TETRALIGHT_API tetralight_status tetralight_open(const char* path, tetralight_volume** volume,
+                                                 tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** Closes a volume; NULL is fine. */
-void tetralight_close(tetralight_volume* volume) TETRALIGHT_NOEXCEPT;
+/** Opens a file and checks only its header and section table. A corrupt section gives wrong light
+ * or the ambient light, never a read out of range; `tetralight_verify` finds it. */
+TETRALIGHT_API tetralight_status tetralight_open_lazy(const char* path, tetralight_volume** volume,
+                                                      tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-tetralight_status tetralight_get_info(const tetralight_volume* volume, tetralight_info* info,
-                                      tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** Verifies all of a volume that `tetralight_open_lazy` has opened; for a background thread. */
+TETRALIGHT_API tetralight_status tetralight_verify(const tetralight_volume* volume,
+                                                   tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-tetralight_status tetralight_get_layer(const tetralight_volume* volume, uint32_t index,
-                                       tetralight_layer* layer,
-                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** Closes a volume; does nothing if it is NULL. */
+TETRALIGHT_API void tetralight_close(tetralight_volume* volume) TETRALIGHT_NOEXCEPT;
 
-/** Makes the volume's light the sum of its layers times these weights, one a layer, >= 0. Not at
- * the same time as any other call on this volume. Cost: as reading all layers once; memory: that of
- * the probes' light. Shader volumes and proxy volumes that were made before keep their light. */
-tetralight_status tetralight_recombine(tetralight_volume* volume, const float* weights,
-                                       size_t weight_count,
-                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+TETRALIGHT_API tetralight_status tetralight_get_info(const tetralight_volume* volume,
+                                                     tetralight_info* info,
+                                                     tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** The light at one position (three floats). `hint`: the cell where the walk starts, and the cell
- * found; may be NULL. A position that is not finite gets the ambient light and no cell. */
-tetralight_status tetralight_query(const tetralight_volume* volume, const float* position,
-                                   uint32_t* hint, tetralight_light* light,
-                                   tetralight_error* error) TETRALIGHT_NOEXCEPT;
+TETRALIGHT_API tetralight_status tetralight_get_layer(const tetralight_volume* volume,
+                                                      uint32_t index, tetralight_layer* layer,
+                                                      tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Replaces the light of the volume by the sum of its layers times these weights: one a layer, >=
+ * 0. Must not run at the same time as another call on this volume. Cost: one pass over all layers.
+ * Memory: that of the probes' light. Existing shader volumes and proxy volumes keep their light. */
+TETRALIGHT_API tetralight_status tetralight_recombine(tetralight_volume* volume,
+                                                      const float* weights, size_t weight_count,
+                                                      tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The light at one position (three floats). `hint`, which may be NULL, gives the cell where the
+ * search starts and receives the cell found. A position that is not finite receives the ambient
+ * light and no cell. */
+TETRALIGHT_API tetralight_status tetralight_query(const tetralight_volume* volume,
+                                                  const float* position, uint32_t* hint,
+                                                  tetralight_light* light,
+                                                  tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** The light at many positions. `report` may be NULL. */
-tetralight_status tetralight_query_batch(const tetralight_volume* volume,
-                                         const tetralight_batch* batch, tetralight_report* report,
-                                         tetralight_error* error) TETRALIGHT_NOEXCEPT;
+TETRALIGHT_API tetralight_status
+tetralight_query_batch(const tetralight_volume* volume, const tetralight_batch* batch,
+                       tetralight_report* report, tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** The light of instances. `report` may be NULL. */
-tetralight_status tetralight_pack_instances(const tetralight_volume* volume,
-                                            const tetralight_instances* instances,
-                                            tetralight_report* report,
-                                            tetralight_error* error) TETRALIGHT_NOEXCEPT;
+TETRALIGHT_API tetralight_status
+tetralight_pack_instances(const tetralight_volume* volume, const tetralight_instances* instances,
+                          tetralight_report* report, tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** 27 coefficients of irradiance, all finite, as the 28 floats of TETRALIGHT_SH_PACKED.
- * Thread-safe.
- */
-tetralight_status tetralight_pack_sh(const float* coefficients, float* packed,
-                                     tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** Packs 27 coefficients of irradiance, all finite, as the 28 floats of TETRALIGHT_SH_PACKED.
+ * Thread-safe. */
+TETRALIGHT_API tetralight_status tetralight_pack_sh(const float* coefficients, float* packed,
+                                                    tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** Irradiance / pi, three floats, of 28 packed floats at a unit normal, all finite: times albedo it
- * is the diffuse exitant radiance. Thread-safe. */
-tetralight_status tetralight_sample_sh9(const float* packed, const float* normal, float* rgb,
-                                        tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** Irradiance / pi (three floats) at a unit normal from 28 packed floats, all finite. Times albedo
+ * it is the diffuse exitant radiance. Thread-safe. */
+TETRALIGHT_API tetralight_status tetralight_sample_sh9(const float* packed, const float* normal,
+                                                       float* rgb,
+                                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** Which bands of the light vary within a proxy volume (lppv/lppv.h). */
 typedef enum tetralight_lppv_quality {
@@ -237,13 +278,13 @@ typedef enum tetralight_lppv_quality {
     TETRALIGHT_LPPV_FULL = 2
 } tetralight_lppv_quality;
 
-/** Where in the box the grid points lie. */
+/** The positions of the grid points in the box. */
 typedef enum tetralight_lppv_placement {
     TETRALIGHT_LPPV_CELL_CORNERS = 0,
     TETRALIGHT_LPPV_CELL_CENTERS = 1
 } tetralight_lppv_placement;
 
-/** Parts of the texture along X (lppv/lppv_texture.h). */
+/** The slabs of the texture along X (lppv/lppv_texture.h). */
 typedef enum tetralight_lppv_layout {
     /** SHAr | SHAg | SHAb | occlusion; band 2 is the same for the whole object. */
     TETRALIGHT_LPPV_FOUR_SLABS = 0,
@@ -257,9 +298,9 @@ typedef enum tetralight_lppv_format {
     TETRALIGHT_LPPV_FLOAT = 1
 } tetralight_lppv_format;
 
-/** A grid of light around a large object: a proxy volume. Its constants are to be finite floats. */
+/** A proxy volume: a grid of light around a large object. Its constants must be finite floats. */
 typedef struct tetralight_lppv_box {
-    /** The object's transform, column by column. */
+    /** The transform of the object, by columns. */
     float world_from_box[16];
     /** The box in the object's space. */
     float low[3], high[3];
@@ -275,43 +316,44 @@ typedef struct tetralight_lppv_size {
     size_t bytes;
 } tetralight_lppv_size;
 
-/** What shaders need beside the texture: LppvConstants of runtime/shaders/lppv.glsl. */
+/** The uniforms of the texture: TetralightLppvConstants of runtime/shaders/lppv.glsl. */
 typedef struct tetralight_lppv_constants {
     float local_from_world[16];
     float params[4], low[4], size_inverse[4];
     float shb_r[4], shb_g[4], shb_b[4], shc[4];
 } tetralight_lppv_constants;
 
-/** Thread-safe. */
-tetralight_status tetralight_get_lppv_size(const tetralight_lppv_box* box,
-                                           tetralight_lppv_size* size,
-                                           tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** The size of a proxy volume's texture. Thread-safe. */
+TETRALIGHT_API tetralight_status
+tetralight_get_lppv_size(const tetralight_lppv_box* box, tetralight_lppv_size* size,
+                         tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** Fills a texture, x fastest, and its constants. Cost: one query a grid point; allocates. */
-tetralight_status tetralight_fill_lppv(const tetralight_volume* volume,
-                                       const tetralight_lppv_box* box,
-                                       const tetralight_array* texels,
-                                       tetralight_lppv_constants* constants,
-                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** Fills a texture, x fastest, and its constants. Cost: one query per grid point. Allocates. */
+TETRALIGHT_API tetralight_status tetralight_fill_lppv(const tetralight_volume* volume,
+                                                      const tetralight_lppv_box* box,
+                                                      const tetralight_array* texels,
+                                                      tetralight_lppv_constants* constants,
+                                                      tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** A volume as shaders query it (runtime/shader_volume.h): arrays that are ready to upload. */
+/** A volume for queries by shaders (runtime/shader_volume.h): arrays that are ready to upload. */
 typedef struct tetralight_shader_volume tetralight_shader_volume;
 
 /** In the order of their bindings: the uniform block, positions, light, cells, hull rays, seeds. */
 #define TETRALIGHT_SHADER_ARRAY_COUNT 6
 
-/** Makes them; `*made` is to be freed. It does not need the volume afterwards. */
-tetralight_status tetralight_make_shader_volume(const tetralight_volume* volume,
-                                                tetralight_shader_volume** made,
-                                                tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** Makes the arrays. Free `*made` after use. It does not refer to the volume. */
+TETRALIGHT_API tetralight_status
+tetralight_make_shader_volume(const tetralight_volume* volume, tetralight_shader_volume** made,
+                              tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** One of the arrays, valid until it is freed. None is empty. Thread-safe. */
-tetralight_status tetralight_get_shader_array(const tetralight_shader_volume* made, uint32_t index,
-                                              tetralight_const_array* array,
-                                              tetralight_error* error) TETRALIGHT_NOEXCEPT;
+/** One of the arrays, valid until `made` is freed. No array is empty. Thread-safe. */
+TETRALIGHT_API tetralight_status tetralight_get_shader_array(
+    const tetralight_shader_volume* made, uint32_t index, tetralight_const_array* array,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** Frees them; NULL is fine. */
-void tetralight_free_shader_volume(tetralight_shader_volume* made) TETRALIGHT_NOEXCEPT;
+/** Frees the arrays; does nothing if `made` is NULL. */
+TETRALIGHT_API void tetralight_free_shader_volume(tetralight_shader_volume* made)
+    TETRALIGHT_NOEXCEPT;
 
 #ifdef __cplusplus
 }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/probes/recombine.h>
 #include <tetralight/runtime/detail/c_arrays.h>
 #include <tetralight/runtime/detail/c_volume.h>
@@ -87,7 +86,7 @@ tetralight_status tetralight_recombine(tetralight_volume* volume, const float* w
     }
     const std::span<const float> each(weights, weight_count);
     const auto info = check_weights(from, each);
-    if (!info) return finish({TETRALIGHT_BAD_VALUE, error_text(info.error())}, error);
+    if (!info) return finish(info.error(), error);
     if (auto wrong = check_memory("the light of the layers", memory_of_light(*volume))) {
         return finish(wrong, error);
     }

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/lppv/lppv_texture.h>
 #include <tetralight/runtime/detail/c_arrays.h>
 #include <tetralight/runtime/detail/c_volume.h>
@@ -25,16 +24,16 @@ static_assert(offsetof(LppvConstants, shc) == offsetof(tetralight_lppv_constants
 
 CallError check_enumerators(const tetralight_lppv_box& box) {
     if (box.placement > TETRALIGHT_LPPV_CELL_CENTERS) {
-        return {TETRALIGHT_BAD_VALUE, str_cat("placement is ", box.placement)};
+        return {TETRALIGHT_BAD_VALUE, str_cat("placement is out of range: ", box.placement)};
     }
     if (box.quality > TETRALIGHT_LPPV_FULL) {
-        return {TETRALIGHT_BAD_VALUE, str_cat("quality is ", box.quality)};
+        return {TETRALIGHT_BAD_VALUE, str_cat("quality is out of range: ", box.quality)};
     }
     if (box.layout > TETRALIGHT_LPPV_SEVEN_SLABS) {
-        return {TETRALIGHT_BAD_VALUE, str_cat("layout is ", box.layout)};
+        return {TETRALIGHT_BAD_VALUE, str_cat("layout is out of range: ", box.layout)};
     }
     if (box.format > TETRALIGHT_LPPV_FLOAT) {
-        return {TETRALIGHT_BAD_VALUE, str_cat("format is ", box.format)};
+        return {TETRALIGHT_BAD_VALUE, str_cat("format is out of range: ", box.format)};
     }
     return {};
 }
@@ -56,12 +55,13 @@ Result<LppvGrid> make_grid(const tetralight_lppv_box& box) {
     const bool is_finite = std::all_of(floats, floats + sizeof constants / sizeof(float),
                                        [](float value) { return std::isfinite(value); });
     if (is_finite) return grid;
-    return Error{str_cat("the box is too large or too thin for shaders: low (", constants.low.x,
-                         ", ", constants.low.y, ", ", constants.low.z, "), 1 / size (",
-                         constants.size_inverse.x, ", ", constants.size_inverse.y, ", ",
-                         constants.size_inverse.z, "), 1 / scale ",
-                         constants.local_from_world[0][0], ", ", constants.local_from_world[1][1],
-                         ", ", constants.local_from_world[2][2])};
+    return Error{
+        ErrorCode::InvalidArgument,
+        str_cat("the box is too large or too thin for shaders: low (", constants.low.x, ", ",
+                constants.low.y, ", ", constants.low.z, "), 1 / size (", constants.size_inverse.x,
+                ", ", constants.size_inverse.y, ", ", constants.size_inverse.z, "), 1 / scale ",
+                constants.local_from_world[0][0], ", ", constants.local_from_world[1][1], ", ",
+                constants.local_from_world[2][2])};
 }
 
 /// Bytes that a fill allocates at most: the grid's light, the cells of one task, and the texture.
@@ -89,7 +89,7 @@ tetralight_status tetralight_get_lppv_size(const tetralight_lppv_box* box,
     if (auto wrong = check_pointer("size", size)) return finish(wrong, error);
     if (auto wrong = check_enumerators(*box)) return finish(wrong, error);
     const auto grid = make_grid(*box);
-    if (!grid) return finish({TETRALIGHT_BAD_VALUE, error_text(grid.error())}, error);
+    if (!grid) return finish(grid.error(), error);
     *size = {
         {grid->resolution.x * slab_count(layout_of(*box)), grid->resolution.y, grid->resolution.z},
         texture_size(*box, *grid)};
@@ -107,7 +107,7 @@ tetralight_status tetralight_fill_lppv(const tetralight_volume* volume,
     if (auto wrong = check_pointer("constants", constants)) return finish(wrong, error);
     if (auto wrong = check_enumerators(*box)) return finish(wrong, error);
     const auto grid = make_grid(*box);
-    if (!grid) return finish({TETRALIGHT_BAD_VALUE, error_text(grid.error())}, error);
+    if (!grid) return finish(grid.error(), error);
     const size_t bytes = texture_size(*box, *grid);
     if (auto wrong = detail::check_array("texels", *texels, 1, {bytes, 1}, detail::Gaps::Refused)) {
         return finish(wrong, error);
@@ -118,7 +118,7 @@ tetralight_status tetralight_fill_lppv(const tetralight_volume* volume,
     LppvFill fill;
     fill.quality = static_cast<LppvQuality>(box->quality);
     const auto lppv = make_lppv(detail::view_of(*volume), *grid, fill);
-    if (!lppv) return finish({TETRALIGHT_BAD_VALUE, error_text(lppv.error())}, error);
+    if (!lppv) return finish(lppv.error(), error);
     const LppvTexture texture =
         make_lppv_texture(*lppv, layout_of(*box), static_cast<LppvTexelFormat>(box->format));
     const LppvConstants made = make_lppv_constants(*lppv, layout_of(*box));

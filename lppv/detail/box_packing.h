@@ -8,26 +8,27 @@
 
 namespace tetralight::detail {
 
-/// Hands out boxes of a larger box that do not overlap, by cutting the smallest free box that is
-/// large enough (guillotine packing). Deterministic.
+/// Allocates boxes in a larger box without overlap: it cuts the smallest free box that is large
+/// enough (guillotine packing). Deterministic.
 class BoxPacking {
   public:
     explicit BoxPacking(glm::uvec3 size);
 
-    /// The lower corner of a box of this size; none: there is no room. Precondition: no side is 0.
+    /// The minimum corner of a new box of this size, or none if no free box is large enough.
+    /// Precondition: no side is 0.
     [[nodiscard]] std::optional<glm::uvec3> allocate(glm::uvec3 size);
 
-    /// Gives back a box that was handed out.
-    void release(glm::uvec3 low, glm::uvec3 size);
+    /// Frees an allocated box.
+    void release(glm::uvec3 min, glm::uvec3 size);
 
-    /// Texels that are handed out, and all.
+    /// Number of allocated texels, and of all texels.
     [[nodiscard]] uint64_t used() const noexcept { return used_; }
 
     [[nodiscard]] uint64_t capacity() const noexcept;
 
   private:
     struct Box {
-        glm::uvec3 low;
+        glm::uvec3 min;
         glm::uvec3 size;
 
         [[nodiscard]] uint64_t volume() const { return uint64_t{size.x} * size.y * size.z; }

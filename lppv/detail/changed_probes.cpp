@@ -14,15 +14,15 @@ void LitBy::assign(const ProbeVolumeView& probes, std::span<const CellLocation> 
     bool is_first = true;
     uint32_t last = kNoIndex;
     for (const CellLocation& location : locations) {
-        // Neighbors in a row often share their cell.
+        // Consecutive points are often in the same cell.
         if (location.cell == last || location.cell >= probes.cells.size()) continue;
         last = location.cell;
         cells.push_back(last);
         for (const uint32_t probe : probes.cells[last].vertices) {
             if (probe >= probes.positions.size()) continue;
             const glm::vec3& position = probes.positions[probe];
-            low = is_first ? position : glm::min(low, position);
-            high = is_first ? position : glm::max(high, position);
+            min = is_first ? position : glm::min(min, position);
+            max = is_first ? position : glm::max(max, position);
             is_first = false;
         }
     }
@@ -34,11 +34,11 @@ ChangedProbes::ChangedProbes(const ProbeVolumeView& probes, std::span<const uint
     if (is_everything_ || changed.empty()) return;
     is_changed_.resize(probes.positions.size());
     for (const uint32_t probe : changed) {
-        TETRALIGHT_ASSERT(probe < is_changed_.size(), "changed probes are of the volume");
+        TETRALIGHT_ASSERT(probe < is_changed_.size(), "changed probes are probes of the volume");
         is_changed_[probe] = true;
         const glm::vec3& position = probes.positions[probe];
-        low_ = is_empty_ ? position : glm::min(low_, position);
-        high_ = is_empty_ ? position : glm::max(high_, position);
+        min_ = is_empty_ ? position : glm::min(min_, position);
+        max_ = is_empty_ ? position : glm::max(max_, position);
         is_empty_ = false;
     }
 }
@@ -47,7 +47,7 @@ bool ChangedProbes::light(const LitBy& volume) const {
     if (is_everything_) return true;
     if (is_empty_) return false;
     for (int axis = 0; axis < 3; ++axis) {
-        if (low_[axis] > volume.high[axis] || high_[axis] < volume.low[axis]) return false;
+        if (min_[axis] > volume.max[axis] || max_[axis] < volume.min[axis]) return false;
     }
     return std::ranges::any_of(volume.cells, [&](uint32_t cell) { return has_changed(cell); });
 }

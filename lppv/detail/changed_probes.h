@@ -11,26 +11,26 @@
 
 namespace tetralight::detail {
 
-/// What lights the points of a proxy volume.
+/// The cells and probes that light the points of a proxy volume.
 struct LitBy {
-    /// Cells that the points lie in; some may stand there twice.
+    /// Cells that contain the points, with repetitions.
     std::vector<uint32_t> cells;
-    /// Box of the probes of those, local positions.
-    glm::vec3 low{0.0f};
-    glm::vec3 high{0.0f};
+    /// Bounding box of their probes, in local positions.
+    glm::vec3 min{0.0f};
+    glm::vec3 max{0.0f};
 
     void assign(const ProbeVolumeView& probes, std::span<const CellLocation> locations);
 };
 
-/// Probes whose light changed. Asks first whether boxes meet, so that volumes far from the change
-/// cost nearly nothing.
+/// Probes whose light changed. It compares bounding boxes first, so that volumes far from the
+/// change cost little.
 class ChangedProbes {
   public:
-    /// Precondition: `changed` are indices of probes, unless everything changed.
+    /// Precondition: `changed` are indices of probes, unless `is_everything`.
     ChangedProbes(const ProbeVolumeView& probes, std::span<const uint32_t> changed,
                   bool is_everything);
 
-    /// Whether one of them lights a volume.
+    /// True if one of the probes lights a volume.
     [[nodiscard]] bool light(const LitBy& volume) const;
 
   private:
@@ -39,8 +39,8 @@ class ChangedProbes {
     const ProbeVolumeView& probes_;
     bool is_everything_;
     bool is_empty_ = true;
-    glm::vec3 low_{0.0f};
-    glm::vec3 high_{0.0f};
+    glm::vec3 min_{0.0f};
+    glm::vec3 max_{0.0f};
     std::vector<bool> is_changed_;
 };
 

@@ -7,8 +7,8 @@
 
 namespace tetralight::detail {
 
-/// World positions of grid points, as queries take them: `LppvGrid::world_position` with a third of
-/// its arithmetic.
+/// World positions of grid points for queries: `LppvGrid::world_position` with a third of its
+/// arithmetic.
 class GridPositions {
   public:
     explicit GridPositions(const LppvGrid& grid)

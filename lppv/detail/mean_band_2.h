@@ -9,7 +9,8 @@ namespace tetralight::detail {
 
 inline constexpr int kFirstOfBand2 = 4;
 
-/// The mean of band 2 over a grid; bands 0 and 1 are 0. Summed in double, in order.
+/// The mean of band 2 over a grid, summed in double and in order. Bands 0 and 1 of the result are
+/// 0.
 [[nodiscard]] IrradianceSh mean_band_2(std::span<const IrradianceSh> irradiance) noexcept;
 
 }  // namespace tetralight::detail

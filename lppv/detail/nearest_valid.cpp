@@ -9,26 +9,28 @@
 namespace tetralight::detail {
 namespace {
 
-/// Points of one line of the grid that have a valid point, each a parabola of squared distance.
+/// The points of one grid line whose nearest valid point is known, each as a parabola of squared
+/// distance.
 class Line {
   public:
     explicit Line(double spacing) : square_(spacing > 0.0 ? spacing * spacing : 1.0) {}
 
     void clear() { parabolas_.clear(); }
 
-    /// Adds a point; places must grow. Only those that are lowest somewhere are kept.
-    void add(double place, double square_distance, uint32_t point) {
+    /// Adds a point; positions must increase. Keeps only parabolas that are lowest somewhere.
+    void add(double position, double square_distance, uint32_t point) {
         double begin = -std::numeric_limits<double>::infinity();
         while (!parabolas_.empty()) {
             const Parabola& last = parabolas_.back();
-            // Where both are equally far.
-            begin = 0.5 * (place + last.place +
-                           (square_distance - last.height) / (square_ * (place - last.place)));
+            // The position of equal distance.
+            begin =
+                0.5 * (position + last.position +
+                       (square_distance - last.height) / (square_ * (position - last.position)));
             if (begin > last.begin) break;
             parabolas_.pop_back();
             begin = -std::numeric_limits<double>::infinity();
         }
-        parabolas_.push_back({place, square_distance, begin, point});
+        parabolas_.push_back({position, square_distance, begin, point});
     }
 
     struct Nearest {
@@ -36,12 +38,12 @@ class Line {
         uint32_t point;
     };
 
-    /// The lowest parabola at a place; places must grow from 0. Precondition: there is one.
-    [[nodiscard]] Nearest at(double place) {
-        if (place == 0.0) next_ = 0;
-        while (next_ + 1 < parabolas_.size() && parabolas_[next_ + 1].begin < place) ++next_;
+    /// The lowest parabola at a position; positions must increase from 0. Precondition: !empty().
+    [[nodiscard]] Nearest at(double position) {
+        if (position == 0.0) next_ = 0;
+        while (next_ + 1 < parabolas_.size() && parabolas_[next_ + 1].begin < position) ++next_;
         const Parabola& lowest = parabolas_[next_];
-        const double offset = place - lowest.place;
+        const double offset = position - lowest.position;
         return {lowest.height + square_ * offset * offset, lowest.point};
     }
 
@@ -49,9 +51,9 @@ class Line {
 
   private:
     struct Parabola {
-        double place;
+        double position;
         double height;
-        double begin;  ///< from here on it is the lowest
+        double begin;  ///< it is the lowest from here on
         uint32_t point;
     };
 
@@ -60,7 +62,7 @@ class Line {
     size_t next_ = 0;
 };
 
-/// The nearest valid point of each that was found so far, and its squared distance.
+/// For each point the nearest valid point found so far, and its squared distance.
 struct Found {
     std::vector<uint32_t> nearest;
     std::vector<double> square_distance;
@@ -86,7 +88,7 @@ void pass_line(Found& found, Line& line, size_t first, size_t stride, uint32_t c
 std::vector<uint32_t> nearest_valid(glm::uvec3 resolution, glm::dvec3 spacing,
                                     std::span<const float> validity, float min_validity) {
     const size_t size = size_t{resolution.x} * resolution.y * resolution.z;
-    TETRALIGHT_ASSERT(validity.size() == size, "one validity a grid point");
+    TETRALIGHT_ASSERT(validity.size() == size, "one validity per grid point");
     Found found{std::vector<uint32_t>(size, kNoIndex), std::vector<double>(size, 0.0)};
     for (size_t i = 0; i < size; ++i) {
         if (validity[i] >= min_validity) found.nearest[i] = static_cast<uint32_t>(i);

@@ -11,16 +11,16 @@
 
 namespace tetralight::detail {
 
-/// For each grid point the index of the nearest valid one: itself where it is valid, kNoIndex where
-/// none is. Exact for axes at right angles, `spacing` metres between points along each (0 counts as
-/// 1). One pass over the lines of each axis: Felzenszwalb & Huttenlocher 2012, "Distance Transforms
-/// of Sampled Functions", algorithm 1. Precondition: one value a point.
+/// The index of the nearest valid point for each grid point: its own if it is valid, kNoIndex if no
+/// point is valid. Exact for orthogonal axes with `spacing` metres between points (0 counts as 1).
+/// One pass over the lines of each axis: Felzenszwalb & Huttenlocher 2012, "Distance Transforms of
+/// Sampled Functions", algorithm 1. Precondition: one validity per point.
 [[nodiscard]] std::vector<uint32_t> nearest_valid(glm::uvec3 resolution, glm::dvec3 spacing,
                                                   std::span<const float> validity,
                                                   float min_validity);
 
-/// Gives points that are not valid the light and occlusion of their nearest valid ones; occlusion
-/// may be empty. Returns how many it replaced.
+/// Gives each invalid point the light and occlusion of its nearest valid point; occlusion may be
+/// empty. Returns the number of replaced points.
 template <class Light>
 size_t replace_invalid(std::span<const uint32_t> nearest_valid, std::span<Light> light,
                        std::span<glm::vec4> occlusion) noexcept {

@@ -6,8 +6,8 @@
 
 namespace tetralight::detail {
 
-/// Visits the points of boxes so that each is beside the one before it: along z back and forth, so
-/// y, and so x. The next box is entered at the sides where the one before it was left.
+/// Visits the points of boxes so that consecutive points are neighbors: back and forth along z,
+/// then y, then x. Each box begins at the sides where the previous box ended.
 class Serpentine {
   public:
     /// Calls visit(point) for each point of the box [0, size).

@@ -8,9 +8,9 @@
 namespace tetralight::detail {
 namespace {
 
-/// SHA with another share of s6 in its `w`; SHB has 3 s6 as `z`.
-glm::vec4 with_s6(const glm::vec4& sha, const glm::vec4& shb, float share) {
-    return {sha.x, sha.y, sha.z, sha.w + share * shb.z};
+/// Adds `fraction` · 3 s6, which SHB has in `z`, to `w` of SHA.
+glm::vec4 with_s6(const glm::vec4& sha, const glm::vec4& shb, float fraction) {
+    return {sha.x, sha.y, sha.z, sha.w + fraction * shb.z};
 }
 
 constexpr float kThird = 1.0f / 3.0f;

@@ -11,7 +11,7 @@
 
 namespace tetralight::detail {
 
-/// What one grid point writes to each slab.
+/// The texel of one grid point in each slab.
 using SlabTexels = std::array<glm::vec4, 7>;
 
 [[nodiscard]] SlabTexels slab_texels(LppvLayout layout, const PackedSh& light,
@@ -20,13 +20,13 @@ using SlabTexels = std::array<glm::vec4, 7>;
 /// Writes a texel, rounded to the format.
 void write_texel(std::byte* to, LppvTexelFormat format, const glm::vec4& value) noexcept;
 
-/// Leaves out band 2 of packed light.
+/// Packed light without its band 2.
 [[nodiscard]] PackedSh without_band_2(PackedSh light) noexcept;
 
-/// Light of four slabs, whose `w` is s0, together with band 2 of other light.
+/// Light of four slabs, with s0 in `w` of SHA, combined with the band 2 of other light.
 [[nodiscard]] PackedSh with_band_2(PackedSh light, const PackedSh& band_2) noexcept;
 
-/// Light at a place in the first slab, for `sample_sh9`. Four slabs take `band_2`.
+/// Light at coordinates in the first slab, for `sample_sh9`. Four slabs use `band_2`.
 [[nodiscard]] PackedSh sample_slabs(const LppvTexture& texture, glm::vec3 uvw,
                                     const PackedSh& band_2) noexcept;
 

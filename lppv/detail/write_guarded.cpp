@@ -9,7 +9,7 @@
 namespace tetralight::detail {
 namespace {
 
-/// The grid's point whose texel, or copy, lies at `texel` of the guarded box.
+/// The coordinate of the grid point that is written at `texel` of the guarded box.
 uint32_t source_of(uint32_t texel, uint32_t count) {
     return std::min(std::max(texel, 1u) - 1, count - 1);
 }
@@ -24,7 +24,7 @@ void write_row(std::byte* to, const std::byte* from, uint32_t count) {
 }
 
 template <size_t kBytes>
-void write_slabs(LppvTexture& atlas, glm::uvec3 low, glm::uvec3 resolution,
+void write_slabs(LppvTexture& atlas, glm::uvec3 min, glm::uvec3 resolution,
                  const std::byte* texels) {
     const uint32_t slabs = slab_count(atlas.layout);
     const size_t row_bytes = resolution.x * kBytes;
@@ -32,10 +32,10 @@ void write_slabs(LppvTexture& atlas, glm::uvec3 low, glm::uvec3 resolution,
     const size_t slab_width = atlas.size.x / slabs;
     for (uint32_t z = 0; z < resolution.z + 2; ++z) {
         for (uint32_t y = 0; y < resolution.y + 2; ++y) {
-            const size_t row = size_t{low.z - 1 + z} * atlas.size.y + low.y - 1 + y;
+            const size_t row = size_t{min.z - 1 + z} * atlas.size.y + min.y - 1 + y;
             const size_t source_row =
                 size_t{source_of(z, resolution.z)} * resolution.y + source_of(y, resolution.y);
-            std::byte* to = &atlas.texels[(row * atlas.size.x + low.x - 1) * kBytes];
+            std::byte* to = &atlas.texels[(row * atlas.size.x + min.x - 1) * kBytes];
             const std::byte* from = texels + source_row * row_bytes;
             for (uint32_t slab = 0; slab < slabs; ++slab) {
                 write_row<kBytes>(to + slab * slab_width * kBytes, from + slab * slab_bytes,
@@ -47,13 +47,13 @@ void write_slabs(LppvTexture& atlas, glm::uvec3 low, glm::uvec3 resolution,
 
 }  // namespace
 
-void write_guarded(LppvTexture& atlas, glm::uvec3 low, glm::uvec3 resolution,
+void write_guarded(LppvTexture& atlas, glm::uvec3 min, glm::uvec3 resolution,
                    std::span<const std::byte> texels) noexcept {
-    TETRALIGHT_ASSERT(low.x > 0 && low.y > 0 && low.z > 0, "there is room for the guard");
+    TETRALIGHT_ASSERT(min.x > 0 && min.y > 0 && min.z > 0, "the guard lies in the slab");
     if (atlas.format == LppvTexelFormat::Half) {
-        write_slabs<texel_size(LppvTexelFormat::Half)>(atlas, low, resolution, texels.data());
+        write_slabs<texel_size(LppvTexelFormat::Half)>(atlas, min, resolution, texels.data());
     } else {
-        write_slabs<texel_size(LppvTexelFormat::Float)>(atlas, low, resolution, texels.data());
+        write_slabs<texel_size(LppvTexelFormat::Float)>(atlas, min, resolution, texels.data());
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one file that includes OpenVDB and NanoVDB.
+// The only file that includes OpenVDB and NanoVDB.
 #include <tetralight/lppv/vdb/write_vdb.h>
 
 #include <nanovdb/util/IO.h>
@@ -31,16 +31,16 @@ namespace {
 
 constexpr int kSide = kSparseBlockSide;
 
-/// Where the values of one block are: voxel (x, y, z) is point first + x + y · row + z · plane.
+/// A block of voxels and its values: voxel (x, y, z) is point first + x + y · row + z · plane.
 struct Block {
-    glm::ivec3 low{0};        ///< index of its first voxel
+    glm::ivec3 min{0};        ///< index of its first voxel
     glm::ivec3 count{kSide};  ///< active voxels along each axis
     size_t first = 0;
     size_t row = 0;
     size_t plane = 0;
 };
 
-/// The values of a proxy volume as blocks of voxels, whatever it is.
+/// The values of a dense or sparse proxy volume as blocks of voxels.
 struct VoxelBlocks {
     glm::dmat4 world_from_index{1.0};
     std::vector<Block> blocks;
@@ -49,8 +49,8 @@ struct VoxelBlocks {
     std::span<const glm::vec4> occlusion;
 };
 
-/// Voxels need a size along every axis; where points have no spacing it is that of another axis, or
-/// a metre.
+/// Voxels need a size along every axis. Along an axis without spacing it is the largest spacing of
+/// the other axes, or a metre.
 glm::dmat4 world_from_index(const LppvGrid& grid) {
     const glm::dvec3 spacing = grid.spacing();
     const double largest = std::max({spacing.x, spacing.y, spacing.z});
@@ -64,7 +64,7 @@ glm::dmat4 world_from_index(const LppvGrid& grid) {
     return transform;
 }
 
-/// Voxels along each axis: points of an axis without thickness are all at one place.
+/// Voxels along each axis. Along an axis without thickness all points coincide: one voxel.
 glm::ivec3 voxel_counts(const LppvGrid& grid) {
     glm::ivec3 counts(1);
     for (int i = 0; i < 3; ++i) {
@@ -78,11 +78,11 @@ VoxelBlocks voxel_blocks(const Lppv& lppv) {
     const size_t row = lppv.grid.resolution.x, plane = row * lppv.grid.resolution.y;
     VoxelBlocks voxels{
         world_from_index(lppv.grid), {}, lppv.irradiance, lppv.validity, lppv.occlusion};
-    for (glm::ivec3 low(0); low.z < size.z; low.z += kSide) {
-        for (low.y = 0; low.y < size.y; low.y += kSide) {
-            for (low.x = 0; low.x < size.x; low.x += kSide) {
-                voxels.blocks.push_back({low, glm::min(size - low, glm::ivec3(kSide)),
-                                         lppv.grid.point_index(glm::uvec3(low)), row, plane});
+    for (glm::ivec3 min(0); min.z < size.z; min.z += kSide) {
+        for (min.y = 0; min.y < size.y; min.y += kSide) {
+            for (min.x = 0; min.x < size.x; min.x += kSide) {
+                voxels.blocks.push_back({min, glm::min(size - min, glm::ivec3(kSide)),
+                                         lppv.grid.point_index(glm::uvec3(min)), row, plane});
             }
         }
     }
@@ -102,7 +102,7 @@ VoxelBlocks voxel_blocks(const SparseLppv& lppv) {
     return voxels;
 }
 
-/// OpenVDB multiplies row vectors: its rows are the columns here.
+/// OpenVDB multiplies row vectors, so that the rows of its matrices are our columns.
 openvdb::math::Transform::Ptr make_transform(const glm::dmat4& m) {
     return openvdb::math::Transform::createLinearTransform(openvdb::Mat4d(&m[0][0]));
 }
@@ -117,10 +117,10 @@ void add_metadata(openvdb::MetaMap& map) {
     map.insertMeta("sh:axes", openvdb::StringMetadata("right-handed, Y up, metres (glTF)"));
 }
 
-/// One block as a leaf of a tree. None: a whole block of one value.
+/// One block as a leaf of a tree; null if all its voxels have one value.
 template <class Leaf, class Value>
 std::unique_ptr<Leaf> make_leaf(const Block& block, Value value) {
-    auto leaf = std::make_unique<Leaf>(openvdb::Coord(block.low.x, block.low.y, block.low.z));
+    auto leaf = std::make_unique<Leaf>(openvdb::Coord(block.min.x, block.min.y, block.min.z));
     auto* voxels = leaf->buffer().data();
     for (int x = 0; x < block.count.x; ++x) {
         for (int y = 0; y < block.count.y; ++y) {
@@ -139,7 +139,7 @@ std::unique_ptr<Leaf> make_leaf(const Block& block, Value value) {
     return leaf;
 }
 
-/// One grid: `value(i)` is that of point i.
+/// A grid with `value(i)` at point i.
 template <class Grid, class Value>
 typename Grid::Ptr make_grid(const std::string& name, const VoxelBlocks& voxels, Value value) {
     using Leaf = typename Grid::TreeType::LeafNodeType;
@@ -153,7 +153,7 @@ typename Grid::Ptr make_grid(const std::string& name, const VoxelBlocks& voxels,
         if (leaves[i]) {
             grid->tree().addLeaf(leaves[i].release());
         } else {
-            const openvdb::Coord at(block.low.x, block.low.y, block.low.z);
+            const openvdb::Coord at(block.min.x, block.min.y, block.min.z);
             grid->tree().addTile(/*level=*/1, at, value(block.first), /*active=*/true);
         }
     }
@@ -164,50 +164,66 @@ typename Grid::Ptr make_grid(const std::string& name, const VoxelBlocks& voxels,
     return grid;
 }
 
-openvdb::GridPtrVec make_grids(const VoxelBlocks& voxels, VdbPrecision precision) {
-    openvdb::GridPtrVec grids;
-    // OpenVDB would write infinity for what is beyond the largest half.
-    const float most =
+/// The grids of a file.
+struct Grids {
+    std::vector<openvdb::Vec3SGrid::Ptr> irradiance;
+    std::vector<openvdb::FloatGrid::Ptr> scalars;  ///< validity and occlusion
+};
+
+Grids make_grids(const VoxelBlocks& voxels, VdbPrecision precision) {
+    Grids grids;
+    // OpenVDB would write infinity for values beyond the largest half.
+    const float limit =
         precision == VdbPrecision::Half ? kLargestHalf : std::numeric_limits<float>::max();
     for (int k = 0; k < kShCoefficientCount; ++k) {
-        grids.push_back(make_grid<openvdb::Vec3SGrid>(str_cat("sh", k), voxels, [&](size_t i) {
-            const glm::vec3 c =
-                glm::clamp(voxels.irradiance[i].coefficients[static_cast<size_t>(k)], -most, most);
+        const auto coefficient = [&](size_t i) {
+            const glm::vec3 c = glm::clamp(
+                voxels.irradiance[i].coefficients[static_cast<size_t>(k)], -limit, limit);
             return openvdb::Vec3s(c.x, c.y, c.z);
-        }));
+        };
+        grids.irradiance.push_back(
+            make_grid<openvdb::Vec3SGrid>(str_cat("sh", k), voxels, coefficient));
     }
-    grids.push_back(make_grid<openvdb::FloatGrid>("validity", voxels, [&](size_t i) {
+    grids.scalars.push_back(make_grid<openvdb::FloatGrid>("validity", voxels, [&](size_t i) {
         return voxels.validity.empty() ? 1.0f : voxels.validity[i];
     }));
     for (int k = 0; k < 4 && !voxels.occlusion.empty(); ++k) {
-        grids.push_back(make_grid<openvdb::FloatGrid>(
+        grids.scalars.push_back(make_grid<openvdb::FloatGrid>(
             str_cat("occlusion", k), voxels, [&](size_t i) { return voxels.occlusion[i][k]; }));
     }
-    for (const auto& grid : grids) grid->setSaveFloatAsHalf(precision == VdbPrecision::Half);
     return grids;
 }
 
-/// Gives access to the writer behind openvdb::io::File, which insists on a path of its own.
+/// Makes the writer of openvdb::io::File public: File itself writes only to a path.
 struct Archive : openvdb::io::Archive {
     using openvdb::io::Archive::write;
 };
 
 void write_openvdb(std::ostream& stream, const VoxelBlocks& voxels, VdbPrecision precision) {
-    Archive archive;
+    const Grids grids = make_grids(voxels, precision);
+    openvdb::GridPtrVec all(grids.irradiance.begin(), grids.irradiance.end());
+    all.insert(all.end(), grids.scalars.begin(), grids.scalars.end());
+    for (const auto& grid : all) grid->setSaveFloatAsHalf(precision == VdbPrecision::Half);
     openvdb::MetaMap metadata;
     add_metadata(metadata);
-    archive.write(stream, make_grids(voxels, precision), /*seekable=*/true, metadata);
+    Archive().write(stream, all, /*seekable=*/true, metadata);
 }
 
 void write_nanovdb(std::ostream& stream, const VoxelBlocks& voxels) {
+    const Grids grids = make_grids(voxels, VdbPrecision::Float);
     std::vector<nanovdb::GridHandle<>> handles;
-    for (const auto& grid : make_grids(voxels, VdbPrecision::Float)) {
-        handles.push_back(nanovdb::openToNanoVDB(grid));
+    // The function for grids of unknown type instantiates the converters of 13 types of values:
+    // most of the time that this file takes to compile.
+    for (const auto& grid : grids.irradiance) {
+        handles.push_back(nanovdb::openToNanoVDB<nanovdb::HostBuffer>(*grid));
+    }
+    for (const auto& grid : grids.scalars) {
+        handles.push_back(nanovdb::openToNanoVDB<nanovdb::HostBuffer>(*grid));
     }
     nanovdb::io::writeGrids(stream, handles);
 }
 
-/// Encodes in memory, since both libraries seek in what they write, and writes the whole.
+/// Encodes in memory, because both libraries seek while they write, and then writes the file.
 template <class Encode>
 Status write_encoded(const std::string& path, uint32_t thread_count, Encode encode) {
     try {
@@ -223,7 +239,8 @@ Status write_encoded(const std::string& path, uint32_t thread_count, Encode enco
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{str_cat(path, ": cannot encode the volume (", exception.what(), ")")};
+        return Error{ErrorCode::InvalidArgument,
+                     str_cat(path, ": cannot encode the volume (", exception.what(), ")")};
     }
 }
 

@@ -9,30 +9,22 @@
 
 namespace tetralight::detail {
 
-tetralight_status finish(const CallError& wrong, tetralight_error* error) {
-    if (error) {
-        const size_t length = std::min(wrong.message.size(), sizeof error->message - 1);
-        std::memcpy(error->message, wrong.message.data(), length);
-        error->message[length] = '\0';
-    }
-    return wrong.status;
-}
-
 CallError check_aligned(const char* name, const void* pointer, size_t alignment) {
     if (reinterpret_cast<uintptr_t>(pointer) % alignment == 0) return {};
     return {TETRALIGHT_BAD_POINTER, str_cat(name, " is not aligned to ", alignment, " bytes")};
 }
 
-CallError check_place(const char* name, const void* pointer, size_t alignment) {
+CallError check_required(const char* name, const void* pointer, size_t alignment) {
     if (!pointer) return {TETRALIGHT_BAD_POINTER, str_cat(name, " is NULL")};
     return check_aligned(name, pointer, alignment);
 }
 
 CallError check_memory(const char* what, size_t bytes) {
-    // `volatile`: compilers may leave out memory that is not used.
+    // Compilers may remove an allocation that is not used, but not a volatile one.
     void* volatile memory = ::operator new(bytes, std::nothrow);
-    if (!memory)
+    if (!memory) {
         return {TETRALIGHT_OUT_OF_MEMORY, str_cat("no memory for ", what, ": ", bytes, " bytes")};
+    }
     ::operator delete(memory);
     return {};
 }
@@ -53,7 +45,7 @@ CallError check_finite(const char* name, std::span<const float> floats) {
 CallError check_array(const char* name, const tetralight_const_array& array, size_t count,
                       ElementLayout element, Gaps gaps) {
     if (count == 0) return {};
-    if (auto wrong = check_place(name, array.data, element.alignment)) return wrong;
+    if (auto wrong = check_required(name, array.data, element.alignment)) return wrong;
     const size_t stride = array.stride == 0 ? element.size : array.stride;
     const bool is_gap = stride != element.size;
     if (stride < element.size || stride % element.alignment != 0 ||

@@ -5,63 +5,51 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <span>
-#include <string>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/runtime/detail/c_errors.h>
 #include <tetralight/runtime/tetralight.h>
 
-// What C callers hand in, checked before it is touched.
+// Checks the pointers, arrays and numbers of C callers before they are used.
 
 namespace tetralight::detail {
 
-/// Why a call of the C API fails; true where it does.
-struct CallError {
-    tetralight_status status = TETRALIGHT_OK;
-    std::string message;
-
-    explicit operator bool() const { return status != TETRALIGHT_OK; }
-};
-
-/// Hands an error, or an empty message, to the caller.
-tetralight_status finish(const CallError& wrong, tetralight_error* error);
-
-/// What every call that succeeds ends with.
-inline tetralight_status succeed(tetralight_error* error) {
-    return finish({}, error);
-}
-
+/// An optional pointer must be aligned.
 [[nodiscard]] CallError check_aligned(const char* name, const void* pointer, size_t alignment);
-[[nodiscard]] CallError check_place(const char* name, const void* pointer, size_t alignment);
 
-/// Whether a pointer that is needed leads to a place for its type.
+/// A required pointer must be aligned and not NULL.
+[[nodiscard]] CallError check_required(const char* name, const void* pointer, size_t alignment);
+
+/// The same for the alignment of a type.
 template <class Type>
 [[nodiscard]] CallError check_pointer(const char* name, const Type* pointer) {
-    return check_place(name, pointer, alignof(Type));
+    return check_required(name, pointer, alignof(Type));
 }
 
-/// Whether the system has this much memory to give; `what` is for.
+/// Fails if the system refuses one piece of memory of this size for `what`. It is given back at
+/// once: the result says nothing about later allocations.
 [[nodiscard]] CallError check_memory(const char* what, size_t bytes);
 
-/// Floats that are handed in one by one: there, and all finite.
+/// `count` floats must be readable and finite.
 [[nodiscard]] CallError check_floats(const char* name, const float* floats, size_t count);
 [[nodiscard]] CallError check_finite(const char* name, std::span<const float> floats);
 
-/// One element of an array: its bytes, and those of one of its numbers.
+/// The bytes of one element of an array, and of one of its numbers.
 struct ElementLayout {
     size_t size = 0;
     size_t alignment = 4;
 };
 
-/// Whether elements may lie apart.
+/// Gaps between the elements of an array.
 enum class Gaps { Allowed, Refused };
 
-/// Whether an array holds `count` elements, its numbers aligned.
+/// An array must have room for `count` elements, with aligned numbers.
 [[nodiscard]] CallError check_array(const char* name, const tetralight_const_array& array,
                                     size_t count, ElementLayout element, Gaps gaps = Gaps::Allowed);
 [[nodiscard]] CallError check_array(const char* name, const tetralight_array& array, size_t count,
                                     ElementLayout element, Gaps gaps = Gaps::Allowed);
 
-/// Elements from one on, as answers are written.
+/// The elements of an output array from one of them to the end.
 struct ByteRows {
     std::span<std::byte> memory;
     size_t stride = 0;
@@ -69,13 +57,13 @@ struct ByteRows {
 
 [[nodiscard]] ByteRows output_of(const tetralight_array& array, size_t element_size, size_t begin);
 
-/// The positions of a checked array in blocks without gaps: as they lie, or copied.
+/// The positions of a checked array in blocks without gaps; they are copied if the array has gaps.
 class PositionBlocks {
   public:
     PositionBlocks(const tetralight_const_array& positions, size_t count)
         : array_(positions), count_(count) {}
 
-    /// Goes to the next block. False: there is none.
+    /// Goes to the next block; false at the end.
     [[nodiscard]] bool next();
 
     [[nodiscard]] size_t begin() const { return begin_; }

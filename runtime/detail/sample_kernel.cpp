@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once for each kind of processor: Highway includes this file again and again.
+// Highway includes this file once for each instruction set.
 #include <tetralight/runtime/detail/sample_kernel.h>
 
 #undef HWY_TARGET_INCLUDE

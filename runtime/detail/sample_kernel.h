@@ -15,7 +15,7 @@ struct NormalPolynomial {
     }
 };
 
-/// Normals, and what is sampled at them: an array for each coordinate and each channel.
+/// Normals and their light: one array per coordinate and per channel.
 struct NormalArrays {
     const float* x;
     const float* y;
@@ -25,12 +25,12 @@ struct NormalArrays {
     float* blue;
 };
 
-/// Three polynomials at `count` normals: the fastest code of this machine. Exists where Highway was
-/// found.
+/// Evaluates three polynomials at `count` normals with the best instruction set of the processor.
+/// Only in builds with Highway.
 void sample_fastest(const NormalPolynomial* polynomials, const NormalArrays& arrays,
                     size_t count) noexcept;
 
-/// What the vector code leaves over, [begin, count), and all where there is none.
+/// The scalar code: the remainder [begin, count) after the vector code, or all without Highway.
 inline void sample_rest(const NormalPolynomial* polynomials, const NormalArrays& arrays,
                         size_t begin, size_t count) {
     for (size_t i = begin; i < count; ++i) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first file of the shader library: what its languages do not share. The other files follow in
-// any order that puts sh.glsl before query.glsl, and end.glsl comes last.
+// The first file of the shader library: the differences between the shading languages. The other
+// files follow; sh.glsl must precede lppv.glsl and query*.glsl, and end.glsl must be the last. All
+// names begin with tetralight_, Tetralight or TETRALIGHT_. For HLSL this file also defines names of
+// GLSL as macros, which end.glsl undefines.
 //
-// GLSL 3.30 to 4.60 and GLSL ES 3.00 to 3.20 need no macro. HLSL: #define TETRALIGHT_HLSL before
-// this file. The library reads its volume from buffers, or with TETRALIGHT_TEXTURES from textures
-// (GLSL ES, whose stages may lack storage buffers, and GLSL before 4.30 do so by themselves).
+// GLSL 3.30 to 4.60 and GLSL ES 3.00 to 3.20 need no macro. For HLSL define TETRALIGHT_HLSL before
+// this file. The library reads the volume from buffers, or from textures if TETRALIGHT_TEXTURES is
+// defined. This file defines it for GLSL ES, where stages may lack storage buffers, and for GLSL
+// before 4.30.
 #if defined(TETRALIGHT_CPP)
 #define TETRALIGHT_CONST static constexpr
 #elif defined(TETRALIGHT_HLSL)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last file of the shader library: takes back the words that begin.glsl lent to HLSL.
+// The last file of the shader library: undefines the names that begin.glsl defines for HLSL.
 #if defined(TETRALIGHT_HLSL)
 #undef vec3
 #undef vec4

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sampling proxy volumes: the twin of lppv/lppv_texture.h and lppv/lppv_atlas.h, whose structs these
-// are in std140 and constant buffers. Textures: linear filter, edges clamped, one level. In HLSL a
-// texture is followed by its sampler:
+// Samples proxy volumes. The C++ twins are lppv/lppv_texture.h and lppv/lppv_atlas.h, whose structs
+// have the layout of these structs in std140 and constant buffers. Textures need the linear filter,
+// clamped edges and one level. In HLSL the sampler follows its texture:
 //     tetralight_sample_lppv_4(volume, volume_sampler, constants, world_position)
 //
 //     TetralightPackedSh sh = tetralight_sample_lppv_4(volume, constants, world_position);
@@ -29,34 +29,34 @@ struct TetralightLppvAtlasConstants {
     vec4 shc;
 };
 
-// 0 to 1 from edge to edge of the volume's outer texels.
+// Coordinates in the volume: 0 to 1 from edge to edge of the outer texels.
 vec3 tetralight_lppv_coordinates(TetralightLppvConstants c, vec3 world_position) {
     vec4 world = vec4(world_position.x, world_position.y, world_position.z, 1.0f);
-    vec4 place = c.params.y == 1.0f ? TETRALIGHT_MUL(c.local_from_world, world) : world;
-    return (place.xyz - c.low.xyz) * c.size_inverse.xyz;
+    vec4 local = c.params.y == 1.0f ? TETRALIGHT_MUL(c.local_from_world, world) : world;
+    return (local.xyz - c.low.xyz) * c.size_inverse.xyz;
 }
 
-// Coordinates in the first slab, half a texel from the slab's sides; y and z are the sampler's to
-// clamp.
+// Coordinates in the first slab, with x at least half a texel inside the slab. The sampler clamps y
+// and z.
 vec3 tetralight_lppv_slab(TetralightLppvConstants c, vec3 world_position, float slabs) {
     vec3 uvw = tetralight_lppv_coordinates(c, world_position);
     uvw.x = clamp(uvw.x / slabs, 0.5f * c.params.z, 1.0f / slabs - 0.5f * c.params.z);
     return uvw;
 }
 
-// Coordinates in the first slab of an atlas, clamped to the middles of the volume's outer texels.
+// Coordinates in the first slab of an atlas, clamped to the centers of the volume's outer texels.
 vec3 tetralight_atlas_slab(TetralightLppvAtlasConstants c, vec3 world_position) {
     vec4 world = vec4(world_position.x, world_position.y, world_position.z, 1.0f);
     return clamp(TETRALIGHT_MUL(c.texture_from_world, world).xyz, c.low.xyz, c.high.xyz);
 }
 
-// Slab i of a texture, at coordinates in the first.
+// A slab of a texture at coordinates in the first slab.
 vec4 tetralight_slab(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw, float slab, float slab_count) {
     return TETRALIGHT_SAMPLE_3D(slabs, uvw + vec3(slab / slab_count, 0.0f, 0.0f));
 }
 
-// Four slabs have s0 as w of SHA, and band 2 is that of the whole object: SHB has 3 s6 as z, and SHA
-// is to hold s0 - s6.
+// Four slabs store s0 in w of SHA, and band 2 is constant for the object. The result has s0 - s6 in
+// w of SHA; SHB has 3 s6 in z.
 TetralightPackedSh tetralight_four_slabs(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw, vec4 shb_r,
                                          vec4 shb_g, vec4 shb_b, vec4 shc) {
     float third = 1.0f / 3.0f;
@@ -86,21 +86,21 @@ TetralightPackedSh tetralight_seven_slabs(TETRALIGHT_TEXTURE_3D(slabs), vec3 uvw
     return sh;
 }
 
-// Light of a texture of four slabs, band 2 included.
+// The light in a texture of four slabs, with band 2 from the constants.
 TetralightPackedSh tetralight_sample_lppv_4(TETRALIGHT_TEXTURE_3D(slabs), TetralightLppvConstants c,
                                             vec3 world_position) {
     vec3 uvw = tetralight_lppv_slab(c, world_position, 4.0f);
     return tetralight_four_slabs(TETRALIGHT_PASS_3D(slabs), uvw, c.shb_r, c.shb_g, c.shb_b, c.shc);
 }
 
-// Light of a texture of seven slabs.
+// The light in a texture of seven slabs.
 TetralightPackedSh tetralight_sample_lppv_7(TETRALIGHT_TEXTURE_3D(slabs), TetralightLppvConstants c,
                                             vec3 world_position) {
     return tetralight_seven_slabs(TETRALIGHT_PASS_3D(slabs),
                                   tetralight_lppv_slab(c, world_position, 7.0f));
 }
 
-// The last of four slabs: four channels, 1 = lit.
+// The occlusion in a texture of four slabs: four channels, 1 = lit.
 vec4 tetralight_sample_lppv_occlusion(TETRALIGHT_TEXTURE_3D(slabs), TetralightLppvConstants c,
                                       vec3 world_position) {
     vec3 uvw = tetralight_lppv_coordinates(c, world_position);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locates a position among the probes and blends them, on the GPU: the walk and the cells of
-// probes/locate.h, in floats. Twin in C++: runtime/shader_query.h, which compiles this text.
+// Locates a position among the probes and blends them on the GPU: the walk and the cells of
+// probes/locate.h, in floats. The C++ twin (runtime/shader_query.h) compiles this text.
 //
 //   // hint: the cell of the last query near by, or any number
 //   TetralightCellLocation location = tetralight_locate(world_position, hint);
@@ -8,39 +8,39 @@
 //   color = albedo * max(tetralight_sample_sh9(probe.sh, normal), 0.0);
 
 TETRALIGHT_CONST uint tetralight_no_cell = 4294967295u;
-// Cells that a walk tests at most.
+// Maximum number of cells that a walk tests.
 TETRALIGHT_CONST uint tetralight_walk_limit = 1024u;
-// Share of the products that make a volume up, below which floats see a sliver: it holds no
-// position, and those in it belong to the cells beside it.
+// A tetrahedron whose volume is a smaller fraction of the sum of its products is a sliver, whose
+// weights floats cannot compute: its positions belong to the neighboring cells.
 TETRALIGHT_CONST float tetralight_sliver = 5e-5f;
 TETRALIGHT_CONST float tetralight_sliver_scale = 1e-18f;
 TETRALIGHT_CONST float tetralight_least_sum = 1e-15f;
-// Two neighbors that send the walk to each other with shares below this are more than rounding.
+// A walk between two cells accepts the better one if its measure is at least this: rounding error.
 TETRALIGHT_CONST float tetralight_settled = -1e-4f;
 TETRALIGHT_CONST float tetralight_outside = -1e30f;
 
-// A position as a blend: the sum of weights[i] times probe i of the cell. They are >= 0 and sum to
-// 1. tetralight_no_cell: there are no probes, or the position is not finite; the light is ambient.
+// The cell of a position and the weights of its probes, which are >= 0 and sum to 1. The cell is
+// tetralight_no_cell, and the light ambient, if there are no probes or the position is not finite.
 struct TetralightCellLocation {
     uint cell;
     vec4 weights;
 };
 
-// What a volume answers for one position.
+// The light at one position.
 struct TetralightPackedProbe {
     TetralightPackedSh sh;
     // Four channels, 1 = lit.
     vec4 occlusion;
 };
 
-// The best of the cells that were considered: `measure` is its smallest weight as a share of all.
+// The best cell so far; `measure` is its smallest weight divided by the sum of its weights.
 struct TetralightCandidate {
     TetralightCellLocation location;
     float measure;
 };
 
-// Signed volumes, in the proportions of barycentric weights. Normals come from edges, so that signs
-// are right wherever the walk comes from.
+// Signed volumes, proportional to barycentric weights. Normals are computed from edges, so that the
+// signs do not depend on the direction of the walk.
 vec4 tetralight_tetrahedron_weights(uvec4 vertices, vec3 position) {
     vec3 p0 = tetralight_probe_position(vertices.x);
     vec3 p1 = tetralight_probe_position(vertices.y);
@@ -64,7 +64,7 @@ vec4 tetralight_tetrahedron_weights(uvec4 vertices, vec3 position) {
     return is_sliver ? weights * tetralight_sliver_scale : weights;
 }
 
-// Probes in a plane: areas seen along its normal.
+// For probes in a plane: signed areas along the normal of the plane.
 vec4 tetralight_triangle_weights(uvec4 vertices, vec3 position) {
     vec3 axis = vec3(tetralight_volume.axis.x, tetralight_volume.axis.y, tetralight_volume.axis.z);
     vec3 p0 = tetralight_probe_position(vertices.x);
@@ -80,7 +80,7 @@ vec4 tetralight_triangle_weights(uvec4 vertices, vec3 position) {
                 dot(axis, cross((p1 - p0) * unit, r0 * unit)), 0.0f);
 }
 
-// Probes on a line.
+// For probes on a line: signed distances.
 vec4 tetralight_segment_weights(uvec4 vertices, vec3 position) {
     vec3 axis = vec3(tetralight_volume.axis.x, tetralight_volume.axis.y, tetralight_volume.axis.z);
     vec3 r0 = position - tetralight_probe_position(vertices.x);
@@ -91,7 +91,7 @@ vec4 tetralight_segment_weights(uvec4 vertices, vec3 position) {
     return vec4(-along1 * unit, along0 * unit, 0.0f, 0.0f);
 }
 
-// Not normalized; a negative one says that the position lies beyond the face opposite its corner.
+// Not normalized. If a weight is negative, the position lies outside the face opposite its vertex.
 vec4 tetralight_cell_weights(uint cell, vec3 position) {
     uvec4 vertices = tetralight_cell_vertices(cell);
     uint dimension = tetralight_volume.counts.w;
@@ -106,7 +106,7 @@ vec4 tetralight_cell_weights(uint cell, vec3 position) {
     return tetralight_hull_end_weights(cell, vertices, position);
 }
 
-// Smallest weight as a share of the sum: >= 0 inside the cell.
+// The smallest weight divided by the sum of weights: >= 0 inside the cell.
 float tetralight_inside_measure(vec4 weights) {
     float sum = (weights.x + weights.z) + (weights.y + weights.w);
     if (!(sum > tetralight_least_sum)) return tetralight_outside;
@@ -139,7 +139,8 @@ TetralightCandidate tetralight_better(TetralightCandidate best, uint cell, vec4 
     return best;
 }
 
-// The neighbors of a cell, and theirs: where a walk went round, or stopped between two cells.
+// Tests the neighbors of a cell and their neighbors, after a walk that ended in a cycle or between
+// two cells.
 TetralightCandidate tetralight_search_near(TetralightCandidate best, uint cell, vec3 position) {
     uvec4 around = tetralight_cell_neighbors(cell);
     for (int i = 0; i < 4 && best.measure < 0.0f; ++i) {
@@ -191,13 +192,13 @@ vec3 tetralight_local_position(vec3 position) {
     return size * largest > farthest ? direction * (farthest / size) : local;
 }
 
-// Up to 3e38, from the bits: drivers may compare as if there were no NaN.
+// True up to 3e38. Tests the bits, because drivers may compile comparisons as if NaN did not exist.
 bool tetralight_is_finite(float x) {
     return (floatBitsToUint(x) & 0x7fffffffu) <= 0x7f61b1e6u;
 }
 
-// Finds the cell that holds a world position, and the weights of its probes. `hint`: the cell of
-// the last query near by, or any number that is no cell's index.
+// Finds the cell that contains a world position, and the weights of its probes. `hint` is the cell
+// of a query near by, or any number that is not the index of a cell.
 TetralightCellLocation tetralight_locate(vec3 position, uint hint) {
     TetralightCellLocation location;
     location.cell = tetralight_no_cell;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Weights in the cells outside of the hull: the one triangle (p_i + t v_i), t >= 0, whose plane
-// holds the position first (Cupisz, GDC 2012), as probes/detail/hull_cell.cpp has it. Differences
-// of probes are taken before anything else, so that floats are exact enough far from the hull, too.
+// Weights in the cells outside the hull: those of the first triangle (p_i + t v_i), t >= 0, whose
+// plane contains the position (Cupisz, GDC 2012), as in probes/detail/hull_cell.cpp. Positions are
+// subtracted first, so that floats suffice far from the hull too.
 
 TETRALIGHT_CONST float tetralight_farthest_root = 1048576.0f;
-// Square of an area that floats cannot tell from 0, where the edges have length 1.
+// Squared area that floats cannot distinguish from 0 for edges of length 1.
 TETRALIGHT_CONST float tetralight_flat_triangle = 1e-12f;
 
 float tetralight_evaluate(vec4 c, float t) {
@@ -15,27 +15,27 @@ float tetralight_derivative(vec4 c, float t) {
     return (3.0f * c.w * t + 2.0f * c.z) * t + c.y;
 }
 
-// The root in [low, high], where the cubic goes from positive to not positive: Newton's steps, or
-// halving where they leave the bracket.
-float tetralight_bracketed_root(vec4 c, float low, float high) {
-    float t = 0.5f * (low + high);
+// The root in [lower, upper], where the cubic changes from positive to not positive: Newton's
+// method, or bisection for steps that leave the bracket.
+float tetralight_bracketed_root(vec4 c, float lower, float upper) {
+    float t = 0.5f * (lower + upper);
     for (int i = 0; i < 48; ++i) {
         float value = tetralight_evaluate(c, t);
         if (value > 0.0f) {
-            low = t;
+            lower = t;
         } else {
-            high = t;
+            upper = t;
         }
         float next = t - value / tetralight_derivative(c, t);
-        if (!(next > low && next < high)) next = 0.5f * (low + high);
-        if (abs(next - t) <= 1e-7f * high) return next;
+        if (!(next > lower && next < upper)) next = 0.5f * (lower + upper);
+        if (abs(next - t) <= 1e-7f * upper) return next;
         t = next;
     }
     return t;
 }
 
-// The root of a cubic that is positive at 0 and falls ever faster: Newton's steps come down to it
-// from the root of its first three terms.
+// The root of a concave cubic that is positive and falling at 0: Newton's method starts at the root
+// of its first three terms and decreases towards it.
 float tetralight_falling_root(vec4 c) {
     float t = 2.0f * c.x / (sqrt(c.y * c.y - 4.0f * c.z * c.x) - c.y);
     for (int i = 0; i < 24; ++i) {
@@ -46,14 +46,14 @@ float tetralight_falling_root(vec4 c) {
     return t;
 }
 
-// Smallest t >= 0 where the cubic, positive at 0, is no longer positive; -1: none.
+// Smallest t >= 0 at which a cubic that is positive at 0 is not positive; -1 if there is none.
 float tetralight_first_root(vec4 c) {
     if (c.y < 0.0f && c.z <= 0.0f && c.w <= 0.0f) {
         float root = tetralight_falling_root(c);
         return root <= tetralight_farthest_root ? root : -1.0f;
     }
-    // Where the slope is zero: stable quadratic formula.
-    float low = 0.0f;
+    // The zeros of the derivative, by the stable quadratic formula.
+    float lower = 0.0f;
     float discriminant = c.z * c.z - 3.0f * c.w * c.y;
     if (discriminant >= 0.0f) {
         float q = -c.z + (c.z < 0.0f ? 1.0f : -1.0f) * sqrt(discriminant);
@@ -61,33 +61,35 @@ float tetralight_first_root(vec4 c) {
         float second = q != 0.0f ? c.y / q : -1.0f;
         float nearer = min(first, second);
         float farther = max(first, second);
-        if (nearer > low) {
+        if (nearer > lower) {
             if (tetralight_evaluate(c, nearer) <= 0.0f) {
-                return tetralight_bracketed_root(c, low, nearer);
+                return tetralight_bracketed_root(c, lower, nearer);
             }
-            low = nearer;
+            lower = nearer;
         }
-        if (farther > low) {
+        if (farther > lower) {
             if (tetralight_evaluate(c, farther) <= 0.0f) {
-                return tetralight_bracketed_root(c, low, farther);
+                return tetralight_bracketed_root(c, lower, farther);
             }
-            low = farther;
+            lower = farther;
         }
     }
-    float high = max(1.0f, 2.0f * low);
-    for (int i = 0; i < 21 && high <= tetralight_farthest_root; ++i) {
-        if (tetralight_evaluate(c, high) <= 0.0f) return tetralight_bracketed_root(c, low, high);
-        high *= 2.0f;
+    float upper = max(1.0f, 2.0f * lower);
+    for (int i = 0; i < 21 && upper <= tetralight_farthest_root; ++i) {
+        if (tetralight_evaluate(c, upper) <= 0.0f) {
+            return tetralight_bracketed_root(c, lower, upper);
+        }
+        upper *= 2.0f;
     }
     return -1.0f;
 }
 
-// More than rounding makes of a cubic whose lengths are of order 1.
+// Larger than the rounding error of a cubic whose lengths are of order 1.
 TETRALIGHT_CONST float tetralight_risen = 1e-6f;
 
-// As `tetralight_first_root`, for any cubic; -1 where it is negative from the beginning. A triangle
-// that is thinner than steps of its positions may face inwards and turn outwards as it grows: there
-// the cubic rises above zero first.
+// As `tetralight_first_root` for any cubic; -1 if it is never positive. A triangle that is thinner
+// than the rounding of its positions may face inwards at t = 0 and outwards later: the cubic then
+// becomes positive first.
 float tetralight_first_meeting(vec4 c) {
     if (c.x > 0.0f) return tetralight_first_root(c);
     float discriminant = c.z * c.z - 3.0f * c.w * c.y;
@@ -95,15 +97,15 @@ float tetralight_first_meeting(vec4 c) {
         float q = -c.z + (c.z < 0.0f ? 1.0f : -1.0f) * sqrt(discriminant);
         float top = max(c.w != 0.0f ? q / (3.0f * c.w) : -1.0f, q != 0.0f ? c.y / q : -1.0f);
         if (top > 0.0f && tetralight_evaluate(c, top) > tetralight_risen) {
-            float high = max(1.0f, 2.0f * top);
-            for (int i = 0; i < 21 && tetralight_evaluate(c, high) > 0.0f; ++i) high *= 2.0f;
-            if (high <= tetralight_farthest_root) return tetralight_bracketed_root(c, top, high);
+            float upper = max(1.0f, 2.0f * top);
+            for (int i = 0; i < 21 && tetralight_evaluate(c, upper) > 0.0f; ++i) upper *= 2.0f;
+            if (upper <= tetralight_farthest_root) return tetralight_bracketed_root(c, top, upper);
         }
     }
     return c.x == 0.0f ? 0.0f : -1.0f;
 }
 
-// The position lies behind the hull cell's triangle: the walk goes on through neighbor 3.
+// The position is inside the hull cell's triangle: the walk continues with neighbor 3.
 vec4 tetralight_go_inside() {
     return vec4(0.0f, 0.0f, 0.0f, -1.0f);
 }
@@ -121,7 +123,7 @@ vec4 tetralight_hull_triangle_weights(uint cell, uvec4 vertices, vec3 position) 
     vec3 v2 = tetralight_hull_ray(cell, 2u);
     vec3 da = tetralight_hull_ray(cell, 0u) - v2;
     vec3 db = tetralight_hull_ray(cell, 1u) - v2;
-    // The normal of the moved triangle: n0 + n1 t + n2 t^2.
+    // The normal of the triangle at t: n0 + n1 t + n2 t^2.
     vec3 n0 = cross(a, b);
     vec3 n1 = cross(a, db) + cross(da, b);
     vec3 n2 = cross(da, db);
@@ -130,17 +132,17 @@ vec4 tetralight_hull_triangle_weights(uint cell, uvec4 vertices, vec3 position) 
     if (t < 0.0f) return tetralight_go_inside();
     vec3 e0 = a + da * t;
     vec3 e1 = b + db * t;
-    vec3 rest = d - v2 * t;
+    vec3 offset = d - v2 * t;
     vec3 normal = cross(e0, e1);
     float area = dot(normal, normal);
     float longest = max(dot(e0, e0), dot(e1, e1));
     if (!(area > tetralight_flat_triangle * longest * longest)) return tetralight_go_inside();
-    float w0 = dot(cross(rest, e1), normal) / area;
-    float w1 = dot(cross(e0, rest), normal) / area;
+    float w0 = dot(cross(offset, e1), normal) / area;
+    float w1 = dot(cross(e0, offset), normal) / area;
     return vec4(w0, w1, 1.0f - w0 - w1, 0.0f);
 }
 
-// Beyond an edge of the hull of probes in a plane.
+// Outside an edge of the hull of probes in a plane.
 vec4 tetralight_hull_edge_weights(uint cell, uvec4 vertices, vec3 position) {
     vec3 axis = vec3(tetralight_volume.axis.x, tetralight_volume.axis.y, tetralight_volume.axis.z);
     vec3 p0 = tetralight_probe_position(vertices.x);
@@ -156,14 +158,14 @@ vec4 tetralight_hull_edge_weights(uint cell, uvec4 vertices, vec3 position) {
              -dot(cross(v0, de), axis), 0.0f));
     if (t < 0.0f) return tetralight_go_inside();
     vec3 edge = e + de * t;
-    vec3 across = edge - axis * dot(edge, axis);
-    float square = dot(across, edge);
+    vec3 along = edge - axis * dot(edge, axis);
+    float square = dot(along, edge);
     if (!(square > 0.0f)) return tetralight_go_inside();
-    float weight = dot(across, d - v0 * t) / square;
+    float weight = dot(along, d - v0 * t) / square;
     return vec4(1.0f - weight, weight, 0.0f, 0.0f);
 }
 
-// Beyond an end of probes on a line.
+// Outside an end of probes on a line.
 vec4 tetralight_hull_end_weights(uint cell, uvec4 vertices, vec3 position) {
     vec3 d = position - tetralight_probe_position(vertices.x);
     if (dot(d, tetralight_hull_ray(cell, 0u)) < 0.0f) return tetralight_go_inside();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a query on the GPU reads: the arrays of ShaderVolume (runtime/shader_volume.h), which has
-// the layout. Buffers: at the bindings below, which differ from each other, so that Vulkan takes
-// them, too; in HLSL they are registers t0 to t4 and b5. For others define all six before. Textures:
-// 2048 texels wide, RGBA32F and RGBA32UI, bound by name.
+// The data of queries on the GPU: the arrays of ShaderVolume (runtime/shader_volume.h). Buffers use
+// the bindings below, in HLSL the registers t0 to t4 and b5; all six differ, as Vulkan requires. To
+// use other bindings define all six before this file. Textures are 2048 texels wide, RGBA32F and
+// RGBA32UI, and are bound by name.
 #ifndef TETRALIGHT_VOLUME_BINDING
 #define TETRALIGHT_POSITIONS_BINDING 0
 #define TETRALIGHT_LIGHT_BINDING 1
@@ -24,7 +24,7 @@ struct TetralightVolumeConstants {
 };
 
 #if defined(TETRALIGHT_CPP)
-// The twin has these as members (runtime/shader_query.cpp).
+// Members of the C++ twin (runtime/shader_query.cpp).
 #elif defined(TETRALIGHT_HLSL)
 #define TETRALIGHT_JOIN(kind, number) kind##number
 #define TETRALIGHT_REGISTER(kind, number) register(TETRALIGHT_JOIN(kind, number))
@@ -96,14 +96,14 @@ vec4 tetralight_probe_light(uint probe, uint part) {
     return TETRALIGHT_AT(tetralight_light, 8u * probe + part);
 }
 
-// A cell near a local position: that of the seed grid's voxel around it.
+// A cell near a local position: the cell at the center of its voxel in the seed grid.
 uint tetralight_seed_cell(vec3 local) {
-    vec4 low = tetralight_volume.seed_min;
+    vec4 lower = tetralight_volume.seed_min;
     vec4 scale = tetralight_volume.seed_scale;
     uvec4 size = tetralight_volume.seed_size;
-    uint x = uint(clamp((local.x - low.x) * scale.x, 0.0f, float(size.x - 1u)));
-    uint y = uint(clamp((local.y - low.y) * scale.y, 0.0f, float(size.y - 1u)));
-    uint z = uint(clamp((local.z - low.z) * scale.z, 0.0f, float(size.z - 1u)));
+    uint x = uint(clamp((local.x - lower.x) * scale.x, 0.0f, float(size.x - 1u)));
+    uint y = uint(clamp((local.y - lower.y) * scale.y, 0.0f, float(size.y - 1u)));
+    uint z = uint(clamp((local.z - lower.z) * scale.z, 0.0f, float(size.z - 1u)));
     uint voxel = x + size.x * (y + size.y * z);
     uvec4 four = TETRALIGHT_AT(tetralight_seeds, voxel >> 2u);
     uint place = voxel & 3u;

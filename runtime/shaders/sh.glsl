@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of probes at a surface. Twins in C++: probes/packed_sh.h and runtime/probe_shading.h.
+// Light of probes at a surface. The C++ twins are probes/packed_sh.h and runtime/probe_shading.h.
 
-// Irradiance / pi of one object or instance, as pack_sh and pack_instances write it:
+// Irradiance / pi of one object or instance, written by pack_sh and pack_instances:
 //   E(n)/pi = dot(sha, (n, 1)) + dot(shb, (xy, yz, zz, zx)) + shc (xx - yy)
 struct TetralightPackedSh {
     vec4 sha_r;
@@ -13,15 +13,15 @@ struct TetralightPackedSh {
     vec4 shc;
 };
 
-// Its first two bands alone, red, green and blue: dot(sha, (n, 1)).
+// Its first two bands for red, green and blue: dot(sha, (n, 1)).
 struct TetralightPackedSh4 {
     vec4 sha_r;
     vec4 sha_g;
     vec4 sha_b;
 };
 
-// Irradiance / pi at a unit normal: times albedo it is the diffuse exitant radiance. Negative where
-// the light rings: clamp the sum of all light at 0.
+// Irradiance / pi at a unit normal. Times albedo it is the diffuse exitant radiance. It can be
+// negative due to ringing: clamp the sum of all light at 0.
 vec3 tetralight_sample_sh9(TetralightPackedSh sh, vec3 normal) {
     vec4 linear_part = vec4(normal.x, normal.y, normal.z, 1.0f);
     vec4 products = vec4(normal.x * normal.y, normal.y * normal.z, normal.z * normal.z,
@@ -32,7 +32,7 @@ vec3 tetralight_sample_sh9(TetralightPackedSh sh, vec3 normal) {
                 dot(sh.sha_b, linear_part) + dot(sh.shb_b, products) + sh.shc.z * square);
 }
 
-// The first two bands of packed light. Its sha.w holds s0 - s6, so that s6 = shb.z / 3 goes back.
+// The first two bands of packed light. sha.w of packed light is s0 - s6: s6 = shb.z / 3 is added.
 TetralightPackedSh4 tetralight_first_bands(TetralightPackedSh sh) {
     float third = 1.0f / 3.0f;
     TetralightPackedSh4 bands;
@@ -42,13 +42,13 @@ TetralightPackedSh4 tetralight_first_bands(TetralightPackedSh sh) {
     return bands;
 }
 
-// Irradiance / pi of two bands: three dot products, for what is far away or small.
+// Irradiance / pi of two bands: three dot products, for distant or small objects.
 vec3 tetralight_sample_sh4(TetralightPackedSh4 sh, vec3 normal) {
     vec4 linear_part = vec4(normal.x, normal.y, normal.z, 1.0f);
     return vec3(dot(sh.sha_r, linear_part), dot(sh.sha_g, linear_part), dot(sh.sha_b, linear_part));
 }
 
-// Adds one layer of light (a lamp, a sky) times its weight for red, green and blue.
+// Adds one layer of light (a light, the sky) times its weight for red, green and blue.
 TetralightPackedSh tetralight_add_layer(TetralightPackedSh sum, TetralightPackedSh layer,
                                         vec3 weight) {
     TetralightPackedSh added;
@@ -63,8 +63,8 @@ TetralightPackedSh tetralight_add_layer(TetralightPackedSh sum, TetralightPacked
     return added;
 }
 
-// Share of a light that reaches an object, 1 = lit: the light's channel of the probes' occlusion. A
-// light without a channel (-1) is not occluded.
+// Visibility of a light at an object, 1 = lit: the light's channel of the probes' occlusion. 1 for
+// a light without a channel (-1).
 float tetralight_probe_occlusion(vec4 occlusion, int channel) {
     if (channel == 0) return occlusion.x;
     if (channel == 1) return occlusion.y;
@@ -72,24 +72,24 @@ float tetralight_probe_occlusion(vec4 occlusion, int channel) {
     return channel == 3 ? occlusion.w : 1.0f;
 }
 
-// The shadow of a light whose shadow map ends: `shadow` (1 = lit) holds what casts into the map,
-// the probes' occlusion the static scene. `fade` 0 = within the map, 1 = beyond it.
+// The shadow of a light with a limited shadow map: `shadow` (1 = lit) from the map, `occlusion` of
+// the static scene from the probes. `fade` is 0 inside the range of the map and 1 outside.
 float tetralight_mix_occlusion(float shadow, float occlusion, float fade) {
     return mix(min(shadow, occlusion), occlusion, fade);
 }
 
 // World-space unit normal of an instance whose transform has these axes (the first three columns of
-// world_from_instance): right for any scale between 1e-9 and 1e9, mirrored ones too. An instance
-// without a volume keeps the normal as it is.
+// world_from_instance), for scales between 1e-9 and 1e9, also mirrored. A singular transform
+// returns the normal unchanged.
 vec3 tetralight_instance_normal(vec3 x_axis, vec3 y_axis, vec3 z_axis, vec3 normal) {
-    vec3 turned = cross(y_axis, z_axis) * normal.x + cross(z_axis, x_axis) * normal.y +
+    vec3 transformed = cross(y_axis, z_axis) * normal.x + cross(z_axis, x_axis) * normal.y +
                   cross(x_axis, y_axis) * normal.z;
-    if (dot(x_axis, cross(y_axis, z_axis)) < 0.0f) turned = -turned;
-    float square = dot(turned, turned);
-    return square > 0.0f ? turned * inversesqrt(square) : normal;
+    if (dot(x_axis, cross(y_axis, z_axis)) < 0.0f) transformed = -transformed;
+    float square = dot(transformed, transformed);
+    return square > 0.0f ? transformed * inversesqrt(square) : normal;
 }
 
-// Towards where most light comes from: the direction of the second band.
+// The direction of most light: that of the second band.
 vec3 tetralight_dominant_direction(TetralightPackedSh sh) {
     vec4 sum = sh.sha_r * 0.2126f + sh.sha_g * 0.7152f + sh.sha_b * 0.0722f;
     vec3 direction = vec3(sum.x, sum.y, sum.z);
@@ -97,15 +97,16 @@ vec3 tetralight_dominant_direction(TetralightPackedSh sh) {
     return square > 0.0f ? direction * inversesqrt(square) : vec3(0.0f, 1.0f, 0.0f);
 }
 
-// Irradiance, on a surface that faces it, of the directional light there that has this second band.
+// Irradiance of the directional light in this direction that has this second band, on a surface
+// that faces it.
 vec3 tetralight_dominant_irradiance(TetralightPackedSh sh, vec3 direction) {
     vec4 along = vec4(direction.x, direction.y, direction.z, 0.0f);
-    vec3 share = vec3(dot(sh.sha_r, along), dot(sh.sha_g, along), dot(sh.sha_b, along));
-    return max(share, vec3(0.0f, 0.0f, 0.0f)) * 6.2831853f;
+    vec3 irradiance = vec3(dot(sh.sha_r, along), dot(sh.sha_g, along), dot(sh.sha_b, along));
+    return max(irradiance, vec3(0.0f, 0.0f, 0.0f)) * 6.2831853f;
 }
 
-// Radiance that a glossy surface mirrors of a light, for each unit of its irradiance on a surface
-// that faces it: GGX with glTF's roughness, all directions of length 1.
+// Specular radiance of a light for each unit of its irradiance on a surface that faces it: GGX with
+// glTF's roughness. All directions have length 1.
 vec3 tetralight_specular_reflection(vec3 normal, vec3 to_light, vec3 to_eye, vec3 f0,
                                     float roughness) {
     vec3 between = to_light + to_eye;

@@ -107,7 +107,7 @@ TEST_F(LppvCommand, SaysWhatIsWrongWithABoxAndNamesTheOption) {
            "--resolution: a grid of 10000 x 1000 x 1000 points (1e+10 in all) is too large");
     expect({"--resolution", "10000000000,1,1"}, "--resolution: \"10000000000\" is not a whole");
     expect({"--resolution", "-1,1,1"}, "--resolution: \"-1\" is not a whole");
-    expect({"--resolution", "0,1,1"}, "--resolution: a grid of 0 x 1 x 1 points has none");
+    expect({"--resolution", "0,1,1"}, "--resolution: a grid of 0 x 1 x 1 points is empty");
     expect({"--density", "1e6"}, "--density: a grid of ");
 }
 
@@ -181,7 +181,7 @@ TEST_F(LppvCommand, NamesAnObjectThatIsNotThere) {
     EXPECT_TRUE(contains(fail(arguments("a.vdb", {"--scene", kCourtyard, "--object", "boat"})),
                          "courtyard.glb: there is no node \"boat\""));
     const std::string lamp = fail(arguments("a.vdb", {"--scene", kCourtyard, "--object", "sun"}));
-    EXPECT_TRUE(contains(lamp, " \"sun\": there is no mesh to wrap")) << lamp;
+    EXPECT_TRUE(contains(lamp, " \"sun\": the object has no mesh")) << lamp;
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST(LppvAtlas, SurroundsEachVolumeWithCopiesOfItsOuterTexels) {
         for (uint32_t i = 0; i < 4 * 5 * 7; ++i) {
             const glm::uvec3 texel(i % 4, i / 4 % 5, i / 20);
             const glm::uvec3 inner = glm::clamp(texel, glm::uvec3(1), box.size - 2u);
-            const glm::uvec3 offset = box.low + glm::uvec3(32 * slab, 0, 0);
+            const glm::uvec3 offset = box.min + glm::uvec3(32 * slab, 0, 0);
             EXPECT_EQ(fetch_texel(atlas.texture(), offset + texel),
                       fetch_texel(atlas.texture(), offset + inner));
         }
@@ -119,7 +119,7 @@ TEST(LppvAtlas, InvalidPointsTakeTheLightOfTheNearestValidOne) {
     const uint32_t id = *atlas.add(grid, LppvQuality::Full, LppvRefresh::Automatic, validity);
     atlas.refresh(volume.view(), {});
     const auto texel = [&](uint32_t z) {
-        return fetch_texel(atlas.texture(), atlas.texels(id).low + glm::uvec3(1, 1, 1 + z));
+        return fetch_texel(atlas.texture(), atlas.texels(id).min + glm::uvec3(1, 1, 1 + z));
     };
     const glm::vec4 first = texel(0), second = texel(1);
     EXPECT_NE(first, second);

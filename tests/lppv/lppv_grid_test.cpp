@@ -24,7 +24,7 @@ glm::dmat4 placed(const glm::dvec3& position, double degrees, const glm::dvec3& 
 
 /// The grid of a cube that a transform places.
 Result<LppvGrid> grid_of_cube(const glm::dmat4& world_from_object, const LppvSettings& settings) {
-    const LppvPart part{world_from_object, kUnitCube.low, kUnitCube.high};
+    const LppvPart part{world_from_object, kUnitCube.min, kUnitCube.max};
     return make_lppv_grid({world_from_object, std::span(&part, 1)}, settings);
 }
 
@@ -182,17 +182,17 @@ TEST(LppvGrid, RefusesBoundsThatAreNotFiniteOrReversed) {
     settings.custom_box.size = {1, -2, 1};
     EXPECT_EQ(error_of(settings), "bounds are reversed along y: 1 to -1");
     settings.custom_box = {{kNan, 0, 0}, {1, 1, 1}, {1, 0, 0, 0}};
-    EXPECT_NE(error_of(settings).find("the box has no place"), std::string::npos);
+    EXPECT_NE(error_of(settings).find("the box is not finite"), std::string::npos);
 }
 
 TEST(LppvGrid, RefusesMorePointsThanAreAllowedAndSaysHowMany) {
     EXPECT_EQ(error_of(with_resolution({10'000, 1'000, 1'000})),
-              "a grid of 10000 x 1000 x 1000 points (1e+10 in all) is too large: 256 along an axis "
-              "are the most");
+              "a grid of 10000 x 1000 x 1000 points (1e+10 in total) is too large: the "
+              "limit is 256 along each axis");
     EXPECT_EQ(error_of(with_resolution({257, 1, 1})),
-              "a grid of 257 x 1 x 1 points (257 in all) is too large: 256 along an axis are the "
-              "most");
-    EXPECT_EQ(error_of(with_resolution({256, 0, 1})), "a grid of 256 x 0 x 1 points has none");
+              "a grid of 257 x 1 x 1 points (257 in total) is too large: the limit is 256 along "
+              "each axis");
+    EXPECT_EQ(error_of(with_resolution({256, 0, 1})), "a grid of 256 x 0 x 1 points is empty");
     LppvSettings dense;
     dense.density = 1e300;
     EXPECT_NE(error_of(dense).find("is too large"), std::string::npos);
@@ -205,7 +205,7 @@ TEST(LppvGrid, RefusesTransformsThatHaveNoSpace) {
     askew[1] = {1.0, 1e-14, 0.0, 0.0};
     const auto flattened = grid_of_cube(askew, {});
     ASSERT_FALSE(flattened);
-    EXPECT_NE(error_text(flattened.error()).find("flattens it askew"), std::string::npos);
+    EXPECT_NE(error_text(flattened.error()).find("is singular"), std::string::npos);
     glm::dmat4 broken(1.0);
     broken[3].x = kNan;
     EXPECT_FALSE(grid_of_cube(broken, {}));

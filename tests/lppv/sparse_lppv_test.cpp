@@ -55,7 +55,7 @@ TEST(SparseBlocks, RefusesTooManyPointsAndSaysHowMany) {
     const auto status = blocks.add_box(glm::dvec3(-1.0), glm::dvec3(1.0));
     ASSERT_FALSE(status);
     EXPECT_EQ(error_text(status.error()),
-              "a sparse grid of 8096384512 points or more is too large: 16777216 are the most");
+              "a sparse grid of 8096384512 points or more is too large: the limit is 16777216");
     EXPECT_FALSE(blocks.add_box(glm::dvec3(std::numeric_limits<double>::quiet_NaN()), {}));
     EXPECT_FALSE(blocks.add_box(glm::dvec3(1e9), glm::dvec3(1e9)));
     EXPECT_FALSE(blocks.add_box(glm::dvec3(1.0), glm::dvec3(0.0)));

@@ -7,6 +7,8 @@ check_package.py guide PREFIX VOLUME GUIDE
 check_package.py example PREFIX VOLUME SOURCE
 check_package.py components PREFIX
 check_package.py debian PREFIX SHIP_BUILD
+check_package.py folders PREFIX
+check_package.py subproject SOURCES
 """
 import os
 import re
@@ -128,6 +130,37 @@ def check_components(prefix):
         assert failed.returncode != 0 and "teapot" in failed.stderr, failed.stderr
 
 
+def check_folders(prefix):
+    include = Path(prefix) / "include"
+    folders = {str(header.parent.relative_to(include)) for header in include.rglob("*.h")}
+    modules = {"base", "probes", "lppv", "runtime"}
+    allowed = {f"tetralight/{module}{detail}" for module in modules for detail in ("", "/detail")}
+    assert {f"tetralight/{module}" for module in modules} <= folders <= allowed, folders
+
+
+def configure_subproject(sources, folder, *options):
+    """Configures a project that adds Tetralight: the printed text and the compile commands."""
+    Path(folder, "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(engine LANGUAGES CXX)\n"
+        f"add_subdirectory({sources} tetralight)\n")
+    shutil.rmtree(Path(folder) / "build", ignore_errors=True)
+    printed = run(["cmake", "-S", ".", "-B", "build", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", *options],
+                  folder, "")
+    return printed, Path(folder, "build/compile_commands.json").read_text()
+
+
+def check_subproject(sources):
+    warning = "built without optimization"
+    with tempfile.TemporaryDirectory() as folder:
+        printed, commands = configure_subproject(sources, folder)
+        assert warning in " ".join(printed.split()), printed
+        assert "-Wall" in commands and "-Werror" not in commands, commands
+        assert "/bake/" not in commands, "only the ship set is built by default"
+        for options in ("-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-O2"):
+            printed, _ = configure_subproject(sources, folder, options)
+            assert warning not in " ".join(printed.split()), printed
+
+
 def listing(folder):
     return sorted(str(p.relative_to(folder)) for p in Path(folder).rglob("*") if p.is_file())
 
@@ -152,5 +185,6 @@ def check_debian(prefix, ship):
 if __name__ == "__main__":
     checks = {"headers": check_headers, "consumer": check_consumer, "guide": check_guide,
               "example": check_example,
-              "components": check_components, "debian": check_debian}
+              "components": check_components, "debian": check_debian,
+              "folders": check_folders, "subproject": check_subproject}
     checks[sys.argv[1]](*sys.argv[2:])

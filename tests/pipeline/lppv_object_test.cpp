@@ -40,7 +40,7 @@ TEST(LppvObject, HoldsTheNodeAndChildrenThatAskForIt) {
     EXPECT_EQ(object->instances, (std::vector<uint32_t>{0, 1}));
     const auto grid = make_lppv_grid(object->view(), {});
     ASSERT_TRUE(grid);
-    EXPECT_EQ(grid->high, glm::dvec3(1, 9, 1));  // in the ship's space
+    EXPECT_EQ(grid->max, glm::dvec3(1, 9, 1));  // in the ship's space
     EXPECT_EQ(grid->world_position({0, 0, 0}).x, 9.0);
 }
 

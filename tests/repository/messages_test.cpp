@@ -21,9 +21,7 @@ const std::set<std::string> kPrinters = {
     "base/error_text.h",
     "cli/print_error.cpp",
     "server/problem.cpp",
-    "runtime/tetralight.cpp",
-    "runtime/tetralight_layers.cpp",
-    "runtime/tetralight_lppv.cpp",
+    "runtime/detail/c_errors.cpp",
 };
 
 /// Files that still have to change. Nothing may be added here.

@@ -21,7 +21,7 @@ TEST(ShaderVolume, HoldsProbesAndCellsInTheirOrder) {
     ASSERT_EQ(shader.cells.size(), volume.cells.size());
     ASSERT_EQ(shader.hull_rays.size(), 3 * volume.hull_rays.size());
     EXPECT_EQ(shader.constants.counts, glm::uvec4(volume.positions.size(), volume.cells.size(),
-                                              volume.info.inner_cell_count, 4u));
+                                                  volume.info.inner_cell_count, 4u));
     for (size_t i = 0; i < volume.positions.size(); ++i) {
         EXPECT_EQ(glm::vec3(shader.positions[i]), volume.positions[i]);
         EXPECT_EQ(shader.light[i].sh, pack_sh(volume.irradiance[i]));

@@ -9,14 +9,14 @@ namespace tetralight::detail {
 namespace {
 
 struct Placed {
-    glm::uvec3 low;
+    glm::uvec3 min;
     glm::uvec3 size;
 };
 
 bool overlap(const Placed& a, const Placed& b) {
     for (int axis = 0; axis < 3; ++axis) {
-        if (a.low[axis] + a.size[axis] <= b.low[axis]) return false;
-        if (b.low[axis] + b.size[axis] <= a.low[axis]) return false;
+        if (a.min[axis] + a.size[axis] <= b.min[axis]) return false;
+        if (b.min[axis] + b.size[axis] <= a.min[axis]) return false;
     }
     return true;
 }
@@ -24,7 +24,7 @@ bool overlap(const Placed& a, const Placed& b) {
 void expect_apart(const std::vector<Placed>& boxes, glm::uvec3 size) {
     for (size_t i = 0; i < boxes.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
-            ASSERT_LE(boxes[i].low[axis] + boxes[i].size[axis], size[axis]);
+            ASSERT_LE(boxes[i].min[axis] + boxes[i].size[axis], size[axis]);
         }
         for (size_t j = 0; j < i; ++j) ASSERT_FALSE(overlap(boxes[i], boxes[j]));
     }
@@ -38,13 +38,13 @@ TEST(BoxPacking, HandsOutBoxesThatDoNotOverlapWhileOthersComeBack) {
     for (int step = 0; step < 2000; ++step) {
         if (!boxes.empty() && engine() % 5 < 2) {
             const size_t i = engine() % boxes.size();
-            packing.release(boxes[i].low, boxes[i].size);
+            packing.release(boxes[i].min, boxes[i].size);
             boxes[i] = boxes.back();
             boxes.pop_back();
             continue;
         }
         const glm::uvec3 wanted(1 + engine() % 9, 1 + engine() % 7, 1 + engine() % 5);
-        if (const auto low = packing.allocate(wanted)) boxes.push_back({*low, wanted});
+        if (const auto min = packing.allocate(wanted)) boxes.push_back({*min, wanted});
         if (step % 50 == 0) expect_apart(boxes, size);
     }
     uint64_t used = 0;
@@ -66,7 +66,7 @@ TEST(BoxPacking, TakesTheWholeBoxAgainWhenAllIsBack) {
     for (const glm::uvec3 size : {glm::uvec3(3, 4, 5), glm::uvec3(8, 2, 1), glm::uvec3(2, 2, 2)}) {
         boxes.push_back({*packing.allocate(size), size});
     }
-    for (const Placed& box : boxes) packing.release(box.low, box.size);
+    for (const Placed& box : boxes) packing.release(box.min, box.size);
     EXPECT_EQ(packing.allocate({8, 8, 8}), glm::uvec3(0));
 }
 
