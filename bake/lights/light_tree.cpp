@@ -16,14 +16,14 @@ using detail::splat, detail::Float4, detail::max4, detail::min4, detail::sqrt4;
 
 namespace {
 
-/// Rounding of a cosine; what is this near to its limit counts as within it.
+/// Tolerance of cosines and distances against rounding.
 constexpr float kSlack = 1e-4f;
 
-/// Importance never falls below this share for being slanted, so that no sample weighs too much.
-constexpr float kLeastCosine = 0.01f;
+/// Lower limit of each cosine factor of the importance, which bounds the weight of a sample.
+constexpr float kMinCosine = 0.01f;
 
-/// Keeps sums of importances finite.
-constexpr float kMostImportance = 1e30f;
+/// Upper limit of an importance, so that sums stay finite.
+constexpr float kMaxImportance = 1e30f;
 
 float sine_of(float cosine) {
     return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
@@ -45,7 +45,7 @@ void LightTree::set_lane(Node& node, uint32_t lane, const LightBounds& bounds) {
     node.axis_x[lane] = bounds.axis.x;
     node.axis_y[lane] = bounds.axis.y;
     node.axis_z[lane] = bounds.axis.z;
-    // A cone of all directions holds each of them, whatever the rounding.
+    // A cone of all directions contains every direction in spite of rounding.
     node.cos_theta_o[lane] = bounds.cos_theta_o > -1.0f ? bounds.cos_theta_o : -2.0f;
     node.sin_theta_o[lane] = sine_of(bounds.cos_theta_o);
     node.cos_theta_e[lane] = bounds.cos_theta_e - kSlack;
@@ -54,8 +54,8 @@ void LightTree::set_lane(Node& node, uint32_t lane, const LightBounds& bounds) {
     node.max_distance[lane] = (bounds.max_distance + glm::length(half_size)) * (1.0f + kSlack);
 }
 
-/// Without branches, for four children at a time. Angles are known by cosine and sine: that of
-/// max(0, a − b) has the cosine 1 where cos a > cos b, else cos a cos b + sin a sin b.
+/// Branch-free importance of four children (Conty Estevez & Kulla 2018, section 4). Angles are kept as
+/// cosine and sine: cos max(0, a − b) is 1 if cos a > cos b, else cos a cos b + sin a sin b.
 detail::Float4 LightTree::importance(const Node& node, const ShadingPoint& shading_point) noexcept {
     const glm::vec3 position = shading_point.position, normal = shading_point.normal;
     const Float4 x = splat(position.x) - node.center_x;
@@ -85,15 +85,15 @@ detail::Float4 LightTree::importance(const Node& node, const ShadingPoint& shadi
         const Float4 off_normal = cos_in * cos_box + sine_of(cos_in) * sin_box;
         arriving = cos_in > cos_box ? splat(1.0f) : off_normal;
     }
-    const Float4 least = splat(kLeastCosine), power = node.power;
+    const Float4 least = splat(kMinCosine), power = node.power;
     const Float4 slanted = max4(leaving, least) * max4(arriving, least);
     const auto is_useful = (distance <= node.max_distance) & (leaving >= node.cos_theta_e) &
                            (arriving >= splat(-kSlack));
     const Float4 afar = is_useful ? power * inverse * inverse * slanted : splat(0.0f);
-    // Near the box any direction is possible, and distance means little.
+    // Within the bounding sphere, neither direction nor distance is bounded in a useful way.
     const Float4 size = max4(radius, splat(1e-15f));
     const Float4 nearby = power / (size * size);
-    return min4(distance > radius ? afar : nearby, splat(kMostImportance));
+    return min4(distance > radius ? afar : nearby, splat(kMaxImportance));
 }
 
 struct LightTree::Item {
@@ -102,28 +102,29 @@ struct LightTree::Item {
     glm::vec3 center;
 };
 
-/// Splits lights in two by the smallest cost, over twelve slices of each axis, until each is
-/// alone (pbrt-4, BVHLightSampler::buildBVH). Two splits in turn make one node.
+/// Splits the lights in two at the smallest cost over twelve buckets per axis, down to single
+/// lights (pbrt-4, BVHLightSampler::buildBVH). Two levels of splits make one node of four children.
 class LightTree::Builder {
   public:
     explicit Builder(LightTree& tree) : tree_(tree) {}
 
-    /// Makes the node of these items, which are split at `depth`, and returns its number.
+    /// Builds the node of the items, whose bit trail has `depth` bits so far, and returns its
+    /// index.
     uint32_t build(std::span<Item> items, uint64_t bit_trail, uint32_t depth) {
-        const auto number = static_cast<uint32_t>(tree_.nodes_.size());
+        const auto index = static_cast<uint32_t>(tree_.nodes_.size());
         tree_.nodes_.emplace_back();
         if (items.size() == 1) {
-            add_lane(number, 0, items, bit_trail, depth);
-            return number;
+            add_lane(index, 0, items, bit_trail, depth);
+            return index;
         }
         const size_t first_count = split(items, depth);
-        add_half(number, 0, items.first(first_count), bit_trail, depth);
-        add_half(number, 2, items.subspan(first_count), bit_trail, depth);
-        return number;
+        add_half(index, 0, items.first(first_count), bit_trail, depth);
+        add_half(index, 2, items.subspan(first_count), bit_trail, depth);
+        return index;
     }
 
   private:
-    /// Two lanes, or one for an item that is alone.
+    /// Fills two lanes, or one if there is a single item.
     void add_half(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t bit_trail,
                   uint32_t depth) {
         if (items.size() == 1) return add_lane(node, lane, items, bit_trail, depth);
@@ -218,8 +219,8 @@ LightTree::LightTree(std::span<const LightBounds> lights) : bit_trails_(lights.s
     TETRALIGHT_ASSERT(lights.size() < kNoIndex, "lights are counted in 32 bits");
     std::vector<Item> items;
     for (uint32_t i = 0; i < lights.size(); ++i) {
-        const LightBounds& e = lights[i];
-        if (e.power > 0.0f) items.push_back({i, e, 0.5f * (e.min + e.max)});
+        const LightBounds& bounds = lights[i];
+        if (bounds.power > 0.0f) items.push_back({i, bounds, 0.5f * (bounds.min + bounds.max)});
     }
     if (items.empty()) return;
     Builder(*this).build(items, 0, 0);
