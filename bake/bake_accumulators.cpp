@@ -29,14 +29,15 @@ Status check_positions(std::span<const glm::dvec3> positions) {
     for (size_t i = 0; i < positions.size(); ++i) {
         const glm::dvec3& p = positions[i];
         if (!is_finite(p)) {
-            return Error{
-                str_cat("probe ", i, ": position is not finite (", p.x, ", ", p.y, ", ", p.z, ")")};
+            const std::string value = str_cat("(", p.x, ", ", p.y, ", ", p.z, ")");
+            return Error{ErrorCode::InvalidArgument, str_cat("positions[", i, "]"), value,
+                         str_cat("probe ", i, ": position is not finite ", value)};
         }
     }
     return Ok{};
 }
 
-/// Light that floats hold.
+/// Returns invalid_argument if the irradiance of a probe exceeds the range of float.
 Status check_light(std::span<const glm::dvec3> positions,
                    std::span<const ProbeAccumulator> accumulators) {
     for (size_t i = 0; i < accumulators.size(); ++i) {
@@ -44,26 +45,26 @@ Status check_light(std::span<const glm::dvec3> positions,
         const auto is_good = [](const glm::vec3& c) { return is_finite(c); };
         if (std::ranges::all_of(irradiance.coefficients, is_good)) continue;
         const glm::dvec3& p = positions[i];
-        return Error{
-            str_cat("probe ", i, " at (", p.x, ", ", p.y, ", ", p.z,
-                    "): its light is too bright for floats; a light, an emission or the sky "
-                    "is far out of range")};
+        return Error{ErrorCode::InvalidArgument,
+                     str_cat("probe ", i, " at (", p.x, ", ", p.y, ", ", p.z,
+                             "): its light is too bright for floats; a light, an emission or the "
+                             "sky is far out of range")};
     }
     return Ok{};
 }
 
-/// What to bake, and where to.
+/// The inputs and outputs of a bake.
 struct Work {
     const TraceScene& trace_scene;
     const PathTracer& tracer;
     std::span<const glm::dvec3> positions;
     std::span<ProbeAccumulator> accumulators;
     const LightGroupRows& light_groups;
-    /// In render space.
+    /// The lights of the scene in render space.
     std::vector<Light> lights;
 };
 
-/// Whether a probe's occlusion is part of an estimate: the first one's.
+/// True for the one estimate of a probe that includes its occlusion: the first of the first round.
 bool has_occlusion(const LightGroupLayout& layout, uint64_t round, uint32_t number) {
     return layout.has_occlusion && round == 0 && number == 0;
 }
@@ -90,9 +91,9 @@ class AccumulatorBaker {
             for (size_t begin = 0; begin < probes.size(); begin += step) {
                 const size_t count = std::min(step, probes.size() - begin);
                 bake_round(std::span(probes).subspan(begin, count), round);
-                if (progress_.is_cancelled()) return Error{"cancelled"};
-                if (is_time_over(round)) return Ok{};
-                save_now_and_then();
+                if (progress_.is_cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
+                if (is_over_time_budget(round)) return Ok{};
+                save_if_due();
             }
         }
         progress_.finish();
@@ -100,7 +101,7 @@ class AccumulatorBaker {
     }
 
   private:
-    /// The probes that have had the fewest rounds of those that need one more.
+    /// Of the probes that need a further round, those with the fewest rounds so far.
     [[nodiscard]] std::vector<uint32_t> next_round() const {
         std::vector<uint32_t> probes;
         uint64_t round = ~uint64_t{0};
@@ -114,10 +115,10 @@ class AccumulatorBaker {
         return probes;
     }
 
-    /// Some seconds of work, and a few megabytes of estimates.
+    /// Probes per batch: a few seconds of work, and a few megabytes of estimates.
     [[nodiscard]] size_t probes_at_once(uint64_t round) const {
-        constexpr uint64_t kDirections = 1u << 20;
-        return std::clamp<size_t>(kDirections / plan_.samples_in_round(round), 16, 4096);
+        constexpr uint64_t kSamples = 1u << 20;
+        return std::clamp<size_t>(kSamples / plan_.samples_in_round(round), 16, 4096);
     }
 
     void bake_round(std::span<const uint32_t> probes, uint64_t round) {
@@ -125,21 +126,21 @@ class AccumulatorBaker {
         std::vector<ProbeEstimate> estimates(probes.size() * estimates_each);
         std::vector<std::atomic<uint32_t>> missing(probes.size());
         for (auto& count : missing) count.store(estimates_each, std::memory_order_relaxed);
-        progress_.set_worst_error(worst_error_beside(probes));
-        // The first estimates may have one direction more than the last ones.
+        progress_.set_worst_error(worst_error_except(probes));
+        // The first estimates may have one sample more than the last ones.
         const DirectionSet first(plan_.samples_in_estimate(round, 0));
         const DirectionSet last(plan_.samples_in_estimate(round, estimates_each - 1));
 
         parallel_for(estimates.size(), settings_.thread_count, [&](size_t item) {
-            if (progress_.is_cancelled() || is_time_over(round)) return;
-            const size_t place = item / estimates_each;
-            const auto number = static_cast<uint32_t>(item - place * estimates_each);
+            if (progress_.is_cancelled() || is_over_time_budget(round)) return;
+            const size_t index = item / estimates_each;
+            const auto number = static_cast<uint32_t>(item - index * estimates_each);
             const bool is_first = plan_.samples_in_estimate(round, number) == first.size();
-            estimates[item] = estimate(probes[place], round, number, is_first ? first : last);
-            if (missing[place].fetch_sub(1, std::memory_order_acq_rel) == 1) {
+            estimates[item] = estimate(probes[index], round, number, is_first ? first : last);
+            if (missing[index].fetch_sub(1, std::memory_order_acq_rel) == 1) {
                 const auto all =
-                    std::span(estimates).subspan(place * estimates_each, estimates_each);
-                end_round(probes[place], all);
+                    std::span(estimates).subspan(index * estimates_each, estimates_each);
+                end_round(probes[index], all);
             }
             progress_.add_rays(estimates[item].ray_count);
         });
@@ -166,9 +167,9 @@ class AccumulatorBaker {
         const uint64_t expected_before = plan_.expected_samples(accumulator);
         const uint64_t samples_before = accumulator.sample_count;
         accumulator.add_round(estimates);
-        progress_.add_round({.directions = accumulator.sample_count - samples_before,
-                             .expected = plan_.expected_samples(accumulator),
-                             .expected_before = expected_before,
+        progress_.add_round({.samples = accumulator.sample_count - samples_before,
+                             .expected_samples = plan_.expected_samples(accumulator),
+                             .expected_samples_before = expected_before,
                              .is_first = accumulator.round_count == 1,
                              .is_done = plan_.is_done(accumulator),
                              .standard_error = accumulator.standard_error()});
@@ -190,8 +191,8 @@ class AccumulatorBaker {
         }
     }
 
-    /// Of the probes that are not among `probes`, which are sorted.
-    [[nodiscard]] float worst_error_beside(std::span<const uint32_t> probes) const {
+    /// The largest error of the probes that are not in `probes`, which are sorted.
+    [[nodiscard]] float worst_error_except(std::span<const uint32_t> probes) const {
         float worst = 0.0f;
         auto next = probes.begin();
         for (uint32_t i = 0; i < work_.accumulators.size(); ++i) {
@@ -204,19 +205,19 @@ class AccumulatorBaker {
         return worst;
     }
 
-    /// A volume without the first round would have holes.
-    [[nodiscard]] bool is_time_over(uint64_t round) const {
+    /// Always false in the first round, without which a probe would have no light.
+    [[nodiscard]] bool is_over_time_budget(uint64_t round) const {
         if (settings_.time_budget_seconds == 0.0 || round == 0) return false;
         return std::chrono::duration<double>(Clock::now() - start_).count() >
                settings_.time_budget_seconds;
     }
 
-    void save_now_and_then() {
+    void save_if_due() {
         const auto now = Clock::now();
         if (!hooks_.save || now - last_save_ < save_interval_) return;
         hooks_.save();
         last_save_ = Clock::now();
-        // Large volumes take their time to write; the bake is to go on for most of it.
+        // Saving a large volume takes long: spend at most a twentieth of the time on it.
         save_interval_ = std::max(save_interval_, 20 * (last_save_ - now));
     }
 
@@ -237,13 +238,13 @@ class AccumulatorBaker {
 Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positions,
                          const BakeSettings& settings, std::span<ProbeAccumulator> accumulators,
                          const BakeHooks& hooks, const LightGroupRows& light_groups) {
-    TETRALIGHT_ASSERT(accumulators.size() == positions.size(), "one tally for each position");
+    TETRALIGHT_ASSERT(accumulators.size() == positions.size(), "one accumulator for each position");
     const LightGroupLayout layout(settings.plan);
     TETRALIGHT_ASSERT(light_groups.rows.size() == layout.size() * positions.size(),
-                      "one row for each position when the plan splits light");
+                      "one row for each position if the plan has light groups");
     TETRALIGHT_ASSERT(
         !layout.has_occlusion || light_groups.occlusion_lights.size() == positions.size(),
-        "lights of the occlusion for each position");
+        "the occlusion lights of each position");
     if (auto status = RoundPlan::check(settings); !status) return status;
     if (auto status = check_positions(positions); !status) return status;
     if (auto status =

@@ -14,37 +14,43 @@
 
 namespace tetralight {
 
-/// What a long bake calls on its way.
+/// Callbacks of a running bake.
 struct BakeHooks {
     BakeCallback progress{};
-    /// Called on the calling thread every `save_seconds` or more, when accumulators hold still.
+    /// Called on the calling thread about every `save_seconds`, while no accumulator changes, so
+    /// that the accumulators can be written to a checkpoint.
     std::function<void()> save{};
     double save_seconds = 30.0;
 };
 
-/// Where a bake puts what its plan splits light into; empty when it splits nothing.
+/// Where a bake accumulates its light groups; empty if `LightPlan::has_light_groups` is false and
+/// the plan has no occlusion.
 struct LightGroupRows {
-    /// A row of `LightGroupLayout(settings.plan)` for each position: Σ directions · value over all
-    /// estimates of layers and transfer, and the occlusion itself.
+    /// One row per position, as `LightGroupLayout(settings.plan)` describes it: Σ samples · value
+    /// over all estimates for layers and transfer; the value itself for occlusion.
     std::span<double> rows = {};
-    /// One for each position, when the plan has occlusion.
+    /// One element per position if the plan has occlusion, else empty.
     std::span<const OcclusionLights> occlusion_lights = {};
 };
 
-/// Bakes world positions from where `accumulators`, one a position, stand: empty ones from the
-/// start.
+/// Bakes probes at world positions and adds the samples to `accumulators`, one per position. An
+/// accumulator that already has samples continues after its last round.
 ///
-/// Probes take rounds of independent estimates until each has the error that the settings ask for.
-/// (probe, estimate) is the unit of work, so that all threads are busy to the end; a probe's
-/// estimates are summed in their order when the last one is there. Memory is bounded: some
-/// thousand probes are in work at a time.
+/// Probes get rounds of independent estimates until each reaches the target error of the settings.
+/// Threads share (probe, estimate) pairs, so that all of them have work until the end; the
+/// estimates of a probe are added in order when the last of them is complete. A few thousand probes
+/// are in progress at a time, which bounds the memory.
 ///
-/// What a accumulator becomes is a pure function of (scene, its position, settings): the same bits
-/// for any number of threads, any other positions beside, and wherever the bake stopped before; but
-/// for `time_budget_seconds`. Errors: settings out of range, a position that is not finite, not
-/// enough memory, "cancelled", where the accumulators hold every round that was over by then.
-/// Precondition: accumulators are of the same settings, or empty; as many as positions, and as many
-/// rows when the plan splits light.
+/// The final state of an accumulator depends only on (scene, its position, settings): its bits are
+/// the same for any number of threads, any other positions, and any interruption in between. Only
+/// `time_budget_seconds` breaks this.
+///
+/// Returns invalid_argument if a setting is out of range, a position is not finite, or the light of
+/// a probe exceeds the range of float; out_of_resources if memory does not suffice; cancelled if
+/// the progress callback returns false, in which case the accumulators hold all complete rounds.
+///
+/// Precondition: the accumulators are empty or come from the same settings. There are as many of
+/// them, and as many rows if the plan has light groups, as positions.
 [[nodiscard]] Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positions,
                                        const BakeSettings& settings,
                                        std::span<ProbeAccumulator> accumulators,

@@ -15,35 +15,38 @@
 
 namespace tetralight {
 
+/// The result of a bake: one element per position in each vector.
 struct BakedProbes {
-    // One a position.
+    /// Radiance that arrives at the probe, as SH coefficients.
     std::vector<RadianceSh> radiance;
-    /// Share of directions that see a front face or the sky: 1 = free, 0 = inside something.
+    /// Fraction of samples that hit a front face or the sky: 1 = in free space, 0 = inside
+    /// geometry.
     std::vector<float> validity;
-    /// Of irradiance, as a share of it (`ProbeAccumulator::standard_error`).
+    /// Relative standard error of the irradiance (`ProbeAccumulator::standard_error`).
     std::vector<float> standard_error;
-    /// Directions taken.
+    /// Samples taken.
     std::vector<uint64_t> sample_count;
 
-    /// Light of the environment alone.
+    /// Radiance of the environment alone.
     RadianceSh ambient;
     uint64_t ray_count = 0;
 };
 
 /// Bakes the light that arrives at each world position: sky, emission, the bounces of all lights,
-/// and the direct light of those whose mode is `Baked`. The same as `bake_accumulators`, from the
-/// start to the end.
+/// and the direct light of those whose mode is `Baked`. Calls `bake_accumulators` with empty
+/// accumulators.
 ///
-/// Precondition: the plan of the settings splits no light. A pure function of (scene, positions,
-/// settings), time budgets aside: the same bits for any
-/// number of threads and any other positions beside. Errors: settings out of range, a position that
-/// is not finite, not enough memory, "cancelled".
+/// A pure function of (scene, positions, settings): the same bits for any number of threads, and
+/// for each position whatever the other positions are. Only a time budget breaks this.
+///
+/// Returns the errors of `bake_accumulators`. Precondition: the plan of the settings has neither
+/// light groups nor occlusion.
 [[nodiscard]] Result<BakedProbes> bake_probes(const Scene& scene,
                                               std::span<const glm::dvec3> positions,
                                               const BakeSettings& settings,
                                               const BakeCallback& callback = {});
 
-/// What accumulators amount to; `ambient` is left black.
+/// The result that accumulators stand for. `ambient` is left black.
 [[nodiscard]] BakedProbes make_baked_probes(std::span<const ProbeAccumulator> accumulators);
 
 }  // namespace tetralight

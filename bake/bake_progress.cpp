@@ -5,19 +5,20 @@
 
 namespace tetralight {
 
-void ProgressReporter::resume_probe(uint64_t directions, uint64_t expected, bool is_done) {
-    if (directions == 0) return;
+void ProgressReporter::resume_probe(uint64_t samples, uint64_t expected_samples, bool is_done) {
+    if (samples == 0) return;
     ++probes_begun_;
     probes_done_ += is_done;
-    directions_ += directions;
-    expected_directions_ += expected;
+    samples_ += samples;
+    expected_samples_ += expected_samples;
 }
 
 void ProgressReporter::add_round(const Round& round) {
     probes_begun_ += round.is_first;
     probes_done_ += round.is_done;
-    directions_ += round.directions;
-    expected_directions_ += round.expected - (round.is_first ? 0 : round.expected_before);
+    samples_ += round.samples;
+    expected_samples_ +=
+        round.expected_samples - (round.is_first ? 0 : round.expected_samples_before);
     float worst = worst_error_;
     while (round.standard_error > worst &&
            !worst_error_.compare_exchange_weak(worst, round.standard_error)) {
@@ -40,13 +41,13 @@ void ProgressReporter::finish() {
 }
 
 BakeProgress ProgressReporter::progress() const {
-    // Probes that have not begun will take what the others do.
+    // Assume that probes without samples need as many as the others.
     const size_t begun = std::max<size_t>(probes_begun_, 1);
-    const double expected = static_cast<double>(expected_directions_) *
+    const double expected = static_cast<double>(expected_samples_) *
                             static_cast<double>(probe_count_) / static_cast<double>(begun);
-    const double share = expected > 0.0 ? static_cast<double>(directions_) / expected : 0.0;
+    const double fraction = expected > 0.0 ? static_cast<double>(samples_) / expected : 0.0;
     const bool is_done = probes_done_ == probe_count_;
-    return {probes_done_, probe_count_, ray_count_, is_done ? 1.0 : std::min(share, 1.0),
+    return {probes_done_, probe_count_, ray_count_, is_done ? 1.0 : std::min(fraction, 1.0),
             worst_error_};
 }
 

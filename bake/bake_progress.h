@@ -11,36 +11,36 @@
 namespace tetralight {
 
 struct BakeProgress {
-    /// Probes that need no more rays.
+    /// Probes that need no further samples.
     size_t probes_done = 0;
     size_t probe_count = 0;
-    /// Rays of this run.
+    /// Rays traced by this run.
     uint64_t ray_count = 0;
-    /// Of the directions that all probes will take, as far as their errors notify by now, in [0,
-    /// 1].
+    /// Samples taken over samples expected for all probes, in [0, 1]. The expectation follows from
+    /// the errors measured so far.
     double fraction_done = 0.0;
-    /// The largest standard error of a probe so far, as a share of its irradiance.
+    /// The largest relative standard error of a probe so far.
     float worst_error = 0.0f;
 };
 
-/// Called now and then, from any thread but never from two at once; false cancels the bake.
+/// Called a few times per second, from any thread but never from two at a time. Returning false
+/// cancels the bake.
 using BakeCallback = std::function<bool(const BakeProgress&)>;
 
-/// Counts work from all threads and passes it on a few times a second.
+/// Collects the progress of all threads and passes it to the callback. Thread-safe.
 class ProgressReporter {
   public:
     ProgressReporter(const BakeCallback& callback, size_t probe_count)
         : callback_(callback), probe_count_(probe_count) {}
 
-    /// A probe that has `directions` of the `expected` ones from before.
-    void resume_probe(uint64_t directions, uint64_t expected, bool is_done);
+    /// Counts a probe that an earlier run left with `samples` of `expected_samples`.
+    void resume_probe(uint64_t samples, uint64_t expected_samples, bool is_done);
 
-    /// A probe's round is over: it now has `directions` more, of `expected`, which were
-    /// `expected_before`.
+    /// A finished round of one probe.
     struct Round {
-        uint64_t directions = 0;
-        uint64_t expected = 0;
-        uint64_t expected_before = 0;
+        uint64_t samples = 0;                  ///< samples of this round
+        uint64_t expected_samples = 0;         ///< expected in total, now
+        uint64_t expected_samples_before = 0;  ///< expected in total, before this round
         bool is_first = false;
         bool is_done = false;
         float standard_error = 0.0f;
@@ -48,15 +48,15 @@ class ProgressReporter {
 
     void add_round(const Round& round);
 
-    /// Counts rays, and reports when it is time to.
+    /// Adds rays, and calls the callback if its last call was at least 50 ms ago.
     void add_rays(uint64_t rays);
 
-    /// Errors of probes that wait for their next round, or are done.
+    /// Sets the largest error of the probes that are not part of the current batch.
     void set_worst_error(float error) { worst_error_ = error; }
 
     [[nodiscard]] bool is_cancelled() const { return is_cancelled_; }
 
-    /// The last report: all is done.
+    /// Calls the callback a last time, with all probes done.
     void finish();
 
   private:
@@ -67,8 +67,8 @@ class ProgressReporter {
     std::atomic<size_t> probes_begun_ = 0;
     std::atomic<size_t> probes_done_ = 0;
     std::atomic<uint64_t> ray_count_ = 0;
-    std::atomic<uint64_t> directions_ = 0;
-    std::atomic<uint64_t> expected_directions_ = 0;  ///< of the probes that have begun
+    std::atomic<uint64_t> samples_ = 0;
+    std::atomic<uint64_t> expected_samples_ = 0;  ///< of the probes that have begun
     std::atomic<float> worst_error_ = 0.0f;
     std::atomic<bool> is_cancelled_ = false;
     std::mutex mutex_;

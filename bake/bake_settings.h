@@ -9,33 +9,37 @@
 namespace tetralight {
 
 struct BakeSettings {
-    /// Directions a probe in the first round, and without a target the only one. 128 and more are
-    /// eight independent estimates, fewer are one for each 16, with error bars from two on.
+    /// Samples per probe in the first round, at least 1. Without a target error and a time budget
+    /// there is no second round. 128 samples or more form eight independent estimates, fewer form
+    /// one estimate per 16 samples; a standard error needs at least two estimates.
     uint32_t sample_count = 1024;
-    /// Relative standard error of irradiance (`ProbeAccumulator::standard_error`) below which a
-    /// probe is done: rounds double what it has until it is there. 0 = one round.
+    /// Relative standard error of the irradiance (`ProbeAccumulator::standard_error`) at which a
+    /// probe is done. Each round doubles the samples of the probes that are above it. 0 = no
+    /// target.
     double target_error = 0.0;
-    /// Directions a probe at most when there are rounds; 0 = 64 times `sample_count`.
+    /// Upper limit of the samples per probe over all rounds; 0 = 64 times `sample_count`.
     uint64_t max_sample_count = 0;
-    /// After this many seconds no round goes on; the first one always ends. Without a target,
-    /// rounds go on until then. 0 = none. The only setting whose result is not reproducible.
+    /// Seconds after which no further round runs; the first round always completes. Without a
+    /// target error, rounds run until then. 0 = no limit. The only setting that makes the result
+    /// depend on the speed of the machine.
     double time_budget_seconds = 0.0;
-    /// Largest radiance that a path may bring, for less noise and less light; 0 = not clamped.
+    /// Largest radiance that the reflected light of one path may have (`PathSettings::clamp`),
+    /// which trades energy for less noise. 0 = not clamped.
     float clamp = 0.0f;
-    /// Reflections that light may take before it arrives; 0 = direct light only.
+    /// Maximum number of reflections of a path; 0 = direct light only.
     uint32_t bounces = 4;
     SurfaceSettings surfaces;
-    /// What is baked of each light, and what light is split into.
+    /// Which lights are baked, and which light groups are kept apart.
     LightPlan plan;
     uint64_t seed = 0;
-    /// 0 = all.
+    /// Number of threads; 0 = all.
     uint32_t thread_count = 0;
 
     bool operator==(const BakeSettings&) const = default;
 };
 
-/// What `tetralight bake` does when it is told neither samples nor an error nor a time: as many
-/// samples as each probe needs, within bounds.
+/// The settings of `tetralight bake` when neither samples, a target error nor a time budget is
+/// given: rounds up to 131 072 samples per probe, until the standard error is at most 0.5 %.
 [[nodiscard]] inline BakeSettings with_default_target(BakeSettings settings) {
     settings.target_error = 0.005;
     settings.max_sample_count = 131'072;

@@ -5,12 +5,12 @@
 
 namespace tetralight {
 
-void LightGroupSum::add(glm::vec3 direction, const PathLightGroups& light_groups, double weight) {
-    for (uint32_t layer = 0; layer < light_groups.layer_count(); ++layer) {
-        add(direction, layer, light_groups.radiance(layer), weight);
+void LightGroupSum::add(glm::vec3 direction, const PathLightGroups& path, double weight) {
+    for (uint32_t layer = 0; layer < path.layer_count(); ++layer) {
+        add(direction, layer, path.radiance(layer), weight);
     }
-    const bool is_out = light_groups.escape().throughput != glm::vec3(0.0f);
-    if (layout_.has_transfer && is_out) add_escape(direction, light_groups.escape(), weight);
+    const bool has_escaped = path.escape().throughput != glm::vec3(0.0f);
+    if (layout_.has_transfer && has_escaped) add_escape(direction, path.escape(), weight);
 }
 
 void LightGroupSum::add(glm::vec3 direction, uint32_t layer, glm::vec3 radiance, double weight) {

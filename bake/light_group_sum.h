@@ -10,7 +10,7 @@
 
 namespace tetralight {
 
-/// Sums of what one estimate finds of each part of the light, as a row of `LightGroupLayout`.
+/// Sums the light groups of the samples of one estimate into a row of `LightGroupLayout`.
 class LightGroupSum {
   public:
     explicit LightGroupSum(const LightGroupLayout& layout)
@@ -18,10 +18,10 @@ class LightGroupSum {
 
     [[nodiscard]] bool is_empty() const { return sums_.empty(); }
 
-    /// A path from the probe in a direction.
-    void add(glm::vec3 direction, const PathLightGroups& light_groups, double weight);
+    /// Adds a path that leaves the probe in `direction`.
+    void add(glm::vec3 direction, const PathLightGroups& path, double weight);
 
-    /// Light of one layer from a direction; none when it is no layer.
+    /// Adds radiance of one layer that arrives from `direction`. Ignored if `layer` is kNoIndex.
     void add(glm::vec3 direction, uint32_t layer, glm::vec3 radiance, double weight);
 
     [[nodiscard]] std::vector<float> values() const { return {sums_.begin(), sums_.end()}; }

@@ -12,19 +12,20 @@
 
 namespace tetralight {
 
-/// How a bake splits the light of a scene. By default it does not.
+/// Which lights a bake includes, and which light groups (light of one layer, transfer of distant
+/// light) it keeps apart in addition to the sum. By default it keeps none.
 struct LightPlan {
-    /// One a light: what is baked of it; empty: what the scene says.
+    /// The mode of each light; empty = the modes of the scene.
     std::vector<LightMode> light_modes;
-    /// The layer of each light, each material's emission, and the sky. kNoIndex, or an empty
-    /// vector: none of the first `layer_count`, but what is left of the whole.
+    /// The layer of each light, of each material's emission, and of the sky. kNoIndex or an empty
+    /// vector: part of the sum only, of none of the `layer_count` layers.
     std::vector<uint32_t> layer_of_light;
     std::vector<uint32_t> layer_of_material;
     uint32_t layer_of_sky = kNoIndex;
     uint32_t layer_count = 0;
-    /// Also finds how probes answer to distant light (probes/transfer.h).
+    /// Bake the transfer of distant light (probes/transfer.h).
     bool has_transfer = false;
-    /// Also finds the visibility of lights (bake/occlusion.h).
+    /// Bake the visibility of lights (bake/occlusion.h).
     bool has_occlusion = false;
 
     [[nodiscard]] LightMode mode_of(const Scene& scene, size_t light) const {
@@ -35,14 +36,14 @@ struct LightPlan {
         return source < layers.size() ? layers[source] : kNoIndex;
     }
 
-    /// Whether light is split at all.
+    /// True if paths have to record their light by source.
     [[nodiscard]] bool has_light_groups() const { return layer_count > 0 || has_transfer; }
 
     bool operator==(const LightPlan&) const = default;
 };
 
-/// What a probe's light is split into, as one row of numbers: radiance of each layer, transfer of
-/// radiance (what arrives straight away, then what was reflected), occlusion.
+/// Layout of the light groups of one probe as a row of values: the radiance of each layer (9 RGB
+/// coefficients), the direct transfer, the bounced transfer (RGB), and the four occlusion channels.
 struct LightGroupLayout {
     static constexpr size_t kLayerSize = 3 * size_t{kShCoefficientCount};
     static constexpr size_t kDirectSize = size_t{kShCoefficientCount} * kDistantCoefficientCount;
@@ -67,7 +68,7 @@ struct LightGroupLayout {
         return direct_begin() + (has_transfer ? kDirectSize + kBouncedSize : 0);
     }
 
-    /// Numbers of a row.
+    /// Values per row.
     [[nodiscard]] size_t size() const { return occlusion_begin() + (has_occlusion ? 4 : 0); }
 
     bool operator==(const LightGroupLayout&) const = default;

@@ -7,7 +7,7 @@
 namespace tetralight {
 namespace {
 
-/// The light without what dims it: samples of it are its shape alone.
+/// The light without range, cone and falloff, so that its samples depend on its shape alone.
 Light shape_of(Light light) {
     if (light.type == LightType::Spot) light.type = LightType::Point;
     light.intensity = glm::vec3(1.0f);
@@ -34,13 +34,13 @@ float light_visibility(const PathTracer& tracer, const Light& light, glm::vec3 o
 }
 
 glm::vec4 probe_occlusion(const PathTracer& tracer, std::span<const Light> lights,
-                          const OcclusionLights& owners, glm::vec3 origin, uint64_t key) {
+                          const OcclusionLights& channel_lights, glm::vec3 origin, uint64_t key) {
     glm::vec4 occlusion(1.0f);
-    for (uint32_t channel = 0; channel < owners.size(); ++channel) {
-        if (owners[channel] == kNoIndex) continue;
+    for (uint32_t channel = 0; channel < channel_lights.size(); ++channel) {
+        if (channel_lights[channel] == kNoIndex) continue;
         const uint64_t light_key = detail::mix(key + (channel + 1) * detail::kGoldenRatio64);
         occlusion[static_cast<int>(channel)] =
-            light_visibility(tracer, lights[owners[channel]], origin, light_key);
+            light_visibility(tracer, lights[channel_lights[channel]], origin, light_key);
     }
     return occlusion;
 }

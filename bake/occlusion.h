@@ -11,20 +11,20 @@
 
 namespace tetralight {
 
-/// Shadow rays to a light that can be seen in part: a soft one, or any in a scene with surfaces
-/// that let a part of the rays through.
+/// Shadow rays per light if the light may be partly visible: it has an area, or the scene has
+/// alpha-blended surfaces. Other lights take one ray.
 inline constexpr uint32_t kOcclusionRayCount = 256;
 
-/// Share of a point, spot or directional light (render space) that is visible from `origin`:
-/// 1 = all of it. Soft with its radius or angle; what surfaces let through counts. Range and cone
-/// have no say: where they end, the direct term does. 0 for area lights. A pure function.
+/// Fraction of a point, spot or directional light (in render space) that is visible from `origin`:
+/// 1 = all of it, 0 for area lights. Includes the light's radius or angle and alpha-blended
+/// surfaces. Ignores range and cone, which the direct term of the runtime applies. A pure function.
 [[nodiscard]] float light_visibility(const PathTracer& tracer, const Light& light, glm::vec3 origin,
                                      uint64_t key);
 
-/// The occlusion of a probe: the visibility of each of `owners`, indices into `lights` (render
-/// space); 1 in channels that are nobody's.
+/// The occlusion of a probe, one channel per element of `channel_lights`: the visibility of that
+/// light, an index into `lights` (in render space), or 1 if the channel has no light.
 [[nodiscard]] glm::vec4 probe_occlusion(const PathTracer& tracer, std::span<const Light> lights,
-                                        const OcclusionLights& owners, glm::vec3 origin,
+                                        const OcclusionLights& channel_lights, glm::vec3 origin,
                                         uint64_t key);
 
 }  // namespace tetralight

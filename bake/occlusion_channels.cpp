@@ -15,14 +15,14 @@ namespace {
 
 constexpr uint32_t kChannelCount = 4;
 
-/// The lights that want a channel, in the order in which they choose: by what they are, so that it
-/// is the same wherever they stand in the scene.
+/// The lights that need a channel, in the order of assignment. The order depends on their
+/// properties first, and on their index in the scene only for equal lights.
 std::vector<uint32_t> order_of(std::span<const Light> lights, std::span<const std::string> names,
                                MixedLighting mode) {
     std::vector<uint32_t> order;
     for (uint32_t i = 0; i < lights.size(); ++i) {
-        const bool wants = baked_terms(lights[i].mode, mode).has_occlusion;
-        if (wants && can_have_occlusion(lights[i].type)) order.push_back(i);
+        const bool needs_channel = baked_terms(lights[i].mode, mode).has_occlusion;
+        if (needs_channel && can_have_occlusion(lights[i].type)) order.push_back(i);
     }
     const auto key = [&](uint32_t i) {
         const Light& light = lights[i];
@@ -60,18 +60,18 @@ OcclusionChannels assign_channels(std::span<const Light> lights, std::span<const
 
 OcclusionLights occlusion_lights_at(const glm::dvec3& position, std::span<const Light> lights,
                                     std::span<const uint32_t> channels) {
-    OcclusionLights owners{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
-    std::array<float, kChannelCount> least;
-    least.fill(std::numeric_limits<float>::infinity());
+    OcclusionLights channel_lights{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+    std::array<float, kChannelCount> nearest;
+    nearest.fill(std::numeric_limits<float>::infinity());
     for (uint32_t light = 0; light < lights.size(); ++light) {
         const uint32_t channel = channels[light];
         if (channel == kNoIndex) continue;
         const float distance = distance_to_volume(lights[light], position);
-        if (owners[channel] != kNoIndex && distance >= least[channel]) continue;
-        owners[channel] = light;
-        least[channel] = distance;
+        if (channel_lights[channel] != kNoIndex && distance >= nearest[channel]) continue;
+        channel_lights[channel] = light;
+        nearest[channel] = distance;
     }
-    return owners;
+    return channel_lights;
 }
 
 }  // namespace tetralight

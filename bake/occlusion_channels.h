@@ -13,29 +13,30 @@
 
 namespace tetralight {
 
-/// Which of the four occlusion channels of the probes is whose.
+/// The assignment of lights to the four occlusion channels of the probes.
 struct OcclusionChannels {
-    /// One a light: 0 to 3, or kNoIndex.
+    /// The channel of each light: 0 to 3, or kNoIndex.
     std::vector<uint32_t> of_light;
-    /// One a light: it is `Mixed` and would have occlusion, but lights around it have all four
-    /// channels. It has to be baked fully.
+    /// True for each `Mixed` light that would have occlusion, but all four channels belong to
+    /// lights whose volumes overlap its own. Such a light has to be baked fully.
     std::vector<bool> fell_back;
 
     bool operator==(const OcclusionChannels&) const = default;
 };
 
-/// Gives each `Mixed` light that can have occlusion the first channel that no light has whose
-/// volume overlaps its own: suns first, then by power, so that the weakest of five goes without.
-/// Lights whose volumes do not touch share channels, however many there are.
+/// Assigns each `Mixed` light that can have occlusion the first channel that no light with an
+/// overlapping volume has. Directional lights come first, then lights by descending power, so that
+/// the weakest of five overlapping lights gets no channel. Lights whose volumes do not overlap can
+/// share a channel, so the number of lights is not limited.
 ///
-/// What a light gets depends on the lights that it is joined to by overlaps and on nothing else:
-/// others may come, go and change. Precondition: as many names as lights.
+/// The channel of a light depends only on the lights that are connected to it by a chain of
+/// overlapping volumes. Precondition: one name per light.
 [[nodiscard]] OcclusionChannels assign_channels(std::span<const Light> lights,
                                                 std::span<const std::string> names,
                                                 MixedLighting mode);
 
-/// Whose visibility a probe keeps in each channel: of the lights that have the channel that whose
-/// volume the position lies in, or else is nearest to.
+/// The light of each channel at a probe: among the lights with that channel, the one whose volume
+/// contains the position or else is the nearest; kNoIndex if no light has the channel.
 [[nodiscard]] OcclusionLights occlusion_lights_at(const glm::dvec3& position,
                                                   std::span<const Light> lights,
                                                   std::span<const uint32_t> channels);

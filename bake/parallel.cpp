@@ -18,7 +18,7 @@
 namespace tetralight {
 namespace {
 
-/// Sets the processor's flush-to-zero modes for as long as it lives.
+/// Sets the flush-to-zero modes of the processor for its lifetime.
 class FlushDenormals {
   public:
 #if defined(__SSE2__)
@@ -42,8 +42,8 @@ class FlushDenormals {
 
 #if defined(__SANITIZE_THREAD__)
 
-/// ThreadSanitizer cannot see how TBB, which is not instrumented, orders its threads. Under it the
-/// same work runs on threads that it understands.
+/// ThreadSanitizer does not see the synchronization in TBB, which is not instrumented. Under it,
+/// plain threads do the same work.
 void run_on_threads(uint32_t threads, const std::function<void()>& run) {
     std::vector<std::jthread> pool;
     for (uint32_t t = 0; t < threads; ++t) pool.emplace_back(run);
@@ -65,11 +65,11 @@ void run_on_threads(uint32_t threads, const std::function<void()>& run) {
 }  // namespace
 
 void parallel_for(size_t count, uint32_t thread_count, const std::function<void(size_t)>& work) {
-    // TBB has no more threads than the machine, and prints a warning when asked for more.
+    // TBB prints a warning if asked for more threads than the machine has.
     const auto available = static_cast<uint32_t>(tbb::info::default_concurrency());
     const uint32_t threads = thread_count == 0 ? available : std::min(thread_count, available);
-    // One counter instead of ranges: a range that one thread is left with at the end is time in
-    // which the others wait, and calls here are worth far more than a step of the counter.
+    // A shared counter instead of ranges: at the end of a range per thread, the other threads would
+    // wait for the last one. An atomic increment costs far less than a call here.
     std::atomic<size_t> next = 0;
     run_on_threads(threads, [&] {
         const FlushDenormals flush;

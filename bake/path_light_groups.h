@@ -8,17 +8,21 @@
 
 namespace tetralight {
 
-/// Where the light of one path came from, beside the sum of it all. Reused from path to path.
+/// The light of one path by source: radiance per layer, and the segment with which the path escaped
+/// from the scene. Reused from path to path, to avoid allocations.
 class PathLightGroups {
   public:
     explicit PathLightGroups(uint32_t layer_count)
         : direct_(layer_count, glm::vec3(0.0f)), reflected_(layer_count, glm::vec3(0.0f)) {}
 
-    /// Where a path left the scene, and the share of the light from there that it brings.
+    /// How light arrives at the probe: along the first segment of the path, or by reflections.
+    enum class Arrival : bool { Direct, Reflected };
+
+    /// The ray that escaped, and the throughput of the path up to it. Black if no ray escaped.
     struct Escape {
         glm::vec3 direction{0.0f};
         glm::vec3 throughput{0.0f};
-        /// It met no surface before.
+        /// The first segment of the path escaped.
         bool is_direct = false;
     };
 
@@ -28,19 +32,17 @@ class PathLightGroups {
         escape_ = {};
     }
 
-    enum class Arrival : bool { Direct, Reflected };
-
-    /// Light of a layer; those that are no layer are left out.
-    void add(uint32_t layer, glm::vec3 light, Arrival arrival) {
-        if (layer < direct_.size())
-            (arrival == Arrival::Direct ? direct_ : reflected_)[layer] += light;
+    /// Adds radiance of a layer. Ignored if `layer` is kNoIndex.
+    void add(uint32_t layer, glm::vec3 radiance, Arrival arrival) {
+        if (layer >= direct_.size()) return;
+        (arrival == Arrival::Direct ? direct_ : reflected_)[layer] += radiance;
     }
 
     void set_escape(const Escape& escape) { escape_ = escape; }
 
-    /// What a clamp does to the whole.
+    /// Applies the factor of a clamp to the reflected light.
     void scale_reflected(float factor) {
-        for (glm::vec3& light : reflected_) light *= factor;
+        for (glm::vec3& radiance : reflected_) radiance *= factor;
     }
 
     [[nodiscard]] uint32_t layer_count() const { return static_cast<uint32_t>(direct_.size()); }

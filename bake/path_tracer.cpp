@@ -12,27 +12,26 @@
 namespace tetralight {
 namespace {
 
-/// Paths may be ended at random from their third reflection on, when they carry less than half of
-/// the light that arrives at their end.
-constexpr uint32_t kFirstRoulette = 2;
+/// Russian roulette starts after this many reflections, for paths with a throughput below one half.
+constexpr uint32_t kRouletteStart = 2;
 constexpr float kSurvivalPerThroughput = 2.0f;
 
-/// The least chance to go on: a path that survives grows at most tenfold.
-constexpr float kLeastSurvival = 0.1f;
+/// The smallest survival probability: the throughput of a survivor grows at most tenfold.
+constexpr float kMinSurvival = 0.1f;
 
 float brightest(glm::vec3 c) {
     return std::max({c.r, c.g, c.b});
 }
 
-/// Power heuristic of two techniques, whose densities may be far apart or infinite.
-float power_heuristic(float pdf, float bsdf_pdf) {
+/// Power heuristic with β = 2 for two sampling techniques (Veach & Guibas 1995). `pdf` may be
+/// infinite, and the squares of the densities may overflow: only their ratio is squared.
+float power_heuristic(float pdf, float other_pdf) {
     if (std::isinf(pdf)) return 1.0f;
-    const float ratio = bsdf_pdf / pdf;
+    const float ratio = other_pdf / pdf;
     return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// LightSampler so near that their light overflows are left out: no density is left to weigh them
-/// by.
+/// False also for lights so near that their irradiance overflows: their density has no MIS weight.
 bool is_light(glm::vec3 irradiance) {
     return brightest(irradiance) > 0.0f && brightest(irradiance) < 1e30f;
 }
@@ -91,9 +90,9 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
         }
         throughput *= surface->albedo;  // cosine-weighted: albedo/π · cos θ over cos θ/π
         if (bounce == settings_.bounces || throughput == glm::vec3(0.0f)) break;
-        if (bounce >= kFirstRoulette) {
+        if (bounce >= kRouletteStart) {
             const float survival =
-                std::max(kLeastSurvival, kSurvivalPerThroughput * brightest(throughput));
+                std::max(kMinSurvival, kSurvivalPerThroughput * brightest(throughput));
             if (survival < 1.0f) {
                 if (path.sampler.next() >= survival) break;
                 throughput /= survival;
@@ -122,16 +121,19 @@ bool PathTracer::can_sample_emission() const {
 }
 
 LightSample PathTracer::sample_emission(LightKind kind, const ShadingPoint& shading_point,
-                                        float bsdf_pdf, Sampler& sampler) const {
+                                        float path_pdf, Sampler& sampler) const {
     LightSample sample = light_sampler_.sample(kind, shading_point, sampler);
-    sample.irradiance *= mis_weight_light(sample.pdf, bsdf_pdf);
+    sample.irradiance *= mis_weight_light(sample.pdf, path_pdf);
     if (!is_light(sample.irradiance) || occluded(shading_point.position, sample)) return {};
     return sample;
 }
 
-bool PathTracer::occluded(glm::vec3 origin, const LightSample& sample, float blend) const {
-    // What is transparent is drawn by the bits of the ray: another length is another draw.
-    const float scale = 1.0f + blend;
+bool PathTracer::occluded(glm::vec3 origin, const LightSample& sample, float blend_seed) const {
+    // TraceScene decides by a hash of the ray whether an alpha-blended surface stops it, so that
+    // equal rays get equal answers. A hard light always gives the same shadow ray; scaling its
+    // direction (and its length back) changes the hash but not the segment, so that each sample
+    // makes an independent decision.
+    const float scale = 1.0f + blend_seed;
     if (sample.is_distant) return trace_scene_.occluded({origin, sample.to_light * scale});
     return trace_scene_.occluded({origin, (sample.target - origin) * scale, 1.0f / scale});
 }
@@ -176,15 +178,15 @@ uint32_t PathTracer::layer_of(LightKind kind, const LightSample& sample) const {
     return plan_.layer_of_sky;
 }
 
-float PathTracer::mis_weight_light(float pdf, float bsdf_pdf) const {
-    if (pdf == 0.0f) return 1.0f;  // no ray meets it
-    if (settings_.strategy == LightStrategy::Mis) return power_heuristic(pdf, bsdf_pdf);
+float PathTracer::mis_weight_light(float light_pdf, float bsdf_pdf) const {
+    if (light_pdf == 0.0f) return 1.0f;  // no ray can hit the light
+    if (settings_.strategy == LightStrategy::Mis) return power_heuristic(light_pdf, bsdf_pdf);
     return settings_.strategy == LightStrategy::LightOnly ? 1.0f : 0.0f;
 }
 
-float PathTracer::mis_weight_bsdf(float pdf, float emitter_pdf) const {
-    if (emitter_pdf == 0.0f || std::isinf(pdf)) return 1.0f;
-    if (settings_.strategy == LightStrategy::Mis) return power_heuristic(pdf, emitter_pdf);
+float PathTracer::mis_weight_bsdf(float bsdf_pdf, float light_pdf) const {
+    if (light_pdf == 0.0f || std::isinf(bsdf_pdf)) return 1.0f;
+    if (settings_.strategy == LightStrategy::Mis) return power_heuristic(bsdf_pdf, light_pdf);
     return settings_.strategy == LightStrategy::LightOnly ? 0.0f : 1.0f;
 }
 

@@ -15,80 +15,80 @@
 
 namespace tetralight {
 
-/// How the light of emissive triangles and environment images is found. All three have the same
-/// mean.
+/// How the light of emissive triangles and environment images is sampled. The expected value is the
+/// same for all three.
 enum class LightStrategy {
-    Mis,        ///< light and BSDF sampling, weighted by multiple importance sampling: the default
+    Mis,        ///< light and BSDF sampling, combined by multiple importance sampling
     LightOnly,  ///< light sampling only
     BsdfOnly,   ///< BSDF sampling only
 };
 
 struct PathSettings {
-    /// Reflections that light may take before it arrives; 0 = only emission and sky are seen.
+    /// Maximum number of reflections; 0 = only emission and sky that the first segment hits.
     uint32_t bounces = 4;
-    /// Largest radiance (of the brightest channel) that reflected light along one path may have;
-    /// what is brighter is darkened to it, which loses light. 0 = nothing is.
+    /// Upper limit of the reflected radiance of one path, by its brightest channel: brighter light
+    /// is scaled down to it, which loses energy. 0 = no limit.
     float clamp = 0.0f;
     LightStrategy strategy = LightStrategy::Mis;
 
     bool operator==(const PathSettings&) const = default;
 };
 
-/// Where a path begins.
+/// The first ray of a path.
 struct PathStart {
     glm::vec3 origin{0.0f};     ///< render space
     glm::vec3 direction{0.0f};  ///< unit vector
-    /// Density of the direction, per steradian, for each emitter that is drawn at the origin too
-    /// (`sample_emission`); infinite = none is.
+    /// Density of the direction per steradian, relative to one light sample of each kind that is
+    /// taken at the origin too (`sample_emission`); infinite = no light samples are taken there.
     float pdf = std::numeric_limits<float>::infinity();
 };
 
-/// What the first segment of a path found, and the light that came along it.
+/// The radiance that one path found.
 struct PathSample {
     glm::vec3 radiance{0.0f};
-    /// The first hit was the back of a single-sided surface: the path began inside something.
+    /// The first ray hit the back face of a single-sided surface: it started inside geometry.
     bool hit_back_face = false;
     uint32_t ray_count = 0;
 };
 
-/// Estimates radiance by tracing paths through a scene of Lambert surfaces. At each surface one
-/// emitter of each kind is drawn (next-event estimation), weighted against meeting it by chance
-/// (Veach & Guibas 1995, "Optimally Combining Sampling Techniques", the power heuristic); paths
-/// that carry little are ended at random without bias. Thread-safe.
+/// Estimates radiance by path tracing in a scene of Lambertian surfaces. At each surface one light
+/// of each kind is sampled (next-event estimation), weighted by multiple importance sampling with
+/// the power heuristic (Veach & Guibas 1995, "Optimally Combining Sampling Techniques"). Russian
+/// roulette ends paths of low throughput. Thread-safe.
 class PathTracer {
   public:
-    /// Keeps references to the scenes. The plan says which lights are baked, and splits paths.
+    /// Keeps references to both scenes. The plan selects the baked lights and the light groups.
     PathTracer(const Scene& scene, const TraceScene& trace_scene, const PathSettings& settings,
                const LightPlan& plan = {});
 
-    /// Radiance that arrives along a path. The direct light of punctual and area lights is no part
-    /// of it: no ray meets them. `light_groups`: where it came from; the sum has the same bits with
-    /// it.
+    /// Radiance that arrives along a path. Excludes the direct light of punctual and area lights,
+    /// which rays cannot hit. `light_groups` receives the same light by source, and does not change
+    /// the bits of the result.
     [[nodiscard]] PathSample trace(const PathStart& start, Sampler sampler,
                                    PathLightGroups* light_groups = nullptr) const;
 
-    /// Whether anything that rays meet by chance can be drawn as well.
+    /// True if the strategy samples lights and the scene has emission that rays can hit.
     [[nodiscard]] bool can_sample_emission() const;
 
-    /// Light straight from one emissive triangle or direction of the sky (`kind`), weighted against
-    /// meeting it by chance with density `bsdf_pdf`. Zero irradiance when blocked.
+    /// Direct light of one emissive triangle or sky direction (`kind`) at the start of paths whose
+    /// directions have the density `path_pdf`, with its MIS weight. Zero irradiance if occluded.
     [[nodiscard]] LightSample sample_emission(LightKind kind, const ShadingPoint& shading_point,
-                                              float bsdf_pdf, Sampler& sampler) const;
+                                              float path_pdf, Sampler& sampler) const;
 
-    /// Whether something stands between a position and the light of a sample. `blend` in [0, 1)
-    /// draws anew what lets a part of the rays through.
+    /// True if a surface lies between a position and the light of a sample. `blend_seed` in [0, 1)
+    /// selects the random decisions of alpha-blended surfaces on the way.
     [[nodiscard]] bool occluded(glm::vec3 origin, const LightSample& sample,
-                                float blend = 0.0f) const;
+                                float blend_seed = 0.0f) const;
 
-    /// The lights whose direct light belongs into probes, in the scene's order, in render space.
+    /// The lights whose direct light is baked, in the order of the scene, in render space.
     [[nodiscard]] const std::vector<Light>& baked_lights() const { return baked_lights_; }
 
-    /// The layer of one of them.
+    /// The layer of `baked_lights()[light]`, or kNoIndex.
     [[nodiscard]] uint32_t layer_of_baked_light(size_t light) const {
         return layer_of_baked_light_[light];
     }
 
-    /// The layer of what was drawn.
+    /// The layer of a sampled light, or kNoIndex.
     [[nodiscard]] uint32_t layer_of(LightKind kind, const LightSample& sample) const;
 
     [[nodiscard]] const LightPlan& plan() const { return plan_; }
@@ -98,7 +98,7 @@ class PathTracer {
     [[nodiscard]] const LightSampler& light_sampler() const { return light_sampler_; }
 
   private:
-    /// What is known of a path while it is followed.
+    /// State of a path between two surfaces.
     struct Path {
         Sampler sampler;
         glm::vec3 throughput{1.0f};
@@ -110,11 +110,11 @@ class PathTracer {
         }
     };
 
-    /// Light that a surface reflects straight from emitters, over its albedo.
+    /// Direct light of all kinds that a surface reflects, divided by its albedo.
     [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, Path& path) const;
     [[nodiscard]] uint32_t layer_of_geometry(uint32_t geometry) const;
-    [[nodiscard]] float mis_weight_light(float pdf, float bsdf_pdf) const;
-    [[nodiscard]] float mis_weight_bsdf(float pdf, float emitter_pdf) const;
+    [[nodiscard]] float mis_weight_light(float light_pdf, float bsdf_pdf) const;
+    [[nodiscard]] float mis_weight_bsdf(float bsdf_pdf, float light_pdf) const;
 
     const Scene& scene_;
     const TraceScene& trace_scene_;

@@ -33,8 +33,8 @@ Coefficients weighted_sum(std::span<const ProbeEstimate> estimates) {
     return sum;
 }
 
-/// Of the mean of estimates x_k with n_k directions: Σ n_k/N |x_k − mean|² / (K − 1), which is
-/// unbiased when the variance of an estimate goes as 1/n_k.
+/// Variance of the mean of K estimates x_k with n_k of N samples: Σ n_k/N |x_k − mean|² / (K − 1).
+/// Unbiased if the variance of an estimate is proportional to 1/n_k.
 double variance_of_mean(std::span<const ProbeEstimate> estimates, const Coefficients& sum,
                         double sample_count) {
     double variance = 0.0;
@@ -52,18 +52,18 @@ double variance_of_mean(std::span<const ProbeEstimate> estimates, const Coeffici
 
 void ProbeAccumulator::add_round(std::span<const ProbeEstimate> estimates) noexcept {
     const Coefficients sum = weighted_sum(estimates);
-    uint64_t directions = 0;
+    uint64_t samples = 0;
     for (const ProbeEstimate& estimate : estimates) {
-        directions += estimate.sample_count;
+        samples += estimate.sample_count;
         back_face_count += estimate.back_face_count;
         ray_count += estimate.ray_count;
     }
     for (int i = 0; i < kShCoefficientCount; ++i) radiance_sum[i] += sum[i];
     if (estimates.size() > 1) {
-        const auto count = static_cast<double>(directions);
+        const auto count = static_cast<double>(samples);
         variance_sum += count * count * variance_of_mean(estimates, sum, count);
     }
-    sample_count += directions;
+    sample_count += samples;
     ++round_count;
 }
 
@@ -83,7 +83,7 @@ float ProbeAccumulator::validity() const noexcept {
 }
 
 float ProbeAccumulator::standard_error() const noexcept {
-    const double square = irradiance_square(radiance_sum);  // both are N² times what they stand for
+    const double square = irradiance_square(radiance_sum);  // both sums have a factor N²
     return square > 0.0 ? static_cast<float>(std::sqrt(variance_sum / square)) : 0.0f;
 }
 

@@ -13,15 +13,15 @@
 namespace tetralight {
 namespace {
 
-constexpr double kSphere = 4.0 * std::numbers::pi;
+constexpr double kSphereSolidAngle = 4.0 * std::numbers::pi;
 
-/// Directions for each emitter that is drawn at the probe.
-constexpr uint32_t kDirectionsPerEmitter = 2;
+/// Samples per light sample at the probe.
+constexpr uint32_t kSamplesPerLightSample = 2;
 
-/// Directions for each shadow ray to a `Baked` light.
-constexpr uint32_t kDirectionsPerShadowRay = 4;
+/// Samples per shadow ray to a `Baked` light.
+constexpr uint32_t kSamplesPerShadowRay = 4;
 
-/// What is random about a probe apart, as keys of their own.
+/// The independent random decisions of an estimate. Each has its own key.
 enum class Purpose : uint64_t { Rotation, Paths, Emission, BakedLights };
 
 uint64_t key_of(uint64_t key, Purpose purpose) {
@@ -34,7 +34,7 @@ struct Gathered {
     LightGroupSum light_groups;
 };
 
-/// Light along the probe's own directions; that of `start` has no say.
+/// Adds one path per direction of the set. The direction of `start` is ignored.
 void add_paths(const PathTracer& tracer, const PathStart& start, const DirectionSet& directions,
                uint64_t key, Gathered& gathered) {
     ProbeEstimate& estimate = gathered.estimate;
@@ -52,26 +52,27 @@ void add_paths(const PathTracer& tracer, const PathStart& start, const Direction
             tracer.trace(path, Sampler(paths_key, i), has_light_groups ? &light_groups : nullptr);
         sum.add(path.direction, sample.radiance);
         if (has_light_groups)
-            gathered.light_groups.add(path.direction, light_groups, kSphere / directions.size());
+            gathered.light_groups.add(path.direction, light_groups,
+                                      kSphereSolidAngle / directions.size());
         estimate.back_face_count += sample.hit_back_face;
         estimate.ray_count += sample.ray_count;
     }
-    estimate.radiance += radiance_from_sum(sum, kSphere / directions.size());
+    estimate.radiance += radiance_from_sum(sum, kSphereSolidAngle / directions.size());
 }
 
-/// Light straight from `count` emissive triangles and directions of the sky that are drawn.
+/// Adds the direct light of `count` sampled emissive triangles and `count` sampled sky directions.
 void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint32_t count,
                   Gathered& gathered) {
     ProbeEstimate& estimate = gathered.estimate;
-    const double directions_each = static_cast<double>(estimate.sample_count) / count;
-    const auto other_pdf = static_cast<float>(directions_each / kSphere);
+    const double samples_each = static_cast<double>(estimate.sample_count) / count;
+    const auto path_pdf = static_cast<float>(samples_each / kSphereSolidAngle);
     const uint64_t emission_key = key_of(key, Purpose::Emission);
     RadianceShSum sum;
     for (uint32_t i = 0; i < count; ++i) {
         Sampler sampler(emission_key, i);
         for (const LightKind kind : {LightKind::Triangle, LightKind::Sky}) {
             if (!tracer.light_sampler().has(kind)) continue;
-            const LightSample sample = tracer.sample_emission(kind, {origin}, other_pdf, sampler);
+            const LightSample sample = tracer.sample_emission(kind, {origin}, path_pdf, sampler);
             ++estimate.ray_count;
             if (sample.irradiance == glm::vec3(0.0f)) continue;
             sum.add(sample.to_light, sample.irradiance);
@@ -82,7 +83,7 @@ void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint
     estimate.radiance += radiance_from_sum(sum, 1.0 / count);
 }
 
-/// Direct light of one of the baked lights by `count` shadow rays.
+/// Adds the direct light of one baked light, with `count` shadow rays.
 void add_baked_light(const PathTracer& tracer, size_t light_index, glm::vec3 origin, uint64_t key,
                      uint32_t count, Gathered& gathered) {
     ProbeEstimate& estimate = gathered.estimate;
@@ -105,8 +106,8 @@ void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
                       Gathered& gathered) {
     const std::vector<Light>& lights = tracer.baked_lights();
     const auto light_count = std::max<size_t>(1, lights.size());
-    const auto soft_count = static_cast<uint32_t>(std::max<size_t>(
-        1, gathered.estimate.sample_count / (kDirectionsPerShadowRay * light_count)));
+    const auto soft_count = static_cast<uint32_t>(
+        std::max<size_t>(1, gathered.estimate.sample_count / (kSamplesPerShadowRay * light_count)));
     uint64_t light_key = key_of(key, Purpose::BakedLights);
     for (size_t i = 0; i < lights.size(); ++i) {
         const bool is_hard = has_hard_shadows(lights[i]) && !tracer.trace_scene().has_blending();
@@ -121,15 +122,15 @@ ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_
                              const DirectionSet& directions) {
     const uint32_t sample_count = directions.size();
     LightGroupLayout layout(tracer.plan());
-    layout.has_occlusion = false;  // no part of what directions gather
+    layout.has_occlusion = false;  // added by bake_accumulators
     Gathered gathered{{}, LightGroupSum(layout)};
     gathered.estimate.sample_count = sample_count;
     if (tracer.can_sample_emission()) {
-        const uint32_t drawn = std::max(1u, sample_count / kDirectionsPerEmitter);
-        const double pdf = sample_count / (kSphere * drawn);
+        const uint32_t light_sample_count = std::max(1u, sample_count / kSamplesPerLightSample);
+        const double pdf = sample_count / (kSphereSolidAngle * light_sample_count);
         const PathStart start{.origin = origin, .pdf = static_cast<float>(pdf)};
         add_paths(tracer, start, directions, key, gathered);
-        add_emission(tracer, origin, key, drawn, gathered);
+        add_emission(tracer, origin, key, light_sample_count, gathered);
     } else {
         add_paths(tracer, {.origin = origin}, directions, key, gathered);
     }

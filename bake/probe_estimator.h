@@ -12,22 +12,22 @@
 
 namespace tetralight {
 
-/// One estimate of the light that arrives at a position, from a set of directions of its own.
-/// Estimates with different keys are independent.
+/// One estimate of the light that arrives at a position. Estimates with different keys are
+/// independent.
 struct ProbeEstimate {
     RadianceSh radiance;
+    /// Paths traced, one per direction of the set.
     uint32_t sample_count = 0;
-    /// Directions that met the back of a single-sided surface first.
+    /// Samples whose first hit is the back face of a single-sided surface.
     uint32_t back_face_count = 0;
     uint64_t ray_count = 0;
-    /// What the light is light_groups into, as a row of `LightGroupLayout`; empty when the plan
-    /// splits nothing.
+    /// The light groups as a row of `LightGroupLayout`; empty if the plan has none.
     std::vector<float> light_groups;
 };
 
-/// Gathers the light at `origin` (render space) over a set of directions, which is turned at
-/// random: sky, emission, the bounces of all lights, and the direct light of those whose mode is
-/// `Baked`. Unbiased for any set; a pure function of its arguments.
+/// Estimates the light at `origin` (render space) with one path per direction of a set that is
+/// rotated at random: sky, emission, the bounces of all lights, and the direct light of those whose
+/// mode is `Baked`. Unbiased for any set. A pure function.
 [[nodiscard]] ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
                                            const DirectionSet& directions);
 

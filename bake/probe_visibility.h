@@ -13,32 +13,35 @@
 
 namespace tetralight {
 
-/// What surrounds a position: over a fixed set of directions, the same for all.
+/// What rays from a position hit, over a fixed set of directions that is the same for all
+/// positions.
 struct ProbeVisibility {
-    /// Share of rays that meet the back of a single-sided surface.
+    /// Fraction of rays that hit the back face of a single-sided surface.
     float back_face_fraction = 0.0f;
-    /// Share of rays that meet any surface from behind.
+    /// Fraction of rays that hit any surface, double-sided ones included, from behind.
     float behind_fraction = 0.0f;
-    /// Share of rays that meet nothing.
+    /// Fraction of rays that hit no surface.
     float escape_fraction = 0.0f;
-    /// Metres to the nearest point of any surface; infinite: there is none.
+    /// Distance to the nearest surface, metres; infinite if the scene has none.
     float surface_distance = std::numeric_limits<float>::infinity();
 
-    /// Whether the position lies inside geometry. Few back faces of single-sided surfaces are
-    /// enough, as nobody is meant to see them; those of double-sided ones must nearly surround it.
+    /// True if the position lies inside geometry: more than 1 − `min_validity` of the rays hit back
+    /// faces of single-sided surfaces, or more than 75 % hit any surface from behind. The limit for
+    /// double-sided surfaces is higher because their backs are visible from free space too.
     [[nodiscard]] bool is_inside(float min_validity = 0.75f) const {
         return back_face_fraction > 1.0f - min_validity || behind_fraction > 0.75f;
     }
 };
 
-/// Looks around from a position in render space. Pure.
+/// The visibility from one position in render space. Pure.
 [[nodiscard]] ProbeVisibility probe_visibility(const TraceScene& trace_scene, glm::vec3 position);
 
-/// Looks around from each world position. Deterministic. Error: not enough memory.
+/// The visibility from each world position, for static geometry. Deterministic. Returns the errors
+/// of `TraceScene::make_static`.
 [[nodiscard]] Result<std::vector<ProbeVisibility>> probe_visibilities(
     const Scene& scene, std::span<const glm::dvec3> positions, uint32_t thread_count = 0);
 
-/// The directions that a survey looks in.
+/// The directions of the rays.
 [[nodiscard]] std::span<const glm::vec3> probe_visibility_directions();
 
 }  // namespace tetralight

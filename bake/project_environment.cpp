@@ -16,16 +16,16 @@ namespace {
 template <size_t kCount>
 using Coefficients = std::array<glm::dvec3, kCount>;
 
-/// The environment's coefficients by `basis_of(direction)`, which has kCount functions.
+/// Projects the environment onto the kCount functions of `basis_of(direction)`.
 template <size_t kCount, class BasisOf>
 class Projection {
   public:
     Projection(const Environment& environment, BasisOf basis_of)
         : environment_(environment), basis_of_(basis_of) {
         const ImageF& image = environment.image;
-        const uint32_t split = 1 + 255 / std::min(image.width, image.height);
-        columns_ = image.width * split;
-        rows_ = image.height * split;
+        const uint32_t subdivision = 1 + 255 / std::min(image.width, image.height);
+        columns_ = image.width * subdivision;
+        rows_ = image.height * subdivision;
     }
 
     [[nodiscard]] Coefficients<kCount> all(uint32_t thread_count) const {
@@ -42,7 +42,7 @@ class Projection {
     }
 
   private:
-    /// Sum over one row of the sky, whose samples all have the same solid angle.
+    /// Sum over one row of the image, whose samples all have the same solid angle.
     [[nodiscard]] Coefficients<kCount> row(size_t index) const {
         Coefficients<kCount> sum{};
         const double polar_angle = (static_cast<double>(index) + 0.5) * (std::numbers::pi / rows_);

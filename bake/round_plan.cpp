@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tetralight/bake/sampling/mix.h>
 #include <tetralight/base/str_cat.h>
@@ -13,15 +14,16 @@ namespace {
 constexpr uint64_t kMinSamplesForError =
     uint64_t{RoundPlan::kEstimateCount} * RoundPlan::kMinSamplesPerEstimate;
 constexpr uint64_t kDefaultGrowth = 64;
-constexpr uint64_t kMaxSamples = uint64_t{1} << 34;  // an estimate's share fits in 32 bits
-constexpr uint64_t kMostRounds = 32;
+constexpr uint64_t kMaxSamples = uint64_t{1} << 34;  // the samples of one estimate fit in 32 bits
+constexpr uint64_t kMaxRounds = 32;
 
 bool has_rounds(const BakeSettings& settings) {
     return settings.target_error > 0.0 || settings.time_budget_seconds > 0.0;
 }
 
-/// A target needs error bars, so rounds begin with directions for them.
-uint64_t first_directions(const BakeSettings& settings) {
+/// A target error or a time budget needs standard errors, so that the first round has samples
+/// enough for them.
+uint64_t first_round_samples(const BakeSettings& settings) {
     return has_rounds(settings) ? std::max<uint64_t>(settings.sample_count, kMinSamplesForError)
                                 : settings.sample_count;
 }
@@ -29,43 +31,47 @@ uint64_t first_directions(const BakeSettings& settings) {
 }  // namespace
 
 RoundPlan::RoundPlan(const BakeSettings& settings) noexcept
-    : first_(first_directions(settings)), maximum_(first_), target_error_(settings.target_error) {
+    : first_round_samples_(first_round_samples(settings)),
+      max_samples_(first_round_samples_),
+      target_error_(settings.target_error) {
     if (!has_rounds(settings)) return;
-    const uint64_t wanted =
-        settings.max_sample_count > 0 ? settings.max_sample_count : kDefaultGrowth * first_;
-    maximum_ = std::min(wanted, kMaxSamples);
+    const uint64_t wanted = settings.max_sample_count > 0 ? settings.max_sample_count
+                                                          : kDefaultGrowth * first_round_samples_;
+    max_samples_ = std::min(wanted, kMaxSamples);
 }
 
 Status RoundPlan::check(const BakeSettings& settings) {
-    if (settings.sample_count == 0) return Error{"samples: 0 is not a number of directions"};
-    const auto is_amount = [](double x) { return std::isfinite(x) && x >= 0.0; };
-    if (!is_amount(settings.target_error)) {
-        return Error{str_cat("target error: ", settings.target_error, " is not a share")};
+    if (settings.sample_count == 0) {
+        return Error{ErrorCode::InvalidArgument, "samples", "0", "samples: must be at least 1"};
     }
-    if (!is_amount(settings.time_budget_seconds)) {
-        return Error{str_cat("time budget: ", settings.time_budget_seconds, " is not a time")};
-    }
-    if (!is_amount(settings.clamp)) {
-        return Error{str_cat("clamp: ", settings.clamp, " is not a radiance")};
+    const std::pair<const char*, double> numbers[] = {
+        {"target_error", settings.target_error},
+        {"time_budget", settings.time_budget_seconds},
+        {"clamp", static_cast<double>(settings.clamp)}};
+    for (const auto& [name, number] : numbers) {
+        if (std::isfinite(number) && number >= 0.0) continue;
+        return Error{ErrorCode::InvalidArgument, name, str_cat(number),
+                     str_cat(name, ": ", number, " is not a finite number of at least 0")};
     }
     const uint64_t maximum = settings.max_sample_count;
-    if (has_rounds(settings) && maximum > 0 && maximum < first_directions(settings)) {
-        return Error{str_cat("max samples: ", maximum, " are fewer than the ",
-                             first_directions(settings), " of the first round")};
+    if (has_rounds(settings) && maximum > 0 && maximum < first_round_samples(settings)) {
+        return Error{ErrorCode::InvalidArgument, "max_samples", str_cat(maximum),
+                     str_cat("max_samples: ", maximum, " is less than the ",
+                             first_round_samples(settings), " samples of the first round")};
     }
     return Ok{};
 }
 
 uint64_t RoundPlan::samples_before(uint64_t round) const noexcept {
     if (round == 0) return 0;
-    if (round > kMostRounds) return maximum_;
-    return std::min(first_ << (round - 1), maximum_);
+    if (round > kMaxRounds) return max_samples_;
+    return std::min(first_round_samples_ << (round - 1), max_samples_);
 }
 
 uint64_t RoundPlan::samples_in_round(uint64_t round) const noexcept {
-    const uint64_t directions = samples_before(round + 1) - samples_before(round);
-    // What the maximum leaves over may be too little for error bars of its own.
-    return round > 0 && directions < kMinSamplesForError ? 0 : directions;
+    const uint64_t samples = samples_before(round + 1) - samples_before(round);
+    // The samples left up to the maximum may be too few for a standard error.
+    return round > 0 && samples < kMinSamplesForError ? 0 : samples;
 }
 
 uint32_t RoundPlan::estimates_in_round(uint64_t round) const noexcept {
@@ -74,8 +80,8 @@ uint32_t RoundPlan::estimates_in_round(uint64_t round) const noexcept {
 }
 
 uint32_t RoundPlan::samples_in_estimate(uint64_t round, uint32_t estimate) const noexcept {
-    const uint64_t directions = samples_in_round(round), estimates = estimates_in_round(round);
-    return static_cast<uint32_t>(directions / estimates + (estimate < directions % estimates));
+    const uint64_t samples = samples_in_round(round), estimates = estimates_in_round(round);
+    return static_cast<uint32_t>(samples / estimates + (estimate < samples % estimates));
 }
 
 bool RoundPlan::is_done(const ProbeAccumulator& accumulator) const noexcept {
@@ -85,13 +91,13 @@ bool RoundPlan::is_done(const ProbeAccumulator& accumulator) const noexcept {
 }
 
 uint64_t RoundPlan::expected_samples(const ProbeAccumulator& accumulator) const noexcept {
-    if (accumulator.round_count == 0) return first_;
+    if (accumulator.round_count == 0) return first_round_samples_;
     if (is_done(accumulator)) return accumulator.sample_count;
-    if (target_error_ == 0.0) return maximum_;
-    // Errors fall with the root of the directions at least.
+    if (target_error_ == 0.0) return max_samples_;
+    // The error falls at least with the square root of the number of samples.
     const double excess = accumulator.standard_error() / target_error_;
     const double needed = static_cast<double>(accumulator.sample_count) * excess * excess;
-    if (needed >= static_cast<double>(maximum_)) return maximum_;
+    if (needed >= static_cast<double>(max_samples_)) return max_samples_;
     uint64_t round = accumulator.round_count + 1;
     while (static_cast<double>(samples_before(round)) < needed) ++round;
     return samples_before(round);

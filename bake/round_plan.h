@@ -9,47 +9,48 @@
 
 namespace tetralight {
 
-/// How the directions of a probe are split into rounds, and rounds into independent estimates. The
-/// same for every probe, so that what a probe gets depends on nothing but itself.
+/// How the samples of a probe are divided into rounds, and rounds into independent estimates. The
+/// same for every probe, so that a probe does not depend on the others.
 class RoundPlan {
   public:
-    /// Estimates of a round that has directions for them: enough for a standard error that is
-    /// itself good to about a tenth.
+    /// Estimates per round if it has enough samples: their standard error is itself accurate to
+    /// about a tenth.
     static constexpr uint32_t kEstimateCount = 8;
-    /// Sets of fewer directions are too uneven to be worth more estimates.
+    /// With fewer samples, a direction set is too uneven to be split into more estimates.
     static constexpr uint32_t kMinSamplesPerEstimate = 16;
 
-    /// Precondition: `check(settings)` holds.
+    /// Precondition: `check(settings)` succeeds.
     explicit RoundPlan(const BakeSettings& settings) noexcept;
 
-    /// Error: no samples, fewer at most than at first, numbers that are negative or NaN.
+    /// Returns invalid_argument with the setting as its field if there are no samples, if the
+    /// maximum is below the samples of the first round, or if a number is negative or not finite.
     [[nodiscard]] static Status check(const BakeSettings& settings);
 
-    /// Directions that a probe has before this round: each round doubles them, up to the maximum.
+    /// Samples that a probe has before a round: each round doubles them, up to the maximum.
     [[nodiscard]] uint64_t samples_before(uint64_t round) const noexcept;
 
-    /// Directions of one round; 0: there is no such round.
+    /// Samples of one round; 0 if the plan has no such round.
     [[nodiscard]] uint64_t samples_in_round(uint64_t round) const noexcept;
 
-    /// Estimates that share them.
+    /// Number of estimates that the samples of a round are divided into.
     [[nodiscard]] uint32_t estimates_in_round(uint64_t round) const noexcept;
 
-    /// Directions of one of these estimates; they differ by one at most.
+    /// Samples of one of these estimates. Within a round they differ by at most one.
     [[nodiscard]] uint32_t samples_in_estimate(uint64_t round, uint32_t estimate) const noexcept;
 
-    /// Whether the probe needs no further round.
+    /// True if the probe needs no further round.
     [[nodiscard]] bool is_done(const ProbeAccumulator& accumulator) const noexcept;
 
-    /// Directions that the probe will have when it is done, as far as its error tells by now.
+    /// Samples that the probe is expected to have when it is done, from its error so far.
     [[nodiscard]] uint64_t expected_samples(const ProbeAccumulator& accumulator) const noexcept;
 
   private:
-    uint64_t first_ = 0;
-    uint64_t maximum_ = 0;
+    uint64_t first_round_samples_ = 0;
+    uint64_t max_samples_ = 0;
     double target_error_ = 0.0;
 };
 
-/// Key of one estimate of a probe.
+/// The random key of one estimate of a probe.
 [[nodiscard]] uint64_t estimate_key(uint64_t probe_key, uint64_t round, uint32_t estimate) noexcept;
 
 }  // namespace tetralight

@@ -8,11 +8,11 @@
 namespace tetralight {
 namespace {
 
-/// A back face, through which a way may lead out.
+/// A surface that is hit from behind: its front side may be outside geometry.
 struct Exit {
     float distance = 0.0f;
     glm::vec3 direction{0.0f};
-    glm::vec3 beyond{0.0f};  ///< on its front, where a ray can start
+    glm::vec3 front{0.0f};  ///< on the front side, where a ray can start
 };
 
 class ExitSearch {
@@ -25,30 +25,30 @@ class ExitSearch {
         std::vector<Exit> exits;
         const auto nearest = trace_scene_.nearest_surface(position_);
         if (nearest && *nearest != position_) {
-            look(glm::normalize(*nearest - position_), exits);
+            add_exit(glm::normalize(*nearest - position_), exits);
         }
-        for (const glm::vec3& direction : probe_visibility_directions()) look(direction, exits);
+        for (const glm::vec3& direction : probe_visibility_directions()) add_exit(direction, exits);
         std::ranges::stable_sort(exits, {}, &Exit::distance);
         return exits;
     }
 
-    /// The margin beyond an exit, or half of the room where that is less.
-    [[nodiscard]] glm::vec3 place_beyond(const Exit& exit) const {
+    /// The position at the margin in front of an exit, or half way to the next surface if nearer.
+    [[nodiscard]] glm::vec3 position_at(const Exit& exit) const {
         const auto next =
-            trace_scene_.intersect({exit.beyond, exit.direction, 2.0f * settings_.margin});
-        const float room =
-            next ? 0.5f * glm::distance(next->position, exit.beyond) : settings_.margin;
-        return exit.beyond + room * exit.direction;
+            trace_scene_.intersect({exit.front, exit.direction, 2.0f * settings_.margin});
+        const float distance =
+            next ? 0.5f * glm::distance(next->position, exit.front) : settings_.margin;
+        return exit.front + distance * exit.direction;
     }
 
   private:
-    /// Double-sided surfaces count too: those who lie among them are told by `is_inside`.
-    void look(glm::vec3 direction, std::vector<Exit>& exits) const {
+    /// Includes double-sided surfaces: `is_inside` rejects positions between them.
+    void add_exit(glm::vec3 direction, std::vector<Exit>& exits) const {
         const auto surface = trace_scene_.intersect({position_, direction, settings_.max_distance});
         if (!surface || !surface->is_from_behind) return;
-        // The normal is on the side that the ray came from.
-        const glm::vec3 beyond = TraceScene::ray_origin(*surface, -surface->geometric_normal);
-        exits.push_back({glm::distance(position_, surface->position), direction, beyond});
+        // The normal points to the side that the ray came from.
+        const glm::vec3 front = TraceScene::ray_origin(*surface, -surface->geometric_normal);
+        exits.push_back({glm::distance(position_, surface->position), direction, front});
     }
 
     const TraceScene& trace_scene_;
@@ -62,10 +62,10 @@ std::optional<glm::vec3> find_virtual_offset(const TraceScene& trace_scene, glm:
                                              const VirtualOffsetSettings& settings) {
     const ExitSearch exit_search(trace_scene, position, settings);
     for (const Exit& exit : exit_search.exits()) {
-        const glm::vec3 place = exit_search.place_beyond(exit);
-        if (glm::distance(place, position) > settings.max_distance) continue;
-        if (!probe_visibility(trace_scene, place).is_inside(settings.min_validity))
-            return place - position;
+        const glm::vec3 candidate = exit_search.position_at(exit);
+        if (glm::distance(candidate, position) > settings.max_distance) continue;
+        if (!probe_visibility(trace_scene, candidate).is_inside(settings.min_validity))
+            return candidate - position;
     }
     return std::nullopt;
 }

@@ -9,19 +9,21 @@
 
 namespace tetralight {
 
-/// How a probe that lies in geometry finds a place to gather light from.
+/// Limits of the virtual offset of a probe inside geometry.
 struct VirtualOffsetSettings {
-    /// No offset is longer than this, metres.
+    /// Maximum length of the offset, metres.
     float max_distance = 0.0f;
-    /// How far beyond the surface the place should lie, metres; less where there is less room.
+    /// Distance in front of the surface, metres. If another surface is nearer than twice the
+    /// margin, the offset ends half way to it.
     float margin = 0.0f;
     /// See `ProbeVisibility::is_inside`.
     float min_validity = 0.75f;
 };
 
-/// The way out of geometry from a position in render space: through the nearest back face, seen
-/// towards the nearest surface or in a direction of the survey, beyond which lies a place that is
-/// not inside. None: there is no such place in reach. Pure.
+/// The virtual offset of a position in render space: to the front side of the nearest surface that
+/// is hit from behind, towards the closest point of the scene or along one of
+/// `probe_visibility_directions`, provided that the position there is not inside geometry. None if
+/// no such position lies within the maximum distance. Pure.
 [[nodiscard]] std::optional<glm::vec3> find_virtual_offset(const TraceScene& trace_scene,
                                                            glm::vec3 position,
                                                            const VirtualOffsetSettings& settings);

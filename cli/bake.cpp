@@ -259,7 +259,7 @@ struct Bake {
         };
         auto baked = reuse_path.empty() ? bake(prepared) : bake(bake_of_others(prepared));
         if (baked && !reuse_path.empty()) baked->partial = spread_others(prepared, baked->partial);
-        if (baked || error_text(baked.error()) != "cancelled") return baked;
+        if (baked || baked.error().code != ErrorCode::Cancelled) return baked;
         if (!chunk_folder.empty())
             return Error{"interrupted; " + chunk_folder + " keeps what is done"};
         if (kept.path.empty()) return Error{"interrupted"};

@@ -12,7 +12,7 @@
 namespace tetralight {
 namespace {
 
-/// Lookups for the light of a triangle whose emission varies.
+/// Texture lookups per triangle, if its emission varies.
 constexpr uint32_t kLookups = 32;
 
 /// Weights of the second and third corner, uniform by area (Heitz 2019, "A Low-Distortion Map
@@ -59,15 +59,15 @@ void EmissiveTriangles::add(uint32_t geometry, uint32_t primitive,
     const glm::vec3 area_vector = 0.5f * glm::cross(u, v);
     const float area = glm::length(area_vector);
     triangles_.push_back({corners[0], {u, v}, geometry, primitive});
-    LightBounds& emitter = bounds.emplace_back();
-    emitter.min = glm::min(glm::min(corners[0], corners[1]), corners[2]);
-    emitter.max = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+    LightBounds& light_bounds = bounds.emplace_back();
+    light_bounds.min = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+    light_bounds.max = glm::max(glm::max(corners[0], corners[1]), corners[2]);
     if (!(area > 0.0f) || !std::isfinite(area)) return;
-    emitter.power = area * mean_emission(trace_scene_, geometry, primitive);
-    emitter.is_two_sided = trace_scene_.is_double_sided(geometry);
-    emitter.axis = area_vector / area;
-    emitter.cos_theta_o = 1.0f;
-    emitter.cos_theta_e = 0.0f;
+    light_bounds.power = area * mean_emission(trace_scene_, geometry, primitive);
+    light_bounds.is_two_sided = trace_scene_.is_double_sided(geometry);
+    light_bounds.axis = area_vector / area;
+    light_bounds.cos_theta_o = 1.0f;
+    light_bounds.cos_theta_e = 0.0f;
 }
 
 LightSample EmissiveTriangles::sample(const ShadingPoint& shading_point, double choice,
@@ -94,7 +94,7 @@ LightSample EmissiveTriangles::sample(const ShadingPoint& shading_point, double 
     sample.pdf = chosen->probability * distance * distance / facing_area;
     sample.irradiance =
         trace_scene_.visible_emission(triangle.geometry, triangle.primitive, weights) / sample.pdf;
-    // A shadow ray that ends in front of the triangle does not meet it.
+    // Ends in front of the triangle, so that the shadow ray does not hit the triangle itself.
     sample.target =
         TraceScene::shadow_target({{triangle.corner, triangle.corner + triangle.edges[0],
                                     triangle.corner + triangle.edges[1]},

@@ -13,23 +13,24 @@
 
 namespace tetralight {
 
-/// Draws points of the triangles that emit light: a triangle by its light at the shading point,
-/// then a point of it uniformly by area.
+/// Samples points on emissive triangles: a triangle by its estimated light at the shading point,
+/// then a point on it uniformly by area.
 class EmissiveTriangles {
   public:
-    /// Keeps a reference. Emission is integrated over each triangle by a few texture lookups; what
-    /// they miss is never drawn and has a density of 0.
+    /// Keeps a reference. The emission of a triangle is estimated from a few texture lookups; if
+    /// all of them are black, the triangle is never sampled and has density 0.
     explicit EmissiveTriangles(const TraceScene& trace_scene);
 
     [[nodiscard]] bool is_empty() const { return tree_.is_empty(); }
 
-    /// Light of one point. `choice` in [0, 1) draws the triangle and `u` the point. Zero irradiance
-    /// when it turns its back to the shading point, or there is nothing of use.
+    /// Light of one point, without shadows. `choice` in [0, 1) selects the triangle and `u` the
+    /// point. Zero irradiance if the triangle faces away from the shading point, or no triangle can
+    /// light it.
     [[nodiscard]] LightSample sample(const ShadingPoint& shading_point, double choice,
                                      glm::vec2 u) const noexcept;
 
-    /// Density per steradian with which `sample` draws the place that a ray from the shading point
-    /// surface.
+    /// Density per steradian with which `sample` returns a surface point that a ray from the
+    /// shading point hit.
     [[nodiscard]] float pdf(const ShadingPoint& shading_point,
                             const Surface& surface) const noexcept;
 
@@ -45,8 +46,8 @@ class EmissiveTriangles {
 
     const TraceScene& trace_scene_;
     std::vector<Triangle> triangles_;
-    /// For each geometry the number of its first triangle here, or `kNoIndex`: all of a geometry's
-    /// triangles are here or none.
+    /// The index of the first triangle of each geometry, or kNoIndex: either all triangles of a
+    /// geometry are in `triangles_` or none.
     std::vector<uint32_t> first_of_geometry_;
     LightTree tree_;
 };

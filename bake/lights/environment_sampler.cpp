@@ -12,16 +12,16 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Share of its own light that a texel's weight keeps where the sky is darker than its mean.
-constexpr double kLeastShare = 1.0 / 16.0;
+/// The minimum weight of a texel, as a fraction of its own light.
+constexpr double kMinWeight = 1.0 / 16.0;
 
 /// Cosine of the polar angle at the upper edge of a row.
 double row_top(uint32_t row, uint32_t height) {
     return std::cos(std::numbers::pi * row / height);
 }
 
-/// Integral of the bilinear lookup over each texel: per axis, the neighbors count an eighth each
-/// and the texel itself three quarters.
+/// Integral of the bilinear lookup over each texel. Per axis, each neighbor has the weight 1/8 and
+/// the texel itself 3/4.
 std::vector<double> texel_integrals(const Environment& environment) {
     const ImageF& image = environment.image;
     const glm::dvec3 scale(environment.radiance);
@@ -46,8 +46,8 @@ std::vector<double> texel_integrals(const Environment& environment) {
     return integrals;
 }
 
-/// Replaces weights by cumulated shares that end with 1, and returns the sum of the weights. The
-/// last of them that counts ends at 1 too, so that none after it is drawn.
+/// Writes the cumulative distribution of the weights, which ends with 1, and returns their sum. The
+/// last positive weight already reaches 1, so that no zero weight after it is sampled.
 double cumulate(std::span<const double> weights, std::span<float> ends) {
     double sum = 0.0, end = 0.0;
     for (const double weight : weights) sum += weight;
@@ -58,7 +58,7 @@ double cumulate(std::span<const double> weights, std::span<float> ends) {
     return sum;
 }
 
-/// Interval that holds `u`, and where in it, as a share.
+/// The interval that contains `u`, and the position in it, in [0, 1].
 std::pair<uint32_t, float> find_interval(std::span<const float> ends, float u) {
     const auto it = std::upper_bound(ends.begin(), ends.end(), u);
     const auto i = static_cast<uint32_t>(std::min(it, ends.end() - 1) - ends.begin());
@@ -67,7 +67,7 @@ std::pair<uint32_t, float> find_interval(std::span<const float> ends, float u) {
     return {i, width > 0.0f ? std::clamp((u - begin) / width, 0.0f, 1.0f) : 0.5f};
 }
 
-float share(std::span<const float> ends, uint32_t i) {
+float probability_of(std::span<const float> ends, uint32_t i) {
     return ends[i] - (i == 0 ? 0.0f : ends[i - 1]);
 }
 
@@ -89,7 +89,7 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment)
     }
     mean /= 2.0 * width_;
     if (!(mean > 0.0)) return;
-    for (double& weight : weights) weight = std::max(weight - mean, kLeastShare * weight);
+    for (double& weight : weights) weight = std::max(weight - mean, kMinWeight * weight);
 
     std::vector<double> row_weights(height_);
     column_ends_.resize(weights.size());
@@ -105,7 +105,8 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment)
 
 float EnvironmentSampler::texel_pdf(uint32_t column, uint32_t row) const noexcept {
     const std::span<const float> columns(&column_ends_[size_t{row} * width_], width_);
-    const double probability = static_cast<double>(share(row_ends_, row)) * share(columns, column);
+    const double probability =
+        static_cast<double>(probability_of(row_ends_, row)) * probability_of(columns, column);
     const double solid_angle =
         2.0 * std::numbers::pi / width_ * (row_top(row, height_) - row_top(row + 1, height_));
     return static_cast<float>(probability / solid_angle);

@@ -10,18 +10,19 @@
 
 namespace tetralight {
 
-/// Draws directions in which an environment image shines more than elsewhere.
+/// Samples directions in proportion to how much brighter than average the environment image is.
 ///
-/// A texel's weight is the integral of the bilinear lookup over it, less the mean of the sky but
-/// never less than a sixteenth of it: what is left is found well enough by chance, which who
-/// samples both ways must weigh in (Karlík et al. 2019, "MIS Compensation"). Density is positive
-/// wherever the lookup is.
+/// The weight of a texel is the integral of the bilinear lookup over it minus the mean of the sky,
+/// but at least a sixteenth of the integral. BSDF sampling finds the light that is subtracted, so
+/// that the two have to be combined by multiple importance sampling (Karlík et al. 2019, "MIS
+/// Compensation: Optimizing Sampling Techniques in Multiple Importance Sampling"). The density is
+/// positive wherever the lookup is.
 class EnvironmentSampler {
   public:
-    /// Copies what it needs: 4 bytes a texel.
+    /// Keeps no reference; takes 4 bytes per texel.
     explicit EnvironmentSampler(const Environment& environment);
 
-    /// Whether there is nothing to draw: no image, or one of no light.
+    /// True if there is no image, or it is black.
     [[nodiscard]] bool is_empty() const { return row_ends_.empty(); }
 
     /// A unit direction for `u` uniform in [0, 1)². Precondition: not empty.
@@ -35,8 +36,8 @@ class EnvironmentSampler {
 
     uint32_t width_ = 0, height_ = 0;
     float rotation_radians_ = 0.0f;
-    std::vector<float> row_ends_;     // cumulated shares of the rows, 1 at the end
-    std::vector<float> column_ends_;  // of the columns in each row
+    std::vector<float> row_ends_;     // cumulative distribution over the rows; ends with 1
+    std::vector<float> column_ends_;  // the same over the columns of each row
 };
 
 }  // namespace tetralight

@@ -16,7 +16,8 @@ float angle_of(float cosine) {
     return std::acos(std::clamp(cosine, -1.0f, 1.0f));
 }
 
-/// A cone of directions that holds two cones (Conty Estevez & Kulla 2018, algorithm 1).
+/// Replaces the cone of `a` by one that contains both cones (Conty Estevez & Kulla 2018,
+/// algorithm 1).
 void unite_cones(LightBounds& a, const LightBounds& b) {
     const bool a_is_wider = a.cos_theta_o <= b.cos_theta_o;
     const glm::vec3 wide_axis = a_is_wider ? a.axis : b.axis;
@@ -35,8 +36,8 @@ void unite_cones(LightBounds& a, const LightBounds& b) {
         a.cos_theta_o = -1.0f;
         return;
     }
-    const float turn = half - wide;
-    a.axis = glm::normalize(wide_axis * std::cos(turn) + side * (std::sin(turn) / length));
+    const float rotation = half - wide;
+    a.axis = glm::normalize(wide_axis * std::cos(rotation) + side * (std::sin(rotation) / length));
     a.cos_theta_o = std::cos(half);
 }
 
@@ -45,7 +46,7 @@ void unite_cones(LightBounds& a, const LightBounds& b) {
 LightBounds union_of(LightBounds a, LightBounds b) noexcept {
     if (b.power <= 0.0f) return a;
     if (a.power <= 0.0f) return b;
-    // Both axes of what is two-sided are as good; together they take the narrower cone.
+    // The axis of a two-sided light may be flipped: take the one that gives the narrower cone.
     if (glm::dot(a.axis, b.axis) < 0.0f) {
         if (b.is_two_sided) {
             b.axis = -b.axis;

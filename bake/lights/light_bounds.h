@@ -6,38 +6,38 @@
 
 namespace tetralight {
 
-/// Where some emitters are, where they shine to and how much: bounds of what they can send to a
-/// position.
+/// Bounds of the position, direction and power of one or more lights (LightBounds of pbrt-4; the
+/// cone is that of Conty Estevez & Kulla 2018, section 4).
 struct LightBounds {
     glm::vec3 min{0.0f};
     glm::vec3 max{0.0f};
-    /// Axis of the cone that holds the emitters' own axes, a unit vector.
+    /// Unit axis of the cone that contains the normals of the lights.
     glm::vec3 axis{0.0f, 0.0f, 1.0f};
-    /// Cosine of that cone's half angle; −1 = shines everywhere alike.
+    /// Cosine of θ_o, the half angle of that cone; −1 = emits in all directions.
     float cos_theta_o = -1.0f;
-    /// Cosine of the angle to its own axis beyond which an emitter sends nothing.
+    /// Cosine of θ_e, the largest angle to its own normal at which a light emits.
     float cos_theta_e = -1.0f;
-    /// Whether it sends the same to the other side, against its axis.
+    /// True if the lights emit the same on the back side.
     bool is_two_sided = false;
-    /// What it sends straight ahead over squared distance, any unit.
+    /// Σ intensity along the normal: irradiance · distance², in any unit.
     float power = 0.0f;
-    /// Distance from the box beyond which it sends nothing.
+    /// Distance from the box, metres, from which on no light arrives.
     float max_distance = std::numeric_limits<float>::infinity();
 
     bool operator==(const LightBounds&) const = default;
 };
 
-/// How much a colour counts as power: all channels alike.
+/// The scalar power of an RGB colour: the sum of its channels.
 [[nodiscard]] inline float power_of(glm::vec3 c) noexcept {
     return c.r + c.g + c.b;
 }
 
-/// Bounds of both. What has no power does not count.
+/// Bounds of both. Bounds without power are ignored.
 [[nodiscard]] LightBounds union_of(LightBounds a, LightBounds b) noexcept;
 
-/// How likely it is that emitters within bounds matter: how much light leaves in how many
-/// directions from how large a surface (Conty Estevez & Kulla 2018, equation 1 and the paragraph
-/// before it).
+/// Surface area orientation heuristic: power · solid angle of the emission · surface area of the
+/// box (Conty Estevez & Kulla 2018, equation 1 and the paragraph before it). The light tree is
+/// split where the sum over both sides is smallest.
 [[nodiscard]] float split_cost(const LightBounds& bounds) noexcept;
 
 }  // namespace tetralight

@@ -6,7 +6,7 @@
 namespace tetralight {
 namespace {
 
-/// All lights, those that do not bounce without intensity.
+/// All lights, with zero intensity for those without bounced light.
 PunctualLights bounced_lights(const Scene& scene, const TraceScene& trace_scene) {
     std::vector<Light> lights;
     for (const Light& light : scene.lights) {

@@ -28,17 +28,17 @@ enum class LightKind {
 /// Samples all lights of a scene, in render space.
 class LightSampler {
   public:
-    /// Lights count as bounces see them, `indirect_multiplier` included. Keeps references.
+    /// Scales the lights by their `indirect_multiplier`, as bounces receive them. Keeps references.
     LightSampler(const Scene& scene, const TraceScene& trace_scene);
 
     [[nodiscard]] bool has(LightKind kind) const noexcept;
 
-    /// Light of one emitter of a kind that the scene has, drawn at random; shadows left out.
+    /// Light of one sampled light of a kind, without shadows. Precondition: `has(kind)`.
     [[nodiscard]] LightSample sample(LightKind kind, const ShadingPoint& shading_point,
                                      Sampler& sampler) const noexcept;
 
-    /// Density per steradian with which `sample` draws what a ray from the shading point surface by
-    /// chance: a triangle, or the sky in a direction. 0 = never.
+    /// Density per steradian with which `sample` returns what a ray from the shading point hit: a
+    /// triangle here, a sky direction below. 0 = never sampled.
     [[nodiscard]] float pdf(const ShadingPoint& shading_point,
                             const Surface& surface) const noexcept {
         return triangles_.pdf(shading_point, surface);

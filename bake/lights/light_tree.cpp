@@ -16,14 +16,14 @@ using detail::splat, detail::Float4, detail::max4, detail::min4, detail::sqrt4;
 
 namespace {
 
-/// Rounding of a cosine; what is this near to its limit counts as within it.
+/// Tolerance of cosines and distances against rounding.
 constexpr float kSlack = 1e-4f;
 
-/// Importance never falls below this share for being slanted, so that no sample weighs too much.
-constexpr float kLeastCosine = 0.01f;
+/// Lower limit of each cosine factor of the importance, which bounds the weight of a sample.
+constexpr float kMinCosine = 0.01f;
 
-/// Keeps sums of importances finite.
-constexpr float kMostImportance = 1e30f;
+/// Upper limit of an importance, so that sums stay finite.
+constexpr float kMaxImportance = 1e30f;
 
 float sine_of(float cosine) {
     return std::sqrt(std::max(0.0f, 1.0f - cosine * cosine));
@@ -45,7 +45,7 @@ void LightTree::set_lane(Node& node, uint32_t lane, const LightBounds& bounds) {
     node.axis_x[lane] = bounds.axis.x;
     node.axis_y[lane] = bounds.axis.y;
     node.axis_z[lane] = bounds.axis.z;
-    // A cone of all directions holds each of them, whatever the rounding.
+    // A cone of all directions contains every direction in spite of rounding.
     node.cos_theta_o[lane] = bounds.cos_theta_o > -1.0f ? bounds.cos_theta_o : -2.0f;
     node.sin_theta_o[lane] = sine_of(bounds.cos_theta_o);
     node.cos_theta_e[lane] = bounds.cos_theta_e - kSlack;
@@ -54,8 +54,8 @@ void LightTree::set_lane(Node& node, uint32_t lane, const LightBounds& bounds) {
     node.max_distance[lane] = (bounds.max_distance + glm::length(half_size)) * (1.0f + kSlack);
 }
 
-/// Without branches, for four children at a time. Angles are known by cosine and sine: that of
-/// max(0, a − b) has the cosine 1 where cos a > cos b, else cos a cos b + sin a sin b.
+/// Branch-free importance of four children (Conty Estevez & Kulla 2018, section 4). Angles are kept
+/// as cosine and sine: cos max(0, a − b) is 1 if cos a > cos b, else cos a cos b + sin a sin b.
 detail::Float4 LightTree::importance(const Node& node, const ShadingPoint& shading_point) noexcept {
     const glm::vec3 position = shading_point.position, normal = shading_point.normal;
     const Float4 x = splat(position.x) - node.center_x;
@@ -85,15 +85,15 @@ detail::Float4 LightTree::importance(const Node& node, const ShadingPoint& shadi
         const Float4 off_normal = cos_in * cos_box + sine_of(cos_in) * sin_box;
         arriving = cos_in > cos_box ? splat(1.0f) : off_normal;
     }
-    const Float4 least = splat(kLeastCosine), power = node.power;
+    const Float4 least = splat(kMinCosine), power = node.power;
     const Float4 slanted = max4(leaving, least) * max4(arriving, least);
     const auto is_useful = (distance <= node.max_distance) & (leaving >= node.cos_theta_e) &
                            (arriving >= splat(-kSlack));
     const Float4 afar = is_useful ? power * inverse * inverse * slanted : splat(0.0f);
-    // Near the box any direction is possible, and distance means little.
+    // Within the bounding sphere, neither direction nor distance is bounded in a useful way.
     const Float4 size = max4(radius, splat(1e-15f));
     const Float4 nearby = power / (size * size);
-    return min4(distance > radius ? afar : nearby, splat(kMostImportance));
+    return min4(distance > radius ? afar : nearby, splat(kMaxImportance));
 }
 
 struct LightTree::Item {
@@ -102,28 +102,29 @@ struct LightTree::Item {
     glm::vec3 center;
 };
 
-/// Splits lights in two by the smallest cost, over twelve slices of each axis, until each is
-/// alone (pbrt-4, BVHLightSampler::buildBVH). Two splits in turn make one node.
+/// Splits the lights in two at the smallest cost over twelve buckets per axis, down to single
+/// lights (pbrt-4, BVHLightSampler::buildBVH). Two levels of splits make one node of four children.
 class LightTree::Builder {
   public:
     explicit Builder(LightTree& tree) : tree_(tree) {}
 
-    /// Makes the node of these items, which are split at `depth`, and returns its number.
+    /// Builds the node of the items, whose bit trail has `depth` bits so far, and returns its
+    /// index.
     uint32_t build(std::span<Item> items, uint64_t bit_trail, uint32_t depth) {
-        const auto number = static_cast<uint32_t>(tree_.nodes_.size());
+        const auto index = static_cast<uint32_t>(tree_.nodes_.size());
         tree_.nodes_.emplace_back();
         if (items.size() == 1) {
-            add_lane(number, 0, items, bit_trail, depth);
-            return number;
+            add_lane(index, 0, items, bit_trail, depth);
+            return index;
         }
         const size_t first_count = split(items, depth);
-        add_half(number, 0, items.first(first_count), bit_trail, depth);
-        add_half(number, 2, items.subspan(first_count), bit_trail, depth);
-        return number;
+        add_half(index, 0, items.first(first_count), bit_trail, depth);
+        add_half(index, 2, items.subspan(first_count), bit_trail, depth);
+        return index;
     }
 
   private:
-    /// Two lanes, or one for an item that is alone.
+    /// Fills two lanes, or one if there is a single item.
     void add_half(uint32_t node, uint32_t lane, std::span<Item> items, uint64_t bit_trail,
                   uint32_t depth) {
         if (items.size() == 1) return add_lane(node, lane, items, bit_trail, depth);
@@ -146,64 +147,65 @@ class LightTree::Builder {
         tree_.nodes_[node].is_leaf[lane] = is_leaf;
     }
 
-    static constexpr int kSlices = 12;
-    /// From here on halves have the same number of lights, so that the bit trails of 2^32 lights
+    static constexpr int kBuckets = 12;
+    /// From this depth on, splits halve the number of lights, so that the bit trails of 2^32 lights
     /// fit into 64 bits.
     static constexpr uint32_t kBalancedDepth = 32;
 
     struct Split {
         float cost = std::numeric_limits<float>::infinity();
         int axis = -1;
-        int slice = 0;
+        int bucket = 0;
     };
 
-    /// Sorts the items in two and returns how many are in the first part.
+    /// Partitions the items in two and returns the size of the first part.
     static size_t split(std::span<Item> items, uint32_t depth) {
-        glm::vec3 low = items[0].center, high = low;
+        glm::vec3 min = items[0].center, max = min;
         for (const Item& item : items) {
-            low = glm::min(low, item.center);
-            high = glm::max(high, item.center);
+            min = glm::min(min, item.center);
+            max = glm::max(max, item.center);
         }
         Split best;
         if (depth < kBalancedDepth) {
-            for (int axis = 0; axis < 3; ++axis) try_axis(items, axis, low, high, best);
+            for (int axis = 0; axis < 3; ++axis) try_axis(items, axis, min, max, best);
         }
-        if (best.axis < 0) return halve(items, low, high);
-        const auto middle = std::stable_partition(
+        if (best.axis < 0) return halve(items, min, max);
+        const auto second = std::stable_partition(
             items.begin(), items.end(),
-            [&](const Item& item) { return slice_of(item, best.axis, low, high) <= best.slice; });
-        return static_cast<size_t>(middle - items.begin());
+            [&](const Item& item) { return bucket_of(item, best.axis, min, max) <= best.bucket; });
+        return static_cast<size_t>(second - items.begin());
     }
 
-    static int slice_of(const Item& item, int axis, glm::vec3 low, glm::vec3 high) {
-        const float share = (item.center[axis] - low[axis]) / (high[axis] - low[axis]);
-        return std::min(static_cast<int>(share * kSlices), kSlices - 1);
+    static int bucket_of(const Item& item, int axis, glm::vec3 min, glm::vec3 max) {
+        const float fraction = (item.center[axis] - min[axis]) / (max[axis] - min[axis]);
+        return std::min(static_cast<int>(fraction * kBuckets), kBuckets - 1);
     }
 
-    static void try_axis(std::span<const Item> items, int axis, glm::vec3 low, glm::vec3 high,
+    static void try_axis(std::span<const Item> items, int axis, glm::vec3 min, glm::vec3 max,
                          Split& best) {
-        const glm::vec3 size = high - low;
+        const glm::vec3 size = max - min;
         if (!(size[axis] > 0.0f)) return;
-        std::array<LightBounds, kSlices> slices;
+        std::array<LightBounds, kBuckets> buckets;
         for (const Item& item : items) {
-            LightBounds& slice = slices[slice_of(item, axis, low, high)];
-            slice = union_of(slice, item.bounds);
+            LightBounds& bucket = buckets[bucket_of(item, axis, min, max)];
+            bucket = union_of(bucket, item.bounds);
         }
-        std::array<LightBounds, kSlices> after;  // all slices beyond one
-        for (int i = kSlices - 2; i >= 0; --i) after[i] = union_of(after[i + 1], slices[i + 1]);
+        std::array<LightBounds, kBuckets> after;  // union of all later buckets
+        for (int i = kBuckets - 2; i >= 0; --i) after[i] = union_of(after[i + 1], buckets[i + 1]);
         LightBounds before;
-        // Long thin boxes are cut across.
+        // Favors splits across the longest axis.
         const float shape = std::max({size.x, size.y, size.z}) / size[axis];
-        for (int i = 0; i < kSlices - 1; ++i) {
-            before = union_of(before, slices[i]);
+        for (int i = 0; i < kBuckets - 1; ++i) {
+            before = union_of(before, buckets[i]);
             if (before.power <= 0.0f || after[i].power <= 0.0f) continue;
             const float cost = shape * (split_cost(before) + split_cost(after[i]));
             if (cost < best.cost) best = {cost, axis, i};
         }
     }
 
-    static size_t halve(std::span<Item> items, glm::vec3 low, glm::vec3 high) {
-        const glm::vec3 size = high - low;
+    /// Sorts the items along the longest axis, and returns half of their number.
+    static size_t halve(std::span<Item> items, glm::vec3 min, glm::vec3 max) {
+        const glm::vec3 size = max - min;
         const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
         std::stable_sort(items.begin(), items.end(), [axis](const Item& a, const Item& b) {
             return a.center[axis] < b.center[axis];
@@ -218,8 +220,8 @@ LightTree::LightTree(std::span<const LightBounds> lights) : bit_trails_(lights.s
     TETRALIGHT_ASSERT(lights.size() < kNoIndex, "lights are counted in 32 bits");
     std::vector<Item> items;
     for (uint32_t i = 0; i < lights.size(); ++i) {
-        const LightBounds& e = lights[i];
-        if (e.power > 0.0f) items.push_back({i, e, 0.5f * (e.min + e.max)});
+        const LightBounds& bounds = lights[i];
+        if (bounds.power > 0.0f) items.push_back({i, bounds, 0.5f * (bounds.min + bounds.max)});
     }
     if (items.empty()) return;
     Builder(*this).build(items, 0, 0);
@@ -234,16 +236,16 @@ std::optional<LightTree::SampledLight> LightTree::sample(const ShadingPoint& sha
         const float total = (importances[0] + importances[1]) + (importances[2] + importances[3]);
         if (!(total > 0.0f)) return std::nullopt;
         double rest = u * total;
-        uint32_t lane = kNoIndex;  // the last one with a share takes what rounding leaves over
+        uint32_t lane = kNoIndex;  // the last positive one, if rounding passes them all
         for (uint32_t i = 0; i < kLanes; ++i) {
             if (!(importances[i] > 0.0f)) continue;
             if (lane != kNoIndex) rest -= importances[lane];
             lane = i;
             if (rest < importances[i]) break;
         }
-        const double share = importances[lane];
-        u = std::clamp(rest / share, 0.0, 1.0);
-        probability *= share / total;
+        const double chosen = importances[lane];
+        u = std::clamp(rest / chosen, 0.0, 1.0);
+        probability *= chosen / total;
         if (nodes_[node].is_leaf[lane]) {
             return SampledLight{nodes_[node].child[lane], static_cast<float>(probability)};
         }

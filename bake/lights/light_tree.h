@@ -14,32 +14,33 @@
 
 namespace tetralight {
 
-/// Who receives light: a position and, for surfaces, a unit normal; zero = from everywhere.
+/// A position that receives light, with the unit normal of its surface; a zero normal = light from
+/// all directions counts.
 struct ShadingPoint {
     glm::vec3 position{0.0f};
     glm::vec3 normal{0.0f};
 };
 
-/// Draws one of many lights about as often as its light at a shading point is of all light there,
-/// in logarithmic time: a tree of bounds, in which each turn is drawn by importance, an estimate of
-/// what leaves the bounds and reaches the shading point, shadows left out. It is positive unless
-/// they can send nothing. (Conty Estevez & Kulla 2018, "Importance Sampling of Many Lights with
-/// Adaptive Tree Splitting", section 4.)
+/// Samples one of many lights with a probability roughly in proportion to its light at a shading
+/// point, in logarithmic time. A tree of light bounds: on the way down, a child is chosen by its
+/// importance, an estimate of the light that leaves its bounds and arrives at the shading point,
+/// without shadows. The importance is positive unless no light can arrive. (Conty Estevez & Kulla
+/// 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting", section 4.)
 class LightTree {
   public:
     struct SampledLight {
-        uint32_t light = kNoIndex;  ///< number in what the tree was made of
+        uint32_t light = kNoIndex;  ///< index into the lights of the constructor
         float probability = 0.0f;
     };
 
     LightTree() = default;
 
-    /// Lights without power are never drawn.
+    /// Lights without power are never sampled.
     explicit LightTree(std::span<const LightBounds> lights);
 
     [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
 
-    /// The light for `u` uniform in [0, 1); none if no light of the chosen subtree reaches the
+    /// The light for `u` uniform in [0, 1); none if no light of the chosen subtree can light the
     /// shading point.
     [[nodiscard]] std::optional<SampledLight> sample(const ShadingPoint& shading_point,
                                                      double u) const noexcept;
@@ -53,17 +54,16 @@ class LightTree {
 
     using Lanes = detail::Float4;
 
-    /// Four children, each property of all of them side by side, so that importance is found for
-    /// four at a time.
+    /// Four children in structure-of-arrays layout: their importances are evaluated together.
     struct Node {
         Lanes center_x{}, center_y{}, center_z{};
-        Lanes radius{};  ///< of the sphere around the box
+        Lanes radius{};  ///< of the bounding sphere of the box
         Lanes axis_x{}, axis_y{}, axis_z{};
         Lanes cos_theta_o{}, sin_theta_o{}, cos_theta_e{};
-        Lanes back{};                          ///< −1: shines from both sides alike; 1: does not
-        Lanes power{};                         ///< 0: no child
-        Lanes max_distance{};                  ///< of the center
-        std::array<uint32_t, kLanes> child{};  ///< number of a node, or of a light
+        Lanes back{};                          ///< −1: two-sided; 1: one-sided
+        Lanes power{};                         ///< 0 = no child
+        Lanes max_distance{};                  ///< from the center of the box
+        std::array<uint32_t, kLanes> child{};  ///< index of a node, or of a light for a leaf
         std::array<bool, kLanes> is_leaf{};
     };
 

@@ -5,16 +5,16 @@
 
 #include <tetralight/probes/light.h>
 
-// Where a light can light anything: a ball of its range, a cone of it for spots, everywhere for
-// suns and for lights without a range.
+// The volume of a light: the region that it can light. A sphere of its range, cut by its cone for
+// spots; all of space for directional lights; unlimited in distance for lights without a range.
 
 namespace tetralight {
 
-/// Whether the volumes of two lights may have a point in common. Never false when they have; true
-/// for some that only come near each other.
+/// True if the volumes of two lights may intersect. Conservative: always true if they do, and also
+/// for some that are merely close to each other.
 [[nodiscard]] bool may_overlap(const Light& a, const Light& b) noexcept;
 
-/// Metres from a position to a light's volume: not more than it is, negative inside.
+/// Lower bound of the distance from a position to the volume of a light, metres; negative inside.
 [[nodiscard]] float distance_to_volume(const Light& light, const glm::dvec3& position) noexcept;
 
 }  // namespace tetralight

@@ -9,7 +9,7 @@
 namespace tetralight {
 namespace {
 
-/// What a sun can give a shading point: never 0 where part of its disc is above the horizon.
+/// Estimate of the irradiance; positive if any part of the disc is above the horizon.
 float directional_importance(const Light& sun, const ShadingPoint& shading_point) {
     const float power = power_of(sun.intensity);
     if (shading_point.normal == glm::vec3(0.0f)) return power;
@@ -17,8 +17,8 @@ float directional_importance(const Light& sun, const ShadingPoint& shading_point
     return power * std::max(0.0f, margin - glm::dot(shading_point.normal, sun.direction));
 }
 
-/// Half of what the box of a light's shape measures along each axis.
-glm::vec3 half_size(const Light& light) {
+/// Half extent of the bounding box of a light's shape.
+glm::vec3 half_extent(const Light& light) {
     if (light.type != LightType::Rectangle) return glm::vec3(light.radius);
     const glm::vec3 across = glm::cross(light.direction, light.tangent);
     return 0.5f * (glm::abs(light.tangent) * light.width + glm::abs(across) * light.height);
@@ -28,13 +28,13 @@ glm::vec3 half_size(const Light& light) {
 
 LightBounds light_bounds_of(const Light& light) noexcept {
     LightBounds bounds;
-    bounds.min = light.position - half_size(light);
-    bounds.max = light.position + half_size(light);
+    bounds.min = light.position - half_extent(light);
+    bounds.max = light.position + half_extent(light);
     bounds.power = power_of(light.intensity);
     if (light.range > 0.0f) bounds.max_distance = light.range;
     const bool is_inverse_square =
         light.falloff == LightFalloff::Gltf || light.falloff == LightFalloff::InverseSquareRange;
-    // The others do not grow near the light: half way out they are about as they are on average.
+    // Other falloffs are finite at the light: take their value at half the range as the average.
     if (!is_inverse_square && light.range > 0.0f) bounds.power *= 0.25f * light.range * light.range;
     if (light.type == LightType::Point) return bounds;
     bounds.axis = light.direction;

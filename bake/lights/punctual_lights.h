@@ -12,33 +12,33 @@
 
 namespace tetralight {
 
-/// Bounds of what a point, spot, rectangle or disc light sends. Precondition: not directional.
+/// Light bounds of a point, spot, rectangle or disc light. Precondition: not directional.
 [[nodiscard]] LightBounds light_bounds_of(const Light& light) noexcept;
 
-/// Draws one of many lights and a point of its shape, about as often as it matters: directional
-/// lights among themselves by irradiance, the others by a light tree.
+/// Samples one of many lights and a point of its shape: directional lights by their irradiance, the
+/// other ("local") lights by a light tree.
 class PunctualLights {
   public:
     PunctualLights() = default;
-    /// Lights without intensity are never drawn; `LightSample::source` counts them too.
+    /// Lights without intensity are never sampled. `LightSample::source` is an index into `lights`.
     explicit PunctualLights(std::span<const Light> lights);
 
     [[nodiscard]] bool has_directional() const { return !directional_.empty(); }
 
     [[nodiscard]] bool has_local() const { return !tree_.is_empty(); }
 
-    /// Light of one directional light. Takes two pairs of sample dimensions.
+    /// Light of one directional light, without shadows. Takes two pairs of sample dimensions.
     [[nodiscard]] LightSample sample_directional(const ShadingPoint& shading_point,
                                                  Sampler& sampler) const noexcept;
 
-    /// Light of one other light. Takes two pairs of sample dimensions.
+    /// Light of one local light, without shadows. Takes two pairs of sample dimensions.
     [[nodiscard]] LightSample sample_local(const ShadingPoint& shading_point,
                                            Sampler& sampler) const noexcept;
 
   private:
     std::vector<Light> directional_;
     std::vector<Light> local_;
-    std::vector<uint32_t> directional_sources_;  // where they stand among all lights
+    std::vector<uint32_t> directional_sources_;  // indices into all lights
     std::vector<uint32_t> local_sources_;
     LightTree tree_;  // of `local_`
 };

@@ -14,18 +14,20 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// Below this solid angle a rectangle is as good as flat, and angles between its edges lose digits.
+/// Below this solid angle, in steradians, a rectangle is sampled by area: the density is nearly the
+/// same, and the angles between its edges lose precision.
 constexpr double kTinySolidAngle = 1e-4;
 
-/// What a point of an area light sends to a position, but for its cosine: intensity and falloff.
+/// The light of one point of an area light at a position: intensity and falloff, without the
+/// cosine.
 Illumination illuminate_from(Light light, glm::vec3 source, glm::vec3 position) {
     light.type = LightType::Point;
     light.position = source;
     return illuminate(light, position);
 }
 
-/// Radiance L fills a cone of half angle a: it gives E = π L sin² a head on, while a sample stands
-/// for L times the cone's 2π (1 − cos a).
+/// A cone of half angle a with radiance L gives a facing surface E = π L sin² a, and a sample
+/// stands for 2π (1 − cos a) L. Their ratio is 2 / (1 + cos a), relative to E.
 float cone_weight(float cosine) {
     return 2.0f / (1.0f + cosine);
 }
@@ -55,18 +57,19 @@ LightSample sample_sphere(const Light& light, glm::vec3 position, glm::vec2 u) {
     return sample;
 }
 
-/// The point `source` of an area light, whose irradiance is the mean of intensity · falloff ·
-/// cosine over its area. `weight`: the cosine over what makes this point likelier than others.
-LightSample from_source(const Light& light, glm::vec3 source, glm::vec3 position, double weight) {
+/// Light of the point `source` of an area light, whose irradiance is the mean of intensity ·
+/// falloff · cosine over its area. `weight`: the cosine divided by density · area.
+LightSample light_of_point(const Light& light, glm::vec3 source, glm::vec3 position,
+                           double weight) {
     const Illumination arriving = illuminate_from(light, source, position);
     return {arriving.irradiance * static_cast<float>(weight), arriving.to_light, source};
 }
 
-/// By area.
-LightSample from_even_source(const Light& light, glm::vec3 source, glm::vec3 position) {
+/// A point sampled uniformly by area.
+LightSample light_of_uniform_point(const Light& light, glm::vec3 source, glm::vec3 position) {
     const glm::vec3 offset = position - source;
     const float cosine = glm::dot(light.direction, offset) / glm::length(offset);
-    return cosine > 0.0f ? from_source(light, source, position, cosine) : LightSample{};
+    return cosine > 0.0f ? light_of_point(light, source, position, cosine) : LightSample{};
 }
 
 LightSample sample_rectangle(const Light& light, glm::vec3 position, glm::vec2 u) {
@@ -74,20 +77,20 @@ LightSample sample_rectangle(const Light& light, glm::vec3 position, glm::vec2 u
     const glm::vec3 along = light.tangent * light.width;
     const glm::vec3 across = glm::cross(light.direction, light.tangent) * light.height;
     const glm::vec3 corner = light.position - 0.5f * (along + across);
-    const SphericalRectangle seen(corner, along, across, position);
-    if (!(seen.solid_angle() > kTinySolidAngle)) {
-        return from_even_source(light, corner + u.x * along + u.y * across, position);
+    const SphericalRectangle spherical(corner, along, across, position);
+    if (!(spherical.solid_angle() > kTinySolidAngle)) {
+        return light_of_uniform_point(light, corner + u.x * along + u.y * across, position);
     }
-    // By solid angle the density on the light is cos / (d² Ω), instead of 1 / area.
-    const glm::vec3 source = seen.sample(u);
+    // Uniform by solid angle: the density on the light is cos / (d² Ω) instead of 1 / area.
+    const glm::vec3 source = spherical.sample(u);
     const double area = static_cast<double>(light.width) * light.height;
     const double d = glm::length(source - position);
-    return from_source(light, source, position, d * d * seen.solid_angle() / area);
+    return light_of_point(light, source, position, d * d * spherical.solid_angle() / area);
 }
 
 LightSample sample_disc(const Light& light, glm::vec3 position, glm::vec2 u) {
     const glm::vec3 offset = sample_disc_around(light.direction, u) * light.radius;
-    return from_even_source(light, light.position + offset, position);
+    return light_of_uniform_point(light, light.position + offset, position);
 }
 
 }  // namespace

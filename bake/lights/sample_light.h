@@ -9,38 +9,39 @@
 
 namespace tetralight {
 
-/// One direction in which light arrives at a position, drawn at random; shadows left out.
+/// A sampled direction from which light arrives at a position. Shadows are not included.
 struct LightSample {
-    /// Arriving radiance over the density of the direction: irradiance of a surface that faces it,
-    /// E(n) = mean of irradiance · max(0, n · to_light) over samples.
+    /// Arriving radiance divided by the density of the direction, so that the irradiance of a
+    /// surface is E(n) = mean over samples of irradiance · max(0, n · to_light).
     glm::vec3 irradiance{0.0f};
     glm::vec3 to_light{0.0f};
-    /// Where a shadow ray ends. Unused when the light is distant.
+    /// End of the shadow ray. Unused if `is_distant`.
     glm::vec3 target{0.0f};
     bool is_distant = false;
-    /// Density of the direction, per steradian; 0 when rays cannot meet the light by chance.
+    /// Density of the direction per steradian; 0 if rays cannot hit the light (punctual and area
+    /// lights), so that no MIS weight applies.
     float pdf = 0.0f;
-    /// Which emitter of its kind: a light of the scene, a geometry of the trace scene.
+    /// Index of the light in the scene, or of the emissive geometry in the trace scene.
     uint32_t source = 0;
 
     bool operator==(const LightSample&) const = default;
 };
 
-/// A point of the light's shape that lights `position`, for `u` uniform in [0, 1)²:
+/// Samples a point on the shape of the light for a position, with `u` uniform in [0, 1)²:
 ///
-/// - directional lights: a disc in the sky of `radius` radians, uniform by solid angle;
-/// - points and spots: a sphere of uniform radiance, uniform by the solid angle it covers. Its mean
-///   is that of `illuminate`. Within the sphere it shrinks to end at the position;
+/// - directional lights: a disc of `radius` radians in the sky, uniform by solid angle;
+/// - point and spot lights: a sphere of uniform radiance, uniform by solid angle. The mean is that
+///   of `illuminate`. Within `radius` of the center, the sphere is shrunk to touch the position;
 /// - rectangles: uniform by solid angle (Ureña, Fajardo & King 2013, "An Area-Preserving
-///   Parametrization for Spherical Rectangles"), by area where they are tiny;
+///   Parametrization for Spherical Rectangles"), or by area below 1e-4 sr;
 /// - discs: uniform by area.
 ///
-/// Distance falloff and cone are those of `illuminate`, for each point of rectangles and discs.
-/// Zero irradiance where no light arrives.
+/// Distance falloff and cone are those of `illuminate`, applied per point of rectangles and discs.
+/// Zero irradiance if no light arrives.
 [[nodiscard]] LightSample sample_light(const Light& light, glm::vec3 position,
                                        glm::vec2 u) noexcept;
 
-/// Whether every sample of the light is the same.
+/// True if all samples of the light are equal: it has no area.
 [[nodiscard]] bool has_hard_shadows(const Light& light) noexcept;
 
 }  // namespace tetralight

@@ -15,7 +15,6 @@
 #include <tetralight/bake/placement/remove_probes.h>
 #include <tetralight/bake/placement/sensors.h>
 #include <tetralight/base/contract.h>
-#include <tetralight/base/error_text.h>
 
 namespace tetralight {
 namespace {
@@ -52,9 +51,9 @@ class AdaptiveGrid {
         for (const glm::dvec3& sensor : input_.sensors) add_sensor(sensor);
         Status status = refine();
         if (status) status = remove_and_replace();
-        if (!status && error_text(status.error()) != "cancelled") return status.error();
+        if (!status && status.error().code != ErrorCode::Cancelled) return status.error();
         if (!best_ && is_time_over()) return Error{"out of time before there was a result"};
-        if (!best_) return Error{"interrupted"};
+        if (!best_) return Error{ErrorCode::Cancelled, "interrupted"};
         if (!status)
             report_.end = is_time_over() ? AdaptiveEnd::TimeOver : AdaptiveEnd::Interrupted;
         finish(probes);
@@ -153,7 +152,7 @@ class AdaptiveGrid {
     Status accept() {
         best_ = set_;
         ++report_.round_count;
-        if (!goes_on()) return Error{"cancelled"};
+        if (!goes_on()) return Error{ErrorCode::Cancelled, "cancelled"};
         return Ok{};
     }
 

@@ -7,20 +7,20 @@
 namespace tetralight {
 namespace {
 
-/// Embree 3, medium quality: indices, a tree with its own copy of the corners, and what builds it.
+/// Embree 3 at medium quality: indices, a BVH with its own copy of the corners, and its build.
 constexpr uint64_t kBytesPerTriangle = 300;
 /// A vertex in render space, ours and Embree's.
 constexpr uint64_t kBytesPerVertex = 24;
-/// Bounds, their tree, and what builds it.
+/// Light bounds, the light tree, and its build.
 constexpr uint64_t kBytesPerEmissiveTriangle = 350;
-/// A cumulated share, and the integrals that it is made from.
+/// A value of the cumulative distribution, and the integral that it is computed from.
 constexpr uint64_t kBytesPerSkyTexel = 12;
-/// Light as radiance and irradiance, compact, health, positions: 450 bytes; about 6.8 tetrahedra of
-/// 32 bytes; CGAL's vertices and cells while it builds them.
+/// 450 bytes of radiance, irradiance, compact light, health and positions; about 6.8 tetrahedra of
+/// 32 bytes; CGAL's vertices and cells during the build.
 constexpr uint64_t kBytesPerProbe = 450 + 7 * 32 + 1500;
 
-/// A sum in double while it is baked, a float in the volume and one in its file.
-constexpr uint64_t kBytesPerSplitNumber = 8 + 4 + 4;
+/// A double during the bake, a float in the volume, and a float in the file.
+constexpr uint64_t kBytesPerLightGroupValue = 8 + 4 + 4;
 
 bool emits(const Material& material) {
     return material.bakes_emission && emission_source(material).factor != glm::vec3(0.0f);
@@ -28,7 +28,7 @@ bool emits(const Material& material) {
 
 }  // namespace
 
-BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count, size_t split_numbers) {
+BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count, size_t light_group_values) {
     BakeMemory memory;
     memory.probe_count = probe_count;
     uint64_t vertex_count = 0, emissive_count = 0;
@@ -42,13 +42,15 @@ BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count, size_t s
     memory.light_bytes = emissive_count * kBytesPerEmissiveTriangle +
                          scene.environment.image.pixels.size() * kBytesPerSkyTexel;
     memory.scene_bytes = memory.triangle_count * kBytesPerTriangle + vertex_count * kBytesPerVertex;
-    memory.probe_bytes = probe_count * (kBytesPerProbe + split_numbers * kBytesPerSplitNumber);
+    memory.probe_bytes =
+        probe_count * (kBytesPerProbe + light_group_values * kBytesPerLightGroupValue);
     return memory;
 }
 
 Status check_bake_memory(const BakeMemory& memory, uint64_t limit_bytes) {
     if (memory.total_bytes() <= limit_bytes) return Ok{};
-    return Error{str_cat("the bake needs about ", gigabytes(memory.total_bytes()), " of memory (",
+    return Error{ErrorCode::OutOfResources,
+                 str_cat("the bake needs about ", gigabytes(memory.total_bytes()), " of memory (",
                          memory.triangle_count, " triangles ",
                          gigabytes(memory.scene_bytes + memory.light_bytes), ", ",
                          memory.probe_count, " probes ", gigabytes(memory.probe_bytes), "), ",

@@ -10,26 +10,25 @@
 
 namespace tetralight {
 
-/// What a bake will take, in bytes, before any of it is taken. Good to about a third.
+/// The estimated memory of a bake, in bytes. Accurate to about a third.
 struct BakeMemory {
     uint64_t triangle_count = 0;
     size_t probe_count = 0;
-    /// Traced triangles: copies of their vertices and Embree's tree.
+    /// Triangles in the trace scene: copies of their vertices, and Embree's BVH.
     uint64_t scene_bytes = 0;
-    /// What light is drawn from: emissive triangles with their tree, and the sky's texels.
+    /// Light sampling: emissive triangles with their light tree, and the texels of the sky.
     uint64_t light_bytes = 0;
-    /// Probes, their cells and what builds them.
+    /// Probes, their cells, and the tetrahedralization while it is built.
     uint64_t probe_bytes = 0;
 
     [[nodiscard]] uint64_t total_bytes() const { return scene_bytes + light_bytes + probe_bytes; }
 };
 
-/// `split_numbers`: numbers that the light of each probe is split into (`LightGroupLayout::size`).
+/// `light_group_values`: values per probe in the light groups (`LightGroupLayout::size`).
 [[nodiscard]] BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count,
-                                              size_t split_numbers = 0);
+                                              size_t light_group_values = 0);
 
-/// Returns out_of_resources if `limit_bytes` are not enough, with the estimate: "needs about 20.3
-/// GB".
+/// Returns out_of_resources if the estimate exceeds `limit_bytes`. The message gives both.
 [[nodiscard]] Status check_bake_memory(const BakeMemory& memory,
                                        uint64_t limit_bytes = free_memory());
 

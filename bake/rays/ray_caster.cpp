@@ -37,7 +37,7 @@ void filter_hit(const RTCFilterFunctionNArguments* arguments) {
     const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
     const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
     const Ray own_ray{{ray->org_x, ray->org_y, ray->org_z}, {ray->dir_x, ray->dir_y, ray->dir_z}};
-    if (!filter.accepts_hit(filter.context, own_ray, hit_from(*hit, ray->tfar))) {
+    if (!filter.accepts(filter.context, own_ray, hit_from(*hit, ray->tfar))) {
         arguments->valid[0] = 0;
     }
 }
@@ -58,13 +58,13 @@ struct Triangles {
     const uint32_t* indices = nullptr;
 };
 
-/// What a search for the nearest point knows.
+/// State of a search for the nearest point.
 struct NearestSearch {
     const std::vector<Triangles>& geometries;
     std::optional<glm::vec3> nearest;
 };
 
-/// Embree's callback for one triangle in reach: shortens the reach to it.
+/// Embree's callback for one triangle within the query radius: reduces the radius to its distance.
 bool visit_triangle(RTCPointQueryFunctionArguments* arguments) {
     auto& search = *static_cast<NearestSearch*>(arguments->userPtr);
     const Triangles& triangles = search.geometries[arguments->geomID];
@@ -103,9 +103,9 @@ struct RayCaster::Handles {
     uint32_t attach(RTCGeometry geometry, Triangles triangles) {
         geometries.push_back(triangles);
         rtcCommitGeometry(geometry);
-        const uint32_t number = rtcAttachGeometry(scene, geometry);
+        const uint32_t index = rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
-        return number;
+        return index;
     }
 
     void notify(const Ray& ray, RayKind kind, std::optional<float> distance) const {
@@ -151,14 +151,17 @@ uint32_t RayCaster::add_spheres(std::span<const glm::vec4> spheres) {
 }
 
 Status RayCaster::commit() {
-    // One thread builds: the tree, and with it the choice between equal hits, is then the same on
-    // every machine. (The device's own "threads=1" would hold for all of TBB.)
+    // Build on one thread, so that the BVH, and with it the order of equal hits, is the same on
+    // every machine. (The device option "threads=1" would limit all of TBB.)
     tbb::task_arena arena(1);
     arena.execute([&] { rtcJoinCommitScene(handles_->scene); });
     const RTCError error = rtcGetDeviceError(handles_->device);
     if (error == RTC_ERROR_NONE) return Ok{};
-    if (error == RTC_ERROR_OUT_OF_MEMORY) return Error{"not enough memory for the scene"};
-    return Error{"Embree failed with error " + std::to_string(static_cast<int>(error))};
+    if (error == RTC_ERROR_OUT_OF_MEMORY) {
+        return Error{ErrorCode::OutOfResources, "not enough memory for the scene"};
+    }
+    return Error{ErrorCode::Unsupported,
+                 "Embree failed with error " + std::to_string(static_cast<int>(error))};
 }
 
 void RayCaster::listen(RayListener listener) {

@@ -16,38 +16,41 @@ namespace tetralight {
 
 struct Ray {
     glm::vec3 origin{0.0f};
-    /// Need not be a unit vector; distances are in units of its length.
+    /// Of any length except 0. Distances along the ray are in units of this length.
     glm::vec3 direction{0.0f};
     float max_distance = std::numeric_limits<float>::infinity();
 };
 
 struct RayHit {
     float distance = 0.0f;
-    uint32_t geometry = 0;   ///< number that `add_*` returned
-    uint32_t primitive = 0;  ///< triangle or sphere of that geometry
-    /// Weights of a triangle's second and third corner.
+    uint32_t geometry = 0;   ///< as returned by `add_triangles` or `add_spheres`
+    uint32_t primitive = 0;  ///< index of the triangle or sphere in the geometry
+    /// Weights of the second and third corner of the triangle.
     glm::vec2 barycentric{0.0f};
-    /// Not normalized; on the side from which the triangle is counter-clockwise.
+    /// Not normalized. Points to the side from which the corners are counter-clockwise.
     glm::vec3 normal{0.0f};
 };
 
-/// Says whether a ray stops at a hit. Called for filtered geometries only, from many threads.
+/// A callback that returns true to accept a hit, or false to continue the ray behind it. Called for
+/// filtered geometries only, from any thread.
 struct HitFilter {
-    bool (*accepts_hit)(const void* context, const Ray& ray, const RayHit& hit) = nullptr;
+    bool (*accepts)(const void* context, const Ray& ray, const RayHit& hit) = nullptr;
     const void* context = nullptr;
 };
 
 enum class RayKind : uint8_t { Nearest, Shadow };
 
-/// Is told of every ray and the distance of its hit, from the thread that casts it: how benchmarks
-/// record the rays. Infinity: no hit. Shadow rays look for any hit: 0.
+/// A callback that receives every ray and the distance of its hit, on the thread that traces it.
+/// Benchmarks record rays with it. The distance is infinite if there is no hit, and 0 for the hit
+/// of a shadow ray, whose distance is unknown.
 struct RayListener {
     void (*on_ray)(void* context, const Ray& ray, RayKind kind, float distance) = nullptr;
     void* context = nullptr;
 };
 
-/// Finds what rays hit; the only part that knows Embree. Add geometry, commit once, then cast from
-/// any number of threads. Same answers for any number of threads on one instruction set.
+/// Ray queries by Embree, which no other file includes. Add geometry, commit once, then query from
+/// any number of threads. The results do not depend on the number of threads; they may differ
+/// between instruction sets.
 class RayCaster {
   public:
     explicit RayCaster(HitFilter filter = {});
@@ -57,24 +60,24 @@ class RayCaster {
 
     enum class Filtered : bool { No, Yes };
 
-    /// Adds triangles and returns their number, counted from 0. Data is copied.
+    /// Adds triangles and returns the index of their geometry, counted from 0. Copies the data.
     uint32_t add_triangles(std::span<const glm::vec3> positions, std::span<const uint32_t> indices,
                            Filtered filtered = Filtered::No);
 
-    /// Adds spheres given as (center, radius) and returns their number.
+    /// Adds spheres, given as (center, radius), and returns the index of their geometry.
     uint32_t add_spheres(std::span<const glm::vec4> spheres);
 
-    /// Builds the search structure. Error: not enough memory.
+    /// Builds the BVH. Returns out_of_resources if memory does not suffice.
     [[nodiscard]] Status commit();
 
-    /// Default: none. Not while rays are cast.
+    /// Sets the listener; the default is none. Not thread-safe.
     void listen(RayListener listener);
 
     [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray) const;
     [[nodiscard]] bool occluded(const Ray& ray) const;
 
-    /// The point of all triangles that is nearest to a position; filters have no say, and spheres
-    /// do not count.
+    /// The point on any triangle that is nearest to a position; none without triangles. Ignores
+    /// filters and spheres.
     [[nodiscard]] std::optional<glm::vec3> nearest_point(glm::vec3 position) const;
 
   private:

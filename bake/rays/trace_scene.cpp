@@ -16,14 +16,15 @@
 namespace tetralight {
 namespace {
 
-/// A mirrored instance turns its triangles over: glTF then swaps what is front.
+/// Indices with the opposite winding: glTF flips the front of instances with negative determinant.
 std::vector<uint32_t> mirrored(std::vector<uint32_t> indices) {
     for (size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
     return indices;
 }
 
-/// Cofactors of the linear part: they turn normals right under any scale, and keep them on the
-/// front side of mirrored instances when the sign of the determinant is taken out.
+/// Cofactor matrix of the linear part, which transforms normals correctly under any scale.
+/// Multiplied by the sign of the determinant, it keeps them on the front side of mirrored
+/// instances.
 glm::mat3 normal_from_mesh(const MeshInstance& instance) {
     const glm::dmat3 m(instance.world_from_mesh);
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
@@ -46,12 +47,12 @@ glm::vec3 shading_normal(const MeshPoint& point, const glm::mat3& from_mesh,
     return length > 0.0f ? normal / length : geometric_normal;
 }
 
-/// How far off a triangle a ray may start or end by rounding, when no coordinate of its corners is
-/// larger than `extent`. Corners, positions and origins are rounded to half a step of float, 2^-24
-/// of their size; Embree takes corners relative to the origin and multiplies them, which adds a few
-/// times as much. On random triangles of any size 2^-23 still hits one in 300 of the rays that
-/// graze; at 2^-21 only those meet their own triangle that graze it by less than the rounding of
-/// their direction.
+/// Bound of the distance between a triangle and the start or end of a ray on it by rounding, if no
+/// coordinate is larger than `extent`. Corners, positions and origins are rounded to half a unit in
+/// the last place, 2^-24 of their size; Embree subtracts the origin from the corners and
+/// multiplies, which adds a few times as much. Measured on random triangles of any size: with
+/// 2^-23, one in 300 grazing rays still hits its own triangle; with 2^-21, only rays whose angle to
+/// the triangle is smaller than the rounding of their direction do.
 float error_bound(float extent) {
     return extent * 0x1p-21f;
 }
@@ -60,10 +61,10 @@ float largest_coordinate(glm::vec3 position) {
     return std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
 }
 
-/// Rays multiply three lengths, which overflow beyond.
-constexpr double kFarthest = 1e12;
+/// Limit of coordinates, metres: ray queries multiply three lengths, which overflow beyond it.
+constexpr double kMaxCoordinate = 1e12;
 
-/// A mesh's vertices around the origin of render space. Error: one is too far away.
+/// The vertices of a mesh in render space. Returns unsupported if one is too far from the origin.
 Result<std::vector<glm::vec3>> render_positions(const Mesh& mesh, const MeshInstance& instance,
                                                 const glm::dvec3& origin) {
     std::vector<glm::vec3> positions;
@@ -71,16 +72,18 @@ Result<std::vector<glm::vec3>> render_positions(const Mesh& mesh, const MeshInst
     for (const glm::vec3& position : mesh.positions) {
         const glm::dvec3 offset = world_position(instance, position) - origin;
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::abs(offset[axis]) <= kFarthest) continue;
-            return Error{str_cat("vertex ", positions.size(), " is ", std::abs(offset[axis]),
-                                 " m away from the middle of the scene; rays reach ", kFarthest)};
+            if (std::abs(offset[axis]) <= kMaxCoordinate) continue;
+            return Error{ErrorCode::Unsupported,
+                         str_cat("vertex ", positions.size(), " is ", std::abs(offset[axis]),
+                                 " m from the center of the scene; at most ", kMaxCoordinate,
+                                 " m are supported")};
         }
         positions.emplace_back(offset);
     }
     return positions;
 }
 
-/// Takes the hit from the triangle's corners instead of the ray, whose error grows with its length
+/// Computes the hit point from the corners instead of the ray, whose error grows with its length
 /// (Wächter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection").
 void place_surface(const MeshPoint& point, const std::vector<glm::vec3>& corners,
                    Surface& surface) {
@@ -90,7 +93,8 @@ void place_surface(const MeshPoint& point, const std::vector<glm::vec3>& corners
         triangle[i] = &corners[point.corners[i]];
         extent = std::max(extent, largest_coordinate(*triangle[i]));
     }
-    // From one corner, so that weights whose sum is not quite 1 move it within the triangle only.
+    // Relative to one corner, so that weights whose sum is not exactly 1 keep the point in the
+    // plane.
     const glm::dvec3 first(*triangle[0]);
     const glm::dvec3 position = first +
                                 (glm::dvec3(*triangle[1]) - first) * double{point.weights.y} +
@@ -99,7 +103,7 @@ void place_surface(const MeshPoint& point, const std::vector<glm::vec3>& corners
     surface.error_bound = error_bound(extent);
 }
 
-/// Share of rays that stop at a point.
+/// Fraction of rays that stop at a point.
 float opacity(const Scene& scene, const MeshPoint& point) {
     const Material& material = scene.materials[point.mesh->material];
     if (material.alpha_mode == AlphaMode::Opaque) return 1.0f;
@@ -108,10 +112,10 @@ float opacity(const Scene& scene, const MeshPoint& point) {
     return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
 }
 
-/// What a hit is on: its triangle, or the edge or corner that it lies on, by position. A ray
-/// through an edge hits the triangles on both sides of it, and has to find one surface there.
-uint64_t key_of_place(const RayHit& hit, const MeshPoint& point,
-                      const std::vector<glm::vec3>& positions) {
+/// A key of the triangle of a hit, or of its edge or corner if the hit lies on one, by position. A
+/// ray through an edge may hit the triangles on both sides, and both have to give the same answer.
+uint64_t key_of_hit_place(const RayHit& hit, const MeshPoint& point,
+                          const std::vector<glm::vec3>& positions) {
     constexpr float kOnEdge = 1e-5f;
     uint64_t key = 0;
     int corner_count = 0;
@@ -123,7 +127,7 @@ uint64_t key_of_place(const RayHit& hit, const MeshPoint& point,
     return corner_count < 3 ? key : (uint64_t{hit.geometry} << 32 | hit.primitive);
 }
 
-/// A number in [0, 1) that depends on the ray and the place only.
+/// A hash in [0, 1) of the ray and the place of the hit.
 float hash_of(const Ray& ray, uint64_t place_key) {
     const uint64_t origin_key = probe_key(place_key, glm::dvec3(ray.origin));
     return RandomStream(probe_key(origin_key, glm::dvec3(ray.direction)), 0).next();
@@ -170,8 +174,8 @@ Result<TraceScene> TraceScene::make_from(const Scene& scene, const Selection& se
     return TraceScene(std::move(state), std::move(caster));
 }
 
-glm::vec3 TraceScene::shadow_target(const TrianglePoint& point, glm::vec3 seen_from) {
-    float extent = largest_coordinate(seen_from);
+glm::vec3 TraceScene::shadow_target(const TrianglePoint& point, glm::vec3 origin) {
+    float extent = largest_coordinate(origin);
     for (const glm::vec3& corner : point.corners) {
         extent = std::max(extent, largest_coordinate(corner));
     }
@@ -199,9 +203,9 @@ bool TraceScene::accepts_hit(const void* context, const Ray& ray, const RayHit& 
     const State& state = *static_cast<const State*>(context);
     const Geometry& geometry = state.geometries[hit.geometry];
     const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, hit);
-    const float share = opacity(*state.scene, point);
-    if (share <= 0.0f || share >= 1.0f) return share > 0.0f;
-    return hash_of(ray, key_of_place(hit, point, geometry.positions)) < share;
+    const float alpha = opacity(*state.scene, point);
+    if (alpha <= 0.0f || alpha >= 1.0f) return alpha > 0.0f;
+    return hash_of(ray, key_of_hit_place(hit, point, geometry.positions)) < alpha;
 }
 
 std::optional<Surface> TraceScene::intersect(const Ray& ray, Detail detail) const {

@@ -18,7 +18,7 @@
 
 namespace tetralight {
 
-/// What a ray sees at a hit.
+/// The surface at the hit of a ray.
 struct Surface {
     glm::vec3 position{0.0f};
     /// Unit normal of the triangle, on the side that the ray came from.
@@ -30,18 +30,18 @@ struct Surface {
     /// Emitted radiance.
     glm::vec3 emission{0.0f};
     uint32_t instance = 0;
-    /// The triangle that was hit, as `TraceScene` counts them.
+    /// Indices of the triangle, as in `TraceScene::triangle`.
     uint32_t geometry = 0;
     uint32_t primitive = 0;
-    /// How far `position` and rays that start there may be off the triangle by rounding.
+    /// Upper bound of the distance of `position` from the triangle by rounding, metres.
     float error_bound = 0.0f;
-    /// The ray came from behind the triangle.
+    /// The ray hit the triangle from behind.
     bool is_from_behind = false;
-    /// It did, and the material has only a front.
+    /// The ray hit a single-sided triangle from behind.
     bool is_back_face = false;
 };
 
-/// Which side of a surface a ray sees.
+/// The side of a surface that a ray hit, without its material.
 struct SurfaceSide {
     float distance = 0.0f;
     /// Unit normal of the triangle, on the side that the ray came from.
@@ -53,23 +53,26 @@ struct SurfaceSide {
     bool is_back_face = false;
 };
 
-/// A scene's triangles ready for rays. Rays and surfaces are in render space: world space moved so
-/// that the scene's middle is the origin, done in double, because rays are float.
+/// The triangles of a scene, ready for ray queries. Rays and surfaces are in render space: world
+/// space translated in double precision so that the center of the scene is the origin, because rays
+/// are float.
 ///
-/// Transparency: hits of alpha-masked surfaces below the cutoff are skipped; blended ones are
-/// skipped with probability 1 − alpha, by a hash of the ray, in `cast` and `occluded` alike.
+/// Transparency: rays pass alpha-masked surfaces where alpha is below the cutoff, and alpha-blended
+/// surfaces with probability 1 − alpha. The decision is a hash of the ray and the place of the hit,
+/// so that `intersect` and `occluded` give the same answer for the same ray.
 class TraceScene {
   public:
     /// Which instances rays can hit.
     using Selection = std::function<bool(const MeshInstance&)>;
 
-    /// Builds from the selected instances, with all that they emit: what an eye sees. Keeps a
-    /// reference to the scene. Errors: not enough
-    /// memory, a vertex farther than 1e12 m from the middle.
+    /// Builds the scene from the selected instances with all of their emission, for pictures. Keeps
+    /// a reference to the scene. Returns out_of_resources if memory does not suffice, and
+    /// unsupported if a vertex is farther than 1e12 m from the center of the scene.
     [[nodiscard]] static Result<TraceScene> make(const Scene& scene, const Selection& selection);
 
-    /// Built from what contributes global illumination, with the emission and the reflectivity that
-    /// a bake takes. Errors: a light that is none, and a scene that free memory does not hold.
+    /// Builds the scene from the instances that contribute global illumination, with the emission
+    /// and the albedo of a bake. Also returns the errors of `check_lights`, and out_of_resources if
+    /// the estimated memory exceeds the free memory.
     [[nodiscard]] static Result<TraceScene> make_static(const Scene& scene,
                                                         const SurfaceSettings& surfaces = {});
 
@@ -84,96 +87,99 @@ class TraceScene {
     /// The light in render space.
     [[nodiscard]] Light render_from_world(Light light) const;
 
-    /// What of a surface `cast` looks up.
+    /// Which members of a surface `intersect` evaluates.
     enum class Detail : bool {
-        LightOnly,  ///< all but the shading normal, which stays zero
+        LightOnly,  ///< all but the shading normal, which is zero
         Full,
     };
 
     [[nodiscard]] std::optional<Surface> intersect(const Ray& ray,
                                                    Detail detail = Detail::Full) const;
 
-    /// The side of the surface that `cast` finds, without its material: at the price of the ray.
+    /// The side of the surface that `intersect` finds. Costs no more than the ray.
     [[nodiscard]] std::optional<SurfaceSide> intersect_side(const Ray& ray) const;
 
     [[nodiscard]] bool occluded(const Ray& ray) const { return caster_.occluded(ray); }
 
-    /// What finds the hits, in render space.
+    /// The ray queries on the triangles, in render space.
     [[nodiscard]] const RayCaster& caster() const { return caster_; }
 
-    /// Default: none. Not while rays are cast.
+    /// See `RayCaster::listen`.
     void listen(RayListener listener) { caster_.listen(listener); }
 
-    /// The nearest point of any surface, in render space; transparency does not count.
+    /// The point on any surface that is nearest to a position, in render space. Ignores
+    /// transparency.
     [[nodiscard]] std::optional<glm::vec3> nearest_surface(glm::vec3 position) const {
         return caster_.nearest_point(position);
     }
 
-    /// Where a ray starts that leaves the surface on the side that `direction`, one of its normals,
-    /// points to: off it by more than rounding and no farther than that.
+    /// Origin of a ray that leaves the surface on the side that `direction`, one of its normals,
+    /// points to: offset by the bound of the rounding error, so that the ray does not hit its own
+    /// triangle.
     [[nodiscard]] static glm::vec3 ray_origin(const Surface& surface, glm::vec3 direction) {
         return surface.position + surface.error_bound * direction;
     }
 
-    /// The same for the side that a ray met at `hit` = origin + distance · direction, which its own
-    /// rounding moves too.
+    /// The same for the side that a ray hit at `hit` = origin + distance · direction. The bound
+    /// includes the rounding error of `hit`.
     [[nodiscard]] glm::vec3 ray_origin(const SurfaceSide& side, glm::vec3 hit,
                                        glm::vec3 direction) const;
 
-    /// A point of a triangle that was drawn instead of met.
+    /// A sampled point on a triangle.
     struct TrianglePoint {
         std::array<glm::vec3, 3> corners{};
         glm::vec3 position{0.0f};
-        glm::vec3 normal{0.0f};  ///< unit, on the side that is looked at
+        glm::vec3 normal{0.0f};  ///< unit, on the side that emits
     };
 
-    /// Where a shadow ray ends that comes from `seen_from`: off the triangle by more than the
-    /// rounding of both.
-    [[nodiscard]] static glm::vec3 shadow_target(const TrianglePoint& point, glm::vec3 seen_from);
+    /// End of a shadow ray from `origin`: offset from the triangle by the bound of the rounding
+    /// error of both, so that the ray does not hit the triangle.
+    [[nodiscard]] static glm::vec3 shadow_target(const TrianglePoint& point, glm::vec3 origin);
 
-    /// How many instances rays can hit: geometries are counted from 0.
+    /// Number of instances that rays can hit. Geometries are counted from 0.
     [[nodiscard]] uint32_t geometry_count() const {
         return static_cast<uint32_t>(state_->geometries.size());
     }
 
     [[nodiscard]] uint32_t triangle_count(uint32_t geometry_index) const;
 
-    /// Corners of a triangle in render space, counter-clockwise seen from the front.
+    /// Corners of a triangle in render space, counter-clockwise as seen from the front.
     [[nodiscard]] std::array<glm::vec3, 3> triangle(uint32_t geometry_index,
                                                     uint32_t primitive) const;
 
     [[nodiscard]] bool is_double_sided(uint32_t geometry_index) const;
 
-    /// Index of a geometry's material in the scene.
+    /// Index of the material of a geometry in the scene.
     [[nodiscard]] uint32_t material(uint32_t geometry_index) const {
         return state_->geometries[geometry_index].mesh->material;
     }
 
-    /// Whether any point of a geometry may emit light, and whether its points may differ.
+    /// True if any point of a geometry may emit light, and if its emission may vary over its
+    /// points.
     [[nodiscard]] bool can_emit(uint32_t geometry_index) const;
     [[nodiscard]] bool has_varied_emission(uint32_t geometry_index) const;
 
-    /// Radiance that leaves a point of a triangle, times the share of rays that stop there.
-    /// `barycentric`: weights of the second and third of its corners.
+    /// Radiance emitted at a point of a triangle times its opacity. `barycentric`: weights of the
+    /// second and third corner.
     [[nodiscard]] glm::vec3 visible_emission(uint32_t geometry_index, uint32_t primitive,
                                              glm::vec2 barycentric) const;
 
-    /// Whether any surface lets a part of the rays through, so that shadows are drawn at random.
+    /// True if any surface is alpha-blended, so that shadows are noisy.
     [[nodiscard]] bool has_blending() const;
 
   private:
-    /// An instance as a geometry of the caster.
+    /// An instance, as a geometry of the ray caster.
     struct Geometry {
         uint32_t instance = 0;
         const Mesh* mesh = nullptr;
         const Material* material = nullptr;
         glm::mat3 normal_from_mesh{1.0f};
         bool is_mirrored = false;
-        /// The mesh's vertices in render space, as the caster has them.
+        /// The vertices of the mesh in render space, as in the ray caster.
         std::vector<glm::vec3> positions;
     };
 
-    /// Which emission rays see.
+    /// Which materials emit.
     enum class Emission : uint8_t { All, Baked };
 
     struct State {
@@ -193,7 +199,7 @@ class TraceScene {
     static bool takes_emission(const State& state, const Material& material);
     static bool accepts_hit(const void* state, const Ray& ray, const RayHit& hit);
 
-    std::unique_ptr<State> state_;  // on the heap: the caster's filter points to it
+    std::unique_ptr<State> state_;  // on the heap: the hit filter points to it
     RayCaster caster_;
 };
 

@@ -10,11 +10,11 @@
 namespace tetralight {
 
 DirectionSet::DirectionSet(uint32_t count) : count_(count) {
-    TETRALIGHT_ASSERT(count > 0, "an estimate takes directions");
+    TETRALIGHT_ASSERT(count > 0, "count > 0");
     if (count > kMaxOrderedCount) return;
     ordered_ = spherical_fibonacci(count);
     const HilbertCube cube = make_hilbert_cube(glm::dvec3(-1.0), glm::dvec3(1.0));
-    // Directions in one lattice point would keep their order; none are so near to each other.
+    // Directions with equal indices would keep their order; none are that close to each other.
     std::ranges::stable_sort(
         ordered_, {}, [&](glm::vec3 direction) { return cube.index(glm::dvec3(direction)); });
 }

@@ -7,16 +7,17 @@
 
 namespace tetralight {
 
-/// Directions that are spread evenly over the sphere (`spherical_fibonacci`), in an order in which
-/// those that follow each other lie side by side, along a Hilbert curve. Paths are numbered so, and
-/// each few in turn have random numbers that cover their square evenly (`Sampler`): those that
-/// leave into the same part of the sphere then leave its surfaces into different ones.
+/// Evenly distributed directions over the sphere (`spherical_fibonacci`), ordered along a Hilbert
+/// curve so that consecutive directions are neighbors. Consecutive paths have well-distributed
+/// sample values (`Sampler`), so that paths that start into the same part of the sphere leave the
+/// surfaces there into different directions.
 class DirectionSet {
   public:
-    /// Sets larger than this keep the lattice's own order and are not stored: they are even enough.
+    /// Larger sets keep the order of the lattice and are not stored: they are dense enough without
+    /// it.
     static constexpr uint32_t kMaxOrderedCount = 65536;
 
-    /// Precondition: at least one.
+    /// Precondition: `count` > 0.
     explicit DirectionSet(uint32_t count);
 
     [[nodiscard]] uint32_t size() const { return count_; }

@@ -5,7 +5,7 @@
 
 namespace tetralight::detail {
 
-/// Odd and irrational enough to count with: the steps of SplitMix64.
+/// 2^64 divided by the golden ratio: the increment of SplitMix64.
 inline constexpr uint64_t kGoldenRatio64 = 0x9e3779b97f4a7c15u;
 
 /// Finalizer of SplitMix64 (Steele, Lea & Flood 2014): every input bit reaches every output bit.

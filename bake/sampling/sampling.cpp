@@ -30,7 +30,7 @@ glm::mat3 frame_around(glm::vec3 n) {
 uint64_t probe_key(uint64_t seed, const glm::dvec3& position) noexcept {
     uint64_t key = mix(seed + kGoldenRatio64);
     for (int axis = 0; axis < 3; ++axis) {
-        const double canonical = position[axis] + 0.0;  // -0 and 0 are one position
+        const double canonical = position[axis] + 0.0;  // maps -0 to 0
         key = mix(key ^ std::bit_cast<uint64_t>(canonical)) + kGoldenRatio64;
     }
     return key;
@@ -91,8 +91,7 @@ float sample_cosine_hemisphere_pdf(glm::vec3 normal, glm::vec3 direction) noexce
 
 glm::vec3 sample_cone(glm::vec3 axis, float min_cosine, glm::vec2 u) noexcept {
     const float angle = 2.0f * std::numbers::pi_v<float> * u.x;
-    const float drop =
-        u.y * (1.0f - min_cosine);  // 1 − cos θ, which keeps its digits near the axis
+    const float drop = u.y * (1.0f - min_cosine);  // 1 − cos θ, which is precise near the axis
     const float radius = std::sqrt(drop * (2.0f - drop));
     const glm::vec3 local(radius * std::cos(angle), radius * std::sin(angle), 1.0f - drop);
     return glm::normalize(frame_around(axis) * local);

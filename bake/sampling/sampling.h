@@ -9,11 +9,11 @@
 
 namespace tetralight {
 
-/// Key of everything random about one probe: the seed and the bits of its canonical world position,
-/// never its index, so that other probes do not matter.
+/// The random key of a probe: a hash of the seed and the bits of its canonical world position. It
+/// does not depend on the index, so that adding probes changes no other probe.
 [[nodiscard]] uint64_t probe_key(uint64_t seed, const glm::dvec3& position) noexcept;
 
-/// Counter-based random numbers: the n-th number is a hash of (key, stream, n).
+/// Counter-based random numbers: number n is a hash of (key, stream, n).
 class RandomStream {
   public:
     RandomStream(uint64_t key, uint64_t stream) noexcept;
@@ -26,15 +26,14 @@ class RandomStream {
     uint64_t state_;
 };
 
-/// Direction `i` of `count` that are spread evenly over the sphere (spherical Fibonacci lattice:
-/// Marques et al. 2013, "Spherical Fibonacci Point Sets for Illumination Integrals").
+/// Direction `i` of `count` evenly distributed directions over the sphere (spherical Fibonacci
+/// lattice: Marques et al. 2013, "Spherical Fibonacci Point Sets for Illumination Integrals").
 [[nodiscard]] glm::vec3 spherical_fibonacci(uint32_t i, uint32_t count) noexcept;
 
-/// All of them.
+/// All `count` directions.
 [[nodiscard]] std::vector<glm::vec3> spherical_fibonacci(uint32_t count);
 
-/// A rotation that is uniform over all rotations for uniform numbers (Shoemake 1992, "Uniform
-/// Random Rotations").
+/// A uniformly distributed random rotation (Shoemake 1992, "Uniform Random Rotations").
 [[nodiscard]] glm::mat3 sample_rotation(RandomStream& random) noexcept;
 
 /// A direction in the hemisphere around a unit normal with density cos θ / π.
@@ -45,7 +44,7 @@ class RandomStream {
 [[nodiscard]] glm::vec3 sample_cone(glm::vec3 axis, float min_cosine, glm::vec2 u) noexcept;
 [[nodiscard]] float sample_cone_pdf(float min_cosine) noexcept;
 
-/// A point of the unit disc at right angles to a unit normal, uniform by area.
+/// A point of the unit disc perpendicular to a unit normal, uniform by area.
 [[nodiscard]] glm::vec3 sample_disc_around(glm::vec3 normal, glm::vec2 u) noexcept;
 
 }  // namespace tetralight

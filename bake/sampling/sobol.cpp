@@ -39,12 +39,12 @@ uint32_t second_dimension(uint32_t index) {
 }
 
 /// Bits, least significant digit first, as a number in [0, 1).
-float unit_number(uint32_t digits) {
+float unit_float(uint32_t digits) {
     return static_cast<float>(reverse_bits(digits) >> 8) * 0x1p-24f;
 }
 
 float first_of_pair(uint32_t index, uint64_t seed) {
-    return unit_number(permute_upwards(index, static_cast<uint32_t>(seed)));
+    return unit_float(permute_upwards(index, static_cast<uint32_t>(seed)));
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ float first_of_pair(uint32_t index, uint64_t seed) {
 glm::vec2 owen_sobol2(uint32_t index, uint64_t seed) noexcept {
     return {
         first_of_pair(index, seed),
-        unit_number(permute_upwards(second_dimension(index), static_cast<uint32_t>(seed >> 32)))};
+        unit_float(permute_upwards(second_dimension(index), static_cast<uint32_t>(seed >> 32)))};
 }
 
 Sampler::Sampler(uint64_t key, uint32_t path) noexcept
@@ -62,22 +62,23 @@ void Sampler::skip() noexcept {
     key_ += detail::kGoldenRatio64;
 }
 
-Sampler::Place Sampler::next_place() noexcept {
+Sampler::Pair Sampler::next_pair() noexcept {
     skip();
     const uint64_t order = detail::mix(key_);
     const uint64_t seed = detail::mix(order);
-    // Scrambled itself, the index keeps aligned blocks together: few paths are as even as many.
+    // An Owen scramble of the index maps aligned blocks to aligned blocks, so that the first paths
+    // are as well distributed as all of them.
     return {reverse_bits(permute_upwards(reversed_path_, static_cast<uint32_t>(order))), seed};
 }
 
 glm::vec2 Sampler::next2() noexcept {
-    const Place place = next_place();
-    return owen_sobol2(place.index, place.seed);
+    const Pair pair = next_pair();
+    return owen_sobol2(pair.index, pair.seed);
 }
 
 float Sampler::next() noexcept {
-    const Place place = next_place();
-    return first_of_pair(place.index, place.seed);
+    const Pair pair = next_pair();
+    return first_of_pair(pair.index, pair.seed);
 }
 
 double Sampler::next_double() noexcept {

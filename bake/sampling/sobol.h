@@ -11,10 +11,10 @@ namespace tetralight {
 /// [0, 1)². Any aligned block of 2^k indices has one point in each of its 2^k elementary intervals.
 [[nodiscard]] glm::vec2 owen_sobol2(uint32_t index, uint64_t seed) noexcept;
 
-/// The random numbers of one path out of many that are averaged: each call takes the next pair of
-/// dimensions, and over the paths 0, 1, 2... of one key the numbers of each pair cover the square
-/// evenly (padded Sobol points with shuffled indices: Burley 2020, section 5). A pure function of
-/// (key, path, number of calls before).
+/// The sample values of one path. Each call returns the next pair of dimensions. Over the paths 0,
+/// 1, 2... of one key, each pair is a randomized low-discrepancy sequence (padded Sobol points with
+/// shuffled indices: Burley 2020, section 5). A pure function of (key, path, number of earlier
+/// calls).
 class Sampler {
   public:
     Sampler(uint64_t key, uint32_t path) noexcept;
@@ -22,23 +22,23 @@ class Sampler {
     /// Uniform in [0, 1)².
     [[nodiscard]] glm::vec2 next2() noexcept;
 
-    /// The first of the next pair.
+    /// The first dimension of the next pair, uniform in [0, 1).
     [[nodiscard]] float next() noexcept;
 
-    /// Passes over a pair that is of no use.
+    /// Skips a pair of dimensions.
     void skip() noexcept;
 
-    /// Uniform in [0, 1) with 48 bits, for choices among many. Takes one pair.
+    /// Uniform in [0, 1) with 48 bits, to select one of many items. Takes one pair.
     [[nodiscard]] double next_double() noexcept;
 
   private:
-    /// Index and scrambling of the next pair.
-    struct Place {
+    /// Index into the Sobol sequence and scrambling seed of one pair.
+    struct Pair {
         uint32_t index;
         uint64_t seed;
     };
 
-    Place next_place() noexcept;
+    Pair next_pair() noexcept;
 
     uint64_t key_;
     uint32_t reversed_path_;  ///< its bits, the last one first

@@ -7,13 +7,13 @@
 
 namespace tetralight {
 
-/// A rectangle as a position sees it, to be sampled uniformly by solid angle (Ureña, Fajardo & King
-/// 2013, "An Area-Preserving Parametrization for Spherical Rectangles"). In double: the solid angle
-/// is a difference of angles.
+/// Samples a rectangle uniformly by the solid angle that it subtends at a position (Ureña, Fajardo
+/// & King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"). In double
+/// precision, because the solid angle is a difference of angles.
 class SphericalRectangle {
   public:
-    /// Corner and the two edges that leave it at right angles. Precondition: no edge is zero, and
-    /// the position is not in the rectangle's plane, else the solid angle is 0 or not a number.
+    /// `corner` and the two perpendicular edges at it. Precondition: no edge is zero, and the
+    /// position is not in the plane of the rectangle; otherwise the solid angle is 0 or NaN.
     SphericalRectangle(const glm::dvec3& corner, const glm::dvec3& along, const glm::dvec3& across,
                        const glm::dvec3& position) noexcept;
 
@@ -25,10 +25,10 @@ class SphericalRectangle {
 
   private:
     glm::dvec3 position_;
-    glm::dmat3 world_from_local_;  // z away from the rectangle's front or back
-    glm::dvec2 low_, high_;        // the rectangle in local x and y
-    double z_ = 0.0;               // its plane; below 0
-    double edge_low_ = 0.0, edge_high_ = 0.0, angle_ = 0.0, solid_angle_ = 0.0;
+    glm::dmat3 world_from_local_;  // z points away from the rectangle
+    glm::dvec2 min_, max_;         // bounds of the rectangle in local x and y
+    double z_ = 0.0;               // local z of its plane, negative
+    double edge_min_ = 0.0, edge_max_ = 0.0, angle_ = 0.0, solid_angle_ = 0.0;
 };
 
 }  // namespace tetralight

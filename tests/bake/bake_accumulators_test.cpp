@@ -18,7 +18,8 @@ namespace {
 
 using Tallies = std::vector<ProbeAccumulator>;
 
-/// A room with a bright panel, a box that throws shadows and a glass panel: noise of many kinds.
+/// A room with a bright panel, a box that throws shadows and a glass panel: several sources of
+/// noise.
 Scene noisy_room() {
     Scene scene;
     test::add_box(scene, test::diffuse({0.7f, 0.5f, 0.3f}), test::Facing::Inward, {-2, -2, -2},
@@ -82,13 +83,13 @@ Tallies interrupted(const std::vector<glm::dvec3>& positions, const BakeSettings
     return accumulators;
 }
 
-TEST(BakeTallies, SameBitsForAnyNumberOfThreadsAdaptiveOrNot) {
+TEST(BakeAccumulators, SameBitsForAnyNumberOfThreadsAdaptiveOrNot) {
     const auto positions = some_positions(30);
     EXPECT_EQ(bake(positions, fixed(256, 1)), bake(positions, fixed(256, 2)));
     EXPECT_EQ(bake(positions, adaptive(1)), bake(positions, adaptive(2)));
 }
 
-TEST(BakeTallies, SameBitsForAnySplitOfThePositions) {
+TEST(BakeAccumulators, SameBitsForAnySubsetOfThePositions) {
     const auto positions = some_positions(30);
     const Tallies whole = bake(positions, adaptive());
     Tallies parts;
@@ -99,7 +100,7 @@ TEST(BakeTallies, SameBitsForAnySplitOfThePositions) {
     EXPECT_EQ(parts, whole);
 }
 
-TEST(BakeTallies, GoesOnToTheSameBitsWhereverItStopped) {
+TEST(BakeAccumulators, ContinuesToTheSameBitsWhereverItStopped) {
     const auto positions = some_positions(200);
     for (const BakeSettings& settings : {fixed(2048), adaptive()}) {
         const Tallies whole = bake(positions, settings);
@@ -112,7 +113,7 @@ TEST(BakeTallies, GoesOnToTheSameBitsWhereverItStopped) {
     }
 }
 
-TEST(BakeTallies, FinishedOnesTakeNoMoreRays) {
+TEST(BakeAccumulators, FinishedProbesTakeNoMoreRays) {
     const auto positions = some_positions(5);
     const Tallies done = bake(positions, adaptive());
     BakeProgress last;
@@ -125,7 +126,7 @@ TEST(BakeTallies, FinishedOnesTakeNoMoreRays) {
     EXPECT_EQ(last.probes_done, 5u);
 }
 
-TEST(BakeTallies, EveryProbeComesBelowTheTargetOrTakesTheMaximum) {
+TEST(BakeAccumulators, EveryProbeReachesTheTargetOrTheMaximum) {
     BakeSettings settings = adaptive();
     std::vector<uint64_t> counts;
     for (const ProbeAccumulator& accumulator : bake(some_positions(30), settings)) {
@@ -140,7 +141,7 @@ TEST(BakeTallies, EveryProbeComesBelowTheTargetOrTakesTheMaximum) {
     }
 }
 
-TEST(BakeTallies, ATimeBudgetEndsRoundsButNotTheFirst) {
+TEST(BakeAccumulators, ATimeBudgetEndsRoundsButNotTheFirst) {
     BakeSettings settings = fixed(128);
     settings.time_budget_seconds = 1e-9;
     for (const ProbeAccumulator& accumulator : bake(some_positions(10), settings)) {
@@ -153,7 +154,7 @@ TEST(BakeTallies, ATimeBudgetEndsRoundsButNotTheFirst) {
     }
 }
 
-TEST(BakeTallies, SavesWhenTalliesHoldStill) {
+TEST(BakeAccumulators, SavesWhileNoAccumulatorChanges) {
     // Rounds of 2^17 directions are baked 16 probes at a time.
     const auto positions = std::vector<glm::dvec3>(some_positions(40));
     Tallies accumulators(positions.size());
@@ -170,7 +171,7 @@ TEST(BakeTallies, SavesWhenTalliesHoldStill) {
     EXPECT_EQ(begun[0], 16u);
 }
 
-TEST(BakeTallies, ProgressGrowsToItsEnd) {
+TEST(BakeAccumulators, ProgressGrowsToItsEnd) {
     std::vector<BakeProgress> reports;
     const BakeHooks hooks{.progress = [&](const BakeProgress& progress) {
         reports.push_back(progress);
@@ -198,8 +199,8 @@ double relative_error(const RadianceSh& actual, const RadianceSh& expected) {
     return std::sqrt(error / square);
 }
 
-TEST(BakeTallies, ErrorBarsAreAsLargeAsErrors) {
-    // Errors of one bake scatter about their root mean square, which is what bars stand for.
+TEST(BakeAccumulators, StandardErrorsMatchTheErrors) {
+    // Errors of one bake scatter about their root mean square, which is the standard error.
     constexpr uint64_t kSeeds = 8;
     const auto positions = some_positions(41);
     const Tallies reference = bake(positions, fixed(32 * 1024));

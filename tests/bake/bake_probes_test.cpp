@@ -34,7 +34,7 @@ float validity_at(const Scene& scene, const glm::dvec3& position, uint32_t sampl
     return bake(scene, {position}, settings).validity[0];
 }
 
-/// A room with a lamp, a box that throws shadows and a glass panel: all that draws random numbers.
+/// A room with a lamp, a box that throws shadows and a glass panel: all that uses random numbers.
 Scene busy_scene() {
     Scene scene;
     test::add_box(scene, test::diffuse({0.8f, 0.6f, 0.4f}), test::Facing::Inward, {-2, -2, -2},
@@ -105,7 +105,7 @@ TEST(BakeProbes, OutsideASolidAndInTheOpenValidityIsOne) {
     EXPECT_EQ(validity_at(Scene{}, {0, 0, 0}), 1.0f);
 }
 
-TEST(BakeProbes, ValidityIsLessByTheShareOfBackFaces) {
+TEST(BakeProbes, ValidityIsReducedByTheFractionOfBackFaces) {
     // A square of half size 1 at distance 1 is one face of a cube around the probe: 1/6 of all
     // directions. 16384 even directions: the discrepancy is about 16384^(-3/4) = 7e-4.
     Scene scene;
@@ -133,7 +133,7 @@ TEST(BakeProbes, FarFromTheSceneAProbeSeesOnlySky) {
     EXPECT_EQ(baked.validity, (std::vector<float>{1.0f, 1.0f}));
 }
 
-TEST(BakeProbes, ThingsThatMoveAreNotSeen) {
+TEST(BakeProbes, MovingInstancesAreNotBaked) {
     Scene scene;
     scene.environment.radiance = glm::vec3(1.0f);
     test::add_box(scene, test::diffuse(glm::vec3(1.0f)), test::Facing::Outward, {-1, -1, -1},
@@ -153,7 +153,7 @@ TEST(BakeProbes, CallbackThatReturnsFalseCancels) {
     const auto baked = bake_probes(busy_scene(), positions, few_samples(),
                                    [](const BakeProgress&) { return false; });
     ASSERT_FALSE(baked);
-    EXPECT_EQ(error_text(baked.error()), "cancelled");
+    EXPECT_EQ(baked.error().code, ErrorCode::Cancelled);
 }
 
 TEST(BakeProbes, ProgressGrowsAndReachesTheTotal) {
@@ -162,7 +162,7 @@ TEST(BakeProbes, ProgressGrowsAndReachesTheTotal) {
     std::atomic<int> callers = 0;
     const auto baked =
         bake_probes(busy_scene(), positions, few_samples(2), [&](const BakeProgress& progress) {
-            EXPECT_EQ(++callers, 1);  // never two at once
+            EXPECT_EQ(++callers, 1);  // never two at a time
             reports.push_back(progress);
             --callers;
             return true;
@@ -186,7 +186,7 @@ TEST(BakeProbes, NoSamplesAreAnError) {
     settings.sample_count = 0;
     const auto baked = bake_probes(Scene{}, {}, settings);
     ASSERT_FALSE(baked);
-    EXPECT_EQ(error_text(baked.error()), "samples: 0 is not a number of directions");
+    EXPECT_EQ(error_text(baked.error()), "samples: must be at least 1");
 }
 
 TEST(BakeProbes, APositionThatIsNotFiniteIsAnErrorThatNamesTheProbe) {
@@ -199,7 +199,7 @@ TEST(BakeProbes, APositionThatIsNotFiniteIsAnErrorThatNamesTheProbe) {
     }
 }
 
-TEST(BakeProbes, LightThatFloatsDoNotHoldIsAnErrorThatNamesTheProbe) {
+TEST(BakeProbes, LightBeyondTheRangeOfFloatIsAnErrorThatNamesTheProbe) {
     Scene scene;
     test::add_point_light(scene, LightMode::Baked, glm::vec3(1e38f), {0, 0, 0});
     const std::vector<glm::dvec3> positions{{1e6, 0, 0}, {0.01, 0, 0}};
@@ -210,7 +210,7 @@ TEST(BakeProbes, LightThatFloatsDoNotHoldIsAnErrorThatNamesTheProbe) {
         << error_text(baked.error());
 }
 
-TEST(BakeProbes, NamesALightWhoseIntensityIsNoNumber) {
+TEST(BakeProbes, NamesALightWhoseIntensityIsNotANumber) {
     Scene scene;
     test::add_sun(scene, LightMode::Baked, {1, std::nanf(""), 1});
     const glm::dvec3 position(0.0);

@@ -26,7 +26,7 @@ TEST(BakeStatistics, TakesQuantilesOfAllProbes) {
     EXPECT_EQ(statistics.over_target_count, 50u);
 }
 
-TEST(BakeStatistics, LeavesErrorsOutThatAreNotKnown) {
+TEST(BakeStatistics, IgnoresUnknownErrors) {
     BakedProbes baked;
     baked.standard_error = {0.0f, 0.25f, 0.0f, 0.5f, 0.0f};
     baked.sample_count.assign(5, 16);

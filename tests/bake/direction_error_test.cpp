@@ -26,7 +26,7 @@ TEST(RotatedLattice, GainsLessOnACheckerTheFinerItIs) {
     EXPECT_GE(gain(test::checker_radiance(16)), 1.5);
 }
 
-TEST(RandomDirections, HaveTheErrorOfTheirNumber) {
+TEST(RandomDirections, HaveTheErrorOfTheirSampleCount) {
     // 1.28 / √N for constant radiance (every coefficient but the first has σ = c00 / √N).
     const double error =
         test::direction_error([](glm::vec3) { return 1.0f; }, 1024, test::random_directions);

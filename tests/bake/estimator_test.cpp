@@ -11,7 +11,7 @@
 #include <tetralight/bake/sampling/sampling.h>
 #include "tests/support/scenes.h"
 
-// What probes gather on average, by many independent estimates.
+// The mean light of probes over many independent estimates.
 
 namespace tetralight {
 namespace {
@@ -91,7 +91,7 @@ Scene room_of_screens() {
     return scene;
 }
 
-TEST(Estimator, DrawingEmittersAndMeetingThemHaveTheSameMean) {
+TEST(Estimator, LightAndBsdfSamplingHaveTheSameMean) {
     const Scene scene = room_of_screens();
     for (const uint32_t bounces : {0u, 1u, 4u}) {
         const glm::dvec3 position(0.6, 1.2, 0.4);
@@ -106,7 +106,7 @@ TEST(Estimator, DrawingEmittersAndMeetingThemHaveTheSameMean) {
     }
 }
 
-TEST(Estimator, EstimatesOfFewDirectionsHaveTheMeanOfMany) {
+TEST(Estimator, EstimatesOfFewSamplesHaveTheMeanOfMany) {
     const Scene scene = room_of_screens();
     const glm::dvec3 position(0.6, 1.2, 0.4);
     const Measured many = measure(scene, position, {4}, 1024);
@@ -114,7 +114,7 @@ TEST(Estimator, EstimatesOfFewDirectionsHaveTheMeanOfMany) {
     expect_same_mean(measure(scene, position, {4}, 1, 65536), many);
 }
 
-TEST(Estimator, ManyLampsAreDrawnWithTheMeanOfEachAlone) {
+TEST(Estimator, ManySampledLightsHaveTheSumOfTheirMeans) {
     // Light is additive: a scene of four lamps is the sum of four scenes.
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.7f)), 3.0f);
@@ -249,7 +249,7 @@ TEST(Estimator, BlendPanelDimsTheDirectLightOfOneProbe) {
     EXPECT_LT(light.error[0] * 8.0 / kBand0, 1.5 * 0.031);
 }
 
-TEST(Estimator, IndirectMultiplierScalesTheBounceAlone) {
+TEST(Estimator, IndirectMultiplierScalesTheBounceOnly) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 5.0f);
     Light& lamp = test::add_point_light(scene, LightMode::Mixed, glm::vec3(9.0f), {0, 2, 0});
@@ -266,7 +266,7 @@ TEST(Estimator, IndirectMultiplierScalesTheBounceAlone) {
     EXPECT_NEAR(direct.mean[0] / kBand0, 9.0 / 1.04, 1e-4);
 }
 
-TEST(Estimator, RealtimeLightsTakePartInNothing) {
+TEST(Estimator, RealtimeLightsAreNotBaked) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 5.0f);
     test::add_sun(scene, LightMode::Realtime, glm::vec3(9.0f)).radius = 0.1f;
@@ -280,7 +280,7 @@ TEST(Estimator, RealtimeLightsTakePartInNothing) {
     EXPECT_EQ(light.mean, (std::array<double, kShCoefficientCount>{}));
 }
 
-TEST(Estimator, ClampDarkensReflectedLightAlone) {
+TEST(Estimator, ClampDarkensReflectedLightOnly) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f), glm::vec3(7.0f)), 1000.0f);
     test::add_sun(scene, LightMode::Mixed, glm::vec3(1000.0f));

@@ -132,7 +132,7 @@ MeanIrradiance mean_irradiance(std::span<const RadianceSh> bakes, glm::vec3 norm
 }
 
 TEST(LightTransport, FurnaceSumsTheGeometricSeries) {
-    // Everything has radiance e + ρ e + ... + ρ^b e, wherever one looks from.
+    // Everything has radiance e + ρ e + ... + ρ^b e, in every direction.
     for (const double albedo : {0.5, 0.8}) {
         for (const uint32_t bounces : {0u, 4u, 24u}) {
             Scene scene;
@@ -156,8 +156,7 @@ TEST(LightTransport, FurnaceSumsTheGeometricSeries) {
     }
 }
 
-// --- LightSampler
-// ------------------------------------------------------------------------------------
+// --- Emissive surfaces ---------------------------------------------------------------------------
 
 /// Light at the origin from a rectangle of radiance 1: ∫ Y_i cos θ / r² dA by the midpoint rule.
 RadianceSh rectangle_light(glm::dvec3 corner, glm::dvec3 u, glm::dvec3 v) {
@@ -258,8 +257,8 @@ TEST(LightTransport, PointLightOverAFloorComesBackFromBelow) {
     EXPECT_NEAR(exact_irradiance(light, {0, -1, 0}), 0.4 * unit, 0.01 * 0.4 * unit);
 }
 
-TEST(LightTransport, GroundOfAHundredKilometresDoesNotChangeTheLampAboveIt) {
-    // As above, 2ρI / 5h², though rays leave the ground a decimetre above it to be safe.
+TEST(LightTransport, GroundOfAHundredKilometresDoesNotChangeTheLightAboveIt) {
+    // As above, 2ρI / 5h², although rays leave the ground with an offset of a decimetre.
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 5e4f);
     test::add_point_light(scene, LightMode::Mixed, glm::vec3(10.0f), {0, 2, 0});
@@ -330,7 +329,7 @@ Material glass(float alpha) {
     return material;
 }
 
-TEST(LightTransport, BlendPanelsLetTheirShareOfTheSkyThrough) {
+TEST(LightTransport, BlendPanelsTransmitTheirFractionOfTheSky) {
     // A closed box of black glass: each of N rays passes one wall with probability 1 − α, so that
     // the mean radiance is 0.7 ± σ, σ = √(0.3 · 0.7 / 65536) = 0.0018; four of them.
     Scene scene;
@@ -340,9 +339,10 @@ TEST(LightTransport, BlendPanelsLetTheirShareOfTheSkyThrough) {
     EXPECT_NEAR(light.coefficients[0].x * kBand0, 0.7, 0.0072);
 }
 
-TEST(LightTransport, BlendPanelsLetTheirShareOfTheSunThrough) {
-    // Sun through a panel onto a floor. Every path draws anew: the floor's radiance is 0.4 of that
-    // in the open on average; half of 65536 rays see the floor: σ = √(0.4 · 0.6 / 32768) = 0.0027.
+TEST(LightTransport, BlendPanelsTransmitTheirFractionOfTheSun) {
+    // Sun through a panel onto a floor. Every path makes its own decision: the floor's radiance is
+    // 0.4 of that in the open on average; half of 65536 rays see the floor: σ = √(0.4 · 0.6 /
+    // 32768) = 0.0027.
     Scene open = floor_scene(0.5f);
     test::add_sun(open, LightMode::Mixed, glm::vec3(8.0f));
     Scene covered = open;
@@ -351,7 +351,7 @@ TEST(LightTransport, BlendPanelsLetTheirShareOfTheSunThrough) {
     EXPECT_NEAR(bake(covered, {0, 1, 0}, 65536, 1).coefficients[0].x / without, 0.4, 0.0108);
 }
 
-TEST(LightTransport, BlendPanelsLetTheirShareOfTheDirectSunThroughOnAverage) {
+TEST(LightTransport, BlendPanelsTransmitTheirFractionOfTheDirectSunOnAverage) {
     // One shadow ray a probe: 0.4 of 4096 probes are lit, σ = √(0.4 · 0.6 / 4096) = 0.0077.
     Scene scene;
     test::add_floor(scene, glass(0.6f), 10.0f, 3.0f);
@@ -382,7 +382,7 @@ TEST(LightTransport, MaskPanelLetsLightThroughItsHoles) {
     EXPECT_EQ(bake(scene, {0, 0, 1}, 64, 0), RadianceSh{});
 }
 
-TEST(LightTransport, TexturedEmissionShinesFromItsPlace) {
+TEST(LightTransport, TexturedEmissionComesFromItsTexels) {
     // The floor's u runs along +Z: its left half is red, its right half green.
     Scene scene;
     Texture texture;
@@ -424,7 +424,7 @@ RadianceSh bake_room(const Scene& scene, const glm::dvec3& position) {
     return bake(scene, position, kRoomSamples, 3);
 }
 
-/// Two bakes of a room that draw other paths. Radiance along one path spreads by less than its mean
+/// Two bakes of a room with different paths. Radiance along one path spreads by less than its mean
 /// here, so that a coefficient has σ < L0 / √N and the difference of two √2 of that; four of them.
 void expect_equal_but_for_noise(const RadianceSh& actual, const RadianceSh& expected) {
     const float l0 = glm::length(expected.coefficients[0]);

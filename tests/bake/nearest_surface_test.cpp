@@ -62,7 +62,8 @@ TEST(RayCaster, WithoutTrianglesThereIsNoNearestPoint) {
     EXPECT_FALSE(caster.nearest_point({0, 0, 0}));
 }
 
-/// Surveys random positions in [-2, 2]³ and returns the share whose `is_inside` agrees.
+/// Evaluates the probe visibility of random positions in [-2, 2]³ and returns the fraction whose
+/// `is_inside` agrees.
 template <class Inside>
 double agreement(const Scene& scene, Inside is_inside) {
     const auto positions = test::random_positions(4000, 5, 2.0);
@@ -77,7 +78,7 @@ double agreement(const Scene& scene, Inside is_inside) {
     return static_cast<double>(agreeing) / static_cast<double>(positions.size());
 }
 
-TEST(Survey, TellsTheInsideOfClosedMeshes) {
+TEST(ProbeVisibility, FindsTheInsideOfClosedMeshes) {
     Scene box, ball, ring;
     const Material material = test::diffuse(glm::vec3(0.5f));
     test::add_box(box, material, test::Facing::Outward, {-1, -1.5f, -1}, {0.5f, 1, 1.8f});
@@ -94,7 +95,7 @@ TEST(Survey, TellsTheInsideOfClosedMeshes) {
               0.9975);
 }
 
-TEST(Survey, MeasuresTheDistanceToTheNearestSurface) {
+TEST(ProbeVisibility, MeasuresTheDistanceToTheNearestSurface) {
     Scene ball;
     test::add_mesh(ball, test::diffuse(glm::vec3(0.5f)), test::sphere_mesh(1.5, 200));
     const auto positions = test::random_positions(300, 6, 3.0);

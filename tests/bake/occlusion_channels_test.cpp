@@ -134,7 +134,7 @@ TEST(OcclusionChannels, DoNotDependOnTheOrderOfTheScene) {
         std::equal(before.of_light.rbegin(), before.of_light.rend(), after.of_light.begin()));
 }
 
-TEST(OcclusionChannels, ProbesKeepTheLightThatTheyAreInOrNearestTo) {
+TEST(OcclusionChannels, ProbesTakeTheLightOfTheContainingOrNearestVolume) {
     const std::vector<Light> lights{lamp(0, 2), lamp(10, 2), sun()};
     const std::vector<uint32_t> channels{1, 1, 0};
     const auto at = [&](double x) { return occlusion_lights_at({x, 0, 0}, lights, channels); };
@@ -146,7 +146,7 @@ TEST(OcclusionChannels, ProbesKeepTheLightThatTheyAreInOrNearestTo) {
 
 // --- Volumes of lights ---------------------------------------------------------------------------
 
-TEST(LightVolume, ConesOverlapWhereTheyMeetOnly) {
+TEST(LightVolume, ConesOverlapOnlyWhereTheyIntersect) {
     const glm::vec3 right(1, 0, 0), left(-1, 0, 0);
     const float narrow = 0.9f;
     EXPECT_TRUE(may_overlap(spot(0, right, narrow, 5), spot(4, left, narrow, 5)));
@@ -158,7 +158,7 @@ TEST(LightVolume, ConesOverlapWhereTheyMeetOnly) {
     EXPECT_FALSE(may_overlap(spot(0, right, narrow, 5), lamp(8, 2.5f)));
 }
 
-TEST(LightVolume, NeverSaysApartOfWhatSharesAPoint) {
+TEST(LightVolume, IntersectingVolumesAlwaysOverlap) {
     uint64_t state = 1;
     const auto next = [&] {
         state = state * 6364136223846793005u + 1442695040888963407u;
@@ -182,7 +182,7 @@ TEST(LightVolume, NeverSaysApartOfWhatSharesAPoint) {
     }
 }
 
-TEST(LightVolume, DistanceIsThatToTheBallOrTheCone) {
+TEST(LightVolume, DistanceIsThatToTheSphereOrTheCone) {
     EXPECT_FLOAT_EQ(distance_to_volume(lamp(1, 2), {5, 0, 0}), 2.0f);
     EXPECT_FLOAT_EQ(distance_to_volume(lamp(1, 2), {1, 0, 0}), -2.0f);
     const Light cone = spot(0, {1, 0, 0}, 0.8f, 10);

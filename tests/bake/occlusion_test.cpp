@@ -11,7 +11,7 @@
 namespace tetralight {
 namespace {
 
-/// What probes of a scene see of lights.
+/// The visibility of lights at probes of a scene.
 class Occlusion {
   public:
     explicit Occlusion(const Scene& scene)
@@ -61,7 +61,7 @@ Light lamp(glm::vec3 position, float radius = 0.0f) {
     return light;
 }
 
-/// Share of a disc of radius 1 on the side x < d of a line.
+/// Fraction of a disc of radius 1 on the side x < d of a line.
 double disc_share(double d) {
     if (d <= -1.0) return 0.0;
     if (d >= 1.0) return 1.0;
@@ -89,9 +89,9 @@ TEST(Occlusion, PenumbraOfASunIsThatOfAHalfPlane) {
     }
 }
 
-TEST(Occlusion, PenumbraOfALampIsThatOfAHalfPlane) {
+TEST(Occlusion, PenumbraOfASphereLightIsThatOfAHalfPlane) {
     // The lamp hangs 4 m above the probe at x = 0, the edge 2 m. Seen along the axis its sphere is
-    // a disc of radius r / √(1 − r²/16) at 4 m, which the edge cuts at −2x from its middle.
+    // a disc of radius r / √(1 − r²/16) at 4 m, which the edge cuts at −2x from its center.
     const Scene scene = half_roof();
     const Occlusion occlusion(scene);
     const double r = 0.3, radius = r / std::sqrt(1.0 - r * r / 16.0);
@@ -103,7 +103,7 @@ TEST(Occlusion, PenumbraOfALampIsThatOfAHalfPlane) {
     }
 }
 
-TEST(Occlusion, HalfTransparentSurfacesLetTheirShareThrough) {
+TEST(Occlusion, HalfTransparentSurfacesTransmitTheirFraction) {
     // 256 rays: σ = √(0.3 · 0.7 / 256) = 0.029 for each of two layers; their product 0.09 + noise.
     Scene scene;
     Material glass = test::diffuse(glm::vec3(0.5f));
@@ -143,7 +143,7 @@ TEST(Occlusion, EdgesOfTrianglesAreOneSurface) {
     EXPECT_NEAR(sum / count, 0.5, 4 * 0.031 / std::sqrt(count));
 }
 
-TEST(Occlusion, CutOutSurfacesBlockWhereTheyAre) {
+TEST(Occlusion, CutOutSurfacesOccludeOutsideTheirHoles) {
     Scene scene;
     Texture holes;
     holes.image = {2, 1, {{255, 255, 255, 255}, {255, 255, 255, 0}}};
@@ -158,7 +158,7 @@ TEST(Occlusion, CutOutSurfacesBlockWhereTheyAre) {
     EXPECT_EQ(occlusion.visibility(sun(0.0f), {0.9, 0, 0}), 1.0f);
 }
 
-TEST(Occlusion, RangeAndConeHaveNoSay) {
+TEST(Occlusion, IgnoresRangeAndCone) {
     const Scene scene;
     Light light = lamp({0, 3, 0}, 0.1f);
     light.range = 1.0f;
@@ -175,7 +175,7 @@ TEST(Occlusion, AreaLightsHaveNone) {
     EXPECT_EQ(Occlusion(scene).visibility(light, {0, 0, 0}), 0.0f);
 }
 
-TEST(Occlusion, LampsWithinReachOfAShadowRayAreNotBlockedByWhatIsBehindThem) {
+TEST(Occlusion, SurfacesBehindTheLightDoNotOccludeIt) {
     const Scene scene = half_roof();
     EXPECT_EQ(Occlusion(scene).visibility(lamp({3, 1.9f, 0}), {3, 0, 0}), 1.0f);
     EXPECT_EQ(Occlusion(scene).visibility(lamp({3, 2.1f, 0}), {3, 0, 0}), 0.0f);

@@ -53,7 +53,7 @@ TEST(PathTracer, FloorReflectsTheSunAsLambertDoes) {
                 1e-5f);
 }
 
-TEST(PathTracer, RoofAboveTheLampDoesNotShadowTheFloor) {
+TEST(PathTracer, RoofAboveTheLightDoesNotShadowTheFloor) {
     // albedo/π · I/d² = 0.5/π · 8/2², as if there were no roof at height 3.
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 5.0f);
@@ -77,7 +77,7 @@ TEST(PathTracer, PolishedMetalHasNoDiffuseBounce) {
     EXPECT_EQ(trace(scene, {0, 1, 0}, kDown, 4).radiance, glm::vec3(0.0f));
 }
 
-TEST(PathTracer, BackFaceIsBlackAndTellsThatThePathBeganBehindIt) {
+TEST(PathTracer, BackFaceIsBlackAndReported) {
     Scene scene;
     scene.environment.radiance = glm::vec3(1.0f);
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f), glm::vec3(5.0f)), 10.0f);
@@ -87,7 +87,7 @@ TEST(PathTracer, BackFaceIsBlackAndTellsThatThePathBeganBehindIt) {
     EXPECT_FALSE(trace(scene, {0, 1, 0}, kDown, 4).hit_back_face);
 }
 
-TEST(PathTracer, BackFaceOnALaterSegmentEndsThePathOnly) {
+TEST(PathTracer, BackFaceOnALaterSegmentOnlyEndsThePath) {
     Scene scene = floor_scene();
     scene.environment.radiance = glm::vec3(1.0f);
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1e6f, 5.0f);  // its back is above us
@@ -108,7 +108,7 @@ TEST(PathTracer, DoubleSidedSurfaceShinesOnBothSides) {
     EXPECT_FALSE(sample.hit_back_face);
 }
 
-/// Whether a position sees the only light of a scene.
+/// True if a position sees the only light of a scene.
 bool is_lit(const Scene& scene, glm::vec3 position) {
     const auto trace_scene = TraceScene::make_static(scene);
     const PathTracer tracer(scene, *trace_scene, {});
@@ -116,7 +116,7 @@ bool is_lit(const Scene& scene, glm::vec3 position) {
     return !tracer.occluded(position, sample);
 }
 
-TEST(PathTracer, LightIsBlockedByWhatStandsBeforeItOnly) {
+TEST(PathTracer, OnlySurfacesInFrontOfTheLightOccludeIt) {
     Scene scene = floor_scene();
     test::add_point_light(scene, LightMode::Baked, glm::vec3(9.0f), {0, 1, 0});
     EXPECT_TRUE(is_lit(scene, {4, 3, 0}));

@@ -40,7 +40,7 @@ TEST(ProbeAccumulator, EmptyIsBlackAndFree) {
     EXPECT_EQ(ProbeAccumulator{}.standard_error(), 0.0f);
 }
 
-TEST(ProbeAccumulator, EachDirectionCountsTheSame) {
+TEST(ProbeAccumulator, EverySampleHasTheSameWeight) {
     ProbeAccumulator accumulator =
         tally_of({estimate(light(0, 1.0f), 10), estimate(light(0, 2.0f), 30)});
     EXPECT_EQ(accumulator.radiance(), light(0, 1.75f));
@@ -51,7 +51,7 @@ TEST(ProbeAccumulator, EachDirectionCountsTheSame) {
     EXPECT_EQ(accumulator.round_count, 2u);
 }
 
-TEST(ProbeAccumulator, ValidityIsTheShareOfDirectionsThatMeetNoBack) {
+TEST(ProbeAccumulator, ValidityIsTheFractionOfSamplesWithoutBackFaces) {
     ProbeEstimate behind = estimate({}, 30);
     behind.back_face_count = 10;
     EXPECT_EQ(tally_of({estimate({}, 10), behind}).validity(), 0.75f);
@@ -64,7 +64,7 @@ TEST(ProbeAccumulator, StandardErrorIsThatOfTheMean) {
     EXPECT_NEAR(accumulator.standard_error(), 0.5, 1e-6);
 }
 
-TEST(ProbeAccumulator, BandsCountAsMuchAsTheyDoInIrradiance) {
+TEST(ProbeAccumulator, BandsAreWeightedAsInIrradiance) {
     // The same spread, ±1 and with it a standard error of 1, in another band than the light.
     for (const auto& [coefficient, factor] : {std::pair{2, 2.0 / 3.0}, std::pair{6, 1.0 / 4.0}}) {
         const ProbeAccumulator accumulator =
@@ -108,7 +108,7 @@ TEST(ProbeAccumulator, RoundsAddUpAsIndependentOnesDo) {
     EXPECT_NEAR(accumulator.standard_error(), std::sqrt(1000.0 / 1600.0) / 2.0, 1e-6);
 }
 
-TEST(ProbeAccumulator, OneEstimateTellsNoError) {
+TEST(ProbeAccumulator, OneEstimateHasNoStandardError) {
     EXPECT_EQ(tally_of({estimate(light(0, 1.0f))}).standard_error(), 0.0f);
 }
 

@@ -22,26 +22,26 @@ Scene solid_box(bool is_double_sided) {
     return scene;
 }
 
-TEST(Survey, InsideASolidOnlyBackFacesAreSeen) {
+TEST(ProbeVisibility, InsideASolidOnlyBackFacesAreSeen) {
     const ProbeVisibility inside = survey_one(solid_box(false), {0.3, -0.5, 0.9});
     EXPECT_EQ(inside.back_face_fraction, 1.0f);
     EXPECT_EQ(inside.behind_fraction, 1.0f);
     EXPECT_TRUE(inside.is_inside());
 }
 
-TEST(Survey, OutsideASolidNoneAreSeen) {
+TEST(ProbeVisibility, OutsideASolidNoneAreSeen) {
     EXPECT_EQ(survey_one(solid_box(false), {1.1, 0, 0}).behind_fraction, 0.0f);
     EXPECT_FALSE(survey_one(solid_box(false), {1.1, 0, 0}).is_inside());
 }
 
-TEST(Survey, InsideADoubleSidedSolidAllIsBehindButNothingIsABackFace) {
+TEST(ProbeVisibility, InsideADoubleSidedSolidAllIsBehindButNothingIsABackFace) {
     const ProbeVisibility inside = survey_one(solid_box(true), {0, 0, 0});
     EXPECT_EQ(inside.back_face_fraction, 0.0f);
     EXPECT_EQ(inside.behind_fraction, 1.0f);
     EXPECT_TRUE(inside.is_inside());
 }
 
-TEST(Survey, UnderADoubleSidedSheetIsNotInside) {
+TEST(ProbeVisibility, UnderADoubleSidedSheetIsNotInside) {
     Scene scene;
     Material material = test::diffuse(glm::vec3(0.5f));
     material.is_double_sided = true;
@@ -51,11 +51,11 @@ TEST(Survey, UnderADoubleSidedSheetIsNotInside) {
     EXPECT_FALSE(below.is_inside());
 }
 
-TEST(Survey, WithoutSurfacesNothingIsInside) {
+TEST(ProbeVisibility, WithoutSurfacesNothingIsInside) {
     EXPECT_FALSE(survey_one(Scene{}, {0, 0, 0}).is_inside());
 }
 
-TEST(Survey, AnswersPositionByPosition) {
+TEST(ProbeVisibility, GivesEachPositionItsOwnResult) {
     const std::vector<glm::dvec3> positions = {{0, 0, 0}, {3, 0, 0}, {0, 0.9, 0}};
     const auto result = probe_visibilities(solid_box(false), positions, 2);
     ASSERT_TRUE(result);

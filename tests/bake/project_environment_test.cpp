@@ -15,7 +15,7 @@ TEST(ProjectEnvironment, IsExactForAConstantSky) {
     EXPECT_EQ(project_environment(sky), constant_radiance({1, 2, 3}));
 }
 
-TEST(ProjectEnvironment, HoldsATexelOfALargeSky) {
+TEST(ProjectEnvironment, KeepsASingleTexelOfALargeSky) {
     // One texel of radiance 1000, next to the equator of 1024 x 512: its solid angle is
     // 2π/1024 · sin(π/512), and bilinear filtering only spreads it over its neighbors.
     Environment sky;

@@ -45,7 +45,7 @@ TEST(RoundPlan, WithoutATargetThereIsOneRoundOfEightEstimates) {
     EXPECT_EQ(plan.samples_in_estimate(0, 7), 128u);
 }
 
-TEST(RoundPlan, EstimatesShareAllDirections) {
+TEST(RoundPlan, EstimatesDivideAllSamples) {
     for (const uint32_t samples : {1u, 15u, 16u, 31u, 32u, 100u, 127u, 128u, 1000u, 1u << 24}) {
         const RoundPlan plan(settings(samples));
         uint64_t sum = 0;
@@ -64,7 +64,7 @@ TEST(RoundPlan, FewSamplesAreFewerEstimates) {
     EXPECT_EQ(RoundPlan(settings(128)).estimates_in_round(0), 8u);
 }
 
-TEST(RoundPlan, RoundsDoubleWhatIsThereUpToTheMaximum) {
+TEST(RoundPlan, RoundsDoubleTheSamplesUpToTheMaximum) {
     EXPECT_EQ(rounds(RoundPlan(settings(1024, 0.01, 5000))),
               (std::vector<uint64_t>{1024, 1024, 2048, 904}));
     EXPECT_EQ(rounds(RoundPlan(settings(1024, 0.01, 4100))),  // 4 are too few for a round
@@ -72,7 +72,7 @@ TEST(RoundPlan, RoundsDoubleWhatIsThereUpToTheMaximum) {
     EXPECT_EQ(RoundPlan(settings(1024, 0.01)).samples_before(100), 65536u);
 }
 
-TEST(RoundPlan, ATargetBeginsWithDirectionsForErrorBars) {
+TEST(RoundPlan, WithATargetTheFirstRoundHasEightEstimates) {
     EXPECT_EQ(RoundPlan(settings(1, 0.01)).samples_in_round(0), 128u);
 }
 
@@ -86,14 +86,14 @@ TEST(RoundPlan, AProbeIsDoneBelowTheTargetOrAtTheMaximum) {
     EXPECT_TRUE(plan.is_done(last));
 }
 
-TEST(RoundPlan, ATimeBudgetAloneGoesOnToTheMaximum) {
+TEST(RoundPlan, WithOnlyATimeBudgetRoundsContinueToTheMaximum) {
     BakeSettings with_budget = settings(1024);
     with_budget.time_budget_seconds = 1.0;
     const RoundPlan plan(with_budget);
     EXPECT_FALSE(plan.is_done(with_error(plan, 1e-6)));
 }
 
-TEST(RoundPlan, ExpectsErrorsToFallWithTheRootOfTheDirections) {
+TEST(RoundPlan, ExpectsErrorsToFallWithTheRootOfTheSamples) {
     const RoundPlan plan(settings(1024, 0.01));
     EXPECT_EQ(plan.expected_samples({}), 1024u);
     EXPECT_EQ(plan.expected_samples(with_error(plan, 0.005)), 1024u);
@@ -101,18 +101,17 @@ TEST(RoundPlan, ExpectsErrorsToFallWithTheRootOfTheDirections) {
     EXPECT_EQ(plan.expected_samples(with_error(plan, 5.0)), 65536u);
 }
 
-TEST(RoundPlan, RefusesSettingsThatMeanNothing) {
-    EXPECT_EQ(error_text(RoundPlan::check(settings(0)).error()),
-              "samples: 0 is not a number of directions");
+TEST(RoundPlan, RejectsSettingsOutOfRange) {
+    EXPECT_EQ(error_text(RoundPlan::check(settings(0)).error()), "samples: must be at least 1");
     EXPECT_EQ(error_text(RoundPlan::check(settings(1, -1.0)).error()),
-              "target error: -1 is not a share");
+              "target_error: -1 is not a finite number of at least 0");
     EXPECT_FALSE(RoundPlan::check(settings(1, std::nan(""))));
     EXPECT_EQ(error_text(RoundPlan::check(settings(1024, 0.01, 1000)).error()),
-              "max samples: 1000 are fewer than the 1024 of the first round");
+              "max_samples: 1000 is less than the 1024 samples of the first round");
     EXPECT_TRUE(RoundPlan::check(settings(1024, 0.0, 1000)));  // no rounds, no maximum
 }
 
-TEST(RoundPlan, EveryEstimateHasAKeyOfItsOwn) {
+TEST(RoundPlan, EveryEstimateHasADistinctKey) {
     std::set<uint64_t> keys;
     for (uint64_t probe = 0; probe < 100; ++probe) {
         for (uint64_t round = 0; round < 8; ++round) {

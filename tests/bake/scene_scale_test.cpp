@@ -89,7 +89,7 @@ TEST(SceneScale, TenKilometresAwayTheLightIsTheSame) {
     expect_same_light(room.light(), lit_room().light());
 }
 
-TEST(SceneScale, WhatStandsFarAwayByMistakeTakesNoPrecisionFromTheRest) {
+TEST(SceneScale, AnObjectFarAwayByMistakeCostsTheOthersNoPrecision) {
     const RadianceSh expected = lit_room().light();
     for (const float distance : {1e6f, 1e9f}) {
         Placed room = lit_room();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half-transparent and cut-out surfaces: what stops at them is theirs, the rest goes on.
+// Alpha-blended and alpha-masked surfaces.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -35,7 +35,7 @@ Scene ground(AlphaMode mode, float alpha, glm::vec3 albedo, glm::vec3 emission) 
     return scene;
 }
 
-/// What a surface that faces down gathers (red): exact, as all light comes from below.
+/// Irradiance of a surface that faces down (red): exact, as all light comes from below.
 double from_below(const RadianceSh& light) {
     return -static_cast<double>(light.coefficients[1].x) / kBand1;
 }
@@ -49,7 +49,7 @@ TEST(Transparency, OpacityScalesEmission) {
     }
 }
 
-TEST(Transparency, OpacityScalesWhatIsReflected) {
+TEST(Transparency, OpacityScalesReflectedLight) {
     // A sun of π from above: radiance albedo · alpha. The light that came through is gone below.
     for (const float alpha : {0.25f, 0.5f, 1.0f}) {
         Scene scene = ground(AlphaMode::Blend, alpha, glm::vec3(0.8f), glm::vec3(0.0f));
@@ -60,7 +60,7 @@ TEST(Transparency, OpacityScalesWhatIsReflected) {
     }
 }
 
-TEST(Transparency, WhatIsInvisibleContributesNothing) {
+TEST(Transparency, InvisibleSurfacesContributeNothing) {
     for (const AlphaMode mode : {AlphaMode::Blend, AlphaMode::Mask}) {
         Scene scene = ground(mode, 0.0f, glm::vec3(0.9f), glm::vec3(5.0f));
         test::add_sun(scene, LightMode::Baked, glm::vec3(3.0f)).radius = 0.05f;
@@ -78,7 +78,7 @@ TEST(Transparency, WhatIsInvisibleContributesNothing) {
     }
 }
 
-TEST(Transparency, CutOutSurfacesShineAndReflectWhereTheyAre) {
+TEST(Transparency, CutOutSurfacesEmitAndReflectOutsideTheirHoles) {
     // Half of the ground, in stripes that are small beside the distance.
     Scene scene;
     Texture stripes;
@@ -94,7 +94,7 @@ TEST(Transparency, CutOutSurfacesShineAndReflectWhereTheyAre) {
 }
 
 TEST(Transparency, BouncesPassThroughAsRaysDo) {
-    // Light of the ground reaches the probe through a pane that lets 60 % through.
+    // Light of the ground reaches the probe through a pane that transmits 60 %.
     Scene scene = ground(AlphaMode::Opaque, 1.0f, glm::vec3(0.0f), glm::vec3(1.0f));
     Material pane = test::diffuse(glm::vec3(0.0f));
     pane.alpha_mode = AlphaMode::Blend;

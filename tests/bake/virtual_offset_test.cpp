@@ -38,21 +38,21 @@ void expect_near(const std::optional<glm::vec3>& actual, glm::vec3 expected) {
         << actual->x << " " << actual->y << " " << actual->z;
 }
 
-TEST(CaptureOffset, LeadsThroughTheNearestFaceAndAMarginBeyond) {
+TEST(VirtualOffset, EndsAtTheMarginBeyondTheNearestFace) {
     expect_near(offset(solid_box(), {0.1, 0.7, -0.2}), {0, 0.3f + kMargin, 0});
     expect_near(offset(solid_box(), {-0.95, 0.7, -0.2}), {-0.05f - kMargin, 0, 0});
 }
 
-TEST(CaptureOffset, LeadsOutOfADoubleSidedSolid) {
+TEST(VirtualOffset, LeadsOutOfADoubleSidedSolid) {
     expect_near(offset(solid_box(true), {0.1, 0.7, -0.2}), {0, 0.3f + kMargin, 0});
 }
 
-TEST(CaptureOffset, EndsAtTheReach) {
+TEST(VirtualOffset, IsLimitedByTheMaximumDistance) {
     EXPECT_TRUE(offset(solid_box(), {0, 0.7, 0}, 0.41f));
     EXPECT_FALSE(offset(solid_box(), {0, 0.7, 0}, 0.39f));  // less than 0.3 and the margin
 }
 
-TEST(CaptureOffset, LeadsNotFromOneSolidIntoAnother) {
+TEST(VirtualOffset, DoesNotLeadFromOneSolidIntoAnother) {
     // A second solid stands over the top; the next way out is the side at x = 1.
     Scene scene = solid_box();
     add_solid(scene, {-3, 0.9f, -3}, {3, 5, 3});
@@ -62,19 +62,19 @@ TEST(CaptureOffset, LeadsNotFromOneSolidIntoAnother) {
     EXPECT_LT(found->y, 0.2f);  // below the second solid
 }
 
-TEST(CaptureOffset, StaysInTheMiddleOfANarrowGap) {
+TEST(VirtualOffset, StaysInTheMiddleOfANarrowGap) {
     Scene scene = solid_box();
     add_solid(scene, {-3, 1.06f, -3}, {3, 5, 3});
     expect_near(offset(scene, {0, 0.9, 0}), {0, 0.1f + 0.03f, 0});
 }
 
-TEST(CaptureOffset, LeadsUpThroughTheGround) {
+TEST(VirtualOffset, LeadsUpThroughTheGround) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 100.0f);
     expect_near(offset(scene, {3, -0.25, 2}), {0, 0.25f + kMargin, 0});
 }
 
-TEST(CaptureOffset, DoesNotPassThroughFronts) {
+TEST(VirtualOffset, DoesNotPassThroughFronts) {
     // A hollow that faces inward within solid rock: what lies behind its front is no way out.
     Scene scene;
     test::add_box(scene, test::diffuse(glm::vec3(0.5f)), test::Facing::Inward, {-1, -1, -1},
@@ -82,7 +82,7 @@ TEST(CaptureOffset, DoesNotPassThroughFronts) {
     EXPECT_FALSE(offset(scene, {0, 0, 0}));
 }
 
-TEST(CaptureOffset, IsTheSameOnMovedAndScaledScenes) {
+TEST(VirtualOffset, IsTheSameOnTranslatedAndScaledScenes) {
     Scene scene = solid_box();
     scene.instances[0].world_from_mesh[3] = glm::dvec4(1e4, -2e4, 5e3, 1.0);
     expect_near(offset(scene, {1e4 + 0.1, -2e4 + 0.7, 5e3 - 0.2}), {0, 0.3f + kMargin, 0});

@@ -180,7 +180,7 @@ TEST(BakeVolume, PassesErrorsOn) {
     const auto cancelled = bake_volume(room(), three_groups(), with(few_samples()),
                                        [](const BakeProgress&) { return false; });
     ASSERT_FALSE(cancelled);
-    EXPECT_EQ(error_text(cancelled.error()), "cancelled");
+    EXPECT_EQ(cancelled.error().code, ErrorCode::Cancelled);
 }
 
 }  // namespace

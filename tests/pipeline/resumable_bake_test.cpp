@@ -30,7 +30,7 @@ class ResumableBake : public test::PartFixture {
                 EXPECT_GT(run, 0);
                 return std::move(*baked);
             }
-            EXPECT_EQ(error_text(baked.error()), "cancelled");
+            EXPECT_EQ(baked.error().code, ErrorCode::Cancelled);
             EXPECT_TRUE(std::filesystem::exists(file));
         }
     }

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-// Four floats side by side: vector extensions of GCC and Clang, with the operators of float for
-// each of the four. Comparisons give masks, for `mask ? a : b`. The same bits as four floats.
+// Four floats in a vector extension of GCC and Clang. Operators work per element; comparisons
+// return masks for `mask ? a : b`. The results have the same bits as four scalar operations.
 
 namespace tetralight::detail {
 
@@ -22,7 +22,7 @@ using Float4 = float __attribute__((vector_size(16)));
     return a > b ? a : b;
 }
 
-/// One instruction where compilers need not set errno.
+/// Compiles to one instruction with -fno-math-errno.
 [[nodiscard]] inline Float4 sqrt4(Float4 x) noexcept {
     return Float4{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 }

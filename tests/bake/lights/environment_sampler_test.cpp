@@ -39,7 +39,7 @@ TEST(EnvironmentSampler, PdfIntegratesToOne) {
     EXPECT_NEAR(sum * 4.0 * kPi / kCount, 1.0, 2e-3);
 }
 
-TEST(EnvironmentSampler, DirectionsAreDrawnAsOftenAsThePdfSays) {
+TEST(EnvironmentSampler, DirectionsAreSampledWithTheirPdf) {
     const EnvironmentSampler sampler(sky());
     constexpr uint32_t kDraws = 100000, kProbes = 2000000;
     std::vector<int> observed(test::kDirectionBins, 0);

@@ -39,7 +39,7 @@ Scene shining_room() {
     return scene;
 }
 
-/// Density with which a direction from a shading point is drawn.
+/// Density with which a direction from a shading point is sampled.
 float pdf(const LightSampler& light_sampler, const TraceScene& scene,
           const ShadingPoint& shading_point, glm::vec3 direction) {
     const auto hit = scene.intersect({shading_point.position, direction});
@@ -59,7 +59,7 @@ TEST(EmissiveTriangles, PdfIntegratesToOneInARoomOfThem) {
     EXPECT_NEAR(sum * 4.0 * kPi / kCount, 1.0, 5e-3);
 }
 
-TEST(EmissiveTriangles, DirectionsAreDrawnAsOftenAsThePdfSays) {
+TEST(EmissiveTriangles, DirectionsAreSampledWithTheirPdf) {
     const Scene scene = shining_room();
     const TraceScene trace = trace_scene(scene);
     const LightSampler light_sampler(scene, trace);
@@ -95,7 +95,7 @@ TEST(EmissiveTriangles, AreEmptyWithoutEmission) {
     EXPECT_EQ(pdf(light_sampler, trace, {{0, 1, 0}}, {0, -1, 0}), 0.0f);
 }
 
-TEST(EmissiveTriangles, UnlitSurfacesAreAmongThemAndThoseThatAreNotBakedAreNot) {
+TEST(EmissiveTriangles, IncludeUnlitSurfacesButNotExcludedEmission) {
     Material unlit = test::diffuse(glm::vec3(0.48f));
     unlit.is_unlit = true;
     for (const bool is_baked : {false, true}) {
@@ -111,7 +111,7 @@ TEST(EmissiveTriangles, UnlitSurfacesAreAmongThemAndThoseThatAreNotBakedAreNot) 
     }
 }
 
-TEST(EmissiveTriangles, OnlyDoubleSidedOnesShineBackwards) {
+TEST(EmissiveTriangles, OnlyDoubleSidedOnesEmitBackwards) {
     for (const bool is_double_sided : {false, true}) {
         Scene scene;
         Material panel = test::diffuse(glm::vec3(0.0f), glm::vec3(1.0f));
@@ -127,8 +127,8 @@ TEST(EmissiveTriangles, OnlyDoubleSidedOnesShineBackwards) {
     }
 }
 
-TEST(EmissiveTriangles, HolesAndGlassShineByTheirShare) {
-    // The share of rays that stop: half for alpha 0.5, none below the cutoff.
+TEST(EmissiveTriangles, HolesAndGlassEmitByTheirOpacity) {
+    // The fraction of rays that stop: half for alpha 0.5, none below the cutoff.
     Scene scene;
     Material glass = test::diffuse(glm::vec3(0.0f), glm::vec3(1.0f));
     glass.alpha_mode = AlphaMode::Blend;
@@ -142,7 +142,7 @@ TEST(EmissiveTriangles, HolesAndGlassShineByTheirShare) {
     EXPECT_EQ(trace.visible_emission(1, 0, {0.2f, 0.2f}), glm::vec3(0.0f));
 }
 
-TEST(PunctualLights, SunsAreDrawnByWhatTheyGive) {
+TEST(PunctualLights, DirectionalLightsAreSampledByTheirIrradiance) {
     // Two suns, one below the horizon of a floor: all draws go to the other.
     std::vector<Light> suns(2);
     suns[0].direction = {0, -1, 0};
@@ -154,7 +154,7 @@ TEST(PunctualLights, SunsAreDrawnByWhatTheyGive) {
         const LightSample sample = lights.sample_directional({{0, 0, 0}, {0, 1, 0}}, sampler);
         EXPECT_EQ(sample.irradiance, glm::vec3(2.0f));
     }
-    // Seen from everywhere the mean of the draws is the sum of both.
+    // Without a normal, the mean of the samples is the sum of both.
     glm::dvec3 sum(0.0);
     for (uint32_t i = 0; i < 1024; ++i) {
         Sampler sampler(4, i);

@@ -41,7 +41,7 @@ std::vector<LightBounds> bounds_of(const std::vector<Light>& lights) {
     return bounds;
 }
 
-/// Receivers among the lights and far off, of surfaces and without a normal.
+/// Shading points among the lights and far away, with and without a normal.
 std::vector<ShadingPoint> receivers(uint64_t seed) {
     std::mt19937_64 engine(seed);
     std::vector<ShadingPoint> result;
@@ -52,7 +52,7 @@ std::vector<ShadingPoint> receivers(uint64_t seed) {
     return result;
 }
 
-TEST(LightTree, ProbabilitiesSumToOneOrToWhatLeadsNowhere) {
+TEST(LightTree, ProbabilitiesSumToOneLessTheFailures) {
     const LightTree tree(bounds_of(strewn_lights(300, 1)));
     for (const ShadingPoint& shading_point : receivers(2)) {
         double sum = 0.0;
@@ -66,7 +66,7 @@ TEST(LightTree, ProbabilitiesSumToOneOrToWhatLeadsNowhere) {
     }
 }
 
-TEST(LightTree, DrawsEachEmitterAsOftenAsItsProbabilitySays) {
+TEST(LightTree, SamplesEachLightWithItsProbability) {
     constexpr uint32_t kLights = 100, kDraws = 50000;
     const LightTree tree(bounds_of(strewn_lights(kLights, 3)));
     const ShadingPoint shading_point{{1, 0.5f, -2}, {0, 1, 0}};
@@ -87,7 +87,7 @@ TEST(LightTree, DrawsEachEmitterAsOftenAsItsProbabilitySays) {
     EXPECT_TRUE(test::has_frequencies(observed, expected));
 }
 
-TEST(LightTree, EveryLightThatCanContributeIsDrawn) {
+TEST(LightTree, EveryLightThatCanContributeIsSampled) {
     const std::vector<Light> lights = strewn_lights(400, 4);
     const LightTree tree(bounds_of(lights));
     int contributing = 0;
@@ -122,7 +122,7 @@ LightTree tile_and_lamp() {
     return LightTree(lights);
 }
 
-TEST(LightTree, TwoSidedEmittersShineToBothSidesByTheirCosine) {
+TEST(LightTree, TwoSidedLightsEmitToBothSidesByTheirCosine) {
     const LightTree tree = tile_and_lamp();
     // Right above and below the tile at 2 m, the lamp is √20 m away: 1/4 against 1/20.
     EXPECT_NEAR(tree.probability({{2, 2, 0}}, 0), 5.0 / 6.0, 1e-5);
@@ -132,7 +132,7 @@ TEST(LightTree, TwoSidedEmittersShineToBothSidesByTheirCosine) {
     EXPECT_NEAR(tree.probability({{0, -2, 0}}, 0), slanted / (slanted + 1.0f), 1e-5);
 }
 
-TEST(LightTree, NearAndBrightLightsAreDrawnMoreOften) {
+TEST(LightTree, NearAndBrightLightsAreSampledMoreOften) {
     std::vector<LightBounds> lamps(2);
     lamps[0].min = lamps[0].max = {1, 0, 0};
     lamps[1].min = lamps[1].max = {-1, 0, 0};
@@ -156,7 +156,7 @@ TEST(LightTree, OneLightAndNone) {
     EXPECT_EQ(tree.probability({}, 0), 0.0f);
 }
 
-TEST(LightTree, ManyLightsInOnePlaceAreToldApart) {
+TEST(LightTree, ManyLightsInOnePlaceHaveDistinctTrails) {
     std::vector<LightBounds> lamps(1000);
     for (LightBounds& lamp : lamps) lamp.power = 1.0f;
     const LightTree tree(lamps);

@@ -92,7 +92,7 @@ TEST(SampleLight, ShadowRaysEndOnTheSphere) {
     }
 }
 
-TEST(SampleLight, WithinASphereThereIsLightStill) {
+TEST(SampleLight, WithinASphereThereIsStillLight) {
     Light bulb = lamp(LightType::Point, 0.5f);
     bulb.radius = 2.0f;
     const double expected = 6.0 / 0.25;
@@ -137,7 +137,7 @@ TEST(SampleLight, RectangleHasItsFormFactor) {
     }
 }
 
-TEST(SampleLight, AreaLightsShineFromTheirFrontOnly) {
+TEST(SampleLight, AreaLightsEmitFromTheirFrontOnly) {
     for (const LightType type : {LightType::Rectangle, LightType::Disc}) {
         Light panel = lamp(type, 2.0f);
         panel.width = panel.height = panel.radius = 1.0f;
@@ -161,8 +161,8 @@ TEST(SphericalRectangle, SolidAngleOfACubesFaceIsASixthOfTheSphere) {
     EXPECT_NEAR(face.solid_angle(), 4.0 * kPi / 6.0, 1e-12);
 }
 
-TEST(SphericalRectangle, EqualPartsAreDrawnEquallyOften) {
-    // Cells of the rectangle are drawn as often as their own solid angles say.
+TEST(SphericalRectangle, PartsAreSampledByTheirSolidAngle) {
+    // Cells of the rectangle are sampled in proportion to their solid angles.
     const glm::dvec3 corner(-0.5, 0.4, 1.0), along(2, 0, 0), across(0, 0, 1.5), eye(0.3, 0.1, -0.2);
     const SphericalRectangle whole(corner, along, across, eye);
     std::array<int, 64> observed{};

@@ -17,7 +17,7 @@ Scene instanced(size_t count) {
     return scene;
 }
 
-TEST(MemoryEstimate, EveryInstanceCountsAndWhatMovesDoesNot) {
+TEST(MemoryEstimate, CountsEveryStaticInstance) {
     Scene scene = instanced(1000);
     EXPECT_EQ(estimate_bake_memory(scene, 0).triangle_count, 2000u);
     for (size_t i = 0; i < 400; ++i) scene.instances[i].contributes_gi = false;
@@ -25,7 +25,7 @@ TEST(MemoryEstimate, EveryInstanceCountsAndWhatMovesDoesNot) {
     EXPECT_EQ(estimate_bake_memory(scene, 0).probe_bytes, 0u);
 }
 
-TEST(MemoryEstimate, CountsWhatLightIsDrawnFrom) {
+TEST(MemoryEstimate, CountsEmissiveTrianglesAndTheSky) {
     Scene scene = instanced(1000);
     EXPECT_EQ(estimate_bake_memory(scene, 0).light_bytes, 0u);
     scene.environment.image = {64, 32, std::vector<glm::vec3>(64 * 32)};
@@ -44,12 +44,12 @@ TEST(MemoryEstimate, GrowsWithTheNumberOfProbes) {
     EXPECT_GE(one, 27 * sizeof(float) * 2);  // radiance and irradiance at the very least
 }
 
-TEST(MemoryEstimate, GrowsWithWhatLightIsSplitInto) {
+TEST(MemoryEstimate, GrowsWithTheLightGroups) {
     const uint64_t more = estimate_bake_memory({}, 1, 684).probe_bytes;
     EXPECT_GE(more, estimate_bake_memory({}, 1).probe_bytes + 12 * 684);
 }
 
-TEST(MemoryEstimate, RefusesTwentyGigabytesWithTheEstimate) {
+TEST(MemoryEstimate, RejectsTwentyGigabytesWithTheEstimate) {
     const size_t probes = 20'000'000'000 / estimate_bake_memory({}, 1).total_bytes() + 1;
     const Status status =
         check_bake_memory(estimate_bake_memory(instanced(1), probes), 8'000'000'000);

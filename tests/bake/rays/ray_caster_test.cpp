@@ -117,7 +117,7 @@ bool stops_at_second_corner(const void* context, const Ray&, const RayHit& hit) 
     return hit.barycentric.x >= *static_cast<const float*>(context);
 }
 
-TEST(RayCaster, FilterLetsRaysPassInBothKindsOfCast) {
+TEST(RayCaster, FilterAppliesToIntersectAndOccluded) {
     const float limit = 0.5f;
     RayCaster caster({stops_at_second_corner, &limit});
     caster.add_triangles(kTriangle, kIndices, RayCaster::Filtered::Yes);
@@ -136,7 +136,7 @@ TEST(RayCaster, UnfilteredGeometryStopsAllRays) {
     EXPECT_TRUE(caster.intersect({{1, 0.5f, 1}, {0, 0, -1}}));
 }
 
-TEST(RayCaster, FilteredRayGoesOnToWhatIsBehind) {
+TEST(RayCaster, FilteredRayContinuesToTheNextSurface) {
     const float limit = 2.0f;  // no weight reaches it: all pass
     RayCaster caster({stops_at_second_corner, &limit});
     std::vector<glm::vec3> behind(kTriangle.begin(), kTriangle.end());
@@ -157,7 +157,7 @@ TEST(RayCaster, StaysValidWhenMoved) {
     EXPECT_FALSE(moved.intersect({{1, 0.5f, 1}, {0, 0, -1}}));
 }
 
-TEST(RayCaster, TellsAListenerOfEachRayAndTheDistanceOfItsHit) {
+TEST(RayCaster, CallsAListenerWithEachRayAndTheDistanceOfItsHit) {
     RayCaster caster = two_triangles();
     std::vector<std::pair<RayKind, float>> heard;
     caster.listen({[](void* context, const Ray&, RayKind kind, float distance) {

@@ -46,7 +46,7 @@ Scene textured_floor() {
     return scene;
 }
 
-TEST(TraceScene, TracedSpaceIsCenteredOnTheStaticScene) {
+TEST(TraceScene, RenderSpaceIsCenteredOnTheStaticScene) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 2.0f, 5.0f);
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 50.0f, 70.0f).contributes_gi = false;
@@ -55,7 +55,7 @@ TEST(TraceScene, TracedSpaceIsCenteredOnTheStaticScene) {
     EXPECT_EQ(trace.world_from_render({1, 2, 3}), glm::dvec3(1, 7, 3));
 }
 
-TEST(TraceScene, LightsMoveWithTracedSpace) {
+TEST(TraceScene, LightsAreTransformedToRenderSpace) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 2.0f, 5.0f);
     Light& light = test::add_point_light(scene, LightMode::Mixed, glm::vec3(1.0f), {1, 6, 2});
@@ -64,7 +64,7 @@ TEST(TraceScene, LightsMoveWithTracedSpace) {
     EXPECT_EQ(trace_scene(scene).render_from_world(light), expected);
 }
 
-TEST(TraceScene, SeesWhatTheMaterialSays) {
+TEST(TraceScene, SurfacesHaveThePropertiesOfTheirMaterial) {
     Scene scene;
     Material material = test::diffuse({0.8f, 0.4f, 0.2f}, {1, 2, 3});
     material.metallic = 0.25f;
@@ -79,7 +79,7 @@ TEST(TraceScene, SeesWhatTheMaterialSays) {
     EXPECT_EQ(surface->geometric_normal, glm::vec3(0, 1, 0));
 }
 
-TEST(TraceScene, RoughMetalPassesHalfOfItsColorOnDiffusely) {
+TEST(TraceScene, RoughMetalReflectsHalfOfItsColorDiffusely) {
     Scene scene;
     Material material;
     material.base_color = {0.8f, 0.4f, 0.2f, 1.0f};
@@ -90,7 +90,7 @@ TEST(TraceScene, RoughMetalPassesHalfOfItsColorOnDiffusely) {
     EXPECT_LT(glm::distance(surface->albedo, glm::vec3(0.4f, 0.2f, 0.1f)), 1e-6f);
 }
 
-TEST(TraceScene, ReflectsWhatTheSettingsOfTheBakeMakeOfIt) {
+TEST(TraceScene, AppliesTheSurfaceSettingsOfTheBake) {
     Scene scene;
     test::add_floor(scene, test::diffuse({0.25f, 0.81f, 0.0f}), 1.0f);
     const auto trace = TraceScene::make_static(scene, {.albedo_boost = 2.0f, .max_albedo = 0.8f});
@@ -99,7 +99,7 @@ TEST(TraceScene, ReflectsWhatTheSettingsOfTheBakeMakeOfIt) {
     EXPECT_LT(glm::distance(look_down(*trace, 0, 0)->albedo, glm::vec3(0.5f, 0.8f, 0)), 1e-6f);
 }
 
-TEST(TraceScene, EmissionOfMaterialsThatDoNotBakeItIsForEyesOnly) {
+TEST(TraceScene, ExcludedEmissionIsVisibleButNotBaked) {
     Scene scene;
     Material material = test::diffuse(glm::vec3(0.5f), {1, 2, 3});
     material.bakes_emission = false;
@@ -141,7 +141,7 @@ TEST(TraceScene, NormalsAreOnTheSideOfTheRay) {
     EXPECT_EQ(surface->shading_normal, glm::vec3(0, -1, 0));
 }
 
-TEST(TraceScene, DoesNotSeeWhatMoves) {
+TEST(TraceScene, ExcludesMovingInstances) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f, 3.0f).contributes_gi = false;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f);
@@ -171,7 +171,7 @@ TEST(TraceScene, MirroredInstanceKeepsItsFront) {
     EXPECT_EQ(surface->shading_normal, glm::vec3(0, 1, 0));
 }
 
-TEST(TraceScene, InstanceMirroredThroughItsPlaneTurnsItsFrontOver) {
+TEST(TraceScene, InstanceMirroredThroughItsPlaneFlipsItsFront) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(1.0f)), 1.0f).world_from_mesh =
         glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, 1));
@@ -181,7 +181,7 @@ TEST(TraceScene, InstanceMirroredThroughItsPlaneTurnsItsFrontOver) {
     EXPECT_EQ(look_down(trace, 0, 0, -100.0f)->shading_normal, glm::vec3(0, -1, 0));
 }
 
-TEST(TraceScene, NormalsAreRightUnderNonUniformScale) {
+TEST(TraceScene, NormalsAreCorrectUnderNonUniformScale) {
     // The plane x + y = 0 under x' = 2x is x'/2 + y' = 0: normal (1/2, 1, 0).
     Scene scene;
     test::add_quad(scene, test::diffuse(glm::vec3(1.0f)), {-1, 1, -1}, {0, 0, 2}, {2, -2, 0})
@@ -205,7 +205,7 @@ TEST(TraceScene, ShadingNormalIsBlendedOverTheTriangle) {
     EXPECT_GT(look_down(trace_scene(scene), 0.9f, 0.8f)->shading_normal.x, 0.3f);
 }
 
-TEST(TraceScene, TextureIsReadAtItsPlace) {
+TEST(TraceScene, TextureIsSampledAtTheHit) {
     // u = (z + 1)/2, v = (x + 1)/2; texel centres are at 1/4 and 3/4.
     const Scene scene = textured_floor();
     const TraceScene trace = trace_scene(scene);
@@ -258,7 +258,7 @@ TEST(TraceScene, OpaqueMaterialIgnoresAlpha) {
     EXPECT_TRUE(look_down(trace_scene(scene), -0.5f, -0.5f));
 }
 
-TEST(TraceScene, BlendStopsTheShareAlphaOfRays) {
+TEST(TraceScene, BlendStopsTheFractionAlphaOfRays) {
     // Alpha is factor times texture: 0.6 · 0.5.
     Scene scene;
     scene.textures.push_back({"half", Image8{2, 1, {{0, 0, 0, 0}, {0, 0, 0, 255}}}});
@@ -306,11 +306,11 @@ int self_hits(double size) {
     return hits;
 }
 
-TEST(TraceScene, RaysThatLeaveASurfaceDoNotMeetItAgainAtAnyScale) {
+TEST(TraceScene, RaysThatLeaveASurfaceDoNotHitItAgainAtAnyScale) {
     for (const double size : {1e-6, 1e-3, 1.0, 1e3, 1e6}) EXPECT_EQ(self_hits(size), 0) << size;
 }
 
-TEST(TraceScene, AGroundTheSizeOfACountryLiftsNoRayOverASmallThing) {
+TEST(TraceScene, AVeryLargeGroundDoesNotOffsetRaysOverSmallObjects) {
     // A plate 3 mm above a tile, in a scene of 20 km: what leaves the tile is under the plate.
     Scene scene;
     const Material material = test::diffuse(glm::vec3(1.0f));
@@ -338,7 +338,7 @@ TEST(TraceScene, PositionsLieOnTheTriangleHoweverLongTheRay) {
     }
 }
 
-TEST(TraceScene, NamesAnInstanceThatRaysDoNotReach) {
+TEST(TraceScene, NamesAnInstanceThatIsTooFarAway) {
     Scene scene;
     test::add_box(scene, Material{}, test::Facing::Outward, {-1, -1, -1}, {1, 1, 1});
     test::add_floor(scene, Material{}, 1.0f).world_from_mesh[3].x = 1e13;

@@ -44,7 +44,7 @@ TEST(RandomStream, IsUniform) {
     EXPECT_LT(chi_square(bins, kCount / 64.0), chi_square_limit(bins.size()));
 }
 
-TEST(RandomStream, FirstNumbersOfNeighboringStreamsAreUniform) {
+TEST(RandomStream, FirstValuesOfNeighboringStreamsAreUniform) {
     std::array<int, 64> bins{};
     constexpr int kCount = 64 * 1000;
     for (int i = 0; i < kCount; ++i) {
@@ -93,7 +93,7 @@ TEST(SphericalFibonacci, DirectionsAreUnitAndBalanced) {
     EXPECT_LT(glm::length(sum) / 1000.0, 1e-3);
 }
 
-TEST(SphericalFibonacci, EveryCapHoldsItsShare) {
+TEST(SphericalFibonacci, EveryCapHasItsFractionOfDirections) {
     // Spherical cap discrepancy of this lattice falls like N^(-3/4) (Marques et al. 2013);
     // random directions would miss by √(0.25 / 4096) = 8e-3.
     const auto directions = spherical_fibonacci(4096);
@@ -167,7 +167,7 @@ TEST(SampleCosineHemisphere, StaysUnitAndOnItsSideForEveryNormal) {
     }
 }
 
-TEST(SampleCosineHemisphere, ItsFrameHoldsAtThePoles) {
+TEST(SampleCosineHemisphere, IsFiniteAtThePoles) {
     // u = (0, 0) is the normal itself; the frame formula divides by 1 + |n.z|.
     for (const glm::vec3 pole : {glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::vec3(0, 0, -0.0f)}) {
         const glm::vec3 normal = pole == glm::vec3(0.0f) ? glm::vec3(1, 0, -0.0f) : pole;

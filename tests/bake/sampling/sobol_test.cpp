@@ -13,7 +13,7 @@
 namespace tetralight {
 namespace {
 
-/// Whether 2^k points have one point in each box of 2^-i by 2^-(k-i), for all i.
+/// True if 2^k points have one point in each box of 2^-i by 2^-(k-i), for all i.
 void expect_one_point_a_box(uint32_t k, const std::function<glm::vec2(uint32_t)>& point) {
     const uint32_t count = 1u << k;
     for (uint32_t i = 0; i <= k; ++i) {
