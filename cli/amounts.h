@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
-// Options whose values are written as people write them.
+#include <tetralight/cli/values.h>
+
+// Amounts as people write them.
 
 namespace tetralight::cli {
-
-/// A share of something: "1%" or "0.01", above 0 and up to 1. Nothing: it is written otherwise.
-[[nodiscard]] std::optional<double> parse_share(const std::string& text);
-
-/// Seconds: "90", "90s", "1.5m", "2h"; above 0. Nothing: it is written otherwise.
-[[nodiscard]] std::optional<double> parse_time(const std::string& text);
 
 /// Elements [begin, end).
 struct IndexRange {
@@ -25,18 +21,11 @@ struct IndexRange {
     bool operator==(const IndexRange&) const = default;
 };
 
-/// "100..200", or "100.." for all from 100 on; not empty. Nothing: it is written otherwise.
-[[nodiscard]] std::optional<IndexRange> parse_range(const std::string& text);
-
-CLI::Option* add_share(CLI::App& command, const std::string& name, double& share,
-                       const std::string& help);
-CLI::Option* add_time(CLI::App& command, const std::string& name, double& seconds,
-                      const std::string& help);
-CLI::Option* add_range(CLI::App& command, const std::string& name, std::optional<IndexRange>& range,
-                       const std::string& help);
+/// A setting of type Range; none if it was not given.
+[[nodiscard]] std::optional<IndexRange> index_range(const Values& values, std::string_view name);
 
 /// "1.25 %", two or three digits.
-[[nodiscard]] std::string percent(double share);
+[[nodiscard]] std::string percent(double fraction);
 
 /// "a, b, c".
 [[nodiscard]] std::string joined(const std::vector<std::string>& words);

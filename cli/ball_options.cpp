@@ -10,30 +10,18 @@
 
 namespace tetralight::cli {
 
-void BallOptions::add_to(CLI::App& command) {
-    command.add_option("--count", settings.instance_count, "Spheres in the ball")
-        ->check(CLI::Range(0u, 10'000'000u))
-        ->capture_default_str();
-    center_option_ =
-        add_vec3(command, "--center", settings.center,
-                 "Centre of the ball (default: of the probes, or a probe near it where the scene "
-                 "leaves room)");
-    radius_option_ = command.add_option("--radius", settings.radius,
-                                        "Radius of the ball (default: from the probes)");
-    radius_option_->check(numbers_in(1e-6, 1e9));
-    add_seed(command, settings.seed, "Seed of places and colours");
-    command.add_flag("--plain", settings.is_plain, "White, rough spheres, which show light alone");
-    auto* lppv = command.add_flag_callback(
-        "--lppv", [this] { light = BallLight::ProxyVolume; },
-        "Light the spheres by a grid around the ball instead of one query each: they move without "
-        "another query");
-    command
-        .add_flag_callback(
-            "--off", [this] { light = BallLight::Off; }, "Leave their probe light out")
-        ->excludes(lppv);
-    command.add_flag_callback(
-        "--specular", [this] { specular = Specular::On; },
-        "Let them mirror the lights, and of the probes' light the direction that is brightest");
+BallOptions::BallOptions(const Values& values)
+    : values_(&values),
+      has_center_(values.is_given("center")),
+      has_radius_(values.is_given("radius")) {
+    settings.instance_count = values.integer32("count");
+    if (has_center_) settings.center = vec3(values, "center");
+    if (has_radius_) settings.radius = values.number("radius");
+    settings.seed = values.integer("seed");
+    settings.is_plain = values.flag("plain");
+    if (values.flag("lppv")) light = BallLight::ProxyVolume;
+    if (values.flag("off")) light = BallLight::Off;
+    if (values.flag("specular")) specular = Specular::On;
 }
 
 /// Where the ball may stand: in the middle of the probes, or at one of those that are nearest to
@@ -41,7 +29,7 @@ void BallOptions::add_to(CLI::App& command) {
 std::vector<glm::dvec3> BallOptions::centers(const ProbeVolumeView& volume,
                                              const Box<glm::vec3>& bounds) const {
     constexpr size_t kMostProbes = 64;
-    if (center_option_->count() > 0 || volume.positions.empty()) return {settings.center};
+    if (has_center_ || volume.positions.empty()) return {settings.center};
     std::vector<glm::vec3> nearest(kMostProbes);
     const auto distance = [&](glm::vec3 p) { return glm::distance(p, bounds.center()); };
     nearest.erase(
@@ -57,7 +45,7 @@ std::vector<glm::dvec3> BallOptions::centers(const ProbeVolumeView& volume,
 /// From the probes' bounds, and smaller ones for where there is little room.
 std::vector<double> BallOptions::radii(const ProbeVolumeView& volume,
                                        const Box<glm::vec3>& bounds) const {
-    if (radius_option_->count() > 0 || volume.positions.empty()) return {settings.radius};
+    if (has_radius_ || volume.positions.empty()) return {settings.radius};
     const glm::dvec3 size(bounds.size());
     const double largest = 0.45 * std::max(std::min({size.x, size.y, size.z}), 1e-3);
     return {largest, 0.5 * largest, 0.25 * largest};
@@ -69,9 +57,10 @@ void BallOptions::check_center() const {
     const double farthest = std::max({distance.x, distance.y, distance.z});
     const double smallest = 0.5 * settings.instance_size * settings.radius;
     const bool is_fine = smallest > farthest * std::numeric_limits<float>::epsilon();
-    if (center_option_->count() == 0 || is_fine) return;
-    throw CLI::ValidationError("--center", str_cat("floats cannot place spheres of ", smallest,
-                                                   " m at ", farthest, " m from the origin"));
+    if (!has_center_ || is_fine) return;
+    refuse(*values_, "center",
+           str_cat("floats cannot place spheres of ", smallest, " m at ", farthest,
+                   " m from the origin"));
 }
 
 Camera BallOptions::place(const ProbeVolumeView& volume, const SceneShader* scene,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <vector>
 
 #include <tetralight/cli/common.h>
@@ -17,7 +16,8 @@ struct BallOptions {
     BallLight light = BallLight::Probes;
     Specular specular = Specular::Off;
 
-    void add_to(CLI::App& command);
+    /// Keeps a reference.
+    explicit BallOptions(const Values& values);
 
     /// The ball fills the middle of the probes unless the user placed it, and the camera sees it
     /// unless the user placed that. `scene` may be null.
@@ -31,8 +31,9 @@ struct BallOptions {
     [[nodiscard]] std::vector<double> radii(const ProbeVolumeView& volume,
                                             const Box<glm::vec3>& bounds) const;
 
-    CLI::Option* center_option_ = nullptr;
-    CLI::Option* radius_option_ = nullptr;
+    const Values* values_;
+    bool has_center_;
+    bool has_radius_;
 };
 
 }  // namespace tetralight::cli

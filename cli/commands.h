@@ -1,28 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include <span>
 
 #include <tetralight/base/result.h>
+#include <tetralight/cli/values.h>
 
-// The subcommands, one file each. `add_X` declares the options on `app` and sets `run` when the
-// user chose the subcommand.
+// The subcommands, one file each.
 
 namespace tetralight::cli {
 
-using Run = std::function<Status()>;
+Status run_bake(const Values& values);
+Status run_grid(const Values& values);
+Status run_info(const Values& values);
+Status run_lppv(const Values& values);
+Status run_merge(const Values& values);
+Status run_meshball(const Values& values);
+Status run_query(const Values& values);
+Status run_relight(const Values& values);
+Status run_render(const Values& values);
+Status run_serve(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
+Status run_tetrahedralize(const Values& values);
+Status run_validate(const Values& values);
 
-void add_bake(CLI::App& app, Run& run);
-void add_grid(CLI::App& app, Run& run);
-void add_info(CLI::App& app, Run& run);
-void add_lppv(CLI::App& app, Run& run);
-void add_merge(CLI::App& app, Run& run);
-void add_meshball(CLI::App& app, Run& run);
-void add_query(CLI::App& app, Run& run);
-void add_relight(CLI::App& app, Run& run);
-void add_render(CLI::App& app, Run& run);
-void add_tetrahedralize(CLI::App& app, Run& run);
-void add_validate(CLI::App& app, Run& run);
+struct Command {
+    const settings::Table* table;
+    Status (*run)(const Values& values);
+};
+
+/// Those of this build.
+[[nodiscard]] std::span<const Command> commands();
+
+/// Null if this build has no such command.
+[[nodiscard]] const Command* find_command(std::string_view name);
 
 }  // namespace tetralight::cli

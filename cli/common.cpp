@@ -8,9 +8,10 @@
 #include <glm/common.hpp>
 #include <iostream>
 
+#include <tetralight/base/error_text.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/cli/validators.h>
+#include <tetralight/cli/failure.h>
 
 namespace tetralight::cli {
 namespace {
@@ -24,41 +25,18 @@ std::string formatted(const char* format, double number, const char* unit) {
 void print_to(std::ostream& stream, const CommonOptions& common, const Json& json,
               const std::string& text) {
     if (common.is_json) {
-        stream << dump(json) << '\n';
+        stream << dump(with_warnings(json)) << '\n';
     } else if (!common.is_quiet) {
         stream << text << '\n';
     }
 }
 
-std::string range_error(const std::string& input, double low, double high) {
-    const char* begin = input.data();
-    const char* const end = begin + input.size();
-    while (true) {
-        const char* const comma = std::find(begin, end, ',');
-        const std::string part(begin, comma);
-        double value = 0.0;
-        const auto [next, error] = std::from_chars(begin, comma, value);
-        if (error == std::errc::invalid_argument || next != comma || std::isnan(value)) {
-            return str_cat("\"", part, "\" is not a number");
-        }
-        if (error != std::errc{} || !(value >= low && value <= high)) {
-            return str_cat(part, " is not in the range from ", low, " to ", high);
-        }
-        if (comma == end) return {};
-        begin = comma + 1;
-    }
-}
-
 }  // namespace
 
-void CommonOptions::add_to(CLI::App& command) {
-    command.add_flag("--json", is_json,
-                     "Print one JSON object on stdout, or on stderr where data takes stdout");
-    command.add_flag("-q,--quiet", is_quiet, "Print errors only");
-    command.add_option("-j,--threads", thread_count, "Threads to use (0 = all)")
-        ->check(whole_numbers(UINT16_MAX, "65535"))
-        ->capture_default_str();
-}
+CommonOptions::CommonOptions(const Values& values)
+    : is_json(values.flag("json")),
+      is_quiet(values.flag("quiet")),
+      thread_count(values.integer32("threads")) {}
 
 void CommonOptions::print(const Json& json, const std::string& text) const {
     print_to(std::cout, *this, json, text);
@@ -70,78 +48,23 @@ void CommonOptions::report(const std::string& output, const Json& json,
 }
 
 void CommonOptions::warn(const std::vector<std::string>& warnings) const {
-    if (is_quiet) return;
-    for (const std::string& warning : warnings)
-        std::cerr << "warning: " << printable(warning) << '\n';
+    if (warnings_of_job() != nullptr) {
+        warnings_of_job()->insert(warnings_of_job()->end(), warnings.begin(), warnings.end());
+    } else if (!is_quiet) {
+        for (const std::string& warning : warnings) {
+            std::cerr << "warning: " << printable(warning) << '\n';
+        }
+    }
+}
+
+void CommonOptions::warn(const std::string& before, const Error& reason,
+                         const std::string& after) const {
+    warn({before + error_text(reason) + after});
 }
 
 void CommonOptions::warn_if_unlit(const std::string& path, const ProbeVolumeView& volume) const {
     if (volume.positions.empty() || !volume.irradiance.empty()) return;
     warn({path + ": the volume holds no light (it was not baked); probes light nothing"});
-}
-
-std::optional<glm::dvec3> parse_vec3(const std::string& text) {
-    glm::dvec3 value(0.0);
-    const char* begin = text.data();
-    const char* const end = text.data() + text.size();
-    for (int i = 0; i < 3; ++i) {
-        const auto [next, error] = std::from_chars(begin, end, value[i]);
-        const bool is_last = i == 2;
-        if (error != std::errc{} || (next == end) != is_last) return std::nullopt;
-        if (!is_last && *next != ',') return std::nullopt;
-        begin = next + 1;
-    }
-    return value;
-}
-
-CLI::Validator numbers_in(double low, double high) {
-    return {[low, high](const std::string& input) { return range_error(input, low, high); },
-            str_cat("[", low, " - ", high, "]")};
-}
-
-CLI::Validator whole_numbers(uint64_t largest, const char* name) {
-    const auto check = [largest, name](const std::string& input) -> std::string {
-        uint64_t value = 0;
-        const char* const end = input.data() + input.size();
-        const auto [next, error] = std::from_chars(input.data(), end, value);
-        if (error == std::errc{} && next == end && value <= largest) return "";
-        return str_cat("\"", input, "\" is not a whole number from 0 to ", name);
-    };
-    return {check, ""};
-}
-
-CLI::Option* add_seed(CLI::App& command, uint64_t& seed, const std::string& help) {
-    return command.add_option("--seed", seed, help)
-        ->check(whole_numbers(UINT64_MAX, "2^64 - 1"))
-        ->capture_default_str();
-}
-
-CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& value,
-                      const std::string& help) {
-    const auto parse = [name, &value](const std::string& text) {
-        const auto parsed = parse_vec3(text);
-        if (!parsed) throw CLI::ValidationError(name, "\"" + text + "\" is not of the form x,y,z");
-        value = *parsed;
-    };
-    return command.add_option_function<std::string>(name, parse, help)
-        ->check(positions())
-        ->type_name("X,Y,Z");
-}
-
-CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm::dvec3& value,
-                                const std::string& help) {
-    const auto parse = [name, &value](const std::string& text) {
-        const std::string triple =
-            text.find(',') == std::string::npos ? text + "," + text + "," + text : text;
-        const auto parsed = parse_vec3(triple);
-        if (!parsed) {
-            throw CLI::ValidationError(name, "\"" + text + "\" is not a number or x,y,z");
-        }
-        value = *parsed;
-    };
-    return command.add_option_function<std::string>(name, parse, help)
-        ->check(positions())
-        ->type_name("M|X,Y,Z");
 }
 
 Json to_json(const glm::dvec3& value) {

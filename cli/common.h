@@ -1,74 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include <tetralight/base/box.h>
 #include <tetralight/base/result.h>
-#include <tetralight/cli/commands.h>
+#include <tetralight/cli/values.h>
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// Options that every subcommand has.
+/// Options that every command has.
 struct CommonOptions {
     bool is_json = false;
     bool is_quiet = false;
     uint32_t thread_count = 0;
 
-    void add_to(CLI::App& command);
+    explicit CommonOptions(const Values& values);
 
     /// The result on stdout: as one JSON object, or as `text` unless quiet.
     void print(const Json& json, const std::string& text) const;
     /// The same after `output` was written; on stderr when the output itself went to stdout (`-`).
     void report(const std::string& output, const Json& json, const std::string& text) const;
-    /// Lines on stderr, unless quiet.
+    /// Lines on stderr, unless quiet; members of the result in a job.
     void warn(const std::vector<std::string>& warnings) const;
+    /// "BEFORE: reasonAFTER".
+    void warn(const std::string& before, const Error& reason, const std::string& after) const;
     /// Says that a volume was never baked, so that nobody wonders at black answers.
     void warn_if_unlit(const std::string& path, const ProbeVolumeView& volume) const;
 };
-
-/// Declares a subcommand: its options live in an `Options` with `add_to(command)` and `run()`.
-template <class Options>
-CLI::App& add_command(CLI::App& app, Run& run, const char* name, const char* description,
-                      const char* example) {
-    CLI::App* command = app.add_subcommand(name, description);
-    command->footer(std::string("Example:\n  ") + example);
-    auto options = std::make_shared<Options>();
-    options->add_to(*command);
-    command->callback([&run, options] { run = [options] { return options->run(); }; });
-    return *command;
-}
-
-/// One number, or several with commas between, each from `low` to `high`. Unlike CLI::Range it
-/// refuses NaN.
-[[nodiscard]] CLI::Validator numbers_in(double low, double high);
-
-/// From 0 to `largest`, which messages call by its name. CLI11 alone would say that it "could not
-/// convert".
-[[nodiscard]] CLI::Validator whole_numbers(uint64_t largest, const char* name);
-
-/// A seed: a decimal number below 2^64. CLI11 alone would take the largest one for all beyond it.
-CLI::Option* add_seed(CLI::App& command, uint64_t& seed, const std::string& help);
-
-/// An option whose value is three finite numbers with commas between: `--name 1,2,3`.
-CLI::Option* add_vec3(CLI::App& command, const std::string& name, glm::dvec3& value,
-                      const std::string& help);
-
-/// The same, and a single number stands for all three.
-CLI::Option* add_vec3_or_number(CLI::App& command, const std::string& name, glm::dvec3& value,
-                                const std::string& help);
-
-/// Three numbers with commas between, or none.
-[[nodiscard]] std::optional<glm::dvec3> parse_vec3(const std::string& text);
 
 [[nodiscard]] Json to_json(const glm::dvec3& value);
 /// Text for a terminal: one line, control characters shown as '?'.

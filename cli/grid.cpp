@@ -4,12 +4,14 @@
 #include <tetralight/bake/placement/probe_grid.h>
 #include <tetralight/bake/scene/probe_groups_gltf.h>
 #include <tetralight/bake/scene/probe_groups_json.h>
+#include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/failure.h>
 #include <tetralight/cli/grid_interrupt.h>
-#include <tetralight/cli/grid_options.h>
 #include <tetralight/cli/grid_preview.h>
 #include <tetralight/cli/grid_progress.h>
 #include <tetralight/cli/grid_report.h>
+#include <tetralight/cli/grid_settings.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/scene_options.h>
 
@@ -35,27 +37,21 @@ struct Grid {
     SceneOptions scene_options;
     std::string output;
     GridPreview preview;
-    GridOptions options;
+    ProbeGridSettings settings;
     CommonOptions common;
 
-    void add_to(CLI::App& command) {
-        scene_options.add_to(command);
-        add_output(command, output, ".json,.glb", "Probe-group file to write");
-        preview.add_to(command);
-        options.add_to(command);
-        common.add_to(command);
-        command.parse_complete_callback([this] {
-            options.check_usage();
-            preview.view.check_usage();
-            if (output == "-" && preview.path == "-") {
-                throw CLI::ValidationError("--preview", "stdout takes the probes already");
-            }
-        });
+    explicit Grid(const Values& values)
+        : scene_options(values),
+          output(values.text("output")),
+          preview(values),
+          settings(grid_settings(values)),
+          common(values) {
+        if (output == "-" && preview.path == "-") {
+            refuse(values, "preview", "stdout takes the probes already");
+        }
     }
 
-    [[nodiscard]] std::vector<std::string> inputs() const {
-        return {scene_options.path, scene_options.adjustments, scene_options.sky.sky};
-    }
+    [[nodiscard]] std::vector<std::string> inputs() const { return scene_options.inputs(); }
 
     [[nodiscard]] Status check_files() const {
         if (auto status = check_output(output, inputs()); !status) return status;
@@ -63,7 +59,8 @@ struct Grid {
         std::vector<std::string> others = inputs();
         others.push_back(output);
         if (output != "-" && is_same_file(output, preview.path)) {
-            return Error{preview.path + ": is the output of this command, too"};
+            return Error{ErrorCode::InvalidArgument, "preview", preview.path,
+                         preview.path + ": is the output of this command, too"};
         }
         return check_output(preview.path, others);
     }
@@ -74,11 +71,9 @@ struct Grid {
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         if (auto status = preview.choose_camera(*scene, scene_options.path); !status) return status;
-        options.finish();
-        options.settings.thread_count = common.thread_count;
         const auto grid = make_grid(*scene);
         if (!grid) return located(grid.error());
-        common.warn(grid_warnings(*grid, options.settings));
+        common.warn(grid_warnings(*grid, settings));
         if (grid->adaptive && grid->adaptive->end == AdaptiveEnd::Interrupted) return keep(*grid);
         if (auto status = write_groups(output, grid->groups); !status) return status;
         if (!preview.path.empty()) {
@@ -96,17 +91,17 @@ struct Grid {
     }
 
     [[nodiscard]] Error located(const Error& error) const {
-        if (error.code == ErrorCode::Cancelled) return Error{interrupted()};
+        if (error.code == ErrorCode::Cancelled) return Error{ErrorCode::Cancelled, interrupted()};
         return error.in(scene_options.path);
     }
 
     [[nodiscard]] Result<ProbeGrid> make_grid(const Scene& scene) const {
-        if (options.settings.mode != PlacementMode::Adaptive) {
+        if (settings.mode != PlacementMode::Adaptive) {
             const GridInterrupt interrupt(interrupted());
-            return make_probe_grid(scene, options.settings);
+            return make_probe_grid(scene, settings);
         }
         GridProgressDisplay display(common.is_quiet);
-        return make_probe_grid(scene, options.settings, [&](const AdaptiveProgress& progress) {
+        return make_probe_grid(scene, settings, [&](const AdaptiveProgress& progress) {
             return display.show(progress);
         });
     }
@@ -118,17 +113,19 @@ struct Grid {
             return status.error().in(interrupted());
         }
         if (auto status = write_groups(path, grid.groups); !status) return status;
-        common.report(path, grid_json(path, grid), grid_text(path, grid));
         const std::string before = path == output ? "interrupted" : interrupted();
-        return Error{before + "; " + path + " holds the last whole result"};
+        const Error error{ErrorCode::Cancelled,
+                          before + "; " + path + " holds the last whole result"};
+        if (common.is_json) return with_report(error, grid_json(path, grid));
+        common.report(path, {}, grid_text(path, grid));
+        return error;
     }
 };
 
 }  // namespace
 
-void add_grid(CLI::App& app, Run& run) {
-    add_command<Grid>(app, run, "grid", "Fill a scene with probes",
-                      "tetralight grid courtyard.glb --spacing 2 -o grid.json");
+Status run_grid(const Values& values) {
+    return Grid(values).run();
 }
 
 }  // namespace tetralight::cli

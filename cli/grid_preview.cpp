@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <tetralight/bake/image/write_image.h>
-#include <tetralight/cli/paths.h>
 #include <tetralight/pipeline/bake_volume.h>
 #include <tetralight/render/light_balls.h>
 #include <tetralight/render/render_scene.h>
@@ -68,18 +67,6 @@ glm::vec3 radiance_along(const SceneShader& shader, const LightBalls& balls,
 }
 
 }  // namespace
-
-void GridPreview::add_to(CLI::App& command) {
-    CLI::Option* option = add_file_to_write(
-        command, "--preview", path, ".png",
-        "Picture to write of the scene with the probes, lit by a quick bake, seen through walls");
-    view.add_to(command);
-    view.add_camera_name(command);
-    for (const char* name : {"--width", "--height", "--antialias", "--exposure", "--eye",
-                             "--target", "--fov", "--camera"}) {
-        command.get_option(name)->needs(option);
-    }
-}
 
 Status GridPreview::choose_camera(const Scene& scene, const std::string& scene_path) {
     if (path.empty()) return Ok{};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include <tetralight/bake/placement/probe_grid.h>
@@ -17,7 +16,7 @@ struct GridPreview {
     std::string path;
     ViewOptions view;
 
-    void add_to(CLI::App& command);
+    explicit GridPreview(const Values& values) : path(values.text("preview")), view(values) {}
 
     /// To be called before `write`, and before long work. Error: no such camera.
     Status choose_camera(const Scene& scene, const std::string& scene_path);

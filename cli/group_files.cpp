@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/bake/scene/read_gltf.h>
-#include <tetralight/base/error_text.h>
 #include <tetralight/cli/amounts.h>
+#include <tetralight/probes/build/merge.h>
 
 namespace tetralight::cli {
 namespace {
@@ -22,7 +23,8 @@ Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
     auto scene = read_gltf(path);
     if (!scene) return scene.error();
     if (scene->probe_groups.empty()) {
-        return Error{path + ": no node has extras.light_probe_group"};
+        return Error{ErrorCode::NotFound, "groups", path,
+                     path + ": no node has extras.light_probe_group"};
     }
     return std::move(scene->probe_groups);
 }
@@ -48,9 +50,15 @@ void GroupFiles::add(const std::string& path, std::vector<ProbeGroup> groups) {
 }
 
 Error GroupFiles::locate(const Error& error) const {
+    std::map<std::string, size_t> counts;
+    for (const ProbeGroup& group : groups_) ++counts[group.name];
+    const auto is_wrong = [&](const ProbeGroup& group) {
+        return counts[group.name] > 1 || !merge(std::span(&group, 1));
+    };
     for (const auto& [name, paths] : paths_of_group_) {
-        if (error_text(error).starts_with("group \"" + name + "\": "))
-            return error.in(joined(paths));
+        for (const ProbeGroup& group : groups_) {
+            if (group.name == name && is_wrong(group)) return error.in(joined(paths));
+        }
     }
     return error;
 }

@@ -13,8 +13,8 @@ namespace tetralight::cli {
 /// Probe groups, and the files that they came from.
 class GroupFiles {
   public:
-    /// Reads every file: JSON group files, or the groups of glTF scenes. An error when there is no
-    /// group in a file.
+    /// Reads every file: JSON group files, or the groups of glTF scenes. Returns an error if a
+    /// scene has no group.
     [[nodiscard]] static Result<GroupFiles> read(const std::vector<std::string>& paths);
 
     /// Adds the groups of one file.
@@ -22,7 +22,8 @@ class GroupFiles {
 
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
 
-    /// Puts the file, or the files, of the group that an error begins with before it.
+    /// The error of merging the groups, or of a later step, with the file, or files, of the first
+    /// group that cannot be merged before the message; unchanged if all can.
     [[nodiscard]] Error locate(const Error& error) const;
 
   private:

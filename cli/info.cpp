@@ -27,29 +27,18 @@ struct Info {
     bool shows_probes = false;
     CommonOptions common;
 
-    void add_to(CLI::App& command) {
-        add_path(command, "VOLUME", path, "Probe volume (.probes)")->required();
-        add_file_to_write(command, "--obj", obj_path, ".obj",
-                          "Also write the edges of the tetrahedra as line elements, for any "
-                          "viewer: Wavefront OBJ, groups `cells` and `hull`");
-        add_file_to_write(command, "--ply", ply_path, ".ply",
-                          "The same as a PLY file with `edge` elements");
-        command.add_flag(
-            "--probes", shows_probes,
-            "Also list every probe with its health: validity, standard error, distance "
-            "to the nearest surface and how far off its light was gathered (metres), "
-            "mean irradiance");
-        common.add_to(command);
-        command.parse_complete_callback([this] { check_outputs(); });
-    }
-
-    void check_outputs() const {
+    explicit Info(const Values& values)
+        : path(values.text("volume")),
+          obj_path(values.text("obj")),
+          ply_path(values.text("ply")),
+          shows_probes(values.flag("probes")),
+          common(values) {
         if (obj_path == "-" && ply_path == "-") {
-            throw CLI::ValidationError("--ply", "--obj goes to stdout already");
+            refuse(values, "ply", values.shown("obj") + " goes to stdout already");
         }
         const bool has_two = !obj_path.empty() && !ply_path.empty();
         if (has_two && is_same_file(obj_path, ply_path)) {
-            throw CLI::ValidationError("--ply", "--obj goes to the same file");
+            refuse(values, "ply", values.shown("obj") + " goes to the same file");
         }
     }
 
@@ -109,9 +98,8 @@ struct Info {
 
 }  // namespace
 
-void add_info(CLI::App& app, Run& run) {
-    add_command<Info>(app, run, "info", "Say what a probe volume holds, or draw its tetrahedra",
-                      "tetralight info courtyard.probes --obj courtyard_cells.obj");
+Status run_info(const Values& values) {
+    return Info(values).run();
 }
 
 }  // namespace tetralight::cli

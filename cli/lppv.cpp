@@ -10,7 +10,7 @@
 #include <tetralight/base/box.h>
 #include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/cli/choice.h>
+#include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/lppv_grid_options.h>
 #include <tetralight/cli/lppv_warnings.h>
@@ -22,13 +22,13 @@
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/probe_file.h>
 #ifdef TETRALIGHT_HAS_OPENVDB
-#include <tetralight/base/error_text.h>
 #include <tetralight/lppv/vdb/write_vdb.h>
 #endif
 
 namespace tetralight::cli {
 namespace {
 
+/// In the order of the choices of `layout`.
 enum class Layout : uint8_t { Automatic, Four, Seven };
 
 /// Bytes of what was written; 0 for stdout and devices.
@@ -65,74 +65,44 @@ struct LppvCommand {
     LppvGridOptions grid;
     LppvFill fill;
     LppvFileSettings file;
-    CLI::Option* layout_option = nullptr;
-    Layout layout = Layout::Automatic;
     bool is_sparse = false;
     double reach = 0.0;
-    CLI::Option* precision_option = nullptr;
     CommonOptions common;
+    const Values* values;
 
-    void add_to(CLI::App& command) {
-        add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
-        add_output(command, output, ".vdb,.nvdb,.exr,.dds,.ktx2", "File to write; none = .vdb");
-        auto* scene_option = add_path(command, "--scene", scene_path,
-                                      "glTF 2.0 scene: has the object, and geometry whose inside "
-                                      "takes light from beside it");
-        grid.add_to(command);
-        grid.object_option->needs(scene_option);
-        add_choice(command, "--mode", fill.quality,
-                   {{"low", LppvQuality::Low},
-                    {"normal", LppvQuality::Normal},
-                    {"full", LppvQuality::Full}},
-                   "Bands that vary: L0 and L1 (low), with a constant L2 (normal), all (full)");
-        precision_option =
-            add_choice(command, "--precision", file.precision,
-                       {{"half", LppvTexelFormat::Half}, {"float", LppvTexelFormat::Float}},
-                       "Numbers of the file; .nvdb has floats");
-        layout_option = add_choice(
-            command, "--layout", layout,
-            {{"auto", Layout::Automatic}, {"four", Layout::Four}, {"seven", Layout::Seven}},
-            "Slabs of a texture: SHA and occlusion (four), or all bands (seven); auto = seven for "
-            "--mode full");
-        auto* sparse_option =
-            command.add_flag("--sparse", is_sparse,
-                             "Only blocks of 8x8x8 points near probes and the scene's surfaces, at "
-                             "--density, anywhere; .vdb or .nvdb");
-        command
-            .add_option("--reach", reach,
-                        "With --sparse: how near, in metres (default: one spacing)")
-            ->check(numbers_in(0.0, 1e9).description(""))
-            ->needs(sparse_option);
-        for (const char* name : {"--object", "--bounds", "--resolution", "--placement",
-                                 "--unity-limits", "--mode", "--layout"}) {
-            sparse_option->excludes(command.get_option(name));
-        }
-        common.add_to(command);
-        command.parse_complete_callback([this] {
-            grid.check_usage();
-            check_file();
-        });
-    }
-
-    /// What does not go together, as wrong usage.
-    void check_file() {
+    /// Keeps a reference.
+    explicit LppvCommand(const Values& given)
+        : volume_path(given.text("volume")),
+          scene_path(given.text("scene")),
+          output(given.text("output")),
+          grid(given),
+          is_sparse(given.flag("sparse")),
+          reach(given.number("reach")),
+          common(given),
+          values(&given) {
+        fill.quality = choice<LppvQuality>(given, "mode");
+        file.precision = choice<LppvTexelFormat>(given, "precision");
+        file.thread_count = common.thread_count;
         file.kind = lppv_file_kind(output == "-" ? "" : output).value_or(LppvFileKind::OpenVdb);
-        const bool is_voxels =
-            file.kind == LppvFileKind::OpenVdb || file.kind == LppvFileKind::NanoVdb;
-        if (is_sparse && !is_voxels) {
-            throw CLI::ValidationError("--sparse", "only .vdb and .nvdb files can be sparse");
-        }
-        const bool is_half =
-            precision_option->count() > 0 && file.precision == LppvTexelFormat::Half;
-        if (file.kind == LppvFileKind::NanoVdb && is_half) {
-            throw CLI::ValidationError("--precision", ".nvdb files have floats");
-        }
-        if (layout_option->count() > 0 && !is_texture(file.kind)) {
-            throw CLI::ValidationError("--layout", "only .dds and .ktx2 files have slabs");
-        }
+        const auto layout = choice<Layout>(given, "layout");
         const bool is_full = fill.quality == LppvQuality::Full;
         const bool is_seven = layout == Layout::Seven || (layout == Layout::Automatic && is_full);
         file.layout = is_seven ? LppvLayout::SevenSlabs : LppvLayout::FourSlabs;
+        check_file();
+    }
+
+    /// Throws a `UsageError` if settings do not go with the kind of file.
+    void check_file() const {
+        const bool is_nano = file.kind == LppvFileKind::NanoVdb;
+        if (is_sparse && !is_nano && file.kind != LppvFileKind::OpenVdb) {
+            refuse(*values, "sparse", "only .vdb and .nvdb files can be sparse");
+        }
+        if (is_nano && values->is_given("precision") && file.precision == LppvTexelFormat::Half) {
+            refuse(*values, "precision", ".nvdb files have floats");
+        }
+        if (values->is_given("layout") && !is_texture(file.kind)) {
+            refuse(*values, "layout", "only .dds and .ktx2 files have slabs");
+        }
     }
 
     [[nodiscard]] auto threads() const {
@@ -171,7 +141,6 @@ struct LppvCommand {
         if (!lppv) return lppv.error();
         const double fill_seconds = filling.seconds();
         const Stopwatch writing;
-        file.thread_count = common.thread_count;
         if (auto status = write_lppv(output, *lppv, file); !status) return status;
         common.warn(lppv_warnings(*lppv, file));
         report(*lppv, fill_seconds, writing.seconds());
@@ -210,8 +179,7 @@ struct LppvCommand {
         auto status = add_blocks_near_probes(volume, near, blocks);
         if (status) status = add_blocks_near_surfaces(scene, near, blocks);
         if (!status) {
-            throw CLI::ValidationError(reach > 0.0 ? "--density, --reach" : "--density",
-                                       error_text(status.error()));
+            refuse_because(*values, "density", status.error());
         }
         const Stopwatch filling;
         const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads());
@@ -244,17 +212,16 @@ struct LppvCommand {
     }
 #else
     Status run_sparse(const Scene&, const ProbeVolumeView&) {
-        return Error{output + ": cannot write (this program was built without OpenVDB)"};
+        return Error{ErrorCode::Unsupported, "output", output,
+                     output + ": cannot write (this program was built without OpenVDB)"};
     }
 #endif
 };
 
 }  // namespace
 
-void add_lppv(CLI::App& app, Run& run) {
-    add_command<LppvCommand>(app, run, "lppv", "Fill a grid around a large object with light",
-                             "tetralight lppv courtyard.probes --scene courtyard.glb "
-                             "--object beam_long --density 2 -o beam.vdb");
+Status run_lppv(const Values& values) {
+    return LppvCommand(values).run();
 }
 
 }  // namespace tetralight::cli

@@ -1,97 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `tetralight` command. Exit codes: 0 fine, 1 bad data, 2 wrong usage, 130 and 143
-// interrupted by Ctrl-C and SIGTERM.
+// The `tetralight` command. Its exit codes: docs/command.md.
 #include <csignal>
 #include <iostream>
 #include <new>
 
-#include <tetralight/cli/commands.h>
-#include <tetralight/cli/common.h>
-#include <tetralight/cli/progress.h>
-#ifdef TETRALIGHT_HAS_SERVER
-#include <tetralight/base/error_text.h>
-#include <tetralight/cli/serve.h>
-#endif
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/command_line.h>
+#include <tetralight/cli/completion.h>
+#include <tetralight/cli/failure.h>
+#include <tetralight/cli/help.h>
+#include <tetralight/cli/job.h>
+#include <tetralight/cli/man_page.h>
 
+namespace tetralight::cli {
 namespace {
 
-constexpr int kExitFine = 0;
-constexpr int kExitBadData = 1;
-constexpr int kExitUsage = 2;
-constexpr int kExitSignal = 128;  // plus its number, as shells have it
-
-/// What CLI11 says in a language of its own, as a plain sentence.
-std::string plain(const std::string& message) {
-    const std::string option = message.substr(0, message.find(':'));
-    if (message.find(": At Most 1 required") != std::string::npos) {
-        return option + " is given more than once";
-    }
-    const bool has_no_value = message.find(": 1 required ") != std::string::npos;
-    return has_no_value ? option + " is given without a value" : message;
+/// True if the data that the command writes go to stdout.
+bool takes_stdout(const Values& values) {
+    bool found = false;
+    values.table().for_each([&](const settings::Setting& setting) {
+        const bool is_written = !setting.extensions.empty() || setting.name == "output";
+        found = found || (is_written && values.text(setting.name) == "-");
+    });
+    return found;
 }
 
-/// What is wrong with the arguments, and where to read on.
-std::string usage_message(const CLI::App* app, const CLI::Error& error) {
-    const auto chosen = app->get_subcommands();
-    const std::string command = chosen.empty() ? "" : " " + chosen[0]->get_name();
-    std::string message = plain(error.what());
-    if (chosen.empty() && !app->remaining().empty()) {
-        message = "there is no subcommand \"" + app->remaining()[0] + "\"";
+int run(const Command& command, const Values& values) {
+    const FailureStyle style{
+        .is_json = command.table->find("json") != nullptr && values.flag("json"),
+        .is_stdout_taken = takes_stdout(values),
+        .command = command.table->command};
+    try {
+        const Status status = command.run(values);
+        if (!status) return print_failure(status.error(), style);
+        std::cout.flush();
+        if (std::cout) return kExitFine;
+        return print_failure({ErrorCode::Unavailable, "cannot write to stdout"},
+                             {.is_json = style.is_json, .is_stdout_taken = true});
+    } catch (const UsageError& usage) {
+        return print_usage_error(usage.error, style);
+    } catch (const std::bad_alloc&) {
+        return print_failure({ErrorCode::OutOfResources, "not enough memory"}, style);
     }
-    return "tetralight" + command + ": " + message + "\nRun tetralight" + command +
-           " --help for more information.\n";
 }
 
-void declare_commands(CLI::App& app, tetralight::cli::Run& run) {
-    using namespace tetralight::cli;
-    app.set_version_flag("--version", "tetralight " TETRALIGHT_VERSION);
-    app.require_subcommand(1);
-    app.failure_message(usage_message);
-    add_grid(app, run);
-    add_bake(app, run);
-    add_merge(app, run);
-    add_tetrahedralize(app, run);
-    add_query(app, run);
-    add_relight(app, run);
-    add_lppv(app, run);
-    add_render(app, run);
-    add_meshball(app, run);
-    add_info(app, run);
-    add_validate(app, run);
-#ifdef TETRALIGHT_HAS_SERVER
-    add_serve(app, run);
-#endif
+int run_job(const std::string& path) {
+    begin_job();
+    const auto job = read_job(path);
+    const FailureStyle style{.is_json = true};
+    if (job) return run(*job->command, job->values);
+    return job.error().code == ErrorCode::InvalidArgument ? print_usage_error(job.error(), style)
+                                                          : print_failure(job.error(), style);
 }
 
-int run_command(const tetralight::cli::Run& run) {
-    const tetralight::Status status = run();
-    if (!status) {
-        std::cerr << "tetralight: " << tetralight::cli::printable(error_text(status.error()))
-                  << '\n';
-        const int signal = tetralight::cli::BakeProgressDisplay::interrupting_signal();
-        return signal == 0 ? kExitBadData : kExitSignal + signal;
+int print_text(const Result<std::string>& text, const FailureStyle& style) {
+    if (!text) return print_usage_error(text.error(), style);
+    std::cout << *text << std::flush;
+    return std::cout ? kExitFine : kExitBadData;
+}
+
+int run_line(const CommandLine& line, const FailureStyle& style) {
+    switch (line.kind) {
+        case CommandLine::Kind::Job:
+            return run_job(line.word);
+        case CommandLine::Kind::Help:
+            return print_text(line.command ? help_text(*line.command->table) : program_help_text(),
+                              style);
+        case CommandLine::Kind::Version:
+            return print_text(std::string("tetralight " TETRALIGHT_VERSION "\n"), style);
+        case CommandLine::Kind::Completion:
+            return print_text(completion_script(line.word), style);
+        case CommandLine::Kind::Man:
+            return print_text(man_page(line.word), style);
+        case CommandLine::Kind::Run:
+            break;
     }
-    std::cout.flush();
-    if (std::cout) return kExitFine;
-    std::cerr << "tetralight: cannot write to stdout\n";
-    return kExitBadData;
+    const auto values = settings::values_from_arguments(*line.command->table, line.arguments);
+    return values ? run(*line.command, *values) : print_usage_error(values.error(), style);
+}
+
+int main_program(int argc, char** argv) {
+    FailureStyle style{.is_json = wants_json(argc, argv)};
+    if (const Command* command = command_in(argc, argv)) style.command = command->table->command;
+    const auto line = parse_command_line(argc, argv);
+    return line ? run_line(*line, style) : print_usage_error(line.error(), style);
 }
 
 }  // namespace
+}  // namespace tetralight::cli
 
 int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error like any other
-    CLI::App app("Baked light probes for things that move: bake a glTF scene, query and render it.",
-                 "tetralight");
-    tetralight::cli::Run run;
-    declare_commands(app, run);
-    try {
-        app.parse(argc, argv);
-        return run_command(run);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? kExitFine : kExitUsage;
-    } catch (const std::bad_alloc&) {
-        std::cerr << "tetralight: not enough memory\n";
-        return kExitBadData;
-    }
+    return tetralight::cli::main_program(argc, argv);
 }

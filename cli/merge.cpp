@@ -14,13 +14,8 @@ struct Merge {
     std::string output;
     CommonOptions common;
 
-    void add_to(CLI::App& command) {
-        add_paths(command, "PARTS", parts,
-                  "Parts of one bake, made by bake --probes, that hold all of its probes")
-            ->required();
-        add_output(command, output, ".probes", "Probe volume to write");
-        common.add_to(command);
-    }
+    explicit Merge(const Values& values)
+        : parts(values.texts("parts")), output(values.text("output")), common(values) {}
 
     Status run() {
         if (auto status = check_output(output, parts); !status) return status;
@@ -44,9 +39,8 @@ struct Merge {
 
 }  // namespace
 
-void add_merge(CLI::App& app, Run& run) {
-    add_command<Merge>(app, run, "merge", "Join ranges of a bake (bake --probes) in one volume",
-                       "tetralight merge first.part second.part -o courtyard.probes");
+Status run_merge(const Values& values) {
+    return Merge(values).run();
 }
 
 }  // namespace tetralight::cli

@@ -11,9 +11,10 @@
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/ball_options.h>
+#include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/paths.h>
-#include <tetralight/cli/renderer_options.h>
+#include <tetralight/cli/renderer_kind.h>
 #include <tetralight/cli/view_options.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/render/mesh_ball.h>
@@ -47,45 +48,28 @@ struct MeshBall {
     std::string scene_path;
     std::string output;
     uint32_t frame_count = 1;
-    CLI::Option* frames_option = nullptr;
+    bool has_frames = false;
     bool has_window = false;
     BallOptions ball;
     RendererKind renderer = RendererKind::Cpu;
     ViewOptions view;
     CommonOptions common;
 
-    void add_to(CLI::App& command) {
-        add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
-        auto* output_option = add_output(command, output, ".png", "Picture to write");
-        add_path(command, "--scene", scene_path, "glTF 2.0 scene to show around the ball");
-        frames_option = command.add_option(
-            "--frames", frame_count,
-            "Pictures in which the ball turns once: NAME_0000.png and so on; of --window: frames "
-            "until it closes by itself");
-        frames_option->check(CLI::Range(1u, 10'000u))->capture_default_str();
-        command
-            .add_flag_callback(
-                "--window",
-                [this, output_option] {
-                    has_window = true;
-                    output_option->required(false);
-                },
-                "Show it in a window (OpenGL): drag to turn, wheel to zoom; P probes, L proxy "
-                "volume, O off, S specular, space to stop")
-            ->excludes(output_option)
-            ->trigger_on_parse();
-        ball.add_to(command);
-        add_renderer(command, renderer);
-        view.add_to(command);
-        common.add_to(command);
-        command.parse_complete_callback([this] { check_usage(); });
-    }
-
-    void check_usage() const {
-        view.check_usage();
+    explicit MeshBall(const Values& values)
+        : volume_path(values.text("volume")),
+          scene_path(values.text("scene")),
+          output(values.text("output")),
+          frame_count(values.integer32("frames")),
+          has_frames(values.is_given("frames")),
+          has_window(values.flag("window")),
+          ball(values),
+          renderer(choice<RendererKind>(values, "renderer")),
+          view(values),
+          common(values) {
+        if (output.empty() && !has_window) require(values, "output");
         if (frame_count > 1 && !has_window && is_stream(output)) {
-            throw CLI::ValidationError(
-                "--frames", "several pictures need a file name, which \"" + output + "\" is not");
+            refuse(values, "frames",
+                   "several pictures need a file name, which \"" + output + "\" is not");
         }
     }
 
@@ -117,7 +101,6 @@ struct MeshBall {
 
     Status render(const ProbeVolumeView& volume, const Scene& scene, const SceneShader* shader) {
         const Camera camera = ball.place(volume, shader, view);
-        view.settings.thread_count = common.thread_count;
         if (has_window) return show(volume, scene, camera);
         if (renderer == RendererKind::Gl) {
 #ifdef TETRALIGHT_HAS_GL
@@ -132,8 +115,8 @@ struct MeshBall {
 
     Status show(const ProbeVolumeView& volume, const Scene& scene, const Camera& camera) const {
 #ifdef TETRALIGHT_HAS_GL
-        const auto shown = show_ball(ball, scene, volume, camera, view.settings,
-                                     frames_option->count() > 0 ? frame_count : 0);
+        const auto shown =
+            show_ball(ball, scene, volume, camera, view.settings, has_frames ? frame_count : 0);
         if (!shown) return shown.error();
         common.print(
             {{"frames", shown->frame_count}, {"seconds", shown->seconds}},
@@ -141,7 +124,8 @@ struct MeshBall {
         return Ok{};
 #else
         static_cast<void>(volume), static_cast<void>(scene), static_cast<void>(camera);
-        return Error{"this build has no OpenGL, and so no window"};
+        return Error{ErrorCode::Unsupported, "window", "true",
+                     "this build has no OpenGL, and so no window"};
 #endif
     }
 
@@ -216,10 +200,8 @@ struct MeshBall {
 
 }  // namespace
 
-void add_meshball(CLI::App& app, Run& run) {
-    add_command<MeshBall>(app, run, "meshball",
-                          "Render 1023 spheres lit by one batch query of a probe volume",
-                          "tetralight meshball courtyard.probes --scene courtyard.glb -o ball.png");
+Status run_meshball(const Values& values) {
+    return MeshBall(values).run();
 }
 
 }  // namespace tetralight::cli

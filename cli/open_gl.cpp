@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/render/gl/driver.h>
 
 namespace tetralight::cli {
@@ -14,7 +13,7 @@ std::optional<OffscreenContext> open_gl(const RenderSettings& settings,
     const Status status =
         context ? check_size(settings, pixels_per_axis(settings)) : Status(context.error());
     if (!status) {
-        common.warn({error_text(status.error()) + "; rendering on the CPU"});
+        common.warn("", status.error(), "; rendering on the CPU");
         return std::nullopt;
     }
     const std::string driver = driver_name();

@@ -8,31 +8,18 @@
 
 #include <tetralight/base/file_writer.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/cli/validators.h>
 
 namespace tetralight::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-CLI::Validator has_extension(const std::string& extension) {
-    const auto check = [extension](const std::string& path) -> std::string {
-        const std::string found = fs::path(path).extension().string();
-        const auto known = CLI::detail::split(extension, ',');
-        const bool is_known = std::ranges::count(known, CLI::detail::to_lower(found)) > 0;
-        if (found.empty() || is_known) return "";
-        return str_cat("cannot write \"", found, "\" files; the extension may be ", extension,
-                       ", or none");
-    };
-    return {check, ""};
-}
-
 Error cannot_write(const std::string& path, const std::string& why) {
-    return {path + ": cannot write (" + why + ")"};
+    return {ErrorCode::InvalidArgument, "output", path, path + ": cannot write (" + why + ")"};
 }
 
-/// Whether a path is another name of an open file, as /dev/stdout is: a new file renamed over it
-/// would take the place of what the shell redirected to.
+/// True if a path is another name of an open file, as /dev/stdout is: a new file renamed over it
+/// would replace what the shell redirected to.
 bool names_open_file(const fs::path& path) {
     std::error_code error;
     const auto is_in_proc = [](const fs::path& p) { return p.string().starts_with("/proc/"); };
@@ -40,8 +27,8 @@ bool names_open_file(const fs::path& path) {
            is_in_proc(fs::canonical(path.parent_path(), error));
 }
 
-/// What stands at the path and is neither a regular file nor a character device.
-std::string what_is_there(const fs::path& path) {
+/// What is at the path if it is neither a regular file nor a character device.
+std::string special_file(const fs::path& path) {
     std::error_code error;
     switch (fs::status(path, error).type()) {
         case fs::file_type::directory:
@@ -59,27 +46,6 @@ std::string what_is_there(const fs::path& path) {
 
 }  // namespace
 
-CLI::Option* add_path(CLI::App& command, const std::string& name, std::string& path,
-                      const std::string& help) {
-    return command.add_option(name, path, help)->check(not_empty("path"));
-}
-
-CLI::Option* add_paths(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
-                       const std::string& help) {
-    return command.add_option(name, paths, help)->check(not_empty("path"));
-}
-
-CLI::Option* add_file_to_write(CLI::App& command, const std::string& name, std::string& path,
-                               const std::string& extension, const std::string& help) {
-    return add_path(command, name, path, help + " (" + extension + "; - = stdout)")
-        ->check(has_extension(extension));
-}
-
-CLI::Option* add_output(CLI::App& command, std::string& path, const std::string& extension,
-                        const std::string& help) {
-    return add_file_to_write(command, "-o,--output", path, extension, help)->required();
-}
-
 bool is_same_file(const std::string& a, const std::string& b) {
     std::error_code error;
     if (fs::equivalent(a, b, error)) return true;
@@ -91,13 +57,14 @@ Status check_output(const std::string& path, const std::vector<std::string>& inp
     std::error_code error;
     for (const std::string& input : inputs) {
         if (!fs::is_regular_file(input, error) || !fs::equivalent(input, path, error)) continue;
-        return Error{path + ": is an input of this command and would be lost; write elsewhere"};
+        return Error{ErrorCode::InvalidArgument, "output", path,
+                     path + ": is an input of this command and would be lost; write elsewhere"};
     }
     if (path == "-") return Ok{};
     if (names_open_file(path)) {
         return cannot_write(path, "names an open file; write to - for stdout");
     }
-    if (const std::string problem = what_is_there(path); !problem.empty()) {
+    if (const std::string problem = special_file(path); !problem.empty()) {
         return cannot_write(path, problem);
     }
     if (fs::is_character_file(path, error)) return Ok{};  // /dev/null, a terminal

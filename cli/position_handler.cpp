@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/cli/position_handler.h>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/position_text.h>
@@ -40,7 +39,7 @@ bool PositionHandler::number_float(double /*number*/, const std::string& digits)
     size_t length = 0;
     const auto number = parse_coordinate(digits, axis, length);
     if (number) return coordinate(*number) || value(shown(digits));
-    return place_ == Place::Coordinates ? fail(error_text(number.error())) : value(shown(digits));
+    return place_ == Place::Coordinates ? fail(number.error().message) : value(shown(digits));
 }
 
 bool PositionHandler::is_ignored() const {
@@ -70,8 +69,8 @@ bool PositionHandler::value(std::string_view shown_value) {
     return fail("is neither [x, y, z] nor {\"position\": [x, y, z]}" + what);
 }
 
-bool PositionHandler::fail(const std::string& message) {
-    error_ = Error{message};
+bool PositionHandler::fail(const Message& message) {
+    error_ = Error{ErrorCode::Corrupt, "positions", "", message};
     if (is_in_array_) error_ = error_.in(str_cat("position ", index_));
     return false;
 }

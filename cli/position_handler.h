@@ -52,7 +52,7 @@ class PositionHandler {
     [[nodiscard]] bool is_ignored() const;
     bool coordinate(float number);
     bool value(std::string_view shown_value);
-    bool fail(const std::string& message);
+    bool fail(const Message& message);
     bool take();
     bool begin_coordinates();
 

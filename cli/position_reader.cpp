@@ -104,7 +104,8 @@ Status read_lines(ByteReader& reader, PositionChunks& chunks, ParseLine parse_li
         held = rest.size();
         if (held == kLongestLine) {
             return error_in(parse.number() + 1,
-                            Error{str_cat("the line is longer than ", kLongestLine, " bytes")});
+                            Error{ErrorCode::Corrupt,
+                                  str_cat("the line is longer than ", kLongestLine, " bytes")});
         }
         std::memmove(memory.data(), rest.data(), held);
     }
@@ -131,7 +132,8 @@ Status read_raw(ByteReader& reader, PositionChunks& chunks) {
         std::memmove(memory.data(), memory.data() + done, held);
     }
     if (held == 0) return Ok{};
-    return Error{str_cat(reader.name(), ": ends at byte ", kRecord * record + held, ", ", held,
+    return Error{ErrorCode::Corrupt,
+                 str_cat(reader.name(), ": ends at byte ", kRecord * record + held, ", ", held,
                          held == 1 ? " byte" : " bytes", " into record ", record, "; records are ",
                          kRecord, " bytes, x y z as float32")};
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::cli {
@@ -22,11 +21,13 @@ Result<float> parse_coordinate(std::string_view digits, char axis, size_t& lengt
         std::from_chars(digits.data(), digits.data() + digits.size(), number);
     length = static_cast<size_t>(next - digits.data());
     if (error == std::errc{}) return number;
-    if (error == std::errc::invalid_argument) return Error{};
+    if (error == std::errc::invalid_argument)
+        return Error{ErrorCode::InvalidArgument, "not a number"};
     const std::string taken(digits.substr(0, length));
     const double value = std::strtod(taken.c_str(), nullptr);
     if (std::abs(value) > 1.0) {
-        return Error{str_cat(axis, " is ", shown(taken), ", beyond what a float holds (3.4e38)")};
+        return Error{ErrorCode::Corrupt, "position", shown(taken),
+                     str_cat(axis, " is ", shown(taken), ", beyond what a float holds (3.4e38)")};
     }
     return static_cast<float>(value);  // nearly 0
 }
@@ -56,7 +57,10 @@ Result<glm::vec3> parse_position(std::string_view line) {
         skip_blanks();
         return true;
     };
-    const auto not_three = [&] { return Error{str_cat("\"", shown(line), "\" is not x y z")}; };
+    const auto not_three = [&] {
+        return Error{ErrorCode::Corrupt, "position", shown(line),
+                     str_cat("\"", shown(line), "\" is not x y z")};
+    };
     glm::vec3 position(0.0f);
     skip_blanks();
     for (int axis = 0; axis < 3; ++axis) {
@@ -64,7 +68,8 @@ Result<glm::vec3> parse_position(std::string_view line) {
         rest = without_plus(rest);
         size_t length = 0;
         const auto number = parse_coordinate(rest, "xyz"[axis], length);
-        if (!number) return error_text(number.error()).empty() ? not_three() : number.error();
+        if (!number)
+            return number.error().code == ErrorCode::Corrupt ? number.error() : not_three();
         position[axis] = *number;
         rest.remove_prefix(length);
     }

@@ -9,8 +9,9 @@
 
 namespace tetralight::cli {
 
-/// A number as its digits stand in the input; the nearest float, 0 where there is none but 0.
-/// Errors: no number (an empty message), and `x is 1e39, beyond what a float holds` with `axis`.
+/// A number as its digits stand in the input; the nearest float.
+/// Returns invalid_argument if the digits are not a number, and corrupt with the name of `axis` if
+/// no float holds it.
 /// `length` is set to the digits that were taken.
 [[nodiscard]] Result<float> parse_coordinate(std::string_view digits, char axis, size_t& length);
 

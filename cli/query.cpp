@@ -14,93 +14,53 @@ namespace {
 
 struct Query {
     std::string volume_path;
-    std::string positions_path = "-";
-    std::string output = "-";
-    std::string from;
-    std::string to;
-    std::string outside = "extrapolate";
-    OutsideHull outside_hull;
-    std::string precision = "full";
-    CLI::Option* fade_option = nullptr;
+    std::string positions_path;
+    std::string output;
+    std::optional<PositionFormat> from;
+    AnswerSettings settings;
+    bool is_half = false;
     CommonOptions common;
 
-    void add_to(CLI::App& command) {
-        add_path(command, "VOLUME", volume_path, "Probe volume (.probes)")->required();
-        add_path(command, "POSITIONS", positions_path,
-                 "Positions, by default x y z a line; - = stdin")
-            ->capture_default_str();
-        add_path(command, "-o,--output", output, "File for the answers; - = stdout")
-            ->capture_default_str();
-        add_formats(command);
-        command
-            .add_option("--outside", outside,
-                        "Light outside the hull of the probes: that of the hull carried outwards, "
-                        "that of its closest point, or the latter fading to ambient light")
-            ->check(CLI::IsMember({"extrapolate", "clamp", "ambient"}))
-            ->capture_default_str();
-        fade_option = command.add_option("--fade", outside_hull.fade_distance,
-                                         "Metres over which --outside ambient fades");
-        fade_option->check(numbers_in(1e-6, 1e9))->capture_default_str();
-        command
-            .add_option("--precision", precision,
-                        "Read the probes as floats (full) or as their compact half-precision "
-                        "copies (half)")
-            ->check(CLI::IsMember({"full", "half"}))
-            ->capture_default_str();
-        common.add_to(command);
-        command.parse_complete_callback([this] { check_options(); });
-    }
-
-    void add_formats(CLI::App& command) {
-        command
-            .add_option("--from", from,
-                        "Format of the positions (default: by the extension, .json, .jsonl, .f32, "
-                        ".raw or .bin; else text)")
-            ->check(CLI::IsMember(position_format_names()));
-        command
-            .add_option("--to", to,
-                        "Format of the answers (default: by the extension, .txt, .jsonl, .csv, "
-                        ".f32, .raw or .bin; else JSON lines with --json, text without)")
-            ->check(CLI::IsMember(answer_format_names()));
-    }
-
-    void check_options() const {
-        if (output == "-" && common.is_json && !to.empty() && to != "jsonl") {
-            throw CLI::ValidationError("--to", "--json makes JSON lines of answers to stdout");
-        }
-        if (fade_option->count() > 0 && outside != "ambient") {
-            throw CLI::ValidationError("--fade", "needs --outside ambient");
-        }
-        check_extension();
-    }
-
-    void check_extension() const {
-        const std::string extension = std::filesystem::path(output).extension().string();
-        if (extension.empty()) return;
-        const auto format = answer_format_of_file(output);
-        if (!format) {
-            throw CLI::ValidationError(
-                "--output",
-                str_cat("cannot write \"", extension,
-                        "\" files; the extension may be .txt, .jsonl, .csv, .f32, .raw or "
-                        ".bin, or none"));
-        }
-        if (!to.empty() && answer_format(to) != *format) {
-            throw CLI::ValidationError("--to",
-                                       str_cat(to, " does not go with \"", extension, "\""));
-        }
-    }
-
-    [[nodiscard]] AnswerSettings settings() const {
-        AnswerSettings settings;
-        settings.format = common.is_json ? AnswerFormat::JsonLines : AnswerFormat::Text;
-        if (const auto format = answer_format_of_file(output)) settings.format = *format;
-        if (!to.empty()) settings.format = answer_format(to);
-        settings.outside = outside_hull;
-        if (outside == "clamp") settings.outside.policy = OutsidePolicy::Clamp;
-        if (outside == "ambient") settings.outside.policy = OutsidePolicy::Ambient;
+    explicit Query(const Values& values)
+        : volume_path(values.text("volume")),
+          positions_path(values.text("positions")),
+          output(values.text("output")),
+          is_half(values.text("precision") == "half"),
+          common(values) {
+        if (values.is_given("from")) from = choice<PositionFormat>(values, "from");
+        settings.format = answer_format(values);
+        settings.outside.policy = choice<OutsidePolicy>(values, "outside");
+        settings.outside.fade_distance = values.number32("fade");
         settings.thread_count = common.thread_count;
-        return settings;
+        if (values.is_given("fade") && settings.outside.policy != OutsidePolicy::Ambient) {
+            refuse(values, "fade", "needs " + values.shown("outside") + " ambient");
+        }
+    }
+
+    /// Throws a `UsageError` if extension, `to` and `json` do not go together.
+    [[nodiscard]] AnswerFormat answer_format(const Values& values) const {
+        const std::string to = values.text("to");
+        if (output == "-" && common.is_json && !to.empty() && to != "jsonl") {
+            refuse(values, "to",
+                   values.shown("json") + " writes JSON lines when the answers go to stdout");
+        }
+        const std::string extension = std::filesystem::path(output).extension().string();
+        const auto by_extension = answer_format_of_file(output);
+        if (!extension.empty() && !by_extension) {
+            refuse(values, "output",
+                   str_cat("cannot write \"", extension,
+                           "\" files; the extension may be .txt, .jsonl, .csv, .f32, .raw or "
+                           ".bin, or none"));
+        }
+        if (to.empty()) {
+            const auto plain = common.is_json ? AnswerFormat::JsonLines : AnswerFormat::Text;
+            return by_extension.value_or(plain);
+        }
+        const auto chosen = choice<AnswerFormat>(values, "to");
+        if (by_extension && chosen != *by_extension) {
+            refuse(values, "to", str_cat(to, " does not go with \"", extension, "\""));
+        }
+        return chosen;
     }
 
     Status run() {
@@ -110,9 +70,9 @@ struct Query {
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         common.warn_if_unlit(volume_path, file->view());
-        const bool is_half = precision == "half";
         if (is_half && file->view().compact.empty()) {
-            return Error{volume_path + ": holds no half-precision probes; use --precision full"};
+            return Error{ErrorCode::InvalidArgument, "precision", "half",
+                         volume_path + ": holds no half-precision probes; use --precision full"};
         }
         return answer(is_half ? file->view() : file->view().without_compact());
     }
@@ -123,10 +83,9 @@ struct Query {
         if (!reader) return reader.error();
         auto writer = FileWriter::open(output);
         if (!writer) return writer.error();
-        AnswerWriter answers(volume, settings(), *writer);
+        AnswerWriter answers(volume, settings, *writer);
         PositionChunks chunks([&](auto positions) { return answers.write(positions); });
-        const auto format =
-            from.empty() ? position_format_of_file(positions_path) : position_format(from);
+        const PositionFormat format = from.value_or(position_format_of_file(positions_path));
         if (auto status = read_positions(*reader, format, chunks); !status) return status;
         if (auto status = answers.finish(); !status) return status;
         warn_of_not_finite(*reader, answers.not_finite_count());
@@ -155,10 +114,8 @@ struct Query {
 
 }  // namespace
 
-void add_query(CLI::App& app, Run& run) {
-    add_command<Query>(app, run, "query", "Say what light arrives at positions",
-                       "echo 0 1 0 | tetralight query courtyard.probes --json\n"
-                       "  tetralight query courtyard.probes positions.f32 -o light.csv");
+Status run_query(const Values& values) {
+    return Query(values).run();
 }
 
 }  // namespace tetralight::cli

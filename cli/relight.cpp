@@ -2,11 +2,9 @@
 #include <tetralight/probes/relight.h>
 
 #include <algorithm>
-#include <charconv>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
-#include <limits>
 #include <string_view>
 
 #include <tetralight/bake/project_environment.h>
@@ -22,86 +20,42 @@
 namespace tetralight::cli {
 namespace {
 
-/// "lamp=0.5", blanks before it allowed; nothing: it is written otherwise. Weights that no float
-/// holds become infinity.
-std::optional<LayerWeight> parse_weight(std::string_view text) {
-    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-    const size_t equals = text.rfind('=');
-    if (equals == std::string::npos || equals == 0) return std::nullopt;
-    const std::string_view number = text.substr(equals + 1);
-    double weight = 0.0;
-    const auto [next, error] = std::from_chars(number.begin(), number.end(), weight);
-    if (error == std::errc::invalid_argument || next != number.end()) return std::nullopt;
-    if (error == std::errc::result_out_of_range) weight = std::numeric_limits<double>::infinity();
-    return LayerWeight{text.substr(0, equals), static_cast<float>(weight)};
-}
-
-CLI::Validator weight_check() {
-    const auto check = [](std::string& text) -> std::string {
-        return parse_weight(text) ? "" : "\"" + text + "\" is not of the form LAYER=WEIGHT";
-    };
-    return {check, ""};
-}
-
-CLI::Validator direction_check() {
-    const auto check = [](const std::string& direction) -> std::string {
-        const auto parsed = parse_vec3(direction);
-        if (!parsed || glm::length(*parsed) > 0.0) return "";
-        return "\"" + direction + "\" is not a direction";
-    };
-    return {check, ""};
-}
-
 struct Relight {
     std::string volume_path;
     std::string output;
-    std::vector<std::string> weights;
+    std::vector<std::pair<std::string, float>> weights;
     SkyOptions sky;
     glm::dvec3 sun_direction{0.0};
-    glm::dvec3 sun_irradiance{-1.0};
+    std::optional<glm::dvec3> sun_irradiance;
     std::string blend_path;
-    double blend_share = 0.5;
+    double blend_fraction = 0.5;
     CommonOptions common;
 
-    void add_to(CLI::App& command) {
-        add_path(command, "VOLUME", volume_path, "Probe volume baked with --layers (.probes)")
-            ->required();
-        add_output(command, output, ".probes", "Probe volume to write");
-        command
-            .add_option("--weights", weights,
-                        "New weights of layers, 1 = as baked: lamp=0,neon=2; others stay as they "
-                        "are")
-            ->delimiter(',')
-            ->allow_extra_args(false)
-            ->check(weight_check())
-            ->type_name("LAYER=W,...");
-        sky.add_to(command, "that of the bake (needs layer \"transfer\")");
-        auto* direction = add_vec3(command, "--sun-direction", sun_direction,
-                                   "Move the sun, so that it shines in this direction (needs "
-                                   "layers \"sun\" and \"transfer\")");
-        direction->check(direction_check());
-        add_vec3(command, "--sun-irradiance", sun_irradiance,
-                 "Its irradiance on a surface that faces it (default: as baked)")
-            ->needs(direction)
-            ->check(numbers_in(0.0, kMaxRadiance).description(""))
-            ->type_name("R,G,B");
-        auto* blend_option =
-            add_path(command, "--blend", blend_path, "Blend with this volume of the same probes");
-        command.add_option("--blend-share", blend_share, "How much of the light is that volume's")
-            ->check(numbers_in(0.0, 1.0))
-            ->needs(blend_option)
-            ->capture_default_str();
-        common.add_to(command);
+    explicit Relight(const Values& values)
+        : volume_path(values.text("volume")),
+          output(values.text("output")),
+          sky(values),
+          sun_direction(vec3(values, "sun_direction")),
+          blend_path(values.text("blend")),
+          blend_fraction(values.number("blend_share")),
+          common(values) {
+        if (const auto* all = values.find("weights")) {
+            for (const auto& [layer, weight] : all->items()) {
+                weights.emplace_back(layer, static_cast<float>(weight.get<double>()));
+            }
+        }
+        if (values.is_given("sun_irradiance")) sun_irradiance = vec3(values, "sun_irradiance");
     }
 
     Status run() {
-        if (auto status = check_output(output, {volume_path, sky.sky, blend_path}); !status) {
+        if (auto status = check_output(output, {volume_path, sky.path, blend_path}); !status) {
             return status;
         }
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         if (is_part(*file)) {
-            return Error{"is a part of a bake; merge its parts first"}.in(volume_path);
+            return Error{ErrorCode::InvalidArgument, "volume", volume_path,
+                         volume_path + ": is a part of a bake; merge its parts first"};
         }
         ProbeVolume volume = copy_volume(file->view());
         if (auto status = change(volume); !status) return status.error().in(volume_path);
@@ -122,21 +76,22 @@ struct Relight {
             relit += str_cat(relit.empty() ? "" : " ", option, " ", value);
         };
         const auto vector = [](const glm::dvec3& v) { return str_cat(v.x, ",", v.y, ",", v.z); };
-        if (!sky.sky.empty()) add("--sky", sky.sky);
+        if (sky.constant) add("--sky", vector(*sky.constant));
+        if (!sky.path.empty()) add("--sky", sky.path);
         if (sky.intensity != 1.0) add("--sky-intensity", str_cat(sky.intensity));
         if (sky.rotation_degrees != 0.0) add("--sky-rotation", str_cat(sky.rotation_degrees));
         if (sun_direction != glm::dvec3(0.0)) add("--sun-direction", vector(sun_direction));
-        if (sun_irradiance.x >= 0.0) add("--sun-irradiance", vector(sun_irradiance));
+        if (sun_irradiance) add("--sun-irradiance", vector(*sun_irradiance));
         if (!blend_path.empty()) {
             add("--blend", blend_path);
-            add("--blend-share", str_cat(blend_share));
+            add("--blend-share", str_cat(blend_fraction));
         }
         if (!relit.empty()) recipe["relit"] = relit;
         return dump(recipe);
     }
 
     [[nodiscard]] bool changes_sky() const {
-        return !sky.sky.empty() || sky.intensity != 1.0 || sky.rotation_degrees != 0.0;
+        return sky.replaces_sky() || sky.intensity != 1.0 || sky.rotation_degrees != 0.0;
     }
 
     [[nodiscard]] Status change(ProbeVolume& volume) const {
@@ -148,14 +103,14 @@ struct Relight {
         }
         if (weights.empty()) return Ok{};
         std::vector<LayerWeight> changes;
-        for (const std::string& text : weights) changes.push_back(*parse_weight(text));
+        for (const auto& [layer, weight] : weights) changes.push_back({layer, weight});
         const auto all = layer_weights(volume.view(), changes);
         return all ? recombine(volume, *all) : Status(all.error());
     }
 
     /// Another one, or the volume's own, turned and dimmed.
     [[nodiscard]] Status change_sky(ProbeVolume& volume) const {
-        if (!sky.sky.empty()) {
+        if (sky.replaces_sky()) {
             Environment environment;
             std::vector<std::string> warnings;
             if (auto status = sky.apply(volume_path, environment, warnings); !status) return status;
@@ -175,15 +130,15 @@ struct Relight {
     [[nodiscard]] Status move_sun(ProbeVolume& volume) const {
         const auto sun = movable_sun(volume.view());
         if (!sun) return sun.error();
-        const bool is_as_baked = sun_irradiance.x < 0.0;
-        return relight_sun(volume, glm::vec3(glm::normalize(sun_direction)),
-                           is_as_baked ? volume.lights[*sun].intensity : glm::vec3(sun_irradiance));
+        return relight_sun(
+            volume, glm::vec3(glm::normalize(sun_direction)),
+            sun_irradiance ? glm::vec3(*sun_irradiance) : volume.lights[*sun].intensity);
     }
 
     [[nodiscard]] Status blend_with(ProbeVolume& volume) const {
         const auto file = open_probe_file(blend_path);
         if (!file) return file.error();
-        auto blended = blend_volumes(volume.view(), file->view(), static_cast<float>(blend_share));
+        auto blended = blend_volumes(volume.view(), file->view(), static_cast<float>(blend_fraction));
         if (!blended) return blended.error().in(blend_path);
         volume = std::move(*blended);
         return Ok{};
@@ -207,10 +162,8 @@ struct Relight {
 
 }  // namespace
 
-void add_relight(CLI::App& app, Run& run) {
-    add_command<Relight>(app, run, "relight", "Change the light of a volume without baking again",
-                         "tetralight relight court.probes --weights lamp=0,neon=2 --sky dusk.exr "
-                         "-o night.probes");
+Status run_relight(const Values& values) {
+    return Relight(values).run();
 }
 
 }  // namespace tetralight::cli

@@ -7,57 +7,23 @@
 #include <tetralight/bake/scene/probe_adjustments_json.h>
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/bake/scene/read_gltf.h>
-#include <tetralight/cli/common.h>
-#include <tetralight/cli/paths.h>
 
 namespace tetralight::cli {
 
-namespace {
-
-CLI::Validator direction_check() {
-    const auto check = [](const std::string& direction) -> std::string {
-        const auto parsed = parse_vec3(direction);
-        if (!parsed || glm::length(*parsed) > 0.0) return "";
-        return "\"" + direction + "\" is not a direction";
-    };
-    return {check, ""};
-}
-
-}  // namespace
-
-void SceneOptions::add_to(CLI::App& command) {
-    add_path(command, "SCENE", path, "glTF 2.0 scene (.glb or .gltf)")->required();
-    add_path(
-        command, "--adjustments", adjustments,
-        "Adjustment volumes beside the scene's own (.json): where probes are forbidden, denser, "
-        "valid, or scaled");
-    sky.add_to(command, "the scene's own");
-    auto* direction = add_vec3(command, "--sun-direction", sun_direction,
-                               "Add a sun that shines in this direction");
-    auto* irradiance = add_vec3(command, "--sun-irradiance", sun_irradiance,
-                                "Irradiance of the added sun on a surface that faces it");
-    direction->check(direction_check())->needs(irradiance);
-    irradiance->check(numbers_in(0.0, kMaxRadiance).description(""))->type_name("R,G,B");
-    irradiance->needs(direction);
-    command
-        .add_option(
-            "--sun-angle", sun_angle_degrees,
-            "Diameter of the added sun in the sky, degrees: soft shadows (the sun's is 0.53)")
-        ->check(numbers_in(0.0, 180.0))
-        ->needs(direction)
-        ->capture_default_str();
-    command
-        .add_option("--sun-mode", sun_mode,
-                    "What probes hold of the added sun: its bounces (mixed), or its direct "
-                    "light too (baked)")
-        ->check(CLI::IsMember({"mixed", "baked"}))
-        ->needs(direction)
-        ->capture_default_str();
-}
+SceneOptions::SceneOptions(const Values& values)
+    : path(values.text("scene")),
+      adjustments(values.text("adjustments")),
+      sky(values),
+      sun_direction(vec3(values, "sun_direction")),
+      sun_irradiance(vec3(values, "sun_irradiance")),
+      sun_angle_degrees(values.number("sun_angle")),
+      sun_mode(values.text("sun_mode") == "baked" ? LightMode::Baked : LightMode::Mixed) {}
 
 Result<Scene> SceneOptions::read() const {
     auto scene = read_gltf(path);
-    if (!scene && read_probe_groups(path)) return Error{path + ": holds probe groups, no scene"};
+    if (!scene && read_probe_groups(path))
+        return Error{ErrorCode::InvalidArgument, "scene", path,
+                     path + ": contains probe groups, not a scene"};
     if (!scene) return scene;
     if (auto status = add_adjustments(*scene); !status) return status.error();
     if (auto status = sky.apply(path, scene->environment, scene->warnings); !status) {
@@ -79,7 +45,7 @@ Status SceneOptions::add_adjustments(Scene& scene) const {
 void SceneOptions::add_sun(Scene& scene) const {
     if (sun_direction == glm::dvec3(0.0)) return;
     Light sun;
-    sun.mode = sun_mode == "baked" ? LightMode::Baked : LightMode::Mixed;
+    sun.mode = sun_mode;
     sun.direction = glm::vec3(glm::normalize(sun_direction));
     sun.intensity = glm::vec3(sun_irradiance);
     sun.radius = glm::radians(0.5f * static_cast<float>(sun_angle_degrees));

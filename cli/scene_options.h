@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/result.h>
@@ -11,7 +11,7 @@
 
 namespace tetralight::cli {
 
-/// The scene to work on, and light that the command line adds to it.
+/// The scene to work on, and light that the settings add to it.
 struct SceneOptions {
     std::string path;
     std::string adjustments;
@@ -19,13 +19,15 @@ struct SceneOptions {
     glm::dvec3 sun_direction{0.0};
     glm::dvec3 sun_irradiance{0.0};
     double sun_angle_degrees = 0.0;
-    std::string sun_mode = "mixed";
+    LightMode sun_mode = LightMode::Mixed;
 
-    /// Declares SCENE and the light options.
-    void add_to(CLI::App& command);
+    explicit SceneOptions(const Values& values);
 
     /// Reads the scene and adds the light and the adjustment volumes.
     [[nodiscard]] Result<Scene> read() const;
+
+    /// The files that are read.
+    [[nodiscard]] std::vector<std::string> inputs() const { return {path, adjustments, sky.path}; }
 
   private:
     [[nodiscard]] Status add_adjustments(Scene& scene) const;

@@ -13,70 +13,48 @@
 namespace tetralight::cli {
 namespace {
 
-/// A constant sky: R,G,B, or one number for a grey one. Anything else is the name of a file.
-std::optional<glm::dvec3> constant_sky(const std::string& sky) {
-    const auto grey = parse_vec3(sky + "," + sky + "," + sky);
-    return grey ? grey : parse_vec3(sky);
-}
-
-/// A constant sky has radiance ≥ 0; a file that is not there and has commas in its name was meant
-/// to be one.
-CLI::Validator sky_check() {
-    const auto check = [](std::string& sky) -> std::string {
-        if (constant_sky(sky)) return numbers_in(0.0, kMaxRadiance)(sky);
-        const bool is_file =
-            !sky.empty() && (sky.find(',') == std::string::npos || std::filesystem::exists(sky));
-        return is_file ? "" : "\"" + sky + "\" is neither R,G,B, nor a number, nor a file";
-    };
-    return {check, ""};
-}
-
 Status check_sky(const Environment& environment) {
     glm::vec3 brightest(environment.image.pixels.empty() ? 1.0f : 0.0f);
     for (const glm::vec3& pixel : environment.image.pixels) brightest = glm::max(brightest, pixel);
     const glm::dvec3 radiance = glm::dvec3(environment.radiance) * glm::dvec3(brightest);
     for (int i = 0; i < 3; ++i) {
         if (radiance[i] >= 0.0 && radiance[i] <= kMaxRadiance) continue;
-        return Error{str_cat("the sky's radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
-                             ") is not in 0 to ", kMaxRadiance)};
+        return Error{ErrorCode::InvalidArgument, "sky", "",
+                     str_cat("the sky's radiance (", radiance.x, ", ", radiance.y, ", ", radiance.z,
+                             ") is not in the range 0 to 1e30")};
     }
     return Ok{};
 }
 
 }  // namespace
 
-void SkyOptions::add_to(CLI::App& command, const std::string& replaced) {
-    command
-        .add_option("--sky", sky,
-                    "Radiance of the sky: R,G,B or one number for a constant one, or an "
-                    "equirectangular .hdr or .exr file; replaces " +
-                        replaced)
-        ->check(sky_check())
-        ->type_name("R,G,B|L|FILE");
-    command.add_option("--sky-intensity", intensity, "Factor on the sky")
-        ->check(numbers_in(0.0, kMaxRadiance))
-        ->capture_default_str();
-    command
-        .add_option("--sky-rotation", rotation_degrees,
-                    "Degrees to turn the sky about +Y, counter-clockwise from above")
-        ->check(numbers_in(-360.0, 360.0))
-        ->capture_default_str();
+SkyOptions::SkyOptions(const Values& values)
+    : intensity(values.number("sky_intensity")), rotation_degrees(values.number("sky_rotation")) {
+    const auto* sky = values.find("sky");
+    if (sky == nullptr) return;
+    if (sky->is_number()) {
+        constant = glm::dvec3(sky->get<double>());
+    } else if (sky->is_array()) {
+        constant = vec3(values, "sky");
+    } else {
+        path = sky->get<std::string>();
+    }
 }
 
-Status SkyOptions::apply(const std::string& path, Environment& environment,
+Status SkyOptions::apply(const std::string& scene_path, Environment& environment,
                          std::vector<std::string>& warnings) const {
-    if (const auto constant = constant_sky(sky)) {
+    if (constant) {
         environment = {};
         environment.radiance = glm::vec3(*constant);
-    } else if (!sky.empty()) {
-        auto image = read_hdr_image(sky);
+    } else if (!path.empty()) {
+        auto image = read_hdr_image(path);
         if (!image) return image.error();
         environment = {};
         environment.radiance = glm::vec3(1.0f);
         environment.image = std::move(image->image);
         if (image->mended_pixel_count > 0) {
             warnings.push_back(
-                str_cat(sky, ": ", counted(image->mended_pixel_count, "pixel"),
+                str_cat(path, ": ", counted(image->mended_pixel_count, "pixel"),
                         " mended (NaN and negative become 0, infinite 65504, and nothing is "
                         "above 1e30)"));
         }
@@ -84,7 +62,7 @@ Status SkyOptions::apply(const std::string& path, Environment& environment,
     environment.radiance *= static_cast<float>(intensity);
     environment.rotation_radians += glm::radians(static_cast<float>(rotation_degrees));
     const auto status = check_sky(environment);
-    return status ? status : status.error().in(sky.empty() ? path : sky);
+    return status ? status : status.error().in(path.empty() ? scene_path : path);
 }
 
 }  // namespace tetralight::cli

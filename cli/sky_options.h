@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/result.h>
+#include <tetralight/cli/values.h>
 
 namespace tetralight::cli {
 
-/// Sums over directions and bounces stay far from the largest float, 3e38.
+/// Sums over samples and bounces stay far from the largest float, 3e38.
 inline constexpr double kMaxRadiance = 1e30f;  // as floats hold it
 
-/// A sky that the command line gives.
+/// A sky that the settings give: `sky`, `sky_intensity`, `sky_rotation`.
 struct SkyOptions {
-    /// Empty, a constant radiance, or a file.
-    std::string sky;
+    /// A file; empty: none.
+    std::string path;
+    std::optional<glm::dvec3> constant;
     double intensity = 1.0;
     double rotation_degrees = 0.0;
 
-    /// Declares `--sky`, `--sky-intensity` and `--sky-rotation`. `replaced`: what `--sky` takes the
-    /// place of.
-    void add_to(CLI::App& command, const std::string& replaced);
+    explicit SkyOptions(const Values& values);
 
-    /// Changes the environment of the file at `path`. Adds a warning when pixels had to be mended.
-    [[nodiscard]] Status apply(const std::string& path, Environment& environment,
+    [[nodiscard]] bool replaces_sky() const { return constant || !path.empty(); }
+
+    /// Changes the environment of the file at `scene_path`. Adds a warning if pixels were repaired.
+    [[nodiscard]] Status apply(const std::string& scene_path, Environment& environment,
                                std::vector<std::string>& warnings) const;
 };
 

@@ -18,29 +18,16 @@ namespace {
 struct Tetrahedralize {
     std::vector<std::string> group_paths;
     std::string output;
-    std::string backend = "cgal";
+    std::string backend;
     MergeSettings merge_settings;
     CommonOptions common;
 
-    void add_to(CLI::App& command) {
-        add_paths(command, "GROUPS", group_paths, "Probe groups: .json files, or glTF scenes")
-            ->required();
-        add_output(command, output, ".probes", "Probe volume to write, without light");
-        command
-            .add_option("--weld", merge_settings.weld_tolerance,
-                        "Join probes nearer than this share of the local spacing: the distance to\n"
-                        "the seventh nearest probe, 10 m at most")
-            ->check(numbers_in(0.0, 0.1))
-            ->capture_default_str();
-        command
-            .add_option("--backend", backend,
-                        "What joins the probes. tetgen: the program tetralight-tetgen, taken from\n"
-                        "$TETRALIGHT_TETGEN, this command's folder or PATH; it has 10 minutes,\n"
-                        "and flat sets (in a plane, on a line) never need it")
-            ->check(CLI::IsMember({"cgal", "tetgen"}))
-            ->capture_default_str();
-        common.add_to(command);
-    }
+    explicit Tetrahedralize(const Values& values)
+        : group_paths(values.texts("groups")),
+          output(values.text("output")),
+          backend(values.text("backend")),
+          merge_settings{.weld_tolerance = values.number("weld")},
+          common(values) {}
 
     [[nodiscard]] Result<Tetrahedralization> cells_over(const MergedProbes& probes) const {
         if (backend == "cgal") return tetrahedralize(probes.positions, flat_tolerance(probes));
@@ -87,10 +74,8 @@ struct Tetrahedralize {
 
 }  // namespace
 
-void add_tetrahedralize(CLI::App& app, Run& run) {
-    add_command<Tetrahedralize>(app, run, "tetrahedralize",
-                                "Join probe groups in a volume without light",
-                                "tetralight tetrahedralize grid.json -o grid.probes");
+Status run_tetrahedralize(const Values& values) {
+    return Tetrahedralize(values).run();
 }
 
 }  // namespace tetralight::cli

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/probes/build/validate.h>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/failure.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/probe_file.h>
@@ -28,32 +29,30 @@ struct Validate {
     std::string path;
     CommonOptions common;
 
-    void add_to(CLI::App& command) {
-        add_path(command, "VOLUME", path, "Probe volume (.probes)")->required();
-        common.add_to(command);
-    }
+    explicit Validate(const Values& values) : path(values.text("volume")), common(values) {}
 
     Status run() {
         const auto file = open_volume();
         if (!file) {
-            if (common.is_json) common.print(verdict({error_text(file.error())}), "");
-            return file.error();
+            const std::string problem = error_json(file.error())["message"];
+            return with_report(file.error(), verdict({problem}));
         }
         const ValidationReport report = validate(file->view());
         const std::vector<std::string> problems = report.problems();
         Json json = verdict(problems);
         json.update(counts(file->view()));
         json.update(to_json(report));
-        common.print(json,
-                     str_cat(printable(path), problems.empty() ? ": valid, " : ": not valid, ",
-                             counted(file->view().probe_count(), "probe"), ", ",
-                             problems.empty() ? "Delaunay " : "", cells_text(file->view())));
+        const std::string line =
+            str_cat(printable(path), problems.empty() ? ": valid, " : ": not valid, ",
+                    counted(file->view().probe_count(), "probe"), ", ",
+                    problems.empty() ? "Delaunay " : "", cells_text(file->view()));
+        if (problems.empty() || !common.is_json) common.print(json, line);
         if (problems.empty()) return Ok{};
         std::string message = path + ": ";
         for (const std::string& problem : problems) {
             message += (&problem == &problems[0] ? "" : "; ") + problem;
         }
-        return Error{message};
+        return with_report({ErrorCode::Corrupt, message}, json);
     }
 
     /// The volume with its metadata checked.
@@ -65,7 +64,7 @@ struct Validate {
         return file;
     }
 
-    /// A file that cannot be opened has this part alone: nothing of it was counted.
+    /// All there is to say of a file that cannot be opened.
     [[nodiscard]] Json verdict(const std::vector<std::string>& problems) const {
         return {{"file", path}, {"is_valid", problems.empty()}, {"problems", problems}};
     }
@@ -73,10 +72,8 @@ struct Validate {
 
 }  // namespace
 
-void add_validate(CLI::App& app, Run& run) {
-    add_command<Validate>(app, run, "validate",
-                          "Check a probe volume: checksums, structure, Delaunay property",
-                          "tetralight validate courtyard.probes --json");
+Status run_validate(const Values& values) {
+    return Validate(values).run();
 }
 
 }  // namespace tetralight::cli

@@ -7,48 +7,23 @@
 #include <glm/trigonometric.hpp>
 
 #include <tetralight/bake/scene/scene_bounds.h>
-#include <tetralight/cli/common.h>
-#include <tetralight/cli/validators.h>
 
 namespace tetralight::cli {
 
-void ViewOptions::add_to(CLI::App& command) {
-    const CLI::Range side(1u, 16384u);
-    command.add_option("--width", settings.width, "Pixels")->check(side)->capture_default_str();
-    command.add_option("--height", settings.height, "Pixels")->check(side)->capture_default_str();
-    command
-        .add_option("--antialias", settings.samples_per_axis, "Camera rays a pixel along each axis")
-        ->check(CLI::Range(1, 16))
-        ->capture_default_str();
-    command
-        .add_option("--exposure", settings.exposure,
-                    "Factor before tone mapping (Khronos PBR Neutral); 0 = automatic")
-        ->check(numbers_in(0.0, 1e9))
-        ->capture_default_str();
-    auto* eye_option = add_vec3(command, "--eye", eye, "Camera position");
-    auto* target_option = add_vec3(command, "--target", target, "What the camera looks at");
-    eye_option->needs(target_option)->each([this](const std::string&) { has_camera = true; });
-    target_option->needs(eye_option);
-    command.add_option("--fov", fov_degrees, "Vertical field of view of --eye, degrees")
-        ->check(numbers_in(1.0, 170.0))
-        ->needs(eye_option)
-        ->capture_default_str();
-    command.parse_complete_callback([this] { check_usage(); });
-}
-
-void ViewOptions::check_usage() const {
+ViewOptions::ViewOptions(const Values& values)
+    : eye(vec3(values, "eye")),
+      target(vec3(values, "target")),
+      fov_degrees(values.number("fov")),
+      has_camera(values.is_given("eye")) {
+    settings.width = values.integer32("width");
+    settings.height = values.integer32("height");
+    settings.samples_per_axis = values.integer32("antialias");
+    settings.exposure = values.number32("exposure");
+    settings.thread_count = values.integer32("threads");
+    if (values.table().find("camera") != nullptr) camera_name = values.text("camera");
     if (has_camera && eye == target) {
-        throw CLI::ValidationError("--target", "is the same point as --eye");
+        refuse(values, "target", "is the same point as " + values.shown("eye"));
     }
-}
-
-void ViewOptions::add_camera_name(CLI::App& command) {
-    command
-        .add_option("--camera", camera_name,
-                    "Camera of the scene by name; without it and --eye the scene's first, else an "
-                    "overview")
-        ->check(not_empty("name"))
-        ->excludes(command.get_option("--eye"));
 }
 
 Result<Camera> ViewOptions::camera_in(const Scene& scene, const std::string& scene_path) const {
@@ -59,8 +34,9 @@ Result<Camera> ViewOptions::camera_in(const Scene& scene, const std::string& sce
     if (camera_name.empty()) return overview(scene);
     std::string names;
     for (const Camera& candidate : scene.cameras) names += " \"" + candidate.name + "\"";
-    return Error{scene_path + ": no camera \"" + camera_name +
-                 "\"; there is:" + (names.empty() ? " none" : names)};
+    return Error{ErrorCode::NotFound, "camera", camera_name,
+                 scene_path + ": no camera \"" + camera_name +
+                     "\"; the scene has:" + (names.empty() ? " none" : names)};
 }
 
 Camera ViewOptions::camera() const {

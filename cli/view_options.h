@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 
 #include <tetralight/base/result.h>
+#include <tetralight/cli/values.h>
 #include <tetralight/render/image_renderer.h>
 
 namespace tetralight::cli {
@@ -17,19 +17,14 @@ struct ViewOptions {
     glm::dvec3 target{0.0};
     double fov_degrees = 45.0;
     bool has_camera = false;
-    /// Of a camera of the scene; empty = the scene's first, else an overview.
+    /// Name of a camera of the scene; empty = the scene's first, or an overview.
     std::string camera_name;
 
-    void add_to(CLI::App& command);
+    /// Throws a `UsageError` if the camera looks at its own position.
+    explicit ViewOptions(const Values& values);
 
-    /// What does not go together, as wrong usage. `add_to` has it called, unless the command sets a
-    /// callback of its own after that.
-    void check_usage() const;
-
-    /// `--camera`, for commands that show a scene. To be called after `add_to`.
-    void add_camera_name(CLI::App& command);
-
-    /// The user's camera, or one of the scene. Error: no camera of that name.
+    /// The user's camera, or one of the scene. Returns not_found if there is no camera of
+    /// that name.
     [[nodiscard]] Result<Camera> camera_in(const Scene& scene, const std::string& scene_path) const;
 
     /// The user's camera. Precondition: `has_camera`.

@@ -31,7 +31,7 @@ Status LightPool::bake(const BakeCallback& callback) {
     tallies_.resize(positions_.size());
     std::vector<uint32_t> missing;
     for (uint32_t i = 0; i < tallies_.size(); ++i) {
-        if (tallies_[i].direction_count < directions_) missing.push_back(i);
+        if (tallies_[i].sample_count < directions_) missing.push_back(i);
     }
     if (missing.empty()) return Ok{};
     std::vector<glm::dvec3> positions;

@@ -52,8 +52,8 @@ TEST_F(Resume, CtrlCKeepsThePartAndTheOldVolume) {
     EXPECT_EQ(file_names(), (std::vector<std::string>{"v.probes", kPart}));
 }
 
-TEST_F(Resume, SigtermDoesTheSame) {
-    EXPECT_EQ(interrupted(kLong, SIGTERM).exit_code, 143);
+TEST_F(Resume, SigtermDoesTheSameAndAsksToTryAgain) {
+    EXPECT_EQ(interrupted(kLong, SIGTERM).exit_code, 75);
     EXPECT_EQ(file_names(), std::vector<std::string>{kPart});
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/cli/lighting_options.h>
+#include <tetralight/cli/explain.h>
 
 #include <algorithm>
 
 #include <tetralight/bake/rays/memory_estimate.h>
 #include <tetralight/bake/scene/surface_color.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/cli/choice.h>
 #include <tetralight/cli/light_words.h>
 #include <tetralight/cli/table.h>
 #include <tetralight/runtime/runtime_lights.h>
@@ -106,24 +105,6 @@ std::string table_of(const Json& sources) {
 }
 
 }  // namespace
-
-void add_lighting_options(CLI::App& command, LightingSettings& settings) {
-    add_choice(command, "--mixed-lighting", settings.mixed_lighting,
-               {{name_of(MixedLighting::Indirect), MixedLighting::Indirect},
-                {name_of(MixedLighting::Shadowmask), MixedLighting::Shadowmask},
-                {name_of(MixedLighting::Subtractive), MixedLighting::Subtractive}},
-               "Shadows of mixed lights: indirect = all in real time; shadowmask, subtractive = "
-               "probes also hold how much of up to four of them they see");
-    command
-        .add_option(
-            "--layers", settings.layers,
-            "Keep the light of these apart, to dim it later with `tetralight relight`: sun, "
-            "sky, emission, light:NAME, material:NAME; transfer = how probes answer to "
-            "another sky or a moved sun")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("LIST");
-}
 
 Status explain(const Scene& scene, const LightingSettings& settings, const CommonOptions& common) {
     const auto plan = plan_lighting(scene, settings);

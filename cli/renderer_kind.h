@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 
 namespace tetralight::cli {
 
+/// In the order of the choices of `renderer`.
 enum class RendererKind : uint8_t { Cpu, Gl };
-
-/// Declares `--renderer`.
-void add_renderer(CLI::App& command, RendererKind& renderer);
 
 }  // namespace tetralight::cli

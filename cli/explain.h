@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,11 +11,8 @@
 
 namespace tetralight::cli {
 
-/// Declares `--mixed-lighting` and `--layers`.
-void add_lighting_options(CLI::App& command, LightingSettings& settings);
-
-/// Prints what a bake takes of each light of a scene and what is left to the runtime. Errors: those
-/// of `plan_lighting`.
+/// Prints what a bake takes from each light of a scene and what the runtime adds. Returns the
+/// errors of `plan_lighting`.
 [[nodiscard]] Status explain(const Scene& scene, const LightingSettings& settings,
                              const CommonOptions& common);
 

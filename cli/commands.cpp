@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/cli/commands.h>
+
+#include <algorithm>
+
+namespace tetralight::cli {
+namespace {
+
+constexpr Command kCommands[] = {
+    {&settings::kGrid, run_grid},         {&settings::kBake, run_bake},
+    {&settings::kMerge, run_merge},       {&settings::kTetrahedralize, run_tetrahedralize},
+    {&settings::kQuery, run_query},       {&settings::kRelight, run_relight},
+    {&settings::kLppv, run_lppv},         {&settings::kRender, run_render},
+    {&settings::kMeshball, run_meshball}, {&settings::kInfo, run_info},
+    {&settings::kValidate, run_validate},
+#ifdef TETRALIGHT_HAS_SERVER
+    {&settings::kServe, run_serve},
+#endif
+};
+
+}  // namespace
+
+std::span<const Command> commands() {
+    return kCommands;
+}
+
+const Command* find_command(std::string_view name) {
+    const auto found = std::ranges::find(
+        kCommands, name, [](const Command& command) { return command.table->command; });
+    return found == std::end(kCommands) ? nullptr : &*found;
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/cli/bake_settings.h>
+
+#include <gtest/gtest.h>
+
+#include <tetralight/settings/read_values.h>
+
+namespace tetralight::test {
+namespace {
+
+using settings::Json;
+using settings::Values;
+
+Values values_of(const Json& more) {
+    Json json{{"scene", "s.glb"}, {"output", "v.probes"}};
+    json.update(more);
+    auto values = settings::values_from_json(settings::kBake, json, settings::Access::Command);
+    EXPECT_TRUE(values);
+    return values ? *values : Values(settings::kBake, settings::Form::Json);
+}
+
+TEST(BakeSettings, DefaultsOfTheTableAreThoseOfTheLibrary) {
+    const BakeVolumeSettings library;
+    EXPECT_EQ(cli::bake_settings(values_of({{"samples", library.bake.sample_count}})), library);
+}
+
+TEST(BakeSettings, WithoutSamplesAnErrorIsTheTarget) {
+    const BakeSettings settings = cli::bake_settings(values_of(Json::object())).bake;
+    EXPECT_EQ(settings, with_default_target({}));
+}
+
+TEST(BakeSettings, AMaximumNeedsRounds) {
+    EXPECT_THROW((void)cli::bake_settings(values_of({{"max_samples", 5}})), cli::UsageError);
+    const Values values = values_of({{"max_samples", 5}, {"target_error", 0.01}});
+    EXPECT_EQ(cli::bake_settings(values).bake.max_sample_count, 5u);
+}
+
+}  // namespace
+}  // namespace tetralight::test
