@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
 #include <tetralight/server/detail/read_request.h>
 #include <tetralight/server/detail/send_response.h>
 #include <tetralight/server/detail/session.h>
@@ -289,8 +290,9 @@ Result<std::unique_ptr<HttpServer>> HttpServer::bind(const Settings& settings,
                                                      Application application) {
     auto server = std::make_unique<Server>(settings, std::move(application));
     if (const error_code error = server->open()) {
-        return Error{str_cat("cannot listen on ", settings.address, ":", settings.port, " (",
-                             error.message(), ")")};
+        const std::string listen = str_cat(settings.address, ":", settings.port);
+        return Error{error_code_of_errno(error.value()), "listen", listen,
+                     str_cat("cannot listen on ", listen, " (", error.message(), ")")};
     }
     return std::unique_ptr<HttpServer>(std::move(server));
 }

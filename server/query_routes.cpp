@@ -4,7 +4,6 @@
 #include <cstring>
 #include <glm/vec3.hpp>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/server/problem.h>
@@ -241,7 +240,7 @@ OcclusionOutput occlusion_output(const QueryHeader& header, const AnswerLayout& 
 }
 
 void require(const Status& status) {
-    if (!status) throw Problem{500, "query", error_text(status.error())};
+    if (!status) throw Problem{500, "query", detail_of(status.error())};
 }
 
 Response answer_binary(Service& service, const ProbeFile& file, const Request& request) {

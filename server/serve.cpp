@@ -41,7 +41,8 @@ Result<Descriptor> lock_folder(const std::string& folder) {
     Descriptor lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
     if (!lock) return system_error(path, "open");
     if (::flock(lock.value(), LOCK_EX | LOCK_NB) == 0) return lock;
-    return Error{folder + ": another server has this folder; --read-only serves it too"};
+    return Error{ErrorCode::Unavailable, "data", folder,
+                 folder + ": another server writes to this folder; --read-only can serve it too"};
 }
 
 /// Bodies are taken as they are.
@@ -209,7 +210,8 @@ Json start_facts(const Settings& settings, const Store& store, uint16_t port) {
 
 Status serve(const Settings& settings, const std::function<void(uint16_t port)>& is_listening) {
     if (!is_loopback(settings.address) && settings.token.empty()) {
-        return Error{settings.address + ": is not this machine alone; give a token"};
+        return Error{ErrorCode::InvalidArgument, "listen", settings.address,
+                     settings.address + ": can be reached from other machines and needs a token"};
     }
     ::signal(SIGPIPE, SIG_IGN);
     ::pthread_sigmask(SIG_BLOCK, &SignalWatch::signals(), nullptr);  // threads inherit it

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/arguments.h>
@@ -59,7 +58,7 @@ void link_all(Service& service, const SceneInputs& inputs, const WorkFolder& fol
 /// A file that a command wrote, as a body; the folder may go then.
 Body file_body(const std::string& path) {
     auto mapping = MappedFile::open(path);
-    if (!mapping) throw Problem{500, "storage", error_text(mapping.error())};
+    if (!mapping) throw storage_problem(mapping.error());
     const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
     return {kept->bytes(), kept};
 }
