@@ -67,6 +67,9 @@ constexpr std::array kMigrations = {
                          probe_count = coalesce(json_extract(report, '$.probes'), 0)
             WHERE state = 'done' AND json_valid(report);
     )sql",
+    R"sql(
+        ALTER TABLE bakes DROP COLUMN arguments;
+    )sql",
 };
 
 struct Finalize {

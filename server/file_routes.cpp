@@ -52,7 +52,7 @@ const char* content_type_of(Kind kind) {
     return kTypes[static_cast<size_t>(kind)];
 }
 
-/// First bytes by which a file is what it should be. Throws before a program is run for nothing.
+/// Throws if the first bytes are not those of the kind, before a program is run.
 void check_magic(Kind kind, int file) {
     char bytes[8] = {};
     const ssize_t count = ::pread(file, bytes, sizeof bytes, 0);
@@ -63,61 +63,60 @@ void check_magic(Kind kind, int file) {
                               : true;
     if (is_right) return;
     throw Problem{422, "bad_data",
-                  kind == Kind::Scenes ? "is no binary glTF (.glb)"
+                  kind == Kind::Scenes ? "is not binary glTF (.glb)"
                                        : "is neither Radiance (.hdr) nor OpenEXR (.exr)",
                   "body"};
 }
 
-/// A scene of nothing, to read a sky with.
+/// A scene without nodes, to read a sky with.
 void write_empty_scene(const std::string& path) {
     const std::string scene = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{}]})";
     require_stored(write_file(path, std::as_bytes(std::span(scene))));
 }
 
-/// Reads an upload as the command would, and says what it holds. Throws when it would not.
-Json find_facts(Service& service, Kind kind, const Request& request, const WorkFolder& folder) {
+/// The name of an upload in its folder; errors of commands then begin with it.
+constexpr const char* kUpload = "body";
+
+/// The job that reads an upload and reports what it holds.
+Job reading_job(Kind kind, const WorkFolder& folder) {
     switch (kind) {
-        case Kind::Scenes: {
-            Json facts = run_tool(service, request, folder.path(),
-                                  {"bake", "upload.glb", "--explain", "--json"});
-            if (facts.value("triangles", uint64_t{0}) <= service.settings.max_triangles) {
-                return facts;
-            }
-            throw Problem{
-                413, "too_large",
-                str_cat("a scene may have ", service.settings.max_triangles, " triangles"),
-                "triangles", dump(facts["triangles"])};
-        }
-        case Kind::Skies: {
+        case Kind::Scenes:
+            return {.command = "bake", .settings = {{"scene", kUpload}, {"explain", true}}};
+        case Kind::Skies:
             write_empty_scene(folder.file("empty.gltf"));
-            Json facts =
-                run_tool(service, request, folder.path(),
-                         {"bake", "empty.gltf", "--sky=upload.hdr", "--explain", "--json"});
-            return {{"warnings", facts.value("warnings", Json::array())}};
-        }
-        case Kind::Groups: {
-            Json facts =
-                run_tool(service, request, folder.path(),
-                         {"tetrahedralize", "upload.json", "--output=check.probes", "--json"});
-            facts.erase("backend");
-            return facts;
-        }
+            return {.command = "bake",
+                    .settings = {{"scene", "empty.gltf"}, {"sky", kUpload}, {"explain", true}}};
+        case Kind::Groups:
+            return {.command = "tetrahedralize",
+                    .settings = {{"groups", Json::array({kUpload})}, {"output", "check.probes"}}};
         case Kind::Volumes:
-            return run_tool(service, request, folder.path(), {"info", "upload.probes", "--json"});
+            break;
     }
-    return Json::object();
+    return {.command = "info", .settings = {{"volume", kUpload}}};
 }
 
-std::string upload_name(Kind kind) {
-    return std::string("upload") + extension_of(kind);
+/// Reads an upload as a command would, and reports what it holds. Throws if it is not usable.
+Json find_facts(Service& service, Kind kind, const Request& request, const WorkFolder& folder) {
+    Job job = reading_job(kind, folder);
+    job.folder = folder.path();
+    Json facts = run_tool(service, request, nullptr, std::move(job));
+    if (kind == Kind::Skies) return {{"warnings", facts.value("warnings", Json::array())}};
+    if (kind == Kind::Groups) facts.erase("backend");
+    if (kind == Kind::Scenes &&
+        facts.value("triangles", uint64_t{0}) > service.settings.max_triangles) {
+        throw Problem{413, "too_large",
+                      str_cat("a scene may have ", service.settings.max_triangles, " triangles"),
+                      "triangles", dump(facts["triangles"])};
+    }
+    return facts;
 }
 
-/// Opens the file that an upload comes into.
-void prepare_upload(Service& service, Kind kind, Request& request) {
+/// Opens the file that receives an upload.
+void prepare_upload(Service& service, Request& request) {
     service.store.check_quota(0);
     WorkFolder folder = service.store.make_work_folder();
-    request.body_file = Descriptor(::open(folder.file(upload_name(kind)).c_str(),
-                                          O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+    request.body_file = Descriptor(
+        ::open(folder.file(kUpload).c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
     if (!request.body_file) require_stored(system_error(folder.path(), "write"));
     request.work = std::make_shared<WorkFolder>(std::move(folder));
 }
@@ -130,8 +129,8 @@ Response upload(Service& service, Kind kind, Request& request) {
     service.store.check_quota(request.body_size);
     check_magic(kind, request.body_file.value());
     const Json facts = find_facts(service, kind, request, *folder);
-    const auto added = service.store.add(kind, folder->file(upload_name(kind)),
-                                         name == nullptr ? "" : *name, facts);
+    const auto added =
+        service.store.add(kind, folder->file(kUpload), name == nullptr ? "" : *name, facts);
     Response response = json_response(to_json_with_facts(added.file), added.is_new ? 201 : 200);
     response.headers.emplace_back("Location", str_cat("/v1/", name_of(kind), "/", added.file.id));
     return response;
@@ -230,7 +229,7 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
                       .body_limit = service.settings.max_upload_bytes,
                       .body_to = Plan::BodyTo::File,
                       .run_on = kWorkers,
-                      .prepare = [&, kind](Request& r) { prepare_upload(service, kind, r); }});
+                      .prepare = [&](Request& r) { prepare_upload(service, r); }});
     routes.push_back({.method = "GET",
                       .pattern = all,
                       .handle = [&, kind](Request& r) { return list(service, kind, r); },

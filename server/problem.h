@@ -6,6 +6,7 @@
 #include <tetralight/base/error.h>
 #include <tetralight/base/result.h>
 #include <tetralight/server/http.h>
+#include <tetralight/server/job.h>
 
 namespace tetralight::server {
 
@@ -36,6 +37,12 @@ struct Problem {
 
 /// A request's data cannot be used: otherwise 422 "bad_data".
 [[nodiscard]] Problem data_problem(const Error& error);
+
+/// A job for a request did not do what `order` asks: with the member of the order that is wrong, or
+/// "body" if the order is null, because the request is an uploaded file. Precondition: its end is
+/// not `Done`.
+[[nodiscard]] Problem job_problem(const Settings& settings, const JobResult& result,
+                                  const Request& request, const Json& order);
 
 /// Throws a `storage_problem` for an error.
 void require_stored(const Status& status);

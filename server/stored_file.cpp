@@ -2,10 +2,9 @@
 #include <tetralight/server/stored_file.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include <tetralight/base/hash/sha256.h>
+#include <tetralight/base/hex.h>
 #include <tetralight/base/utf8.h>
 #include <tetralight/server/problem.h>
 
@@ -67,11 +66,7 @@ std::string id_of(std::span<const std::byte> bytes) {
 
 std::string old_id_of(std::span<const std::byte> bytes) {
     const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-    std::array<char, kOldIdLength + 1> digits{};
-    std::snprintf(digits.data(), digits.size(), "%016llx%016llx",
-                  static_cast<unsigned long long>(hash.high64),
-                  static_cast<unsigned long long>(hash.low64));
-    return digits.data();
+    return hex(hash.high64) + hex(hash.low64);
 }
 
 bool has_id(std::span<const std::byte> bytes, const std::string& id) {
