@@ -22,7 +22,7 @@ struct Job {
     /// Its settings by their names. Paths are names of files in `folder`.
     Json settings;
     /// The working folder.
-    std::string folder;
+    std::string folder = {};
     /// The child is killed after this time; 0 = never.
     double limit_seconds = 0.0;
     /// No client waits for it: it runs in a session of its own with the least weight.

@@ -78,7 +78,7 @@ Kind kind_of(const Setting& setting) {
     return Kind::Volumes;
 }
 
-void check_order(const Table& table, const Json& order, std::string_view own_members) {
+settings::Values check_order(const Table& table, const Json& order, std::string_view own_members) {
     check_members(table, order, own_members);
     Json settings = Json::object();
     for_each_given(table, order, [&](const Setting& setting, const Json& value) {
@@ -92,6 +92,7 @@ void check_order(const Table& table, const Json& order, std::string_view own_mem
     });
     auto values = settings::values_from_json(table, settings, settings::Access::Command);
     if (!values) throw setting_problem(values.error());
+    return std::move(*values);
 }
 
 std::vector<OrderFile> order_files(Store& store, const Table& table, const Json& order) {

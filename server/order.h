@@ -9,6 +9,7 @@
 #include <tetralight/server/json.h>
 #include <tetralight/server/store.h>
 #include <tetralight/settings/setting.h>
+#include <tetralight/settings/values.h>
 
 // An order is the JSON object by which a client asks for a command: its settings, as the table of
 // the command describes them, with ids or names of stored files instead of paths.
@@ -25,8 +26,8 @@ struct OrderFile {
 /// Checks the members of an order against the settings that clients may set. `own_members`,
 /// separated by blanks, are those that the endpoint reads itself. Throws a `Problem`: 400
 /// "unknown_member", "missing_value" or "invalid_value".
-void check_order(const settings::Table& table, const Json& order,
-                 std::string_view own_members = {});
+settings::Values check_order(const settings::Table& table, const Json& order,
+                             std::string_view own_members = {});
 
 /// The files that a checked order refers to. Throws a `Problem` that names the member: 404 if there
 /// is no such file, 410 if it is damaged.

@@ -6,6 +6,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/interpolate.h>
+#include <tetralight/server/order.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/query_binary.h>
 #include <tetralight/server/service.h>
@@ -65,31 +66,32 @@ glm::vec3 to_position(const Json& value, size_t index) {
     return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
-Query read_query(Fields& fields, std::vector<glm::vec3>& positions) {
-    const Json* list = fields.find("positions");
+/// Reads all members but the positions. The volume is in the path, and a fade of 0 is the default.
+Query read_settings(const Json& json, Query query) {
+    if (json.size() == 1) return query;
+    if (json.contains("volume")) {
+        throw Problem{400, "unknown_member", "\"volume\" is in the path of a query", "volume",
+                      shown(json["volume"])};
+    }
+    Json order = json;
+    order["volume"] = "in the path";
+    if (order.value("fade", Json()) == 0) order.erase("fade");
+    const auto values = check_order(settings::kQuery, order, "positions");
+    const std::string outside = values.text("outside");
+    if (outside == "clamp") query.outside.policy = OutsidePolicy::Clamp;
+    if (outside == "ambient") query.outside.policy = OutsidePolicy::Ambient;
+    if (values.is_given("fade")) query.outside.fade_distance = values.number32("fade");
+    query.is_half_precision = values.text("precision") == "half";
+    return query;
+}
+
+Query read_query(const Json& json, std::vector<glm::vec3>& positions) {
+    const Json* list = Fields(json).find("positions");
     if (list == nullptr)
         throw Problem{400, "missing_value", "positions: is not given", "positions"};
     if (!list->is_array()) refuse("positions", *list, "an array");
     for (const Json& value : *list) positions.push_back(to_position(value, positions.size()));
-    Query query{.positions = positions};
-    const std::string outside = fields.text("outside", "extrapolate");
-    if (outside == "clamp") {
-        query.outside.policy = OutsidePolicy::Clamp;
-    } else if (outside == "ambient") {
-        query.outside.policy = OutsidePolicy::Ambient;
-    } else if (outside != "extrapolate") {
-        refuse("outside", outside, "\"extrapolate\", \"clamp\" or \"ambient\"");
-    }
-    const auto fade = static_cast<float>(fields.number("fade", 0.0));
-    if (!is_fade(fade)) refuse("fade", *fields.find("fade"), kFadeRange);
-    if (fade > 0.0f) query.outside.fade_distance = fade;
-    const std::string precision = fields.text("precision", "full");
-    if (precision != "full" && precision != "half") {
-        refuse("precision", precision, "\"full\" or \"half\"");
-    }
-    query.is_half_precision = precision == "half";
-    fields.finish();
-    return query;
+    return read_settings(json, {.positions = positions});
 }
 
 /// The shortest digits that read back to the same number.
@@ -150,9 +152,8 @@ Response answer_json(Service& service, const ProbeFile& file, const Request& req
             "body", str_cat(request.body.size(), " bytes")};
     }
     const Json json = parse_object(request.body);
-    Fields fields(json);
     std::vector<glm::vec3> positions;
-    const Query query = read_query(fields, positions);
+    const Query query = read_query(json, positions);
     check_positions(service, positions);
     const ProbeVolumeView volume = view_for(file, query);
     std::string out = R"({"answers":[)";

@@ -140,7 +140,8 @@ std::vector<Route> system_routes(Service& service) {
         {.method = "GET",
          .pattern = "/openapi.json",
          .access = Access::Open,
-         .handle = [](Request&) { return Response{.body = std::string(openapi_text())}; }},
+         .handle = [document =
+                        Body(openapi_document())](Request&) { return Response{.body = document}; }},
         {.method = "GET", .pattern = "/metrics", .handle = [&](Request&) {
              return metrics(service);
          }}};
