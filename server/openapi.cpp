@@ -8,6 +8,21 @@
 namespace tetralight::server {
 namespace {
 
+/// Help with the members of orders instead of options: "target_error" for "--target-error".
+std::string in_json_words(std::string_view help) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; };
+    std::string words;
+    while (!help.empty()) {
+        const bool is_option = help.starts_with("--");
+        if (is_option) help.remove_prefix(2);
+        do {
+            words += is_option && help.front() == '-' ? '_' : help.front();
+            help.remove_prefix(1);
+        } while (is_option && !help.empty() && is_letter(help.front()));
+    }
+    return words;
+}
+
 /// A setting as clients see it: stored files instead of paths.
 Json property_of(const settings::Setting& setting, std::string_view heading) {
     Json schema = settings::json_schema(setting);
