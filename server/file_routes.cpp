@@ -18,7 +18,7 @@ struct ByteRange {
     uint64_t end = 0;
 };
 
-/// One range of `Range: bytes=...`; nothing: none, several or another unit, which means all.
+/// The range of `Range: bytes=...`; nothing (send all) for several ranges or another unit.
 std::optional<ByteRange> parse_range(std::string_view header, uint64_t size) {
     constexpr std::string_view kUnit = "bytes=";
     if (!header.starts_with(kUnit) || header.find(',') != std::string_view::npos) {
@@ -35,7 +35,7 @@ std::optional<ByteRange> parse_range(std::string_view header, uint64_t size) {
     };
     const std::string_view first = header.substr(0, dash);
     const std::string_view last = header.substr(dash + 1);
-    if (first.empty()) {  // the last so many bytes
+    if (first.empty()) {  // the last bytes
         const auto count = number(last);
         if (!count) return std::nullopt;
         return ByteRange{size - std::min(*count, size), size};
@@ -144,7 +144,7 @@ Response list(Service& service, Kind kind, const Request& request) {
         const auto [next, error] =
             std::from_chars(asked->data(), asked->data() + asked->size(), limit);
         if (error != std::errc{} || *next != '\0' || limit == 0 || limit > kMost) {
-            throw Problem{400, "invalid_value", "limit: is not from 1 to 1000", "limit", *asked};
+            throw Problem{400, "invalid_value", "limit: must be 1 to 1000", "limit", *asked};
         }
     }
     const std::string* after = request.parameter("after");
@@ -199,7 +199,7 @@ Response download(Service& service, Kind kind, const Request& request) {
     return response;
 }
 
-/// One array of a volume's file as it lies there (docs/file_format.md), for viewers.
+/// One section of a volume's file, byte for byte (docs/file_format.md).
 Response section(Service& service, const Request& request) {
     const StoredFile stored = service.store.get(Kind::Volumes, request.captures[0]);
     const auto file = service.volumes.open(stored.id);
@@ -258,7 +258,7 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
 Response bytes_response(const Request& request, const Body& body, const std::string& content_type,
                         const std::string& tag) {
     const std::string quoted = "\"" + tag + "\"";
-    // Bytes of an id stay for ever; a name may lead to others the next time.
+    // The bytes of an id never change; a name may later lead to other bytes.
     const bool is_by_id = is_id(request.captures[0]);
     Response response{
         .content_type = content_type,

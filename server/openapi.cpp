@@ -26,11 +26,15 @@ std::string in_json_words(std::string_view help) {
 /// A setting as clients see it: stored files instead of paths.
 Json property_of(const settings::Setting& setting, std::string_view heading) {
     Json schema = settings::json_schema(setting);
+    const std::string help = in_json_words(setting.help);
+    schema["description"] = help;
     if (setting.type == settings::Type::Path) {
-        schema["description"] =
-            str_cat(setting.is_list ? "Ids or names" : "Id or name", " of stored ",
-                    name_of(kind_of(setting)), ": ", setting.help);
+        const char* kind = name_of(kind_of(setting));
+        schema["x-stored"] = kind;
+        schema["description"] = str_cat(setting.is_list ? "Ids or names" : "An id or name",
+                                        " of stored ", kind, ": ", help);
     }
+    if (!setting.without.empty()) schema["x-default"] = in_json_words(setting.without);
     schema["x-group"] = heading;
     return schema;
 }

@@ -18,7 +18,7 @@ constexpr const char* kBinary = "application/octet-stream";
 constexpr uint64_t kMostJson = uint64_t{8} << 20;
 constexpr uint8_t kShHalf = 3;
 
-/// What to ask of a volume, and in which form to answer.
+/// The positions and settings of a query.
 struct Query {
     std::span<const glm::vec3> positions;
     OutsideHull outside = {};
@@ -27,7 +27,7 @@ struct Query {
 
 constexpr const char* kFadeRange = "0 or in the range from 1e-06 to 1e+09";
 
-/// 0 = as it is by default.
+/// 0 = the default.
 bool is_fade(float metres) {
     return metres == 0.0f || (metres >= 1e-6f && metres <= 1e9f);
 }
@@ -94,7 +94,7 @@ Query read_query(const Json& json, std::vector<glm::vec3>& positions) {
     return read_settings(json, {.positions = positions});
 }
 
-/// The shortest digits that read back to the same number.
+/// Appends the shortest digits that give the same number when read.
 void append_number(std::string& out, auto number) {
     char digits[32];
     out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
@@ -109,7 +109,7 @@ void append_vector(std::string& out, const Vector& vector) {
     out += ']';
 }
 
-/// As `tetralight query --json` says it.
+/// Appends an answer as `tetralight query --json` writes it.
 void append_answer(std::string& out, const ProbeVolumeView& volume, const glm::vec3& position,
                    const CellLocation& location) {
     const InterpolatedProbe answer = interpolate(volume, location);
@@ -204,7 +204,7 @@ QueryHeader read_header(const Request& request) {
     return header;
 }
 
-/// Where the parts of an answer lie.
+/// Offsets of the parts of an answer.
 struct AnswerLayout {
     size_t sh = 0;
     size_t occlusion = 0;
@@ -217,7 +217,7 @@ struct AnswerLayout {
         if (header.sh == kShHalf) format = ShFormat::Half;
         const size_t sh_size = header.sh == 0 ? 0 : value_count(format) * value_size(format);
         sh = sizeof header;
-        // Halves are 54 bytes each; what follows them keeps its alignment.
+        // Halves take 54 bytes each; the next part is aligned to 4.
         occlusion = (sh + header.count * sh_size + 3) / 4 * 4;
         const bool has_occlusion = (header.wants & QueryHeader::kOcclusion) != 0;
         cells = occlusion + (has_occlusion ? header.count * sizeof(glm::vec4) : 0);
@@ -255,7 +255,7 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
     const ProbeVolumeView volume = view_for(file, query);
 
     const AnswerLayout layout(header);
-    // Every byte is written; a vector would write them twice.
+    // Every byte is written below; a vector would first fill them with zeros.
     const std::shared_ptr<std::byte[]> memory(new std::byte[layout.end]);
     const std::span bytes(memory.get(), layout.end);
     header.magic = QueryHeader::kAnswer;
