@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/base/str_cat.h>
-#include <tetralight/server/arguments.h>
+#include <tetralight/server/order.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/service.h>
 
 namespace tetralight::server {
 namespace {
-
-constexpr OptionRule kBakeRules[] = {
-    {"samples", ValueKind::Integer},       {"target_error", ValueKind::Number},
-    {"max_samples", ValueKind::Integer},   {"bounces", ValueKind::Integer},
-    {"clamp", ValueKind::Number},          {"albedo_boost", ValueKind::Number},
-    {"max_albedo", ValueKind::Number},     {"seed", ValueKind::Integer},
-    {"weld", ValueKind::Number},           {"min_validity", ValueKind::Number},
-    {"virtual_offset", ValueKind::Number}, {"invalid_probes", ValueKind::Text},
-    {"dering", ValueKind::Flag},           {"dering_window", ValueKind::Text},
-    {"mixed_lighting", ValueKind::Text},   {"layers", ValueKind::List},
-    {"only_given_groups", ValueKind::Flag}};
 
 int64_t read_priority(Fields& fields) {
     constexpr int64_t kMost = 100;
@@ -29,40 +18,26 @@ int64_t read_priority(Fields& fields) {
 }
 
 BakeOrder read_order(Service& service, const Json& json) {
+    check_order(settings::kBake, json, "name priority");
     Fields fields(json);
-    BakeOrder order;
-    order.request = json;
-    SceneInputs scene = read_scene(service, fields);
-    order.inputs = std::move(scene.files);
-    order.arguments = std::move(scene.arguments);
-    const std::vector<std::string> groups = fields.texts("groups");
-    for (size_t i = 0; i < groups.size(); ++i) {
-        const std::string name = str_cat("groups_", i, ".json");
-        order.inputs.emplace_back(
-            file_for(service, Kind::Groups, str_cat("groups[", i, "]"), groups[i]), name);
-        order.arguments.push_back("--groups=" + name);
-    }
-    const std::string reuse = fields.text("reuse");
-    if (!reuse.empty()) {
-        order.inputs.emplace_back(file_for(service, Kind::Volumes, "reuse", reuse), "reuse.probes");
-        order.arguments.push_back("--reuse=reuse.probes");
-    }
-    const auto options = make_arguments(fields, kBakeRules);
-    order.arguments.insert(order.arguments.end(), options.begin(), options.end());
-    order.name = fields.text("name");
+    BakeOrder order{.request = json,
+                    .name = fields.text("name"),
+                    .priority = read_priority(fields),
+                    .inputs = order_files(service.store, settings::kBake, json)};
     check_name(order.name);
-    order.priority = read_priority(fields);
-    fields.finish();
     return order;
 }
 
-/// Has the command read options and scene, so that what is wrong is said now and not later.
+/// Lets the command read the settings and the scene, so that an order that cannot be baked is
+/// refused at once.
 void check(Service& service, const Request& request, const BakeOrder& order) {
     const WorkFolder folder = service.store.make_work_folder();
     for (const auto& [file, name] : order.inputs) service.store.link(file, folder.file(name));
-    std::vector<std::string> arguments{"bake", "scene.glb", "--explain", "--json"};
-    arguments.insert(arguments.end(), order.arguments.begin(), order.arguments.end());
-    (void)run_tool(service, request, folder.path(), arguments);
+    Job job{.command = "bake",
+            .settings = job_settings(settings::kBake, order.request),
+            .folder = folder.path()};
+    job.settings["explain"] = true;
+    (void)run_tool(service, request, order.request, std::move(job));
 }
 
 Response submit(Service& service, const Request& request) {
@@ -74,10 +49,10 @@ Response submit(Service& service, const Request& request) {
     return response;
 }
 
-/// The bake whenever it changed, and at last its end.
+/// The bake after each change, and its end.
 Response events(Service& service, const Request& request) {
     const std::string id = request.captures[0];
-    (void)service.bakes.get(id);  // throws when it is not there
+    (void)service.bakes.get(id);  // throws if there is none
     Response response{.content_type = "text/event-stream",
                       .headers = {{"Cache-Control", "no-store"}}};
     response.events = [&service, id, last = std::string()](std::string& out) mutable {

@@ -10,9 +10,8 @@
 
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/server/command.h>
+#include <tetralight/server/job.h>
 #include <tetralight/server/problem.h>
-#include <tetralight/server/tool_problem.h>
 
 namespace tetralight::server {
 namespace {
@@ -22,6 +21,7 @@ namespace fs = std::filesystem;
 // In the folder of a bake.
 constexpr const char* kChunks = "chunks";
 constexpr const char* kProgress = "progress.json";
+constexpr const char* kResult = "result.probes";
 
 std::string random_id() {
     static std::random_device device;
@@ -35,7 +35,7 @@ struct ChunkCounts {
     uint64_t all = 0;
 };
 
-/// What the names of finished chunks say: "BEGIN-END-of-COUNT.chunk".
+/// Counts probes by the names of the finished chunks: "BEGIN-END-of-COUNT.chunk".
 ChunkCounts count_chunks(const std::string& folder) {
     ChunkCounts counts;
     std::error_code error;
@@ -50,10 +50,31 @@ ChunkCounts count_chunks(const std::string& folder) {
     return counts;
 }
 
-/// What the running command says of its pace, or an empty object.
+/// The progress file of the running command; an empty object if there is none.
 Json read_pace(const std::string& path) {
     const auto bytes = read_file(path);
     return bytes ? object_in(*bytes) : Json::object();
+}
+
+/// The inputs of bakes that a version before 0.1 accepted have other names: "groups_0.json" instead
+/// of "groups[0]".
+void rename_old_inputs(const std::string& folder) {
+    std::error_code ignored;
+    for (const fs::path& path : fs::directory_iterator(folder, ignored)) {
+        const std::string extension = path.extension().string(), stem = path.stem().string();
+        const bool is_old =
+            (extension == ".glb" || extension == ".hdr" || extension == ".json" ||
+             extension == ".probes") &&
+            (stem == "scene" || stem == "sky" || stem == "reuse" || stem.starts_with("groups_"));
+        const size_t number = stem.find('_');
+        const std::string name =
+            number == std::string::npos ? stem : str_cat("groups[", stem.substr(number + 1), "]");
+        if (is_old) fs::rename(path, folder + "/" + name, ignored);
+    }
+}
+
+Problem bake_problem(const Error& error) {
+    return {500, "bake_failed", detail_of(error)};
 }
 
 bool is_final(const std::string& state) {
@@ -81,29 +102,28 @@ Bakes::~Bakes() {
 
 void Bakes::load() {
     for (const auto& row : store_.database().run(
-             "SELECT number, id, request, arguments, name, priority, state, volume, error, report, "
-             "created, ended, probes_done, probe_count FROM bakes")) {
+             "SELECT number, id, request, name, priority, state, volume, error, report, created, "
+             "ended, probes_done, probe_count FROM bakes")) {
         Bake bake;
         bake.number = std::get<int64_t>(row[0]);
         bake.id = std::get<std::string>(row[1]);
         bake.request = Json::parse(std::get<std::string>(row[2]), nullptr, false);
-        bake.arguments = Json::parse(std::get<std::string>(row[3])).get<std::vector<std::string>>();
-        bake.name = std::get<std::string>(row[4]);
-        bake.priority = std::get<int64_t>(row[5]);
-        bake.state = std::get<std::string>(row[6]);
-        bake.volume = std::get<std::string>(row[7]);
-        bake.error = std::get<std::string>(row[8]);
-        const auto& report = std::get<std::string>(row[9]);
+        bake.name = std::get<std::string>(row[3]);
+        bake.priority = std::get<int64_t>(row[4]);
+        bake.state = std::get<std::string>(row[5]);
+        bake.volume = std::get<std::string>(row[6]);
+        bake.error = std::get<std::string>(row[7]);
+        const auto& report = std::get<std::string>(row[8]);
         if (!report.empty()) bake.report = Json::parse(report, nullptr, false);
-        bake.created = std::get<double>(row[10]);
-        bake.ended = std::get<double>(row[11]);
-        bake.probes_done = static_cast<uint64_t>(std::get<int64_t>(row[12]));
-        bake.probe_count = static_cast<uint64_t>(std::get<int64_t>(row[13]));
+        bake.created = std::get<double>(row[9]);
+        bake.ended = std::get<double>(row[10]);
+        bake.probes_done = static_cast<uint64_t>(std::get<int64_t>(row[11]));
+        bake.probe_count = static_cast<uint64_t>(std::get<int64_t>(row[12]));
         bakes_[bake.id] = std::move(bake);
     }
 }
 
-/// Of bakes that were never accepted, or were over when the server ended.
+/// Removes the folders of bakes that were never accepted or have ended.
 void Bakes::drop_unknown_folders() const {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(store_.bake_folder(""), error)) {
@@ -150,13 +170,12 @@ Json Bakes::submit(const BakeOrder& order) {
         const std::lock_guard lock(mutex_);
         if (waiting_locked() >= settings_.max_queued_bakes) {
             throw Problem{429, "queue_full",
-                          str_cat(settings_.max_queued_bakes, " bakes wait already")};
+                          str_cat(settings_.max_queued_bakes, " bakes are queued already")};
         }
     }
     Bake bake;
     bake.id = random_id();
     bake.request = order.request;
-    bake.arguments = order.arguments;
     bake.name = order.name;
     bake.priority = order.priority;
     bake.created = now();
@@ -168,10 +187,9 @@ Json Bakes::submit(const BakeOrder& order) {
         require_stored(sync_folder(store_.bake_folder("")));
         store_.database().transaction([&] {
             store_.database().run(
-                "INSERT INTO bakes (id, request, arguments, name, priority, state, created) "
-                "VALUES (?, ?, ?, ?, ?, 'queued', ?)",
-                {bake.id, dump(bake.request), dump(Json(bake.arguments)), bake.name, bake.priority,
-                 bake.created});
+                "INSERT INTO bakes (id, request, name, priority, state, created) "
+                "VALUES (?, ?, ?, ?, 'queued', ?)",
+                {bake.id, dump(bake.request), bake.name, bake.priority, bake.created});
             for (const auto& [file, name] : order.inputs) {
                 store_.database().run("INSERT INTO bake_inputs (bake, kind, file) VALUES (?, ?, ?)",
                                       {bake.id, std::string(name_of(file.kind)), file.id});
@@ -222,12 +240,12 @@ Json Bakes::cancel(const std::string& id) {
         const std::lock_guard lock(mutex_);
         const Bake& bake = find_locked(id);
         if (is_final(bake.state)) {
-            throw Problem{409, "is_over", "the bake is over: " + bake.state, "bake", id};
+            throw Problem{409, "is_over", "the bake has ended: " + bake.state, "bake", id};
         }
         is_running = bake.state == "running";
     }
     end(id, "cancelled", "", "", {});
-    // A running one is ended by who runs it, and its folder is removed then.
+    // The thread that runs a bake ends it and then removes its folder.
     if (!is_running) remove_all(store_.bake_folder(id));
     return get(id);
 }
@@ -235,24 +253,23 @@ Json Bakes::cancel(const std::string& id) {
 void Bakes::remove(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!is_final(find_locked(id).state)) {
-        throw Problem{409, "not_over", "the bake is not over; cancel it first", "bake", id};
+        throw Problem{409, "not_over", "the bake has not ended; cancel it first", "bake", id};
     }
     store_.with_reserve([&] { store_.database().run("DELETE FROM bakes WHERE id = ?", {id}); });
     remove_all(store_.bake_folder(id));
     bakes_.erase(id);
 }
 
-/// The first end of a bake is the one that counts.
+/// Only the first end of a bake counts.
 void Bakes::end(const std::string& id, const std::string& state, const std::string& volume,
                 const std::string& error, const Json& report) {
     const std::lock_guard lock(mutex_);
     const auto found = bakes_.find(id);
     if (found == bakes_.end() || is_final(found->second.state)) return;
-    const std::string reason = in_words_of(found->second.request, error);
     Bake bake = found->second;
     bake.state = state;
     bake.volume = volume;
-    bake.error = reason;
+    bake.error = error;
     bake.report = report;
     bake.ended = now();
     if (state == "done") bake.probes_done = bake.probe_count = report.value("probes", 0u);
@@ -260,15 +277,16 @@ void Bakes::end(const std::string& id, const std::string& state, const std::stri
         store_.database().run(
             "UPDATE bakes SET state = ?, volume = ?, error = ?, report = ?, ended = ?, "
             "probes_done = ?, probe_count = ? WHERE id = ?",
-            {state, volume, reason, report.empty() ? "" : dump(report), bake.ended,
+            {state, volume, error, report.empty() ? "" : dump(report), bake.ended,
              static_cast<int64_t>(bake.probes_done), static_cast<int64_t>(bake.probe_count), id});
     });
     found->second = std::move(bake);
-    log_.write(Log::Level::Info, "a bake is over",
-               {{"bake", id}, {"state", state}, {"volume", volume}, {"error", reason}});
+    log_.write(Log::Level::Info, "a bake has ended",
+               {{"bake", id}, {"state", state}, {"volume", volume}, {"error", error}});
 }
 
-/// False: that could not be stored. The bake keeps its folder then, and goes on the next time.
+/// Returns false if the end could not be stored. The bake then keeps its folder and continues at
+/// the next start.
 bool Bakes::fail(const std::string& id, const std::string& error) {
     try {
         end(id, "failed", "", error, {});
@@ -304,12 +322,12 @@ void Bakes::run() {
         if (is_ending_) return;
         next->state = "running";
         const std::string id = next->id;
-        const auto arguments = next->arguments;
+        const Json request = next->request;
         const std::string name = next->name;
         lock.unlock();
         log_.write(Log::Level::Info, "a bake begins", {{"bake", id}});
         try {
-            run_bake(id, arguments, name);
+            run_bake(id, request, name);
         } catch (const Problem& problem) {
             if (!fail(id, problem.detail)) continue;
         }
@@ -318,11 +336,11 @@ void Bakes::run() {
     }
 }
 
-bool Bakes::goes_on(const std::string& id) {
+bool Bakes::is_cancelled(const std::string& id) {
     update_progress(id);
     const std::lock_guard lock(mutex_);
     const auto found = bakes_.find(id);
-    return !is_ending_ && found != bakes_.end() && found->second.state == "running";
+    return is_ending_ || found == bakes_.end() || found->second.state != "running";
 }
 
 void Bakes::update_progress(const std::string& id) {
@@ -339,33 +357,32 @@ void Bakes::update_progress(const std::string& id) {
     bake.seconds_left = pace.value("seconds_left", Json());
 }
 
-void Bakes::run_bake(const std::string& id, const std::vector<std::string>& arguments,
-                     const std::string& name) {
-    using End = CommandResult::End;
+void Bakes::run_bake(const std::string& id, const Json& request, const std::string& name) {
+    using End = JobResult::End;
     const std::string folder = store_.bake_folder(id);
-    std::error_code error;
-    fs::remove(folder + "/" + kProgress, error);  // of a run that is over
-    Command command{
-        .arguments = {"bake", "scene.glb", "--output=out.probes", str_cat("--chunks=", kChunks),
-                      str_cat("--progress-file=", kProgress), "--json",
-                      str_cat("--threads=", settings_.tool_thread_count)},
-        .folder = folder,
-        .is_background = true,
-        .goes_on = [&] { return goes_on(id); }};
-    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+    const auto run = [&](Job job) {
+        job.folder = folder;
+        return run_job(settings_, job);
+    };
+    rename_old_inputs(folder);
+    remove_all(folder + "/" + kProgress);  // of an earlier run
+    Json order = job_settings(settings::kBake, request);
+    order.update({{"output", kResult}, {"chunks", kChunks}, {"progress_file", kProgress}});
     update_progress(id);
-    CommandResult result = run_command(settings_, command);
-    // When the server ends, the bake stays as it is, and goes on the next time.
-    if (result.end == End::Stopped) return;
-    if (result.end != End::Fine) throw Problem{500, "bake_failed", result.message};
-    result.report.erase("output");
-    if (!result.warnings.empty()) result.report["warnings"] = result.warnings;
-    const Json facts =
-        run_or_throw(settings_, {.arguments = {"info", "out.probes", "--json"}, .folder = folder});
+    const JobResult bake =
+        run({.command = "bake", .settings = order, .is_background = true, .is_cancelled = [&] {
+                 return is_cancelled(id);
+             }});
+    // When the server stops, the bake keeps its state and continues at the next start.
+    if (bake.end == End::Cancelled) return;
+    if (bake.end != End::Done) throw bake_problem(bake.error);
+    const JobResult info = run({.command = "info", .settings = {{"volume", kResult}}});
+    if (info.end != End::Done) throw bake_problem(info.error);
     std::string volume;
-    store_.with_reserve(
-        [&] { volume = store_.add(Kind::Volumes, folder + "/out.probes", name, facts).file.id; });
-    end(id, "done", volume, "", result.report);
+    store_.with_reserve([&] {
+        volume = store_.add(Kind::Volumes, folder + "/" + kResult, name, info.report).file.id;
+    });
+    end(id, "done", volume, "", bake.report);
 }
 
 }  // namespace tetralight::server

@@ -9,33 +9,30 @@
 #include <vector>
 
 #include <tetralight/server/open_volumes.h>
+#include <tetralight/server/order.h>
 #include <tetralight/server/store.h>
 
 namespace tetralight::server {
 
-/// What a client asked for, ready to be run in a folder that holds its inputs.
+/// A checked order of a client.
 struct BakeOrder {
-    /// As it came.
+    /// As the client sent it.
     Json request;
-    /// Options of `tetralight bake` behind "scene.glb".
-    std::vector<std::string> arguments;
-    /// Of the volume; empty: none.
+    /// Name of the volume; empty: none.
     std::string name;
     int64_t priority = 0;
-    /// Each under the name that the arguments have for it.
-    std::vector<std::pair<StoredFile, std::string>> inputs;
+    std::vector<OrderFile> inputs;
 };
 
-/// Bakes that wait, run and are over. One runs at a time, on all processors: that of the highest
-/// priority, the oldest of these. What was accepted is on the disk, and what a bake has finished
-/// is, too: after a crash each goes on, and ends with the same bytes. Thread-safe; functions throw
-/// a `Problem`.
+/// Queued, running and finished bakes. One bake runs at a time, on all processors: the oldest of
+/// the highest priority. Accepted bakes and finished probes are on the disk: after a crash each
+/// bake continues and gives the same bytes. Thread-safe; functions throw a `Problem`.
 class Bakes {
   public:
-    /// Goes on with what the store's database has. Keeps references.
+    /// Continues the unfinished bakes of the store's database. Keeps references.
     Bakes(const Settings& settings, Store& store, Log& log);
 
-    /// Ends the running bake, which goes on the next time.
+    /// Stops the running bake, which continues at the next start.
     ~Bakes();
 
     Bakes(const Bakes&) = delete;
@@ -43,15 +40,15 @@ class Bakes {
 
     [[nodiscard]] Json submit(const BakeOrder& order);
     [[nodiscard]] Json get(const std::string& id) const;
-    /// The newest first.
+    /// Newest first.
     [[nodiscard]] Json list() const;
-    /// Ends a bake that is not over.
+    /// Cancels a queued or running bake.
     [[nodiscard]] Json cancel(const std::string& id);
-    /// Forgets a bake that is over.
+    /// Deletes a finished bake.
     void remove(const std::string& id);
 
     [[nodiscard]] bool is_over(const std::string& id) const;
-    /// How many are in a state.
+    /// The number of bakes in a state.
     [[nodiscard]] size_t count(const std::string& state) const;
 
   private:
@@ -59,7 +56,6 @@ class Bakes {
         int64_t number = 0;
         std::string id;
         Json request;
-        std::vector<std::string> arguments;
         std::string name;
         int64_t priority = 0;
         std::string state = "queued";
@@ -68,10 +64,10 @@ class Bakes {
         Json report;
         double created = 0.0;
         double ended = 0.0;
-        /// By the chunks on the disk.
+        /// Probes of the chunks on the disk.
         uint64_t probes_done = 0;
         uint64_t probe_count = 0;
-        /// Of the run that goes on; null: not known.
+        /// Of the current run; null: not known.
         Json rays_per_second;
         Json seconds_left;
     };
@@ -83,9 +79,8 @@ class Bakes {
     [[nodiscard]] size_t waiting_locked() const;
     [[nodiscard]] Bake* next_locked();
     void run();
-    void run_bake(const std::string& id, const std::vector<std::string>& arguments,
-                  const std::string& name);
-    [[nodiscard]] bool goes_on(const std::string& id);
+    void run_bake(const std::string& id, const Json& request, const std::string& name);
+    [[nodiscard]] bool is_cancelled(const std::string& id);
     void update_progress(const std::string& id);
     [[nodiscard]] bool fail(const std::string& id, const std::string& error);
     void end(const std::string& id, const std::string& state, const std::string& volume,

@@ -4,15 +4,15 @@
 #include <sqlite3.h>
 
 #include <array>
-#include <cerrno>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
 #include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 namespace {
 
-/// Number i brings a database of version i to version i + 1. Never changed, only added to.
+/// Number i updates a database from version i to version i + 1. Append only.
 constexpr std::array kMigrations = {
     R"sql(
         CREATE TABLE files (
@@ -67,6 +67,9 @@ constexpr std::array kMigrations = {
                          probe_count = coalesce(json_extract(report, '$.probes'), 0)
             WHERE state = 'done' AND json_valid(report);
     )sql",
+    R"sql(
+        ALTER TABLE bakes DROP COLUMN arguments;
+    )sql",
 };
 
 struct Finalize {
@@ -102,13 +105,23 @@ Database::Value column(sqlite3_stmt* statement, int index) {
     }
 }
 
-[[noreturn]] void fail(sqlite3* handle) {
+ErrorCode error_code_of(sqlite3* handle) {
     const int code = sqlite3_errcode(handle);
     const int reason = sqlite3_system_errno(handle);
-    const bool is_full =
-        code == SQLITE_FULL || (code == SQLITE_IOERR && (reason == ENOSPC || reason == EDQUOT));
-    throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "database",
-                  str_cat("the database: ", sqlite3_errmsg(handle))};
+    if (code == SQLITE_FULL) return ErrorCode::DiskFull;
+    if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) return ErrorCode::Corrupt;
+    if (code == SQLITE_NOMEM) return ErrorCode::OutOfResources;
+    const bool has_reason = (code == SQLITE_IOERR || code == SQLITE_CANTOPEN) && reason != 0;
+    return has_reason ? error_code_of_errno(reason) : ErrorCode::Unavailable;
+}
+
+/// Only a full disk is a problem that clients can tell from others: deleting helps against it.
+[[noreturn]] void fail(sqlite3* handle) {
+    const ErrorCode code = error_code_of(handle);
+    const bool is_full = code == ErrorCode::DiskFull;
+    throw DatabaseProblem{{is_full ? 507u : 500u, is_full ? "disk_full" : "database",
+                           str_cat("the database: ", sqlite3_errmsg(handle))},
+                          code};
 }
 
 }  // namespace
@@ -148,8 +161,9 @@ void Database::transaction(const std::function<void()>& work) {
 Status Database::migrate() {
     const auto version = static_cast<size_t>(std::get<int64_t>(run("PRAGMA user_version")[0][0]));
     if (version > kMigrations.size()) {
-        return Error{
-            str_cat("is of version ", version, ", newer than this program's ", kMigrations.size())};
+        return Error{ErrorCode::Unsupported,
+                     str_cat("has version ", version, "; this program reads ", kMigrations.size(),
+                             " and older")};
     }
     for (size_t i = version; i < kMigrations.size(); ++i) {
         transaction([&] {
@@ -168,7 +182,9 @@ Status Database::connect(const std::string& path, const char* locking_mode) {
     const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX;
     const int opened = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
     handle_.reset(raw);
-    if (opened != SQLITE_OK) return Error{str_cat(path, ": ", sqlite3_errmsg(raw))};
+    if (opened != SQLITE_OK) {
+        return Error{error_code_of(raw), str_cat(path, ": ", sqlite3_errmsg(raw))};
+    }
     sqlite3_extended_result_codes(raw, 0);
     sqlite3_busy_timeout(raw, 5000);
     try {
@@ -176,8 +192,8 @@ Status Database::connect(const std::string& path, const char* locking_mode) {
         run("PRAGMA journal_mode = WAL");
         run("PRAGMA synchronous = FULL");
         run("PRAGMA foreign_keys = ON");
-    } catch (const Problem& problem) {
-        return Error{str_cat(path, ": ", problem.detail)};
+    } catch (const DatabaseProblem& problem) {
+        return Error{problem.reason, str_cat(path, ": ", problem.detail)};
     }
     return Ok{};
 }
@@ -185,18 +201,19 @@ Status Database::connect(const std::string& path, const char* locking_mode) {
 Result<Database> Database::open(const std::string& path) {
     Database database;
     auto connected = database.connect(path, "NORMAL");
-    // A full disk has no space for the file by which programs share the log. Alone, none is needed.
+    // A full disk has no space for the file that programs share the log with. EXCLUSIVE needs none.
     if (!connected) connected = database.connect(path, "EXCLUSIVE");
     if (!connected) return connected.error();
     try {
         const auto check = database.run("PRAGMA quick_check(1)");
         const auto* verdict = std::get_if<std::string>(&check.at(0).at(0));
         if (verdict == nullptr || *verdict != "ok") {
-            return Error{str_cat(path, ": is damaged (", verdict == nullptr ? "" : *verdict, ")")};
+            return Error{ErrorCode::Corrupt,
+                         str_cat(path, ": is damaged (", verdict == nullptr ? "" : *verdict, ")")};
         }
         if (auto status = database.migrate(); !status) return status.error().in(path);
-    } catch (const Problem& problem) {
-        return Error{str_cat(path, ": ", problem.detail)};
+    } catch (const DatabaseProblem& problem) {
+        return Error{problem.reason, str_cat(path, ": ", problem.detail)};
     }
     return database;
 }

@@ -10,26 +10,32 @@
 #include <vector>
 
 #include <tetralight/base/result.h>
+#include <tetralight/server/problem.h>
 
 struct sqlite3;
 
 namespace tetralight::server {
 
-/// An SQLite database: write-ahead log, foreign keys, and every commit synced to the disk before it
-/// is acknowledged. Thread-safe.
+/// A statement failed. `reason` is Corrupt if the database is damaged.
+struct DatabaseProblem : Problem {
+    ErrorCode reason = ErrorCode::Unavailable;
+};
+
+/// An SQLite database with a write-ahead log and foreign keys. Every commit is synced to the disk
+/// before it returns. Thread-safe.
 class Database {
   public:
     using Value = std::variant<std::nullptr_t, int64_t, double, std::string>;
     using Row = std::vector<Value>;
 
-    /// Opens or makes it, checks all of it, and brings its tables up to date. Error: it is damaged,
-    /// of a newer version of the program, or the disk does not let it.
+    /// Opens or creates it, checks all of it, and updates its tables. Returns corrupt if it is
+    /// damaged, unsupported if a newer version of the program wrote it.
     [[nodiscard]] static Result<Database> open(const std::string& path);
 
-    /// Rows of one statement. Throws a `Problem` when the disk fails.
+    /// Rows of one statement. Throws a `DatabaseProblem`.
     std::vector<Row> run(const char* sql, const Row& values = {});
 
-    /// All or nothing: what `work` runs is undone when it throws.
+    /// Undoes all that `work` ran if it throws.
     void transaction(const std::function<void()>& work);
 
   private:

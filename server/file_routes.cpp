@@ -18,7 +18,7 @@ struct ByteRange {
     uint64_t end = 0;
 };
 
-/// One range of `Range: bytes=...`; nothing: none, several or another unit, which means all.
+/// The range of `Range: bytes=...`; nothing (send all) for several ranges or another unit.
 std::optional<ByteRange> parse_range(std::string_view header, uint64_t size) {
     constexpr std::string_view kUnit = "bytes=";
     if (!header.starts_with(kUnit) || header.find(',') != std::string_view::npos) {
@@ -35,7 +35,7 @@ std::optional<ByteRange> parse_range(std::string_view header, uint64_t size) {
     };
     const std::string_view first = header.substr(0, dash);
     const std::string_view last = header.substr(dash + 1);
-    if (first.empty()) {  // the last so many bytes
+    if (first.empty()) {  // the last bytes
         const auto count = number(last);
         if (!count) return std::nullopt;
         return ByteRange{size - std::min(*count, size), size};
@@ -52,7 +52,7 @@ const char* content_type_of(Kind kind) {
     return kTypes[static_cast<size_t>(kind)];
 }
 
-/// First bytes by which a file is what it should be. Throws before a program is run for nothing.
+/// Throws if the first bytes are not those of the kind, before a program is run.
 void check_magic(Kind kind, int file) {
     char bytes[8] = {};
     const ssize_t count = ::pread(file, bytes, sizeof bytes, 0);
@@ -63,61 +63,60 @@ void check_magic(Kind kind, int file) {
                               : true;
     if (is_right) return;
     throw Problem{422, "bad_data",
-                  kind == Kind::Scenes ? "is no binary glTF (.glb)"
+                  kind == Kind::Scenes ? "is not binary glTF (.glb)"
                                        : "is neither Radiance (.hdr) nor OpenEXR (.exr)",
                   "body"};
 }
 
-/// A scene of nothing, to read a sky with.
+/// A scene without nodes, to read a sky with.
 void write_empty_scene(const std::string& path) {
     const std::string scene = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{}]})";
     require_stored(write_file(path, std::as_bytes(std::span(scene))));
 }
 
-/// Reads an upload as the command would, and says what it holds. Throws when it would not.
-Json find_facts(Service& service, Kind kind, const Request& request, const WorkFolder& folder) {
+/// The name of an upload in its folder; errors of commands then begin with it.
+constexpr const char* kUpload = "body";
+
+/// The job that reads an upload and reports what it holds.
+Job reading_job(Kind kind, const WorkFolder& folder) {
     switch (kind) {
-        case Kind::Scenes: {
-            Json facts = run_tool(service, request, folder.path(),
-                                  {"bake", "upload.glb", "--explain", "--json"});
-            if (facts.value("triangles", uint64_t{0}) <= service.settings.max_triangles) {
-                return facts;
-            }
-            throw Problem{
-                413, "too_large",
-                str_cat("a scene may have ", service.settings.max_triangles, " triangles"),
-                "triangles", dump(facts["triangles"])};
-        }
-        case Kind::Skies: {
+        case Kind::Scenes:
+            return {.command = "bake", .settings = {{"scene", kUpload}, {"explain", true}}};
+        case Kind::Skies:
             write_empty_scene(folder.file("empty.gltf"));
-            Json facts =
-                run_tool(service, request, folder.path(),
-                         {"bake", "empty.gltf", "--sky=upload.hdr", "--explain", "--json"});
-            return {{"warnings", facts.value("warnings", Json::array())}};
-        }
-        case Kind::Groups: {
-            Json facts =
-                run_tool(service, request, folder.path(),
-                         {"tetrahedralize", "upload.json", "--output=check.probes", "--json"});
-            facts.erase("backend");
-            return facts;
-        }
+            return {.command = "bake",
+                    .settings = {{"scene", "empty.gltf"}, {"sky", kUpload}, {"explain", true}}};
+        case Kind::Groups:
+            return {.command = "tetrahedralize",
+                    .settings = {{"groups", Json::array({kUpload})}, {"output", "check.probes"}}};
         case Kind::Volumes:
-            return run_tool(service, request, folder.path(), {"info", "upload.probes", "--json"});
+            break;
     }
-    return Json::object();
+    return {.command = "info", .settings = {{"volume", kUpload}}};
 }
 
-std::string upload_name(Kind kind) {
-    return std::string("upload") + extension_of(kind);
+/// Reads an upload as a command would, and reports what it holds. Throws if it is not usable.
+Json find_facts(Service& service, Kind kind, const Request& request, const WorkFolder& folder) {
+    Job job = reading_job(kind, folder);
+    job.folder = folder.path();
+    Json facts = run_tool(service, request, nullptr, std::move(job));
+    if (kind == Kind::Skies) return {{"warnings", facts.value("warnings", Json::array())}};
+    if (kind == Kind::Groups) facts.erase("backend");
+    if (kind == Kind::Scenes &&
+        facts.value("triangles", uint64_t{0}) > service.settings.max_triangles) {
+        throw Problem{413, "too_large",
+                      str_cat("a scene may have ", service.settings.max_triangles, " triangles"),
+                      "triangles", dump(facts["triangles"])};
+    }
+    return facts;
 }
 
-/// Opens the file that an upload comes into.
-void prepare_upload(Service& service, Kind kind, Request& request) {
+/// Opens the file that receives an upload.
+void prepare_upload(Service& service, Request& request) {
     service.store.check_quota(0);
     WorkFolder folder = service.store.make_work_folder();
-    request.body_file = Descriptor(::open(folder.file(upload_name(kind)).c_str(),
-                                          O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+    request.body_file = Descriptor(
+        ::open(folder.file(kUpload).c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
     if (!request.body_file) require_stored(system_error(folder.path(), "write"));
     request.work = std::make_shared<WorkFolder>(std::move(folder));
 }
@@ -130,8 +129,8 @@ Response upload(Service& service, Kind kind, Request& request) {
     service.store.check_quota(request.body_size);
     check_magic(kind, request.body_file.value());
     const Json facts = find_facts(service, kind, request, *folder);
-    const auto added = service.store.add(kind, folder->file(upload_name(kind)),
-                                         name == nullptr ? "" : *name, facts);
+    const auto added =
+        service.store.add(kind, folder->file(kUpload), name == nullptr ? "" : *name, facts);
     Response response = json_response(to_json_with_facts(added.file), added.is_new ? 201 : 200);
     response.headers.emplace_back("Location", str_cat("/v1/", name_of(kind), "/", added.file.id));
     return response;
@@ -145,7 +144,7 @@ Response list(Service& service, Kind kind, const Request& request) {
         const auto [next, error] =
             std::from_chars(asked->data(), asked->data() + asked->size(), limit);
         if (error != std::errc{} || *next != '\0' || limit == 0 || limit > kMost) {
-            throw Problem{400, "invalid_value", "limit: is not from 1 to 1000", "limit", *asked};
+            throw Problem{400, "invalid_value", "limit: must be 1 to 1000", "limit", *asked};
         }
     }
     const std::string* after = request.parameter("after");
@@ -200,7 +199,7 @@ Response download(Service& service, Kind kind, const Request& request) {
     return response;
 }
 
-/// One array of a volume's file as it lies there (docs/file_format.md), for viewers.
+/// One section of a volume's file, byte for byte (docs/file_format.md).
 Response section(Service& service, const Request& request) {
     const StoredFile stored = service.store.get(Kind::Volumes, request.captures[0]);
     const auto file = service.volumes.open(stored.id);
@@ -230,7 +229,7 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
                       .body_limit = service.settings.max_upload_bytes,
                       .body_to = Plan::BodyTo::File,
                       .run_on = kWorkers,
-                      .prepare = [&, kind](Request& r) { prepare_upload(service, kind, r); }});
+                      .prepare = [&](Request& r) { prepare_upload(service, r); }});
     routes.push_back({.method = "GET",
                       .pattern = all,
                       .handle = [&, kind](Request& r) { return list(service, kind, r); },
@@ -259,7 +258,7 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
 Response bytes_response(const Request& request, const Body& body, const std::string& content_type,
                         const std::string& tag) {
     const std::string quoted = "\"" + tag + "\"";
-    // Bytes of an id stay for ever; a name may lead to others the next time.
+    // The bytes of an id never change; a name may later lead to other bytes.
     const bool is_by_id = is_id(request.captures[0]);
     Response response{
         .content_type = content_type,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/base/system_error.h>
 #include <tetralight/server/folders.h>
 
 #include <fcntl.h>
@@ -7,6 +6,8 @@
 
 #include <cstdio>
 #include <filesystem>
+
+#include <tetralight/base/system_error.h>
 
 namespace tetralight::server {
 namespace {
@@ -22,7 +23,10 @@ Status sync(const std::string& path, int flags) {
 Status make_folder(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
-    if (error) return Error{path + ": cannot make the folder (" + error.message() + ")"};
+    if (error) {
+        return Error{error_code_of_errno(error.value()),
+                     path + ": cannot create the folder (" + error.message() + ")"};
+    }
     return Ok{};
 }
 

@@ -8,22 +8,22 @@
 
 namespace tetralight::server {
 
-/// Makes a folder and those above it; fine when it is there.
+/// Creates a folder and its parents. An existing folder is no error.
 [[nodiscard]] Status make_folder(const std::string& path);
 
-/// Puts the names in a folder on the disk: what was renamed or made in it stays after a power cut.
+/// Syncs the names in a folder, so that files created or renamed in it survive a power cut.
 [[nodiscard]] Status sync_folder(const std::string& path);
 
-/// Puts a file's bytes on the disk.
+/// Syncs the bytes of a file.
 [[nodiscard]] Status sync_file(const std::string& path);
 
-/// Moves a file, and puts both the file and its new name on the disk.
+/// Moves a file and syncs the file and its new name.
 [[nodiscard]] Status move_synced(const std::string& from, const std::string& to);
 
-/// Deletes a folder with all that is in it, or a file; fine when it is not there.
+/// Deletes a file, or a folder with its contents. A missing one is no error.
 void remove_all(const std::string& path);
 
-/// A folder for one piece of work; gone with this object.
+/// A temporary folder that is deleted with this object.
 class WorkFolder {
   public:
     explicit WorkFolder(std::string path) : path_(std::move(path)) {}

@@ -51,7 +51,7 @@ bool is_same_secret(std::string_view a, std::string_view b) noexcept {
 void check_gate(const Settings& settings, const Request& request, Access access) {
     const std::string_view origin = request.header("origin");
     const std::string_view host = request.header("host");
-    // A page of another site may send some requests without asking.
+    // A page of another site can send simple requests without a preflight.
     const bool is_own =
         origin == "http://" + std::string(host) || origin == "https://" + std::string(host);
     if (!origin.empty() && !is_own && !is_allowed_origin(settings, origin)) {
@@ -59,15 +59,14 @@ void check_gate(const Settings& settings, const Request& request, Access access)
                       std::string(origin.substr(0, 200))};
     }
     if (access == Access::Writes && settings.is_read_only) {
-        throw Problem{403, "read_only", "this server only reads"};
+        throw Problem{403, "read_only", "this server is read-only"};
     }
     if (access == Access::Open) return;
     if (settings.token.empty()) {
-        // Without a token, a name that leads here by DNS alone is somebody's trick.
+        // Without a token, an unknown name may be an attack by DNS rebinding.
         if (is_own_host(settings, host)) return;
-        throw Problem{403, "wrong_host",
-                      "this server is called localhost, or as --allowed-host says", "host",
-                      std::string(host.substr(0, 200))};
+        throw Problem{403, "wrong_host", "the host must be localhost or one of --allowed-host",
+                      "host", std::string(host.substr(0, 200))};
     }
     constexpr std::string_view kScheme = "Bearer ";
     const std::string_view credentials = request.header("authorization");
@@ -75,7 +74,7 @@ void check_gate(const Settings& settings, const Request& request, Access access)
         is_same_secret(credentials.substr(kScheme.size()), settings.token)) {
         return;
     }
-    throw Problem{401, "unauthorized", "the request needs the right bearer token", "authorization"};
+    throw Problem{401, "unauthorized", "the bearer token is missing or wrong", "authorization"};
 }
 
 void add_cors_headers(const Settings& settings, const Request& request, Response& response) {

@@ -15,8 +15,8 @@
 
 #include <tetralight/base/descriptor.h>
 
-// Requests and responses as plain values. Handlers see these alone; the sockets and the library
-// that parses HTTP are behind http_server.h.
+// Requests and responses as plain values. Handlers see only these; sockets and the HTTP library are
+// hidden behind http_server.h.
 
 namespace tetralight::server {
 
@@ -24,35 +24,35 @@ struct Request {
     /// For logs, and for the client: `X-Request-Id`.
     std::string id;
     std::string method;
-    /// Percent-decoded, without what follows `?`.
+    /// Percent-decoded, without the query string.
     std::string path;
-    /// What follows `?`, decoded, in its order.
+    /// The decoded query string, in its order.
     std::vector<std::pair<std::string, std::string>> parameters;
     /// Names in lower case.
     std::vector<std::pair<std::string, std::string>> headers;
-    /// What the route's pattern captured of the path.
+    /// The parts of the path that the route's pattern captures.
     std::vector<std::string> captures;
     std::string body;
-    /// Holds the body instead, when the route says so.
+    /// Holds the body instead, if the route asks for a file.
     Descriptor body_file;
     uint64_t body_size = 0;
     std::string remote;
-    /// What a route keeps from the head of the request until its end.
+    /// An object that a route keeps from the head of the request until its end.
     std::shared_ptr<void> work;
-    /// Nobody waits for the answer any more. Set while a worker makes it.
+    /// The client has disconnected. Set while a worker handles the request.
     std::atomic<bool> is_abandoned = false;
 
-    /// Empty: it was not sent.
+    /// Empty if it was not sent.
     [[nodiscard]] std::string_view header(std::string_view name) const;
 
-    /// Whether the body says that it is of a type, whatever parameters follow it.
+    /// True if the body has this media type; its parameters do not matter.
     [[nodiscard]] bool has_type(std::string_view type) const;
 
-    /// Null: it is not there.
+    /// Null if it was not sent.
     [[nodiscard]] const std::string* parameter(std::string_view name) const;
 };
 
-/// Bytes to send, and what keeps them in memory until they are.
+/// Bytes to send, and an owner that keeps them in memory until then.
 struct Body {
     std::span<const std::byte> bytes = {};
     std::shared_ptr<const void> owner = {};
@@ -70,12 +70,12 @@ struct Response {
     std::string content_type = "application/json";
     std::vector<std::pair<std::string, std::string>> headers = {};
     Body body = {};
-    /// Not empty: server-sent events. Called a few times a second, it appends what there is to say,
-    /// and returns false after the last of it.
+    /// If set, the body is server-sent events. Called a few times a second: appends new events and
+    /// returns false after the last one.
     std::function<bool(std::string&)> events = {};
 };
 
-/// What a request will take, told from its head alone.
+/// How to handle a request, decided from its head.
 struct Plan {
     enum class BodyTo : uint8_t { Memory, File };
     enum class RunOn : uint8_t {
@@ -89,7 +89,7 @@ struct Plan {
     BodyTo body_to = BodyTo::Memory;
     RunOn run_on = RunOn::Network;
     std::function<Response(Request&)> handle;
-    /// The answer is known without the body.
+    /// The answer does not depend on the body.
     bool ignores_body = false;
 };
 
@@ -100,11 +100,11 @@ struct Exchange {
     unsigned status = 0;
     uint64_t sent_bytes = 0;
     double seconds = 0.0;
-    /// The client went away, or was too slow, before all was sent.
+    /// The client disconnected or was too slow before all was sent.
     bool is_aborted = false;
 };
 
-/// ASCII alone, whatever the locale.
+/// For ASCII letters only, in every locale.
 [[nodiscard]] constexpr char to_lower(char c) noexcept {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
@@ -112,8 +112,8 @@ struct Exchange {
 /// "Not Found" for 404.
 [[nodiscard]] std::string_view reason_phrase(unsigned status);
 
-/// The path and the parameters of a request target, percent-decoded. False: it is no plain path, or
-/// holds escapes that decode to nothing, to a control character or to no UTF-8.
+/// Reads the path and the parameters of a request target. Returns false if it is not an absolute
+/// path, or if its escapes are incomplete or decode to control characters or invalid UTF-8.
 [[nodiscard]] bool parse_target(std::string_view target, Request& request);
 
 }  // namespace tetralight::server

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
 #include <tetralight/server/detail/read_request.h>
 #include <tetralight/server/detail/send_response.h>
 #include <tetralight/server/detail/session.h>
@@ -29,10 +30,10 @@
 namespace tetralight::server {
 namespace {
 
-/// In logs: there was nobody to answer.
+/// Status in logs: the client had disconnected.
 constexpr unsigned kAbandoned = 499;
 
-/// Ids that no other run of the server gives.
+/// Ids that differ from those of other runs of the server.
 std::string make_request_id() {
     static const uint64_t kRun = std::random_device()();
     static std::atomic<uint64_t> count = 0;
@@ -42,7 +43,7 @@ std::string make_request_id() {
     return digits.data();
 }
 
-/// What all sessions share.
+/// The state that all sessions share.
 class Server final : public HttpServer {
   public:
     Server(const Settings& settings, Application application)
@@ -102,11 +103,11 @@ class Server final : public HttpServer {
     net::thread_pool workers_;
     std::atomic<uint32_t> waiting_count_ = 0;
     std::atomic<uint32_t> connection_count_ = 0;
-    std::atomic<uint32_t> refused_count_ = 0;  ///< connections beyond those, being told so
-    std::atomic<bool> is_draining_ = false;    ///< each connection has one more answer
-    std::atomic<bool> is_ending_ = false;      ///< and now none
-    std::atomic<bool> is_over_ = false;        ///< nobody waits for workers
-    std::mutex sessions_mutex_;                ///< of the sessions and the timer
+    std::atomic<uint32_t> refused_count_ = 0;  ///< connections beyond the limit, which get 503
+    std::atomic<bool> is_draining_ = false;    ///< each connection gets one more answer
+    std::atomic<bool> is_ending_ = false;      ///< no connection gets another answer
+    std::atomic<bool> is_over_ = false;        ///< the results of workers are dropped
+    std::mutex sessions_mutex_;                ///< guards the sessions and the timer
     std::list<std::weak_ptr<Session>> sessions_;
 };
 
@@ -147,7 +148,7 @@ net::awaitable<void> Server::accept() {
         tcp::socket socket(net::make_strand(io_));
         co_await acceptor_.async_accept(socket, net::redirect_error(net::use_awaitable, error));
         if (error == net::error::operation_aborted || !acceptor_.is_open()) break;
-        if (error) {  // no descriptor is left, for example
+        if (error) {  // for example, no descriptor is left
             net::steady_timer pause(io_, std::chrono::milliseconds(50));
             co_await pause.async_wait(net::redirect_error(net::use_awaitable, error));
             continue;
@@ -170,7 +171,7 @@ net::awaitable<void> Server::accept() {
     }
 }
 
-/// Tells a client that there are too many.
+/// Answers a connection beyond the limit with 503.
 net::awaitable<void> Server::refuse(std::shared_ptr<Session> session) {
     Request request;
     request.id = make_request_id();
@@ -206,7 +207,7 @@ net::awaitable<void> Server::serve(std::shared_ptr<Session> session) {
     if (is_ending_ && sessions_.empty()) drain_timer_.cancel();
 }
 
-/// From the first bytes of a request to the last of its answer. False: nothing can follow.
+/// Reads one request and answers it. Returns false if the connection must be closed.
 net::awaitable<bool> Server::serve_one(Session& session) {
     const auto start = Clock::now();
     Request request;
@@ -236,7 +237,7 @@ net::awaitable<bool> Server::serve_one(Session& session) {
     } else {
         response = co_await answer(session, plan, request);
     }
-    // What is left of a body that was not read cannot be told from the next request.
+    // The unread part of a body would be taken for the next request.
     const bool keeps_open =
         !reading.refused && !is_draining_ && parser.get().keep_alive() && parser.is_done();
     const Sent sent = co_await send_response(session, request, response, send_rule(keeps_open));
@@ -246,7 +247,7 @@ net::awaitable<bool> Server::serve_one(Session& session) {
 
 /// Runs the handler where the plan says.
 net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& request) {
-    // Long enough to keep others on this thread waiting.
+    // Handling such a body would delay other requests on this thread.
     constexpr size_t kLongBody = size_t{1} << 20;
     constexpr auto kLook = std::chrono::milliseconds(200);
     if (plan.run_on == Plan::RunOn::Network && request.body.size() < kLongBody) {
@@ -254,8 +255,8 @@ net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& r
     }
     if (waiting_count_ >= settings_.max_waiting) {
         co_return application_.refusal(
-            {503, "busy", str_cat(settings_.max_waiting, " requests wait already"), "requests",
-             std::to_string(settings_.max_waiting)},
+            {503, "busy", str_cat(settings_.max_waiting, " requests are waiting already"),
+             "requests", std::to_string(settings_.max_waiting)},
             request);
     }
     ++waiting_count_;
@@ -264,10 +265,10 @@ net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& r
     std::optional<Response> response;
     net::post(workers_, [&] {
         if (is_over_) return;
-        Response made =
-            request.is_abandoned
-                ? application_.refusal({kAbandoned, "abandoned", "nobody waits"}, request)
-                : plan.handle(request);
+        Response made = request.is_abandoned
+                            ? application_.refusal(
+                                  {kAbandoned, "abandoned", "the client has disconnected"}, request)
+                            : plan.handle(request);
         net::post(executor, [&response, &done, made = std::move(made)]() mutable {
             response = std::move(made);
             done.cancel();
@@ -289,8 +290,9 @@ Result<std::unique_ptr<HttpServer>> HttpServer::bind(const Settings& settings,
                                                      Application application) {
     auto server = std::make_unique<Server>(settings, std::move(application));
     if (const error_code error = server->open()) {
-        return Error{str_cat("cannot listen on ", settings.address, ":", settings.port, " (",
-                             error.message(), ")")};
+        const std::string listen = str_cat(settings.address, ":", settings.port);
+        return Error{error_code_of_errno(error.value()), "listen", listen,
+                     str_cat("cannot listen on ", listen, " (", error.message(), ")")};
     }
     return std::unique_ptr<HttpServer>(std::move(server));
 }

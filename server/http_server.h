@@ -12,20 +12,20 @@
 
 namespace tetralight::server {
 
-/// What the server asks whoever answers requests. Called from many threads.
+/// The functions that answer requests. Called from many threads.
 struct Application {
-    /// The head of a request is there, its body is not.
+    /// Called when the head of a request has been read, and its body has not.
     std::function<Plan(Request&)> plan;
     std::function<void(const Exchange&)> answered;
-    /// A response for what is no request, or for one that comes too early or too late.
+    /// The response to an invalid request, or to one that cannot be handled now.
     std::function<Response(const Problem&, const Request&)> refusal;
 };
 
-/// Speaks HTTP/1.1 on one address: connections that stay open, limits on heads, bodies, time and
-/// connections, and workers for what waits.
+/// An HTTP/1.1 server on one address: persistent connections, limits on heads, bodies, time and
+/// connections, and worker threads for handlers that wait.
 class HttpServer {
   public:
-    /// Binds the address; serves nothing yet.
+    /// Binds the address. It does not accept connections yet.
     [[nodiscard]] static Result<std::unique_ptr<HttpServer>> bind(const Settings& settings,
                                                                   Application application);
 
@@ -37,11 +37,11 @@ class HttpServer {
     /// Open connections.
     [[nodiscard]] virtual uint32_t connection_count() const = 0;
 
-    /// Serves until `stop`, and then until what was begun is answered, or time is up.
+    /// Serves until `stop`, then until the requests in progress are answered or the time is up.
     virtual void run() = 0;
 
-    /// Closes connections after their next answer, and after the notice of the settings takes no
-    /// more of them; idle ones are closed then. May be called from any thread.
+    /// Closes each connection after its next answer. After the notice of the settings it accepts no
+    /// more connections and closes idle ones. May be called from any thread.
     virtual void stop() = 0;
 
   protected:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/json.h>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/server/problem.h>
 
@@ -17,7 +16,7 @@ Response json_response(const Json& json, unsigned status) {
 
 Json parse_object(std::string_view body) {
     if (auto status = check_json_depth(body); !status) {
-        throw Problem{400, "invalid_json", error_text(status.error()), "body"};
+        throw Problem{400, "invalid_json", detail_of(status.error()), "body"};
     }
     try {
         Json json = Json::parse(body);

@@ -20,21 +20,21 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Response json_response(const Json& json, unsigned status = 200);
 
-/// The JSON object of a body. Throws a `Problem`: it is nested too deep, no JSON, no object.
+/// The JSON object of a body. Throws a `Problem` if it is nested too deep, not JSON or no object.
 [[nodiscard]] Json parse_object(std::string_view body);
 
-/// The JSON object of a text that may be damaged; an empty one when it holds none.
+/// The JSON object of a text that may be damaged; an empty object if there is none.
 [[nodiscard]] Json object_in(std::string_view text);
 [[nodiscard]] Json object_in(std::span<const std::byte> text);
 
-/// Reads an object member by member, and knows which ones nobody asked for. All throw a `Problem`
-/// that names the member and its value.
+/// Reads an object member by member and records which members were read. All functions throw a
+/// `Problem` that names the member and its value.
 class Fields {
   public:
     /// Keeps a reference.
     explicit Fields(const Json& object) : object_(object) {}
 
-    /// Null: it is not there, or null.
+    /// Null if the member is missing or null.
     [[nodiscard]] const Json* find(const std::string& key);
 
     [[nodiscard]] std::string text(const std::string& key, const std::string& otherwise = "");
@@ -43,7 +43,7 @@ class Fields {
     [[nodiscard]] double number(const std::string& key, double otherwise);
     [[nodiscard]] std::vector<std::string> texts(const std::string& key);
 
-    /// To be called at the end: refuses members that were not asked for.
+    /// Call it at the end: refuses members that were not read.
     void finish() const;
 
   private:
@@ -51,10 +51,10 @@ class Fields {
     std::set<std::string> asked_;
 };
 
-/// A value as a `Problem` shows it: strings as they are, all else as JSON, 80 bytes of it.
+/// A value as a `Problem` shows it: strings without quotes, all else as JSON; up to 80 bytes.
 [[nodiscard]] std::string shown(const Json& value);
 
-/// Throws: member `key` is not what it should be.
+/// Throws a `Problem`: member `key` is not `expected`.
 [[noreturn]] void refuse(const std::string& key, const Json& value, const std::string& expected);
 
 }  // namespace tetralight::server

@@ -36,7 +36,7 @@ const char* name_of(Log::Level level) {
     return kNames[static_cast<size_t>(level)];
 }
 
-/// Nobody can be told when stderr is gone.
+/// Errors are ignored: there is no other place to report them.
 void write_all(std::string_view text) {
     while (!text.empty()) {
         const ssize_t count = ::write(STDERR_FILENO, text.data(), text.size());
@@ -70,7 +70,7 @@ void Log::request(const Exchange& exchange) {
     const auto& [request, route, status, sent_bytes, seconds, is_aborted] = exchange;
     const Level level = status >= 500 ? Level::Warning : Level::Info;
     if (!is_shown(level)) return;
-    // Written by hand: it is on the way of every request. The path alone holds what clients chose.
+    // Formatted by hand because every request needs it. Only the path may need escaping.
     append(
         level,
         str_cat(R"({"time":")", now_text(), R"(","level":")", name_of(level),

@@ -11,8 +11,8 @@
 
 namespace tetralight::server {
 
-/// Lines of JSON on stderr, one an event. Lines of requests are gathered for a tenth of a second,
-/// so that they cost no system call each; warnings and errors are written at once.
+/// Lines of JSON on stderr, one per event. Lines of requests are collected for a tenth of a second
+/// to save system calls; warnings and errors are written at once.
 class Log {
   public:
     enum class Level { Debug, Info, Warning, Error, Nothing };

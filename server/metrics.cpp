@@ -32,7 +32,8 @@ void Metrics::add(const Exchange& exchange) {
 std::string Metrics::text(const std::map<std::string, double>& gauges) const {
     const std::lock_guard lock(mutex_);
     const std::string duration = "request_duration_seconds";
-    std::string all = head(duration, "histogram", "Time from the head of a request to its answer.");
+    std::string all =
+        head(duration, "histogram", "Time from the head of a request to the end of its answer.");
     for (const auto& [labels, series] : series_) {
         for (size_t i = 0; i < kBounds.size(); ++i) {
             all += line(duration + "_bucket", str_cat(labels, ",le=\"", kBounds[i], "\""),
@@ -47,12 +48,12 @@ std::string Metrics::text(const std::map<std::string, double>& gauges) const {
     };
     counter("received_bytes_total", "Bodies of requests.", received_bytes_);
     counter("sent_bytes_total", "Bodies of answers.", sent_bytes_);
-    counter("positions_total", "Positions that were answered.", positions);
-    counter("quarantined_total", "Files that turned out to be damaged.", quarantined);
-    counter("damaged_indexes_total", "Times that index.json was damaged, for a reader.",
+    counter("positions_total", "Positions of answered queries.", positions);
+    counter("quarantined_total", "Damaged files that were found.", quarantined);
+    counter("damaged_indexes_total", "Times that a reader found index.json damaged.",
             damaged_indexes);
     for (const auto& [name, value] : gauges) {
-        all += head(name, "gauge", "Now.") + line(name, "", value);
+        all += head(name, "gauge", "Current value.") + line(name, "", value);
     }
     return all;
 }

@@ -12,7 +12,7 @@
 
 namespace tetralight::server {
 
-/// Counts what happens, and says it as Prometheus' text format does.
+/// Counters and durations of requests, in Prometheus' text format.
 class Metrics {
   public:
     void add(const Exchange& exchange);
@@ -21,14 +21,14 @@ class Metrics {
     std::atomic<uint64_t> quarantined = 0;
     std::atomic<uint64_t> damaged_indexes = 0;
 
-    /// `gauges`: what is measured when it is asked for, by the name that it gets.
+    /// `gauges`: current values by their names.
     [[nodiscard]] std::string text(const std::map<std::string, double>& gauges) const;
 
   private:
     static constexpr std::array<double, 10> kBounds{0.001, 0.0025, 0.01, 0.025, 0.1,
                                                     0.25,  1.0,    2.5,  10.0,  60.0};
 
-    /// Of one route and class of status.
+    /// Requests of one route and class of status.
     struct Series {
         uint64_t count = 0;
         double seconds = 0.0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/open_volumes.h>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/server/problem.h>
 
 namespace tetralight::server {
@@ -15,13 +14,14 @@ std::shared_ptr<const ProbeFile> OpenVolumes::open(const std::string& reference)
             return found->second->file;
         }
     }
-    // Not under the lock: it reads all of the file. Two may do it at once.
-    auto opened = open_probe_file(store_.path(Kind::Volumes, stored.id));
+    // Without the lock, because this reads the whole file. Two threads may do it at once.
+    const std::string path = store_.path(Kind::Volumes, stored.id);
+    auto opened = open_probe_file(path);
     if (!opened) {
         // It may have been deleted since.
         if (!store_.find(Kind::Volumes, stored.id)) (void)store_.get(Kind::Volumes, reference);
-        const std::string& message = error_text(opened.error());
-        store_.quarantine(Kind::Volumes, stored.id, message.substr(message.find(": ") + 2));
+        if (can_retry(opened.error().code)) throw storage_problem(opened.error());
+        store_.quarantine(Kind::Volumes, stored.id, reason_without_path(opened.error(), path));
         (void)store_.get(Kind::Volumes, stored.id);
     }
     auto file = std::make_shared<const ProbeFile>(std::move(*opened));

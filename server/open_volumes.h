@@ -12,15 +12,15 @@
 
 namespace tetralight::server {
 
-/// Volumes that were asked for, mapped and verified. Whoever holds one keeps it, whatever becomes
-/// of its name and its file. Thread-safe.
+/// Volumes that were requested, mapped and verified. A volume stays usable for as long as a request
+/// holds it, even if it is renamed or deleted. Thread-safe.
 class OpenVolumes {
   public:
     /// Keeps a reference.
     explicit OpenVolumes(Store& store) : store_(store) {}
 
-    /// By id or by name. Throws a `Problem`: there is none (404); it is damaged, and is in
-    /// quarantine from now on (410).
+    /// By id or by name. Throws a `Problem`: 404 if there is none; 410 if it is damaged, and moves
+    /// it to the quarantine; 503 if it cannot be read for now.
     [[nodiscard]] std::shared_ptr<const ProbeFile> open(const std::string& reference);
 
     void forget(const std::string& id);
@@ -33,12 +33,12 @@ class OpenVolumes {
         std::shared_ptr<const ProbeFile> file;
     };
 
-    /// Maps are cheap, but the system has so many of them and no more.
+    /// The system limits the number of maps.
     static constexpr size_t kMostOpen = 4096;
 
     Store& store_;
     mutable std::mutex mutex_;
-    std::list<Entry> entries_;  ///< the one used last is first
+    std::list<Entry> entries_;  ///< most recently used first
     std::map<std::string, std::list<Entry>::iterator> by_id_;
 };
 

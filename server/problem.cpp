@@ -1,9 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/problem.h>
 
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/shown_path.h>
+#include <tetralight/base/str_cat.h>
 #include <tetralight/server/json.h>
 
 namespace tetralight::server {
+namespace {
+
+struct Answer {
+    unsigned status;
+    const char* code;
+};
+
+/// What holds for every endpoint, and else `otherwise`.
+Answer answer_for(ErrorCode code, Answer otherwise) {
+    switch (code) {
+        case ErrorCode::DiskFull:
+            return {507, "disk_full"};
+        case ErrorCode::Unavailable:
+            return {503, "unavailable"};
+        case ErrorCode::OutOfResources:
+            return {503, "out_of_resources"};
+        default:
+            return otherwise;
+    }
+}
+
+Problem problem_for(const Error& error, Answer otherwise) {
+    const auto [status, code] = answer_for(error.code, otherwise);
+    return {status, code, error_text(error), error.field, error.value};
+}
+
+/// Names the member of the request that is wrong, if an error is about one.
+void name_member(const Error& error, const Json& order, Problem& problem) {
+    const std::string root = error.field.substr(0, error.field.find_first_of(".["));
+    const auto found = order.is_object() ? order.find(root) : order.end();
+    if (found != order.end()) {
+        if (problem.value.empty()) problem.value = shown(*found);
+        return;
+    }
+    problem.field = order.is_null() ? "body" : "";
+    problem.value.clear();
+}
+
+}  // namespace
+
+Problem storage_problem(const Error& error) {
+    return problem_for(error, {500, "storage"});
+}
+
+Problem setting_problem(const Error& error) {
+    return problem_for(error, {400, "invalid_value"});
+}
+
+Problem data_problem(const Error& error) {
+    return problem_for(error, {422, "bad_data"});
+}
+
+Problem job_problem(const Settings& settings, const JobResult& result, const Request& request,
+                    const Json& order) {
+    using End = JobResult::End;
+    switch (result.end) {
+        case End::Done:
+        case End::Failed:
+            break;
+        case End::TooSlow:
+            return {504, "too_slow", str_cat("takes longer than ", settings.tool_seconds, " s")};
+        case End::Cancelled:
+            if (request.is_abandoned) return {499, "abandoned", "the client has disconnected"};
+            return {503, "ending", "the server is stopping"};
+        case End::Crashed:
+            return problem_for(result.error, {500, "tool_failed"});
+    }
+    Problem problem =
+        result.is_wrong_usage ? setting_problem(result.error) : data_problem(result.error);
+    name_member(result.error, order, problem);
+    return problem;
+}
+
+void require_stored(const Status& status) {
+    if (!status) throw storage_problem(status.error());
+}
+
+std::string reason_without_path(const Error& error, const std::string& path) {
+    const std::string& text = error_text(error);
+    const std::string place = shown_path(path) + ": ";
+    return text.starts_with(place) ? text.substr(place.size()) : text;
+}
+
+std::string detail_of(const Error& error) {
+    return error_text(error);
+}
 
 Response problem_response(const Problem& problem, const std::string& request_id) {
     Json json{{"type", "about:blank"},

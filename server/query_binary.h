@@ -10,7 +10,7 @@
 //
 //     request:  count × three floats: world positions
 //     answer:   count × SH as asked, then count × four floats of occlusion, then
-//               count × CellLocation (cell, share of ambient light, four weights), as asked
+//               count × CellLocation (cell, fraction of ambient light, four weights), as asked
 
 namespace tetralight::server {
 
@@ -31,7 +31,7 @@ struct QueryHeader {
     uint8_t outside = 0;
     /// 0 = the probes' floats, 1 = their half-precision copies.
     uint8_t precision = 0;
-    /// Metres, for `OutsidePolicy::Ambient`; 0 = as it is by default.
+    /// Metres, for `OutsidePolicy::Ambient`; 0 = the default.
     float fade_distance = 0.0f;
 };
 

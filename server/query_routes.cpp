@@ -4,9 +4,9 @@
 #include <cstring>
 #include <glm/vec3.hpp>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/interpolate.h>
+#include <tetralight/server/order.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/query_binary.h>
 #include <tetralight/server/service.h>
@@ -18,7 +18,7 @@ constexpr const char* kBinary = "application/octet-stream";
 constexpr uint64_t kMostJson = uint64_t{8} << 20;
 constexpr uint8_t kShHalf = 3;
 
-/// What to ask of a volume, and in which form to answer.
+/// The positions and settings of a query.
 struct Query {
     std::span<const glm::vec3> positions;
     OutsideHull outside = {};
@@ -27,7 +27,7 @@ struct Query {
 
 constexpr const char* kFadeRange = "0 or in the range from 1e-06 to 1e+09";
 
-/// 0 = as it is by default.
+/// 0 = the default.
 bool is_fade(float metres) {
     return metres == 0.0f || (metres >= 1e-6f && metres <= 1e9f);
 }
@@ -66,34 +66,35 @@ glm::vec3 to_position(const Json& value, size_t index) {
     return {value[0].get<float>(), value[1].get<float>(), value[2].get<float>()};
 }
 
-Query read_query(Fields& fields, std::vector<glm::vec3>& positions) {
-    const Json* list = fields.find("positions");
+/// Reads all members but the positions. The volume is in the path, and a fade of 0 is the default.
+Query read_settings(const Json& json, Query query) {
+    if (json.size() == 1) return query;
+    if (json.contains("volume")) {
+        throw Problem{400, "unknown_member", "\"volume\" is in the path of a query", "volume",
+                      shown(json["volume"])};
+    }
+    Json order = json;
+    order["volume"] = "in the path";
+    if (order.value("fade", Json()) == 0) order.erase("fade");
+    const auto values = check_order(settings::kQuery, order, "positions");
+    const std::string outside = values.text("outside");
+    if (outside == "clamp") query.outside.policy = OutsidePolicy::Clamp;
+    if (outside == "ambient") query.outside.policy = OutsidePolicy::Ambient;
+    if (values.is_given("fade")) query.outside.fade_distance = values.number32("fade");
+    query.is_half_precision = values.text("precision") == "half";
+    return query;
+}
+
+Query read_query(const Json& json, std::vector<glm::vec3>& positions) {
+    const Json* list = Fields(json).find("positions");
     if (list == nullptr)
         throw Problem{400, "missing_value", "positions: is not given", "positions"};
     if (!list->is_array()) refuse("positions", *list, "an array");
     for (const Json& value : *list) positions.push_back(to_position(value, positions.size()));
-    Query query{.positions = positions};
-    const std::string outside = fields.text("outside", "extrapolate");
-    if (outside == "clamp") {
-        query.outside.policy = OutsidePolicy::Clamp;
-    } else if (outside == "ambient") {
-        query.outside.policy = OutsidePolicy::Ambient;
-    } else if (outside != "extrapolate") {
-        refuse("outside", outside, "\"extrapolate\", \"clamp\" or \"ambient\"");
-    }
-    const auto fade = static_cast<float>(fields.number("fade", 0.0));
-    if (!is_fade(fade)) refuse("fade", *fields.find("fade"), kFadeRange);
-    if (fade > 0.0f) query.outside.fade_distance = fade;
-    const std::string precision = fields.text("precision", "full");
-    if (precision != "full" && precision != "half") {
-        refuse("precision", precision, "\"full\" or \"half\"");
-    }
-    query.is_half_precision = precision == "half";
-    fields.finish();
-    return query;
+    return read_settings(json, {.positions = positions});
 }
 
-/// The shortest digits that read back to the same number.
+/// Appends the shortest digits that give the same number when read.
 void append_number(std::string& out, auto number) {
     char digits[32];
     out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
@@ -108,7 +109,7 @@ void append_vector(std::string& out, const Vector& vector) {
     out += ']';
 }
 
-/// As `tetralight query --json` says it.
+/// Appends an answer as `tetralight query --json` writes it.
 void append_answer(std::string& out, const ProbeVolumeView& volume, const glm::vec3& position,
                    const CellLocation& location) {
     const InterpolatedProbe answer = interpolate(volume, location);
@@ -151,9 +152,8 @@ Response answer_json(Service& service, const ProbeFile& file, const Request& req
             "body", str_cat(request.body.size(), " bytes")};
     }
     const Json json = parse_object(request.body);
-    Fields fields(json);
     std::vector<glm::vec3> positions;
-    const Query query = read_query(fields, positions);
+    const Query query = read_query(json, positions);
     check_positions(service, positions);
     const ProbeVolumeView volume = view_for(file, query);
     std::string out = R"({"answers":[)";
@@ -204,7 +204,7 @@ QueryHeader read_header(const Request& request) {
     return header;
 }
 
-/// Where the parts of an answer lie.
+/// Offsets of the parts of an answer.
 struct AnswerLayout {
     size_t sh = 0;
     size_t occlusion = 0;
@@ -217,7 +217,7 @@ struct AnswerLayout {
         if (header.sh == kShHalf) format = ShFormat::Half;
         const size_t sh_size = header.sh == 0 ? 0 : value_count(format) * value_size(format);
         sh = sizeof header;
-        // Halves are 54 bytes each; what follows them keeps its alignment.
+        // Halves take 54 bytes each; the next part is aligned to 4.
         occlusion = (sh + header.count * sh_size + 3) / 4 * 4;
         const bool has_occlusion = (header.wants & QueryHeader::kOcclusion) != 0;
         cells = occlusion + (has_occlusion ? header.count * sizeof(glm::vec4) : 0);
@@ -241,7 +241,7 @@ OcclusionOutput occlusion_output(const QueryHeader& header, const AnswerLayout& 
 }
 
 void require(const Status& status) {
-    if (!status) throw Problem{500, "query", error_text(status.error())};
+    if (!status) throw Problem{500, "query", detail_of(status.error())};
 }
 
 Response answer_binary(Service& service, const ProbeFile& file, const Request& request) {
@@ -255,7 +255,7 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
     const ProbeVolumeView volume = view_for(file, query);
 
     const AnswerLayout layout(header);
-    // Every byte is written; a vector would write them twice.
+    // Every byte is written below; a vector would first fill them with zeros.
     const std::shared_ptr<std::byte[]> memory(new std::byte[layout.end]);
     const std::span bytes(memory.get(), layout.end);
     header.magic = QueryHeader::kAnswer;

@@ -5,13 +5,13 @@
 
 namespace tetralight::server {
 
-// Space of the disk that a file of zeros holds, for the day on which the disk is full: deleting
-// needs some, too.
+// Disk space that a file of zeros reserves, because deleting needs some space even when the disk
+// is full.
 
-/// Makes the file as large as it should be, or as the disk lets it.
+/// Makes the file as large as intended, or as the disk allows.
 void keep_reserve(const std::string& path);
 
-/// Gives the space back.
+/// Releases the space.
 void drop_reserve(const std::string& path);
 
 }  // namespace tetralight::server

@@ -20,7 +20,7 @@ std::vector<std::string> split(std::string_view path) {
     }
 }
 
-/// What a pattern captures of a path; nothing: it is another one.
+/// The parts of a path that a pattern captures; nothing if they do not match.
 std::optional<std::vector<std::string>> match(const std::vector<std::string>& pattern,
                                               const std::vector<std::string>& path) {
     if (pattern.size() != path.size()) return std::nullopt;
@@ -41,8 +41,8 @@ std::optional<std::vector<std::string>> match(const std::vector<std::string>& pa
 void check_parameters(const Route& route, const Request& request) {
     for (const auto& [name, value] : request.parameters) {
         if (std::ranges::find(route.parameters, name) == route.parameters.end()) {
-            throw Problem{400, "unknown_parameter", "\"" + name + "\" is not known here", name,
-                          value};
+            throw Problem{400, "unknown_parameter",
+                          "\"" + name + "\" is not a parameter of this path", name, value};
         }
         if (request.parameter(name) != &value) {
             throw Problem{400, "repeated_parameter", "\"" + name + "\" is given twice", name,

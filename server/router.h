@@ -23,16 +23,16 @@ struct Route {
     Access access = Access::Reads;
     /// May throw a `Problem`.
     std::function<Response(Request&)> handle;
-    /// What may follow `?`, each once.
+    /// Names of parameters in the query string, each at most once.
     std::vector<std::string> parameters = {};
     uint64_t body_limit = 0;
     Plan::BodyTo body_to = Plan::BodyTo::Memory;
     Plan::RunOn run_on = Plan::RunOn::Network;
-    /// Called before a body goes to a file: opens it. May throw a `Problem`.
+    /// Opens the file for a body of `BodyTo::File`. May throw a `Problem`.
     std::function<void(Request&)> prepare = {};
 };
 
-/// Throws a `Problem` for parameters that a route does not know, and for those given twice.
+/// Throws a `Problem` for unknown and repeated parameters.
 void check_parameters(const Route& route, const Request& request);
 
 /// Finds the route of a request by its path and method.
@@ -40,8 +40,8 @@ class Router {
   public:
     explicit Router(std::vector<Route> routes);
 
-    /// The route, and what its pattern captured in `request.captures`. Throws a `Problem`: no path
-    /// is such (404), or the path has no such method (405). GET answers HEAD too.
+    /// The route; its captures go to `request.captures`. Throws a `Problem`: 404 if there is no
+    /// such path, 405 if the path has no such method. GET routes also answer HEAD.
     [[nodiscard]] const Route& find(Request& request) const;
 
     [[nodiscard]] const std::vector<Route>& routes() const { return routes_; }

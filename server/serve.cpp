@@ -21,13 +21,13 @@
 namespace tetralight::server {
 namespace {
 
-/// Answers of a megabyte come again and again: their memory is to stay, not to be mapped each time.
+/// Keeps the memory of answers of some megabytes instead of mapping it again for each one.
 void keep_memory() {
     ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
     ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }
 
-/// As many descriptors as the system allows: each connection is one.
+/// Raises the limit of descriptors as far as allowed: each connection needs one.
 void raise_descriptor_limit() {
     rlimit limit = {};
     if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -35,20 +35,21 @@ void raise_descriptor_limit() {
     ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-/// Two servers that write to one folder would undo each other's work.
+/// Makes sure that only one server writes to a folder.
 Result<Descriptor> lock_folder(const std::string& folder) {
     const std::string path = folder + "/lock";
     Descriptor lock(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
     if (!lock) return system_error(path, "open");
     if (::flock(lock.value(), LOCK_EX | LOCK_NB) == 0) return lock;
-    return Error{folder + ": another server has this folder; --read-only serves it too"};
+    return Error{ErrorCode::Unavailable, "data", folder,
+                 folder + ": another server writes to this folder; --read-only can serve it too"};
 }
 
-/// Bodies are taken as they are.
+/// Bodies must not be compressed.
 void check_encoding(const Request& request) {
     const std::string_view encoding = request.header("content-encoding");
     if (encoding.empty() || encoding == "identity") return;
-    throw Problem{415, "wrong_encoding", "bodies are taken without a Content-Encoding",
+    throw Problem{415, "wrong_encoding", "bodies must not have a Content-Encoding",
                   "content-encoding", std::string(encoding.substr(0, 200))};
 }
 
@@ -60,7 +61,7 @@ std::vector<Route> all_routes(Service& service) {
     return all;
 }
 
-/// From the head of a request to its answer.
+/// Finds the handler of a request and turns problems into responses.
 class Dispatcher {
   public:
     explicit Dispatcher(Service& service) : service_(service), router_(all_routes(service)) {}
@@ -115,7 +116,7 @@ class Dispatcher {
         };
     }
 
-    /// Whoever has no token learns nothing of paths either.
+    /// A client without the token does not learn which paths exist.
     const Route& find(Request& request) const {
         try {
             return router_.find(request);
@@ -134,7 +135,7 @@ class Dispatcher {
         }
     }
 
-    /// Whatever goes wrong becomes an answer.
+    /// Turns every exception into a response.
     template <class Handle>
     Response guarded(Request& request, const Handle& handle) const {
         try {
@@ -146,7 +147,7 @@ class Dispatcher {
         } catch (const std::exception& exception) {
             service_.log.write(Log::Level::Error, "a handler failed",
                                {{"request_id", request.id}, {"what", exception.what()}});
-            return refuse({500, "internal", "something went wrong here"}, request);
+            return refuse({500, "internal", "internal error; the log has the reason"}, request);
         }
     }
 
@@ -160,7 +161,7 @@ class Dispatcher {
     const Router router_;
 };
 
-/// SIGTERM and SIGINT as a call on a thread of its own, where everything is allowed.
+/// Calls a function on SIGTERM and SIGINT, on a thread of its own instead of in a signal handler.
 class SignalWatch {
   public:
     explicit SignalWatch(std::function<void()> on_end) : on_end_(std::move(on_end)) {
@@ -209,7 +210,8 @@ Json start_facts(const Settings& settings, const Store& store, uint16_t port) {
 
 Status serve(const Settings& settings, const std::function<void(uint16_t port)>& is_listening) {
     if (!is_loopback(settings.address) && settings.token.empty()) {
-        return Error{settings.address + ": is not this machine alone; give a token"};
+        return Error{ErrorCode::InvalidArgument, "listen", settings.address,
+                     settings.address + ": can be reached from other machines and needs a token"};
     }
     ::signal(SIGPIPE, SIG_IGN);
     ::pthread_sigmask(SIG_BLOCK, &SignalWatch::signals(), nullptr);  // threads inherit it
@@ -253,7 +255,7 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
         (*http)->run();
     }
     service.is_over = true;
-    http->reset();  // its workers end; nobody is left who may stop it
+    http->reset();  // ends its workers; the signal watch that stops it is gone
     log.write(Log::Level::Info, "ended");
     return Ok{};
 }

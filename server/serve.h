@@ -13,8 +13,9 @@
 
 namespace tetralight::server {
 
-/// Serves until SIGTERM or SIGINT, then answers what was begun. `is_listening` is called with the
-/// port once requests are taken. Errors: the folder or the address cannot be used.
+/// Serves until SIGTERM or SIGINT, then finishes the requests in progress. Calls `is_listening`
+/// with the port once it accepts requests. Returns an error if the folder or the address is not
+/// usable.
 [[nodiscard]] Status serve(const Settings& settings,
                            const std::function<void(uint16_t port)>& is_listening);
 

@@ -5,252 +5,40 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+#include <chrono>
 #include <filesystem>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
-#include <tetralight/base/utf8.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/reserve.h>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 namespace tetralight::server {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kKindNames[] = {"scenes", "skies", "groups", "volumes"};
-constexpr const char* kKindNouns[] = {"scene", "sky", "groups", "volume"};
-constexpr const char* kExtensions[] = {".glb", ".hdr", ".json", ".probes"};
-constexpr size_t kIdLength = 32;
-
-std::string id_of(std::span<const std::byte> bytes) {
-    XXH128_canonical_t canonical;
-    XXH128_canonicalFromHash(&canonical, XXH3_128bits(bytes.data(), bytes.size()));
-    std::string id;
-    for (const unsigned char byte : canonical.digest) {
-        std::array<char, 3> digits{};
-        std::snprintf(digits.data(), digits.size(), "%02x", byte);
-        id += digits.data();
-    }
-    return id;
-}
-
 /// Bytes of a file of the store. Throws.
 MappedFile map(const std::string& path) {
     auto file = MappedFile::open(path);
-    if (!file) throw Problem{500, "storage", error_text(file.error())};
+    if (!file) throw storage_problem(file.error());
     return std::move(*file);
 }
 
-std::optional<Kind> kind_of(const std::string& name) {
-    const auto found = std::ranges::find(kKindNames, name);
-    if (found == std::end(kKindNames)) return std::nullopt;
-    return static_cast<Kind>(found - std::begin(kKindNames));
-}
-
-/// Of an entry of the index. Before files had several names, there was "name" alone.
-std::set<std::string> names_of(const Json& entry) {
-    if (entry.contains("names")) return entry["names"];
-    const std::string name = entry.at("name");
-    return name.empty() ? std::set<std::string>() : std::set{name};
-}
-
-/// Files by "kind/id".
-struct Index {
-    std::map<std::string, StoredFile> files;
-    bool is_whole = false;
-};
-
-StoredFile read_entry(Kind kind, const Json& entry) {
-    return {.kind = kind,
-            .id = entry.at("id"),
-            .names = names_of(entry),
-            .bytes = entry.at("bytes"),
-            .created = entry.at("created"),
-            .facts = dump(entry.at("facts")),
-            .damage = entry.value("damage", "")};
-}
-
-/// What is whole of an index.
-Index parse_index(std::span<const std::byte> bytes) {
-    const Json json = object_in(bytes);
-    Index index;
-    if (!json.contains("files")) return index;
-    index.is_whole = true;
-    for (const Json& entry : json["files"]) {
-        try {
-            const auto kind = kind_of(entry.at("kind"));
-            if (!kind) continue;  // of a later version
-            StoredFile file = read_entry(*kind, entry);
-            index.is_whole &= is_id(file.id);
-            if (is_id(file.id))
-                index.files[str_cat(name_of(*kind), "/", file.id)] = std::move(file);
-        } catch (const Json::exception&) {
-            index.is_whole = false;
-        }
-    }
-    return index;
-}
-
 }  // namespace
-
-const char* name_of(Kind kind) {
-    return kKindNames[static_cast<size_t>(kind)];
-}
-
-const char* noun_of(Kind kind) {
-    return kKindNouns[static_cast<size_t>(kind)];
-}
-
-const char* extension_of(Kind kind) {
-    return kExtensions[static_cast<size_t>(kind)];
-}
-
-bool is_id(const std::string& text) {
-    return text.size() == kIdLength && std::ranges::all_of(text, [](char c) {
-               return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-           });
-}
-
-void require_stored(const Status& status) {
-    if (status) return;
-    const bool is_full = error_text(status.error()).find("No space left") != std::string::npos;
-    throw Problem{is_full ? 507u : 500u, is_full ? "disk_full" : "storage",
-                  error_text(status.error())};
-}
 
 double now() {
     const auto since = std::chrono::system_clock::now().time_since_epoch();
     return std::chrono::duration<double>(since).count();
 }
 
-void check_name(const std::string& name) {
-    constexpr size_t kLongest = 200;
-    const bool is_plain = std::ranges::none_of(name, [](char c) {
-        return static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '/' || c == '\\';
-    });
-    const bool is_dots = name == "." || name == "..";
-    if (is_plain && !is_dots && name.size() <= kLongest && is_utf8(name) && !is_id(name)) return;
-    throw Problem{400, "invalid_value",
-                  "name: is not a name: at most 200 bytes without slashes and control characters, "
-                  "and no id",
-                  "name", name.substr(0, kLongest)};
-}
-
-Json to_json(const StoredFile& file) {
-    Json json{{"id", file.id},           {"name", file.names.empty() ? "" : *file.names.begin()},
-              {"names", file.names},     {"bytes", file.bytes},
-              {"created", file.created}, {"state", file.damage.empty() ? "ready" : "quarantined"}};
-    if (!file.damage.empty()) json["damage"] = file.damage;
-    return json;
-}
-
-Json to_json_with_facts(const StoredFile& file) {
-    Json json = to_json(file);
-    json["facts"] = object_in(file.facts);
-    return json;
-}
-
-Store::Store(const Settings& settings, Log& log, Metrics& metrics)
-    : settings_(settings), log_(log), metrics_(metrics) {}
-
-Result<std::unique_ptr<Store>> Store::open(const Settings& settings, Log& log, Metrics& metrics) {
-    std::unique_ptr<Store> store(new Store(settings, log, metrics));
-    if (settings.is_read_only) {
-        if (!fs::is_directory(settings.data)) {
-            return Error{settings.data + ": is no folder"};
-        }
-        store->read_index_now_and_then();
-        if (metrics.damaged_indexes > 0) return Error{store->index_path() + ": is damaged"};
-        return store;
-    }
-    remove_all(settings.data + "/work");
-    for (const char* folder :
-         {"scenes", "skies", "groups", "volumes", "bakes", "work", "quarantine"}) {
-        auto status = make_folder(settings.data + "/" + folder);
-        if (!status) return status.error();
-    }
-    drop_reserve(store->reserve_path());
-    if (auto status = store->open_database(); !status) return status.error();
-    try {
-        store->adopt_or_drop_unknown_files();
-    } catch (const Problem& problem) {
-        return Error{settings.data + ": " + problem.detail};
-    }
-    store->write_index();
-    return store;
-}
-
-void Store::report(const std::string& finding) {
-    findings_.push_back(finding);
-    log_.write(Log::Level::Error, finding);
-}
-
-/// A damaged database is put aside, and a new one takes its place.
-Status Store::open_database() {
-    const std::string path = settings_.data + "/tetralight.db";
-    is_database_new_ = !fs::exists(path);
-    for (int attempt = 0; attempt < 2; ++attempt) {
-        auto opened = Database::open(path);
-        std::string reason = opened ? "" : error_text(opened.error());
-        if (opened) {
-            database_.emplace(std::move(*opened));
-            try {
-                load();
-                return Ok{};
-            } catch (const Problem& problem) {
-                reason = problem.detail;
-            } catch (const std::exception& exception) {
-                reason = str_cat("is damaged (", exception.what(), ")");
-            }
-        }
-        database_.reset();
-        const bool is_damaged = reason.find("damaged") != std::string::npos ||
-                                reason.find("malformed") != std::string::npos ||
-                                reason.find("not a database") != std::string::npos;
-        if (!is_damaged || attempt > 0) return Error{reason};
-        const std::string stamp = std::to_string(static_cast<int64_t>(now()));
-        for (const char* suffix : {"", "-wal", "-shm"}) {
-            std::error_code ignored;
-            fs::rename(path + suffix,
-                       settings_.data + "/quarantine/" + stamp + "-tetralight.db" + suffix,
-                       ignored);
-        }
-        ++metrics_.quarantined;
-        report(
-            "the database was damaged and is in quarantine; files were indexed anew, bakes that "
-            "were not over are lost (" +
-            reason + ")");
-        is_database_new_ = true;
-    }
-    return Ok{};
-}
-
-void Store::load() {
-    for (Files& all : files_) all.clear();
-    for (const auto& row :
-         database_->run("SELECT id, kind, bytes, created, facts, damage FROM files")) {
-        StoredFile file;
-        file.id = std::get<std::string>(row[0]);
-        file.kind = kind_of(std::get<std::string>(row[1])).value();
-        file.bytes = static_cast<uint64_t>(std::get<int64_t>(row[2]));
-        file.created = std::get<double>(row[3]);
-        file.facts = std::get<std::string>(row[4]);
-        file.damage = std::get<std::string>(row[5]);
-        files(file.kind)[file.id] = std::move(file);
-    }
-    for (const auto& row : database_->run("SELECT kind, name, file FROM names")) {
-        const Kind kind = kind_of(std::get<std::string>(row[0])).value();
-        files(kind).at(std::get<std::string>(row[2])).names.insert(std::get<std::string>(row[1]));
-    }
-    index_names_locked();
+const StoredFile* Store::find_locked(Kind kind, const std::string& reference) {
+    const Files& all = files(kind);
+    if (const auto found = all.find(reference); found != all.end()) return &found->second;
+    const auto& names = id_of_name_[static_cast<size_t>(kind)];
+    const auto named = names.find(reference);
+    return named == names.end() ? nullptr : &all.at(named->second);
 }
 
 void Store::index_names_locked() {
@@ -263,48 +51,8 @@ void Store::index_names_locked() {
     }
 }
 
-/// Files without a row: what was never acknowledged, or, of a new database, all.
-void Store::adopt_or_drop_unknown_files() {
-    const auto bytes = read_file(index_path());
-    const Index index = is_database_new_ && bytes ? parse_index(*bytes) : Index();
-    for (const Kind kind : kKinds) {
-        std::map<std::string, fs::path> present;
-        for (const auto& entry : fs::directory_iterator(settings_.data + "/" + name_of(kind))) {
-            present[entry.path().stem().string()] = entry.path();
-        }
-        for (auto& [id, file] : files(kind)) {
-            if (!file.damage.empty() || present.contains(id)) continue;
-            quarantine(kind, id, "the file is missing");
-            report(str_cat(name_of(kind), "/", id, " is missing"));
-        }
-        for (const auto& [id, path] : present) {
-            if (files(kind).contains(id)) continue;
-            if (!is_database_new_ || !is_id(id)) {
-                remove_all(path.string());
-                continue;
-            }
-            StoredFile file;
-            const auto known = index.files.find(str_cat(name_of(kind), "/", id));
-            if (known != index.files.end()) file = known->second;
-            file.kind = kind;
-            file.id = id;
-            file.bytes = fs::file_size(path);
-            if (file.created == 0.0) file.created = now();
-            insert(file);
-        }
-    }
-}
-
-const StoredFile* Store::find_locked(Kind kind, const std::string& reference) {
-    const Files& all = files(kind);
-    if (const auto found = all.find(reference); found != all.end()) return &found->second;
-    const auto& names = id_of_name_[static_cast<size_t>(kind)];
-    const auto named = names.find(reference);
-    return named == names.end() ? nullptr : &all.at(named->second);
-}
-
 std::optional<StoredFile> Store::find(Kind kind, const std::string& reference) {
-    if (is_read_only()) read_index_now_and_then();
+    if (is_read_only()) read_index_if_changed();
     const std::shared_lock lock(mutex_);
     const StoredFile* file = find_locked(kind, reference);
     return file == nullptr ? std::nullopt : std::optional(*file);
@@ -327,14 +75,14 @@ StoredFile Store::get(Kind kind, const std::string& reference) {
 }
 
 std::vector<StoredFile> Store::list(Kind kind) {
-    if (is_read_only()) read_index_now_and_then();
+    if (is_read_only()) read_index_if_changed();
     const std::shared_lock lock(mutex_);
     std::vector<StoredFile> all;
     for (const auto& [id, file] : files(kind)) all.push_back(file);
     return all;
 }
 
-/// Rows and memory; names leave the files that had them.
+/// In the database and in memory. Names move from the files that had them.
 void Store::insert(const StoredFile& file) {
     const std::string kind = name_of(file.kind);
     database_->transaction([&] {
@@ -357,17 +105,27 @@ void Store::insert(const StoredFile& file) {
     index_names_locked();
 }
 
+/// The file that holds these bytes. An old id does not prove that they are the same.
+std::optional<StoredFile> Store::find_bytes(Kind kind, std::span<const std::byte> bytes) {
+    if (auto file = find(kind, id_of(bytes))) return file;
+    auto file = find(kind, old_id_of(bytes));
+    if (!file || !file->damage.empty()) return std::nullopt;
+    const MappedFile stored = map(path(kind, file->id));
+    return std::ranges::equal(stored.bytes(), bytes) ? file : std::nullopt;
+}
+
 Store::Added Store::add(Kind kind, const std::string& from, const std::string& name,
                         const Json& facts) {
     check_name(name);
     const std::lock_guard change(change_mutex_);
     StoredFile file;
+    std::optional<StoredFile> known;
     {
         const MappedFile mapping = map(from);
-        file.id = id_of(mapping.bytes());
+        known = find_bytes(kind, mapping.bytes());
+        file.id = known ? known->id : id_of(mapping.bytes());
         file.bytes = mapping.bytes().size();
     }
-    const auto known = find(kind, file.id);
     const bool is_new = !known || !known->damage.empty();
     if (is_new) {
         check_quota(file.bytes);
@@ -457,8 +215,8 @@ void Store::quarantine(Kind kind, const std::string& id, const std::string& dama
 
 void Store::link(const StoredFile& file, const std::string& to) {
     const std::string from = path(file.kind, file.id);
-    if (id_of(map(from).bytes()) != file.id) {
-        quarantine(file.kind, file.id, "its bytes are not those that came in");
+    if (!has_id(map(from).bytes(), file.id)) {
+        quarantine(file.kind, file.id, "its bytes have changed");
         (void)get(file.kind, file.id);  // throws
     }
     if (::link(from.c_str(), to.c_str()) != 0) require_stored(system_error(to, "link"));
@@ -508,18 +266,14 @@ void Store::keep_reserve() const {
     server::keep_reserve(reserve_path());
 }
 
-/// For servers that only read, and for the day on which the database is damaged. What is stored is
-/// stored without it: when it cannot be written, the next change brings it up to date.
+/// A change is stored even if its index cannot be written: the next change brings it up to date.
 bool Store::write_index() {
     Json json = Json::array();
     {
         const std::shared_lock lock(mutex_);
         for (const Files& all : files_) {
             for (const auto& [id, file] : all) {
-                Json entry = to_json(file);
-                entry["kind"] = name_of(file.kind);
-                entry["facts"] = object_in(file.facts);
-                json.push_back(std::move(entry));
+                json.push_back(index_entry(file));
             }
         }
     }
@@ -532,14 +286,15 @@ bool Store::write_index() {
         keep_reserve();
         return true;
     } catch (const Problem& problem) {
-        log_.write(Log::Level::Error, "readers do not see the last changes",
+        log_.write(Log::Level::Error,
+                   "index.json could not be written; readers miss the last change",
                    {{"error", problem.detail}});
         return false;
     }
 }
 
-/// Once a second at most, and only when it changed. A damaged one changes nothing.
-void Store::read_index_now_and_then() {
+/// At most once a second. A damaged index changes nothing.
+void Store::read_index_if_changed() {
     const auto ticks = std::chrono::steady_clock::now().time_since_epoch().count();
     int64_t next = next_index_check_;
     constexpr int64_t kSecond = 1'000'000'000;
@@ -551,12 +306,12 @@ void Store::read_index_now_and_then() {
     const std::lock_guard change(change_mutex_);
     if (stamp == index_stamp_) return;
     const auto bytes = read_file(index_path());
-    if (!bytes) return;  // it may be there in a second
+    if (!bytes) return;  // perhaps readable in a second
     index_stamp_ = std::move(stamp);
-    const Index index = parse_index(*bytes);
+    const StoreIndex index = parse_store_index(*bytes);
     if (!index.is_whole) {
         ++metrics_.damaged_indexes;
-        log_.write(Log::Level::Error, "index.json is damaged; what it said before is served");
+        log_.write(Log::Level::Error, "index.json is damaged; the one before it is served");
         return;
     }
     const std::unique_lock lock(mutex_);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <shared_mutex>
 #include <string>
 #include <vector>
@@ -20,58 +19,29 @@
 #include <tetralight/server/log.h>
 #include <tetralight/server/metrics.h>
 #include <tetralight/server/settings.h>
+#include <tetralight/server/store_index.h>
+#include <tetralight/server/stored_file.h>
 
 namespace tetralight::server {
 
-enum class Kind : uint8_t { Scenes, Skies, Groups, Volumes };
-
-inline constexpr Kind kKinds[] = {Kind::Scenes, Kind::Skies, Kind::Groups, Kind::Volumes};
-
-/// "scenes": its folder and its part of paths.
-[[nodiscard]] const char* name_of(Kind kind);
-/// "scene".
-[[nodiscard]] const char* noun_of(Kind kind);
-/// ".glb".
-[[nodiscard]] const char* extension_of(Kind kind);
-
-/// One file of the store. It never changes; its names can.
-struct StoredFile {
-    Kind kind = Kind::Scenes;
-    /// The hash of its bytes (XXH128), 32 hexadecimal digits.
-    std::string id;
-    /// Each leads to one file of its kind; the same bytes may have come in under several.
-    std::set<std::string> names;
-    uint64_t bytes = 0;
-    /// Seconds since 1970.
-    double created = 0.0;
-    /// What was found out when it came in: a JSON object, as text since files are copied often.
-    std::string facts = "{}";
-    /// Why it cannot be used; empty: it can.
-    std::string damage;
-};
-
-/// Without its facts.
-[[nodiscard]] Json to_json(const StoredFile& file);
-[[nodiscard]] Json to_json_with_facts(const StoredFile& file);
-
-/// All that a server keeps:
+/// The data folder of a server:
 ///
 ///     DIR/tetralight.db                names, facts and bakes
-///     DIR/index.json                   the same of files, for servers that only read
+///     DIR/index.json                   the stored files, for servers that only read
 ///     DIR/{scenes,skies,groups,volumes}/ID.EXT
-///     DIR/bakes/ID/                    a bake that is not over
-///     DIR/work/                        what requests work in; emptied at the start
-///     DIR/quarantine/                  what turned out to be damaged
-///     DIR/reserve                      space to delete with when the disk is full
+///     DIR/bakes/ID/                    an unfinished bake
+///     DIR/work/                        folders of requests; emptied at the start
+///     DIR/quarantine/                  damaged files
+///     DIR/reserve                      space that deleting needs when the disk is full
 ///
-/// A file is on the disk before its row, and a row is gone before its file, so that whatever the
-/// database names is there. Thread-safe. Functions without a `Result` throw a `Problem`.
+/// A file is written before its row and deleted after it, so that every file that the database
+/// names exists. Thread-safe. Functions without a `Result` throw a `Problem`.
 class Store {
   public:
     [[nodiscard]] static Result<std::unique_ptr<Store>> open(const Settings& settings, Log& log,
                                                              Metrics& metrics);
 
-    /// By id or by name. Throws: there is none (404), or it is damaged (410).
+    /// By id or by name. Throws 404 if there is none, 410 if it is damaged.
     [[nodiscard]] StoredFile get(Kind kind, const std::string& reference);
     [[nodiscard]] std::optional<StoredFile> find(Kind kind, const std::string& reference);
     [[nodiscard]] std::vector<StoredFile> list(Kind kind);
@@ -81,41 +51,41 @@ class Store {
         bool is_new = false;
     };
 
-    /// Takes a file of the store's disk over. A name moves to it from the file that had it, and
-    /// stands beside those that it has.
+    /// Moves a file on the store's disk into the store. A name moves to it from the file that had
+    /// it, in addition to its other names.
     Added add(Kind kind, const std::string& path, const std::string& name, const Json& facts);
-    /// By name: the name becomes the new one. By id: the file gets the name beside those it has.
-    /// No name: that name goes; by id, all of them.
+    /// By name: replaces the name. By id: adds the name to the file's names. An empty name removes
+    /// the name; by id, all names.
     StoredFile rename(Kind kind, const std::string& reference, const std::string& name);
-    /// By name: the name goes, and the file with its last name. By id: all of it.
+    /// By name: removes the name, and with its last name the file. By id: removes the file.
     void remove(Kind kind, const std::string& reference);
 
-    /// Puts a damaged file aside.
+    /// Moves a damaged file to the quarantine.
     void quarantine(Kind kind, const std::string& id, const std::string& damage);
 
-    /// Links a file into a folder of the store's disk, where it stays whatever becomes of it here.
-    /// Throws when its bytes are not those that its id says.
+    /// Links a file into a folder on the store's disk, where it stays even if the store deletes it.
+    /// Throws if its bytes do not have its id.
     void link(const StoredFile& file, const std::string& path);
 
     [[nodiscard]] std::string path(Kind kind, const std::string& id) const;
     [[nodiscard]] std::string bake_folder(const std::string& id) const;
     [[nodiscard]] WorkFolder make_work_folder();
 
-    /// Throws when so many bytes more would be over the quota.
+    /// Throws if `more` bytes do not fit the quota.
     void check_quota(uint64_t more) const;
     [[nodiscard]] uint64_t total_bytes() const;
 
     [[nodiscard]] Database& database() { return *database_; }
 
-    /// Does what frees space or ends something: when the disk is full, once more with the space
-    /// that is kept for that.
+    /// Runs `work`, which frees space or ends a bake. If the disk is full, releases the reserve and
+    /// runs it once more.
     void with_reserve(const std::function<void()>& work);
-    /// To be called after something was freed.
+    /// Fills the reserve up again. Call it after space was freed.
     void keep_reserve() const;
 
     [[nodiscard]] bool is_read_only() const { return settings_.is_read_only; }
 
-    /// What was wrong at the start.
+    /// Damage that was found at the start.
     [[nodiscard]] const std::vector<std::string>& findings() const { return findings_; }
 
   private:
@@ -129,15 +99,20 @@ class Store {
 
     [[nodiscard]] Status open_database();
     void load();
+    [[nodiscard]] Status try_database(const std::string& path);
+    void quarantine_database(const std::string& path, const Error& error);
     void adopt_or_drop_unknown_files();
+    void adopt_file(Kind kind, const std::string& id, const std::string& path,
+                    const StoreIndex& index);
 
     [[nodiscard]] Files& files(Kind kind) { return files_[static_cast<size_t>(kind)]; }
 
     [[nodiscard]] const StoredFile* find_locked(Kind kind, const std::string& reference);
+    [[nodiscard]] std::optional<StoredFile> find_bytes(Kind kind, std::span<const std::byte> bytes);
     void insert(const StoredFile& file);
     void index_names_locked();
     bool write_index();
-    void read_index_now_and_then();
+    void read_index_if_changed();
     void report(const std::string& finding);
 
     const Settings settings_;
@@ -149,21 +124,11 @@ class Store {
     mutable std::shared_mutex mutex_;
     Files files_[std::size(kKinds)];
     std::map<std::string, std::string> id_of_name_[std::size(kKinds)];
-    std::mutex change_mutex_;  ///< one change at a time, from the disk to the index
+    std::mutex change_mutex_;  ///< one change at a time, with its file, row and index
     std::atomic<uint64_t> work_count_ = 0;
     std::atomic<int64_t> next_index_check_ = 0;
     std::string index_stamp_;
 };
-
-/// Throws a `Problem` when the disk did not do it: 507 when it is full.
-void require_stored(const Status& status);
-
-/// Throws a `Problem` unless it can be a name: at most 200 bytes of UTF-8 without control
-/// characters and slashes, that is no id.
-void check_name(const std::string& name);
-
-/// Whether a text is an id: 32 hexadecimal digits.
-[[nodiscard]] bool is_id(const std::string& text);
 
 /// Seconds since 1970.
 [[nodiscard]] double now();

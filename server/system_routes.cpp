@@ -17,7 +17,7 @@ Response plain(unsigned status, const std::string& words) {
     return {.status = status, .content_type = "text/plain; charset=utf-8", .body = words + "\n"};
 }
 
-/// Ready to be sent requests: not when it is about to end, nor when its folder is gone.
+/// Not ready while the server is stopping, or if its folder is missing.
 Response ready(const Service& service) {
     if (service.is_ending) return plain(503, "ending");
     std::error_code error;
@@ -36,7 +36,7 @@ double open_descriptors() {
 }
 
 double resident_bytes() {
-    // The second number of the file, in pages. A file of /proc has no size that one could read by.
+    // The second number of the file, in pages. Files of /proc report size 0.
     double pages = 0.0;
     double resident = 0.0;
     if (std::FILE* file = std::fopen("/proc/self/statm", "re")) {
@@ -93,14 +93,14 @@ Response viewer_response(const Service& service, const std::string& path) {
         return plain(
             200,
             "This is tetralight serve. It answers requests (/openapi.json has all of them), "
-            "but its viewer is not here:\nbuild it with `./run build viewer` and start the "
+            "but its viewer was not found:\nbuild it with `./run build viewer` and start the "
             "server again, or name its folder with --viewer DIR.");
     }
     std::error_code error;
     const fs::path root = fs::canonical(service.settings.viewer, error);
     const std::string relative = path == "/" ? "index.html" : path.substr(1);
     const fs::path file = error ? fs::path() : fs::canonical(root / relative, error);
-    // Links and `..` are followed, and must end below the folder.
+    // Resolves links and `..`; the result must lie in the folder.
     const std::string prefix = root.string() + "/";
     if (error || !file.string().starts_with(prefix) || !fs::is_regular_file(file, error)) {
         throw Problem{404, "no_such_path", "there is nothing at this path", "path", path};
@@ -140,7 +140,8 @@ std::vector<Route> system_routes(Service& service) {
         {.method = "GET",
          .pattern = "/openapi.json",
          .access = Access::Open,
-         .handle = [](Request&) { return Response{.body = std::string(openapi_text())}; }},
+         .handle = [document =
+                        Body(openapi_document())](Request&) { return Response{.body = document}; }},
         {.method = "GET", .pattern = "/metrics", .handle = [&](Request&) {
              return metrics(service);
          }}};

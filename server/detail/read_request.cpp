@@ -37,7 +37,7 @@ bool is_http_error(const error_code& error) {
     return error.category() == http::make_error_code(http::error::bad_method).category();
 }
 
-/// What the client sent, as far as it can be shown.
+/// The printable beginning of what the client sent.
 std::string beginning(const beast::flat_buffer& buffer) {
     constexpr size_t kMost = 40;
     const auto bytes = buffer.data();
@@ -45,7 +45,7 @@ std::string beginning(const beast::flat_buffer& buffer) {
     return std::string(all.substr(0, std::min(all.find('\r'), kMost)));
 }
 
-/// Why a head could not be read; nothing: there is nobody to tell.
+/// Why a head could not be read; nothing if the client has disconnected.
 std::optional<Problem> problem_of_head(const Settings& settings, const Session& session,
                                        const error_code& error) {
     if (error == http::error::header_limit) {
@@ -66,7 +66,7 @@ std::optional<Problem> problem_of_head(const Settings& settings, const Session& 
                    beginning(session.buffer)};
 }
 
-/// The head as a plain value, and what is wrong with it.
+/// Converts the head to a plain value and checks it.
 std::optional<Problem> take_head(const Parser& parser, Request& request) {
     constexpr size_t kLongest = 200;
     constexpr unsigned kHttp11 = 11;
@@ -137,7 +137,7 @@ net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settin
     const bool is_to_file = plan.body_to == Plan::BodyTo::File;
     std::string& body = request.body;
     while (!error && !parser.is_done()) {
-        // Memory for what came, not for what was announced.
+        // Allocate for received bytes, not for announced ones.
         const size_t begin = is_to_file ? 0 : body.size();
         const size_t room =
             length ? std::min<uint64_t>(kSliceSize, *length - request.body_size) : kSliceSize;

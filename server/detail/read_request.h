@@ -14,19 +14,19 @@ namespace tetralight::server {
 
 using Parser = beast::http::request_parser<beast::http::buffer_body>;
 
-/// What came of a request.
+/// The result of reading a request.
 struct Reading {
     bool is_whole = false;
-    /// Why it is not whole, unless there is nobody to tell.
+    /// Why it is not whole; empty if the client has disconnected.
     std::optional<Problem> refused;
 };
 
-/// Reads the head of a request, as a plain value. Precondition: the request has an id, which one
-/// of the client replaces.
+/// Reads the head of a request into a plain value. Precondition: the request has an id; an id that
+/// the client sent replaces it.
 net::awaitable<Reading> read_head(Session& session, Parser& parser, const Settings& settings,
                                   Request& request);
 
-/// Reads the body to where the plan says.
+/// Reads the body into memory or a file, as the plan says.
 net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settings& settings,
                                   const Plan& plan, Request& request);
 

@@ -6,18 +6,18 @@
 
 namespace tetralight::server {
 
-/// What became of an answer.
+/// How much of an answer was sent.
 struct Sent {
     uint64_t bytes = 0;  ///< of its body
     bool is_whole = false;
 };
 
 struct SendRule {
-    /// For each slice of the body.
+    /// Time limit of each slice of the body.
     double seconds = 0.0;
-    /// Whether the connection takes another request.
+    /// True if the connection stays open for another request.
     bool keeps_open = false;
-    /// Events end when it becomes true.
+    /// Events end once it is true.
     const std::atomic<bool>& is_ending;
 };
 

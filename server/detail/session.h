@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <utility>  // which Asio forgets
+#include <utility>  // missing in Asio
 
 #include <atomic>
 #include <boost/asio/awaitable.hpp>
@@ -24,12 +24,12 @@ using net::ip::tcp;
 using Clock = std::chrono::steady_clock;
 
 constexpr size_t kReadSize = size_t{64} << 10;
-/// So much of a body has to come, or go, in the time of the settings.
+/// The part of a body that must pass within the time limit of the settings.
 constexpr size_t kSliceSize = size_t{64} << 10;
 
 [[nodiscard]] Clock::duration to_duration(double seconds);
 
-/// One connection. All of it belongs to the strand of its stream, but for `is_idle` and `place`.
+/// One connection. Everything but `is_idle` and `place` is used on the strand of its stream only.
 struct Session : std::enable_shared_from_this<Session> {
     /// Counts itself in `all` while it lives.
     Session(std::atomic<uint32_t>& all, tcp::socket socket);
@@ -39,28 +39,28 @@ struct Session : std::enable_shared_from_this<Session> {
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Cancels what the stream waits for when time is up, until `disarm`. The stream's own expiry
-    /// closes it, so that nobody can be told.
+    /// Cancels the stream's wait after this time, until `disarm`. The stream's own expiry would
+    /// close it, so that the client could not be answered.
     void arm(double seconds);
 
     void disarm() { due_ = Clock::time_point::max(); }
 
-    /// Whether the client has closed its end.
+    /// True if the client has closed its end.
     [[nodiscard]] bool is_abandoned();
 
-    /// Closes the connection so that what was sent arrives, even while the client still sends.
+    /// Closes the connection after the sent bytes have arrived, even if the client still sends.
     net::awaitable<void> linger();
 
     std::atomic<uint32_t>& count;
     beast::tcp_stream stream;
     beast::flat_buffer buffer;
     std::string remote;
-    bool is_late = false;  ///< time was up since the last `arm`
+    bool is_late = false;  ///< the time of the last `arm` has passed
     std::atomic<bool> is_idle = true;
-    std::list<std::weak_ptr<Session>>::iterator place;  ///< in the list of all
+    std::list<std::weak_ptr<Session>>::iterator place;  ///< in the list of sessions
 
   private:
-    /// One wait outlasts many requests: it is only moved when it ends before its time.
+    /// One wait serves many requests: it is renewed only if it ends early.
     void watch();
 
     net::steady_timer timer_;

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files come in, go out, get names and survive."""
 import contextlib
+import hashlib
 import json
 import os
 import random
@@ -66,7 +67,46 @@ class VolumeTest(ServiceTest):
         return path
 
 
+# Some groups, and the id that versions before 0.1 gave them: their XXH128.
+OLD_GROUPS = b'{"groups":[{"name":"old","positions":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]]}]}'
+OLD_ID = "cd2cf9876de9280db971a4c07ab60353"
+
+
+class OldIds(VolumeTest):
+    def setUp(self):
+        super().setUp()
+        os.makedirs(os.path.join(self.data, "groups"))
+        self.path = os.path.join(self.data, "groups", OLD_ID + ".json")
+        with open(self.path, "wb") as file:
+            file.write(OLD_GROUPS)
+        entry = {"id": OLD_ID, "names": ["old"], "bytes": len(OLD_GROUPS), "created": 1.0,
+                 "state": "ready", "kind": "groups", "facts": {}}
+        with open(os.path.join(self.data, "index.json"), "w", encoding="utf-8") as file:
+            json.dump({"files": [entry]}, file)
+
+    def test_files_with_old_ids_are_served_and_used(self):
+        server = self.start()
+        for reference in (OLD_ID, "old"):
+            self.assertEqual(server.get(f"/v1/groups/{reference}/file").body, OLD_GROUPS)
+        answer = server.post("/v1/tetrahedralize", {"groups": [OLD_ID]})
+        self.assertEqual(answer.status, 201, answer.body)
+        again = server.post("/v1/groups", OLD_GROUPS, BINARY)
+        self.assertEqual((again.status, again.json()["id"]), (200, OLD_ID))
+
+    def test_a_changed_file_with_an_old_id_is_not_used(self):
+        server = self.start()
+        with open(self.path, "wb") as file:
+            file.write(OLD_GROUPS.replace(b"old", b"new"))
+        self.assert_problem(server.post("/v1/tetrahedralize", {"groups": [OLD_ID]}), 410,
+                            "quarantined")
+
+
 class Files(VolumeTest):
+    def test_an_id_is_the_sha_256_of_the_bytes(self):
+        server = self.start()
+        answer = server.post("/v1/groups", OLD_GROUPS, BINARY)
+        self.assertEqual(answer.json()["id"], hashlib.sha256(OLD_GROUPS).hexdigest())
+
     def test_a_scene_comes_back_byte_for_byte(self):
         server = self.start()
         scene = self.upload(server, "scenes", COURTYARD, "court")

@@ -105,18 +105,36 @@ class OpenApi(ServiceTest):
                                            r'openapi\.json))"', text))
         self.assertLessEqual(patterns, set(self.document["paths"]))
 
-    def test_orders_name_the_members_that_the_service_knows(self):
-        for path, schema in (("/v1/bakes", "BakeOrder"), ("/v1/grid", "GridOrder"),
-                             ("/v1/lppv", "LppvOrder"), ("/v1/render", "RenderOrder"),
-                             ("/v1/relight", "RelightOrder")):
-            source = os.path.join(os.path.dirname(__file__), "..", "..", "server")
-            text = open(os.path.join(source, "tool_routes.cpp")).read() + \
-                open(os.path.join(source, "bake_routes.cpp")).read()
-            rules = re.search(r"k%sRules\[\] = \{(.*?)\};" % schema.removesuffix("Order"), text,
-                              re.S).group(1)
-            members = set(re.findall(r'\{"(\w+)"', rules))
-            self.assertLessEqual(members,
-                                 set(self.document["components"]["schemas"][schema]["properties"]))
+    def test_the_members_of_orders_are_those_that_the_service_accepts(self):
+        for path, schema, member in (
+                ("/v1/bakes", "BakeOrder", "samples"), ("/v1/grid", "GridOrder", "spacing"),
+                ("/v1/lppv", "LppvOrder", "density"), ("/v1/render", "RenderOrder", "camera"),
+                ("/v1/relight", "RelightOrder", "weights"),
+                ("/v1/tetrahedralize", "TetrahedralizeOrder", "groups")):
+            properties = self.document["components"]["schemas"][schema]["properties"]
+            self.assertIn(member, properties)
+            for name in [*properties, "output", "threads", "chunks", "no_setting"]:
+                with self.subTest(path=path, member=name):
+                    problem = self.server.post(path, {name: {}}).json()
+                    is_unknown = problem["code"] == "unknown_member"
+                    self.assertEqual(is_unknown, name not in properties, problem)
+
+    def test_settings_have_the_description_limits_and_default_of_their_table(self):
+        schemas = self.document["components"]["schemas"]
+        bake = schemas["BakeOrder"]["properties"]
+        self.assertEqual(bake["bounces"]["default"], 4)
+        self.assertEqual((bake["min_validity"]["minimum"], bake["min_validity"]["maximum"]), (0, 1))
+        self.assertIn("hann", bake["dering_window"]["enum"])
+        self.assertEqual((bake["scene"]["x-stored"], bake["reuse"]["x-stored"]), ("scenes", "volumes"))
+        self.assertIn("scene", schemas["BakeOrder"]["required"])
+        self.assertEqual(set(schemas["Query"]["properties"]),
+                         {"positions", "outside", "fade", "precision"})
+        text = json.dumps(schemas)
+        self.assertNotIn("x-settings", text)
+        self.assertNotIn("--", text)
+        for order in ("BakeOrder", "GridOrder", "LppvOrder", "RenderOrder", "RelightOrder"):
+            for name, setting in schemas[order]["properties"].items():
+                self.assertTrue(setting["description"], name)
 
 
 if __name__ == "__main__":

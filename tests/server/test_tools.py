@@ -77,6 +77,15 @@ class Tools(ServiceTest):
                 self.assertTrue(problem["request_id"])
                 self.assertNotRegex(problem["detail"], r"--|\.glb|\.probes|\.hdr|\.json")
 
+    def test_words_of_the_user_are_data(self):
+        for layer in ("light:No space left", "light:my scene.glb --sky-rotation",
+                      "light:cancelled", "light:is damaged"):
+            with self.subTest(layer=layer):
+                order = {"scene": "court", "samples": 16, "layers": [layer]}
+                problem = self.assert_problem(self.server.post("/v1/bakes", order), 422, "bad_data")
+                self.assertIn(layer.removeprefix("light:"), problem["detail"])
+                self.assertTrue(problem["field"].startswith("layers"), problem)
+
     def test_errors_in_an_upload_are_of_its_body(self):
         bad = {"groups": [{"name": "g", "positions": [[0, 0, "x"]]}]}
         problem = self.assert_problem(self.server.post("/v1/groups", bad), 422, "bad_data")

@@ -77,7 +77,7 @@ test('what is no number moves neither the ball nor the box', () => visit(link(kO
     });
     const height = page.getByLabel('Position of the ball, metres y');
     const length = page.getByLabel('Size of the box, metres x');
-    await page.getByLabel('A box of light for a large object').check();
+    await page.getByLabel('Proxy volume for a large object').check();
     for (const text of ['', '-', '1e400', 'abc']) {
         await typeInto(height, text);
         expect(await height.inputValue(), text).toBe('1.5');
@@ -133,7 +133,7 @@ test('the mesh ball is lit by one query a frame', () => visit(link(kOutside), as
 test('a proxy volume lights a block from the served texture', () => visit(link(kOutside), async page => {
     await ready(page);
     const served = page.waitForResponse(response => response.url().endsWith('/v1/lppv'));
-    await page.getByLabel('A box of light for a large object').check();
+    await page.getByLabel('Proxy volume for a large object').check();
     expect((await served).status()).toBe(200);
     const block = () => page.evaluate(() => {
         const {query} = (window as any).tetralight;  // eslint-disable-line
@@ -141,8 +141,8 @@ test('a proxy volume lights a block from the served texture', () => visit(link(k
     });
     await expect.poll(block, {timeout: 60_000}).toBe(true);
     // From the room to the court: warm at one end, blue at the other.
-    await page.getByLabel('Middle of the box, metres x').fill('0');
-    await page.getByLabel('Middle of the box, metres z').fill('4');
+    await page.getByLabel('Center of the box, metres x').fill('0');
+    await page.getByLabel('Center of the box, metres z').fill('4');
     await page.getByLabel('Size of the box, metres x').fill('1');
     const second = page.waitForResponse(response => response.url().endsWith('/v1/lppv') &&
         (response.request().postData() ?? '').includes('"bounds":[-0.5,'));

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bakes: a form with every setting, what runs and how far it is.
+// Bakes: a form with every setting, and the bakes with their progress.
 import {Missing} from './alerts';
 import {ApiError, Bake, titleOf} from './api';
-import {BakeField, kBakeSections, settingsOf, valueOf} from './bake_fields';
+import {BakeField, bakeSections, OpenApi, settingsOf, valueOf} from './bake_fields';
 import {counted, formatCount, formatPercent, formatSeconds} from './colors';
 import {button, element, labelled} from './dom';
 import type {Viewer} from './viewer';
 
-const kOnlyChangedHint = 'Probes that stayed where they were keep the light of the open volume. ' +
-    'Settings that are left empty are those of its bake; where others differ, all are baked.';
+const kOnlyChangedHint = 'Probes whose position is unchanged keep the light of the open volume. ' +
+    'Empty fields keep the settings of its bake; if any other setting differs, all probes are baked.';
 
 type Control = HTMLInputElement | HTMLSelectElement;
 
 export class BakesPanel {
     readonly element: HTMLElement;
     private readonly fields = new Map<BakeField, Control>();
+    private readonly sections = element('div');
     private readonly name = element('input', {type: 'text', maxlength: 200});
     private readonly groups = element('select', {multiple: true, size: 4});
     private readonly onlyGiven = element('input', {type: 'checkbox'});
@@ -25,20 +26,16 @@ export class BakesPanel {
     private readonly watched = new Set<string>();
 
     constructor(private readonly viewer: Viewer, private readonly finished: () => void) {
-        const sections = kBakeSections.map(({title, fields}, i) => element(
-            'details', {open: i === 0}, element('summary', {}, title),
-            ...fields.map(field => labelled(field.label, this.control(field),
-                                               `${field.hint} Default: ${field.default}.`))));
         const form = element(
             'form', {submit: (event: Event) => {
                 event.preventDefault();
                 void viewer.alerts.attempt('bake', () => this.submit());
             }},
             labelled('Name of the volume', this.name), labelled('Stored groups to add', this.groups),
-            element('label', {class: 'check'}, this.onlyGiven, "Leave the scene's own groups out"),
+            element('label', {class: 'check'}, this.onlyGiven, "Omit the scene's own groups"),
             element('label', {class: 'check', title: kOnlyChangedHint}, this.onlyChanged, 'Bake only what changed'),
-            ...sections, element('div', {class: 'buttons'},
-                                 element('button', {type: 'submit', class: 'main'}, 'Bake')));
+            this.sections, element('div', {class: 'buttons'},
+                                   element('button', {type: 'submit', class: 'main'}, 'Bake')));
         this.element = element('section', {'aria-label': 'Bakes'}, element('h2', {}, 'New bake'), form,
                                element('h2', {}, 'Bakes'), this.list);
         viewer.onChange(() => {
@@ -48,7 +45,7 @@ export class BakesPanel {
         this.offerReuse();
     }
 
-    /** The bake that made the open volume, if it is of the open scene. */
+    /** The bake that made the open volume, if it was of the open scene. */
     private get earlier(): Bake | null {
         const {bake, volume, sceneFile} = this.viewer;
         const scene = bake?.request?.scene;
@@ -56,7 +53,7 @@ export class BakesPanel {
         return volume !== null && isOfScene ? bake : null;
     }
 
-    /** Possible where there is something to re-use; on where probes were edited since. */
+    /** Enables "only what changed" if there is a bake to reuse. */
     private offerReuse(): void {
         const volume = this.earlier === null ? '' : this.viewer.volume!.file.id;
         if (volume !== this.reusable) this.onlyChanged.checked = false;
@@ -64,14 +61,14 @@ export class BakesPanel {
         this.reusable = volume;
     }
 
-    /** The scene's, unless someone gave another. */
+    /** Offers the scene's name, unless the user typed another. */
     private offerName(): void {
         if (this.name.value !== this.offeredName) return;
         this.offeredName = this.viewer.sceneFile?.name ?? '';
         this.name.value = this.offeredName;
     }
 
-    /** What another panel saved is to be baked instead of the scene's own groups. */
+    /** Selects groups that another panel saved, instead of the scene's own. */
     useGroups(id: string): void {
         void this.viewer.alerts.attempt('list', async () => {
             await this.refresh();
@@ -81,7 +78,18 @@ export class BakesPanel {
         });
     }
 
+    /** Makes a field of each setting that the service accepts. */
+    private async makeFields(): Promise<void> {
+        const sections = bakeSections(await this.viewer.api.get<OpenApi>('/openapi.json'));
+        if (this.fields.size > 0) return;
+        this.sections.replaceChildren(...sections.map(({title, isOpen, fields}) => element(
+            'details', {open: isOpen}, element('summary', {}, title),
+            ...fields.map(field => labelled(field.label, this.control(field),
+                                            `${field.hint} Default: ${field.default}.`)))));
+    }
+
     async refresh(): Promise<void> {
+        if (this.fields.size === 0) await this.makeFields();
         const chosen = new Set([...this.groups.selectedOptions].map(option => option.value));
         const files = await this.viewer.api.list('groups');
         this.groups.replaceChildren(...files.map(file => {
@@ -117,7 +125,7 @@ export class BakesPanel {
         if (viewer.sceneFile === null) throw new Missing('Open a scene first: a bake needs one.');
         const order: Record<string, unknown> = {scene: viewer.sceneFile.id};
         if (this.onlyChanged.checked && this.earlier !== null) {
-            Object.assign(order, settingsOf(this.earlier.request!), {reuse: this.viewer.volume!.file.id});
+            Object.assign(order, settingsOf(this.fields.keys(), this.earlier.request!), {reuse: this.viewer.volume!.file.id});
         }
         if (this.name.value.trim() !== '') order.name = this.name.value.trim();
         const chosen = [...this.groups.selectedOptions].map(option => option.value);
@@ -185,7 +193,7 @@ export class BakesPanel {
         }
     }
 
-    /** Makes rows anew; the focus stays with the bake that has it. */
+    /** Rebuilds rows; the focus stays with its bake. */
     private keepFocus(change: () => void): void {
         const focused = document.activeElement;
         const id = this.list.contains(focused) ? focused!.closest('li')!.dataset.bake : undefined;
@@ -221,7 +229,7 @@ export class BakesPanel {
 
     /** "120 of 255 probes, 1.4 million rays/s, 3 s left". */
     private progress(bake: Bake): string {
-        if (bake.probe_count === 0) return bake.state === 'queued' ? 'waits' : 'prepares';
+        if (bake.probe_count === 0) return bake.state === 'queued' ? 'queued' : 'preparing';
         const words = [`${formatCount(bake.probes_done)} of ${formatCount(bake.probe_count)} probes`];
         if (typeof bake.rays_per_second === 'number') words.push(formatRate(bake.rays_per_second));
         if (typeof bake.seconds_left === 'number') words.push(`${formatSeconds(bake.seconds_left)} left`);
@@ -238,11 +246,11 @@ function formatRate(raysPerSecond: number): string {
 function reportLine(report: Record<string, unknown>): string {
     const words: string[] = [];
     if (typeof report.probes === 'number') words.push(counted(report.probes, 'probe'));
-    if (typeof report.reused === 'number' && report.reused > 0) words.push(`${formatCount(report.reused)} re-used`);
+    if (typeof report.reused === 'number' && report.reused > 0) words.push(`${formatCount(report.reused)} reused`);
     if (typeof report.rays === 'number') words.push(`${formatCount(report.rays)} rays`);
     if (typeof report.rays_per_second === 'number') words.push(formatRate(report.rays_per_second));
     const error = report.standard_error as {median?: number; p99?: number} | null;
     if (error?.median !== undefined) words.push(`error ${formatPercent(error.median)} (median)`);
-    for (const warning of (report.warnings ?? []) as string[]) words.push(warning.replace(/^reuse\.probes: /, ''));
+    for (const warning of (report.warnings ?? []) as string[]) words.push(warning.replace(/^reuse: /, ''));
     return words.join(', ');
 }

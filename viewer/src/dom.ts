@@ -74,7 +74,7 @@ export function select(options: [value: string, text: string][], value: string,
 /** Why a number field cannot be taken; nothing where it can. */
 function faultOf(input: HTMLInputElement): string {
     const {badInput, rangeUnderflow, rangeOverflow} = input.validity;
-    if (badInput) return 'this is no number';
+    if (badInput) return 'this is not a number';
     if (input.value === '') return 'the field is empty';
     if (rangeUnderflow) return `${input.value} is less than ${input.min}`;
     return rangeOverflow ? `${input.value} is more than ${input.max}` : '';

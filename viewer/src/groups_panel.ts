@@ -147,7 +147,7 @@ export class GroupsPanel {
 
     private showPreviewState(): void {
         const isPreview = this.editor.now === this.preview && this.editor.isUnsaved;
-        this.previewState.textContent = this.isGenerating ? 'The generator works…' :
+        this.previewState.textContent = this.isGenerating ? 'Generating…' :
             isPreview ? 'This is a preview: give it a name and save it, or open other groups.' : '';
     }
 
@@ -235,7 +235,7 @@ export class GroupsPanel {
         const spacing = element('input', {type: 'number', min: 0.05, step: 0.25, value: 2});
         const most = element('input', {type: 'number', min: 1, step: 100, value: 5000});
         const generate = async () => {
-            if (this.viewer.sceneFile === null) throw new Missing('Open a scene first: probes are to fill it.');
+            if (this.viewer.sceneFile === null) throw new Missing('Open a scene first: the generator fills it with probes.');
             const order = {
                 scene: this.viewer.sceneFile.id, mode: mode.value, spacing: numberToSend(spacing),
                 max_probes: numberToSend(most),
@@ -254,7 +254,7 @@ export class GroupsPanel {
             }
         };
         return element('div', {}, labelled('Mode', mode), labelled('Spacing, metres', spacing),
-                       labelled('Most probes', most),
+                       labelled('Maximum number of probes', most),
                        element('div', {class: 'buttons'},
                                button('Preview', () => void this.viewer.alerts.attempt('generate', generate))), this.previewState);
     }

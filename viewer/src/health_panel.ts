@@ -15,7 +15,7 @@ export function healthPanel(viewer: Viewer): HTMLElement {
     const show = () => {
         const {volume} = viewer;
         if (volume === null || volume.health.length === 0) {
-            facts.textContent = volume === null ? 'No volume is open.' : 'The volume does not know it: it was not baked.';
+            facts.textContent = volume === null ? 'No volume is open.' : 'The volume has no error bars: it was not baked.';
             body.replaceChildren();
             return;
         }

@@ -16,7 +16,7 @@ export interface LppvTexture {
 export function parseLppv(file: ArrayBuffer): LppvTexture {
     const view = new DataView(file);
     if (file.byteLength < 104 || view.getUint32(0, true) !== 0x58544bab) {
-        throw new Error('the proxy volume is no KTX 2.0 file');
+        throw new Error('the proxy volume is not a KTX 2.0 file');
     }
     const [format, , width, height, depth] = [12, 16, 20, 24, 28].map(at => view.getUint32(at, true));
     if (format !== kHalf && format !== kFloat) {

@@ -179,7 +179,7 @@ class Page {
         this.next.hidden = sceneCount === 0 || volumeCount > 0;
         this.empty.hidden = sceneCount > 0 || volumeCount > 0;
         this.empty.replaceChildren(
-            element('h2', {}, 'There is nothing here yet'),
+            element('h2', {}, 'No scene or volume yet'),
             element('p', {}, 'Upload a scene (a binary glTF file, .glb) and bake it in the tab Bakes, or upload ' +
                     'a baked volume (.probes). Files can be dropped here, too.'),
             this.uploadButton());
@@ -201,7 +201,7 @@ class Page {
             const dot = file.name.lastIndexOf('.');
             const kind = kinds[file.name.slice(dot + 1).toLowerCase()];
             try {
-                if (kind === undefined) throw new Error('is no .glb, .probes, .json, .hdr or .exr file');
+                if (kind === undefined) throw new Error('is not a .glb, .probes, .json, .hdr or .exr file');
                 this.status.say(`Uploading ${file.name}…`);
                 const stored = (await this.api.upload(kind, file, file.name.slice(0, dot))).file;
                 if (kind === 'scenes') await this.viewer.openScene(stored.id).then(() => this.expose());

@@ -48,14 +48,14 @@ export class QueryPanel {
         this.place = vectorInput('Position of the ball, metres', [0, 0, 0], {step: 0.25},
                                  ([x, y, z]) => this.moveTo(new three.Vector3(x, y, z)));
         this.boxInputs = [
-            vectorInput('Middle of the box, metres', [0, 0, 0], {step: 0.25},
+            vectorInput('Center of the box, metres', [0, 0, 0], {step: 0.25},
                         p => this.moveBox(() => this.box.group.position.fromArray(p))),
             vectorInput('Size of the box, metres', [6, 1, 1], {step: kLeastSize, min: kLeastSize},
                         s => this.moveBox(() => this.box.group.scale.fromArray(s))),
         ];
         this.element = element(
             'section', {'aria-label': 'Query'},
-            element('p', {class: 'hint'}, 'Drag the ball in the scene, or type where it is to be. The server ' +
+            element('p', {class: 'hint'}, 'Drag the ball in the scene, or type its position. The server ' +
                     'answers for each place: the yellow cell is where it lies.'),
             this.place, this.answer,
             element('h2', {}, 'Mesh ball'),
@@ -63,7 +63,7 @@ export class QueryPanel {
             slider('Radius, metres', {min: 0.5, max: 10, step: 0.5, value: this.radius},
                    radius => { this.radius = radius; }),
             element('h2', {}, 'Proxy volume'),
-            this.needy(checkbox('A box of light for a large object', false, isOn => this.showBox(isOn))),
+            this.needy(checkbox('Proxy volume for a large object', false, isOn => this.showBox(isOn))),
             labelled('Handles', select([['translate', 'Move'], ['scale', 'Size']], 'translate',
                                        mode => this.holdBox(mode as 'translate' | 'scale'))),
             ...this.boxInputs,
@@ -147,7 +147,7 @@ export class QueryPanel {
         this.answer.replaceChildren(
             element('h2', {}, kind),
             element('table', {}, element('caption', {}, 'Its probes'),
-                    element('thead', {}, element('tr', {}, ...['Probe', 'Weight', 'Share'].map(
+                    element('thead', {}, element('tr', {}, ...['Probe', 'Weight', 'Fraction'].map(
                         name => element('th', {scope: 'col'}, name)))),
                     element('tbody', {}, ...rows)),
             element('p', {class: 'facts'}, `Light from above (E/π): ${text(up)}`, element('br'),

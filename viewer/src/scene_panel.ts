@@ -81,7 +81,7 @@ async function keepLight(viewer: Viewer): Promise<void> {
     const weights = Object.fromEntries(volume.layers.map((layer, i) => [layer.name, viewer.weights[i]]));
     const made = await viewer.api.post<StoredFile>('/v1/relight', {volume: volume.file.id, weights});
     await viewer.openVolume(made.id);
-    viewer.say('The light is kept as another volume.');
+    viewer.say('The light is stored as another volume.');
 }
 
 /** Another sun and sky for volumes with transfer. */
@@ -99,8 +99,8 @@ function skyForm(viewer: Viewer): HTMLElement {
         await viewer.openVolume(made.id);
     };
     return element('fieldset', {}, element('legend', {}, 'Another sun and sky'),
-                   labelled('Sun from, degrees about +Y', azimuth), labelled('Height of the sun, degrees', height),
-                   labelled('Turn of the sky, degrees', rotation),
+                   labelled('Azimuth of the sun, degrees about +Y', azimuth), labelled('Elevation of the sun, degrees', height),
+                   labelled('Rotation of the sky, degrees', rotation),
                    element('div', {class: 'buttons'},
                            button('Relight', () => void viewer.alerts.attempt('relight', relight))));
 }

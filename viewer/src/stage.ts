@@ -22,7 +22,7 @@ export class Stage {
         this.canvas = this.renderer.domElement;
         this.canvas.tabIndex = 0;
         this.canvas.setAttribute('role', 'application');
-        this.canvas.setAttribute('aria-label', 'The scene in 3D. Arrow keys turn, with Shift they ' +
+        this.canvas.setAttribute('aria-label', 'The scene in 3D. Arrow keys rotate, with Shift they ' +
             'move, plus and minus come nearer and go away.');
         parent.append(this.canvas);
         this.renderer.toneMapping = three.NeutralToneMapping;

@@ -14,7 +14,7 @@ export class TokenDialog {
                 event.preventDefault();
                 this.dialog.close();
                 this.given(this.input.value);
-            }}, labelled('Token', this.input, 'It was given to `tetralight serve`. This tab alone remembers it.'),
+            }}, labelled('Token', this.input, 'The token that `tetralight serve` was started with. Only this tab remembers it.'),
             element('div', {class: 'buttons'}, element('button', {type: 'submit', class: 'main'}, 'Enter'))));
         document.body.append(this.dialog);
     }

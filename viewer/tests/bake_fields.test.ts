@@ -1,24 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-import {readFileSync} from 'node:fs';
-
 import {expect, test} from 'vitest';
 
-import {kBakeSections, settingsOf, valueOf} from '../src/bake_fields';
+import {bakeSections, OpenApi, settingsOf, valueOf} from '../src/bake_fields';
 
-const fields = kBakeSections.flatMap(section => section.fields);
+const three = {type: 'array', items: {type: 'number'}, minItems: 3, maxItems: 3};
+const document: OpenApi = {components: {schemas: {BakeOrder: {properties: {
+    scene: {type: 'string', 'x-group': 'Files', 'x-stored': 'scenes'},
+    only_given_groups: {type: 'boolean', 'x-group': 'Files'},
+    sky: {oneOf: [{type: 'number'}, three, {type: 'string'}], 'x-group': 'Added light', 'x-default': "the scene's"},
+    sun_direction: {...three, 'x-group': 'Added light', 'x-default': 'no sun'},
+    samples: {type: 'integer', 'x-group': 'Samples', 'x-default': '1024', 'x-unit': 'samples', description: 'How many'},
+    target_error: {type: 'number', 'x-group': 'Samples', 'x-unit': 'fraction', default: 0.005},
+    seed: {type: 'integer', 'x-group': 'Samples', default: 0},
+    layers: {type: 'array', items: {type: 'string'}, 'x-group': 'Light transport', 'x-default': 'one layer'},
+    dering: {type: 'boolean', 'x-group': 'Probes'},
+    dering_window: {type: 'string', enum: ['mildest', 'hann'], 'x-group': 'Probes', default: 'mildest'},
+    reuse: {type: 'string', 'x-group': 'Earlier bakes', 'x-stored': 'volumes'},
+    priority: {type: 'integer'},
+}}}}};
+const sections = bakeSections(document);
+const fields = sections.flatMap(section => section.fields);
 const field = (key: string) => fields.find(one => one.key === key)!;
 
-test('the form has every setting that the service takes', () => {
-    const openapi = JSON.parse(readFileSync('../server/openapi.json', 'utf8')) as {
-        components: {schemas: {BakeOrder: {properties: Record<string, {enum?: string[]}>}}};
-    };
-    const {properties} = openapi.components.schemas.BakeOrder;
-    const elsewhere = ['scene', 'name', 'groups', 'only_given_groups', 'priority', 'reuse'];
-    expect([...fields.map(one => one.key), ...elsewhere].sort()).toEqual(Object.keys(properties).sort());
-    for (const {key, options} of fields) expect(options).toEqual(properties[key].enum);
+test('each setting of the schema has a field below its heading, but not those of files', () => {
+    expect(sections.map(({title, isOpen, fields}) => [title, isOpen, fields.map(({key}) => key)])).toEqual([
+        ['Samples', true, ['samples', 'target_error', 'seed']], ['Light transport', true, ['layers']],
+        ['Added light', false, ['sky', 'sun_direction']], ['Probes', false, ['dering', 'dering_window']],
+    ]);
 });
 
-test('texts mean numbers, vectors, lists and words', () => {
+test('kinds, labels, defaults and hints follow from the schema', () => {
+    expect(fields.map(({kind}) => kind)).toEqual(
+        ['integer', 'number', 'integer', 'list', 'sky', 'vector', 'flag', 'choice']);
+    expect(field('samples')).toMatchObject(
+        {label: 'Samples', default: '1024', hint: 'How many. Unit: samples.', isFraction: false});
+    expect(field('target_error')).toMatchObject({label: 'Target error', default: '0.005', isFraction: true});
+    expect(field('dering').default).toBe('no');
+    expect(field('dering_window').options).toEqual(['mildest', 'hann']);
+});
+
+test('texts are read as numbers, vectors, lists and words', () => {
     expect(valueOf(field('samples'), ' 256 ')).toBe(256);
     expect(valueOf(field('target_error'), '0.05')).toBe(0.05);
     expect(valueOf(field('target_error'), '5 %')).toBe(0.05);
@@ -31,21 +52,23 @@ test('texts mean numbers, vectors, lists and words', () => {
     expect(valueOf(field('samples'), '  ')).toBeUndefined();
 });
 
-test('what is no number is refused with its label', () => {
-    expect(() => valueOf(field('samples'), 'many')).toThrow('Samples: "many" is no number');
+test('text that is not a number is refused with its label', () => {
+    expect(() => valueOf(field('samples'), 'many')).toThrow('Samples: "many" is not a number');
+    expect(() => valueOf(field('samples'), '5%')).toThrow('Samples');
     expect(() => valueOf(field('sun_direction'), '1,2')).toThrow('Sun direction');
     expect(() => valueOf(field('sun_direction'), '1,,2')).toThrow('Sun direction');
     expect(() => valueOf(field('target_error'), '%')).toThrow('Target error');
 });
 
-test('whole numbers that doubles do not hold are refused', () => {
+test('whole numbers that doubles cannot hold are refused', () => {
     expect(valueOf(field('seed'), '9007199254740991')).toBe(9007199254740991);
-    expect(() => valueOf(field('seed'), '9007199254740993')).toThrow('Seed: 9007199254740993 is beyond 9007199254740991');
+    expect(() => valueOf(field('seed'), '9007199254740993'))
+        .toThrow('Seed: 9007199254740993 is larger than 9007199254740991');
     expect(() => valueOf(field('seed'), '-9007199254740992')).toThrow('Seed');
 });
 
-test('the settings of an earlier bake are its order without what was baked', () => {
+test('the settings of an earlier bake are its order without its files and names', () => {
     const order = {scene: 'court', groups: ['a'], only_given_groups: true, name: 'old', priority: 3,
                    reuse: 'older', samples: 64, sky: [1, 2, 3]};
-    expect(settingsOf(order)).toEqual({samples: 64, sky: [1, 2, 3]});
+    expect(settingsOf(fields, order)).toEqual({samples: 64, sky: [1, 2, 3]});
 });

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/server/job.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <climits>
+
+#include <tetralight/base/process.h>
+#include <tetralight/base/str_cat.h>
+
+namespace tetralight::server {
+namespace {
+
+constexpr size_t kMostOutput = size_t{16} << 20;
+/// Niceness of jobs that a client waits for.
+constexpr int kNiceness = 5;
+/// Niceness of bakes. With a session of their own they give way to queries at once; SCHED_IDLE
+/// within the server's session would let a query wait for a slice.
+constexpr int kMostNiceness = 19;
+/// When memory runs out, a job ends before the server.
+constexpr int kOutOfMemoryScore = 800;
+/// Exit code for wrong usage.
+constexpr int kUsage = 2;
+
+uint64_t memory_limit(const Settings& settings) {
+    if (settings.tool_memory_bytes > 0) return settings.tool_memory_bytes;
+    const auto pages = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES));
+    return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
+}
+
+std::chrono::milliseconds milliseconds(double seconds) {
+    return std::chrono::milliseconds(static_cast<int64_t>(seconds * 1e3));
+}
+
+ErrorCode error_code_named(std::string_view name) {
+    constexpr ErrorCode kCodes[] = {ErrorCode::InvalidArgument, ErrorCode::Corrupt,
+                                    ErrorCode::Unsupported,     ErrorCode::NotFound,
+                                    ErrorCode::DiskFull,        ErrorCode::Unavailable,
+                                    ErrorCode::OutOfResources,  ErrorCode::Cancelled};
+    const auto found = std::ranges::find(kCodes, name, error_code_name);
+    return found == std::end(kCodes) ? ErrorCode::Unsupported : *found;
+}
+
+Error error_from_json(const Json& json) {
+    return {error_code_named(json.value("code", "")), json.value("field", ""),
+            json.value("value", ""), json.value("message", "")};
+}
+
+Error crash(const std::string& how) {
+    return {ErrorCode::Unsupported, "the program " + how};
+}
+
+JobResult read_result(const ProcessResult& process) {
+    using End = JobResult::End;
+    JobResult result;
+    if (process.end == ProcessResult::End::Cancelled) {
+        result.end = End::Cancelled;
+        return result;
+    }
+    if (process.end == ProcessResult::End::TimedOut) {
+        result.end = End::TooSlow;
+        return result;
+    }
+    result.report = object_in(process.output_text());
+    const auto error = result.report.find("error");
+    if (process.end == ProcessResult::End::Exited && error != result.report.end()) {
+        result.end = End::Failed;
+        result.error = error_from_json(*error);
+        result.is_wrong_usage = process.code == kUsage;
+    } else if (process.succeeded()) {
+        result.end = End::Done;
+    } else {
+        result.error = crash(process.failure());
+    }
+    for (const char* member : {"error", "output", "file"}) result.report.erase(member);
+    return result;
+}
+
+}  // namespace
+
+std::string program_of(const Settings& settings) {
+    if (!settings.program.empty()) return settings.program;
+    std::array<char, PATH_MAX> path;
+    const ssize_t length = ::readlink("/proc/self/exe", path.data(), path.size());
+    return {path.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
+}
+
+JobResult run_job(const Settings& settings, const Job& job) {
+    Json order{{"command", job.command}};
+    order.update(job.settings);
+    order["threads"] = settings.tool_thread_count;
+    const std::string text = dump(order);
+    const std::array input{std::as_bytes(std::span(text))};
+    // The same program even if another one was installed since.
+    const bool is_this = settings.program.empty();
+    const auto process =
+        run_process({.program = program_of(settings),
+                     .arguments = {"--job", "-"},
+                     .executable = is_this ? "/proc/self/exe" : "",
+                     .folder = job.folder,
+                     .input = input,
+                     .group = job.is_background ? ProcessGroup::Session : ProcessGroup::Own,
+                     .niceness = job.is_background ? kMostNiceness : kNiceness,
+                     .memory_limit = memory_limit(settings),
+                     .out_of_memory_score = kOutOfMemoryScore,
+                     .time_limit = milliseconds(job.limit_seconds),
+                     .output_limit = kMostOutput,
+                     .is_cancelled = job.is_cancelled});
+    if (process) return read_result(*process);
+    JobResult result;
+    result.error = process.error();
+    return result;
+}
+
+}  // namespace tetralight::server

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a store starts: its folders, its database, and the files that it finds.
+#include <tetralight/server/store.h>
+
+#include <filesystem>
+
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/reserve.h>
+
+namespace tetralight::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+}  // namespace
+
+Store::Store(const Settings& settings, Log& log, Metrics& metrics)
+    : settings_(settings), log_(log), metrics_(metrics) {}
+
+Result<std::unique_ptr<Store>> Store::open(const Settings& settings, Log& log, Metrics& metrics) {
+    std::unique_ptr<Store> store(new Store(settings, log, metrics));
+    if (settings.is_read_only) {
+        if (!fs::is_directory(settings.data)) {
+            return Error{ErrorCode::NotFound, "data", settings.data,
+                         settings.data + ": is not a folder"};
+        }
+        store->read_index_if_changed();
+        if (metrics.damaged_indexes > 0) {
+            return Error{ErrorCode::Corrupt, store->index_path() + ": is damaged"};
+        }
+        return store;
+    }
+    remove_all(settings.data + "/work");
+    for (const char* folder :
+         {"scenes", "skies", "groups", "volumes", "bakes", "work", "quarantine"}) {
+        auto status = make_folder(settings.data + "/" + folder);
+        if (!status) return status.error();
+    }
+    drop_reserve(store->reserve_path());
+    if (auto status = store->open_database(); !status) return status.error();
+    try {
+        store->adopt_or_drop_unknown_files();
+    } catch (const Problem& problem) {
+        return Error{ErrorCode::Unavailable, settings.data + ": " + problem.detail};
+    }
+    store->write_index();
+    return store;
+}
+
+void Store::report(const std::string& finding) {
+    findings_.push_back(finding);
+    log_.write(Log::Level::Error, finding);
+}
+
+/// A damaged database goes to the quarantine, and a new one takes its place.
+Status Store::open_database() {
+    const std::string path = settings_.data + "/tetralight.db";
+    is_database_new_ = !fs::exists(path);
+    if (auto status = try_database(path); status || status.error().code != ErrorCode::Corrupt) {
+        return status;
+    } else {
+        quarantine_database(path, status.error());
+    }
+    is_database_new_ = true;
+    return try_database(path);
+}
+
+/// Opens the database and loads all of it. Returns corrupt if it is damaged.
+Status Store::try_database(const std::string& path) {
+    auto opened = Database::open(path);
+    if (!opened) return opened.error();
+    database_.emplace(std::move(*opened));
+    Error error;
+    try {
+        load();
+        return Ok{};
+    } catch (const DatabaseProblem& problem) {
+        error = {problem.reason, path + ": " + problem.detail};
+    } catch (const std::exception& exception) {
+        error = {ErrorCode::Corrupt, str_cat(path, ": is damaged (", exception.what(), ")")};
+    }
+    database_.reset();
+    return error;
+}
+
+void Store::quarantine_database(const std::string& path, const Error& error) {
+    const std::string stamp = std::to_string(static_cast<int64_t>(now()));
+    for (const char* suffix : {"", "-wal", "-shm"}) {
+        std::error_code ignored;
+        fs::rename(path + suffix,
+                   settings_.data + "/quarantine/" + stamp + "-tetralight.db" + suffix, ignored);
+    }
+    ++metrics_.quarantined;
+    report(
+        str_cat("the database was damaged and is in quarantine; the files are indexed again, "
+                "unfinished bakes are lost (",
+                detail_of(error), ")"));
+}
+
+void Store::load() {
+    for (Files& all : files_) all.clear();
+    for (const auto& row :
+         database_->run("SELECT id, kind, bytes, created, facts, damage FROM files")) {
+        StoredFile file;
+        file.id = std::get<std::string>(row[0]);
+        file.kind = find_kind(std::get<std::string>(row[1])).value();
+        file.bytes = static_cast<uint64_t>(std::get<int64_t>(row[2]));
+        file.created = std::get<double>(row[3]);
+        file.facts = std::get<std::string>(row[4]);
+        file.damage = std::get<std::string>(row[5]);
+        files(file.kind)[file.id] = std::move(file);
+    }
+    for (const auto& row : database_->run("SELECT kind, name, file FROM names")) {
+        const Kind kind = find_kind(std::get<std::string>(row[0])).value();
+        files(kind).at(std::get<std::string>(row[2])).names.insert(std::get<std::string>(row[1]));
+    }
+    index_names_locked();
+}
+
+/// A file without a row was never acknowledged; with a new database no file has a row yet.
+void Store::adopt_or_drop_unknown_files() {
+    const auto bytes = read_file(index_path());
+    const StoreIndex index = is_database_new_ && bytes ? parse_store_index(*bytes) : StoreIndex();
+    for (const Kind kind : kKinds) {
+        std::map<std::string, fs::path> present;
+        for (const auto& entry : fs::directory_iterator(settings_.data + "/" + name_of(kind))) {
+            present[entry.path().stem().string()] = entry.path();
+        }
+        for (auto& [id, file] : files(kind)) {
+            if (!file.damage.empty() || present.contains(id)) continue;
+            quarantine(kind, id, "the file is missing");
+            report(str_cat(name_of(kind), "/", id, " is missing"));
+        }
+        for (const auto& [id, path] : present) {
+            if (files(kind).contains(id)) continue;
+            if (is_database_new_ && is_id(id)) {
+                adopt_file(kind, id, path.string(), index);
+            } else {
+                remove_all(path.string());
+            }
+        }
+    }
+}
+
+void Store::adopt_file(Kind kind, const std::string& id, const std::string& path,
+                       const StoreIndex& index) {
+    StoredFile file;
+    const auto known = index.files.find(str_cat(name_of(kind), "/", id));
+    if (known != index.files.end()) file = known->second;
+    file.kind = kind;
+    file.id = id;
+    file.bytes = fs::file_size(path);
+    if (file.created == 0.0) file.created = now();
+    insert(file);
+}
+
+}  // namespace tetralight::server

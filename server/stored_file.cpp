@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/server/stored_file.h>
+
+#include <algorithm>
+
+#include <tetralight/base/hash/sha256.h>
+#include <tetralight/base/hex.h>
+#include <tetralight/base/utf8.h>
+#include <tetralight/server/problem.h>
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace tetralight::server {
+namespace {
+
+constexpr const char* kKindNames[] = {"scenes", "skies", "groups", "volumes"};
+constexpr const char* kKindNouns[] = {"scene", "sky", "groups", "volume"};
+constexpr const char* kExtensions[] = {".glb", ".hdr", ".json", ".probes"};
+constexpr size_t kIdLength = 64;
+constexpr size_t kOldIdLength = 32;
+
+}  // namespace
+
+const char* name_of(Kind kind) {
+    return kKindNames[static_cast<size_t>(kind)];
+}
+
+const char* noun_of(Kind kind) {
+    return kKindNouns[static_cast<size_t>(kind)];
+}
+
+const char* extension_of(Kind kind) {
+    return kExtensions[static_cast<size_t>(kind)];
+}
+
+std::optional<Kind> find_kind(const std::string& name) {
+    const auto found = std::ranges::find(kKindNames, name);
+    if (found == std::end(kKindNames)) return std::nullopt;
+    return static_cast<Kind>(found - std::begin(kKindNames));
+}
+
+Json to_json(const StoredFile& file) {
+    Json json{{"id", file.id},           {"name", file.names.empty() ? "" : *file.names.begin()},
+              {"names", file.names},     {"bytes", file.bytes},
+              {"created", file.created}, {"state", file.damage.empty() ? "ready" : "quarantined"}};
+    if (!file.damage.empty()) json["damage"] = file.damage;
+    return json;
+}
+
+Json to_json_with_facts(const StoredFile& file) {
+    Json json = to_json(file);
+    json["facts"] = object_in(file.facts);
+    return json;
+}
+
+bool is_id(const std::string& text) {
+    return (text.size() == kIdLength || text.size() == kOldIdLength) &&
+           std::ranges::all_of(
+               text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+}
+
+std::string id_of(std::span<const std::byte> bytes) {
+    return sha256_hex(bytes);
+}
+
+std::string old_id_of(std::span<const std::byte> bytes) {
+    const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+    return hex(hash.high64) + hex(hash.low64);
+}
+
+bool has_id(std::span<const std::byte> bytes, const std::string& id) {
+    return id == (id.size() == kOldIdLength ? old_id_of(bytes) : id_of(bytes));
+}
+
+void check_name(const std::string& name) {
+    constexpr size_t kLongest = 200;
+    const bool is_plain = std::ranges::none_of(name, [](char c) {
+        return static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '/' || c == '\\';
+    });
+    const bool is_dots = name == "." || name == "..";
+    if (is_plain && !is_dots && name.size() <= kLongest && is_utf8(name) && !is_id(name)) return;
+    throw Problem{400, "invalid_value",
+                  "name: a name has at most 200 bytes, no slashes and no control characters, and "
+                  "is not an id",
+                  "name", name.substr(0, kLongest)};
+}
+
+}  // namespace tetralight::server
