@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 const std::set<std::string> kPrinters = {
     "base/error.cpp",
     "base/error_text.h",
-    "cli/print_error.cpp",
+    "cli/common.cpp",
+    "cli/failure.cpp",
     "server/problem.cpp",
     "runtime/detail/c_errors.cpp",
 };
