@@ -101,8 +101,8 @@ class Descent {
             const int j = (i + 1) % corner_count_;
             const double fraction = closest_on_edge(corners[i], corners[j]);
             glm::dvec3 weights(0.0);
-            weights[i] = 1.0 - share;
-            weights[j] = share;
+            weights[i] = 1.0 - fraction;
+            weights[j] = fraction;
             consider_weights(weights);
         }
         if (corner_count_ == 3) {

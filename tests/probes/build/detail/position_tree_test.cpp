@@ -57,10 +57,10 @@ TEST(PositionTree, OnePositionHasNoSpacing) {
 }
 
 TEST(PositionTree, MeasuresGapsAndDiagonalsOfBoxes) {
-    const PositionTree::Node a{{0, 0, 0}, {1, 1, 1}}, b{{4, 5, 0}, {5, 6, 1}};
+    const PositionTree::Node a{{{0, 0, 0}, {1, 1, 1}}}, b{{{4, 5, 0}, {5, 6, 1}}};
     EXPECT_EQ(gap(a, b), 5.0);  // 3 along x, 4 along y
     EXPECT_EQ(gap(a, a), 0.0);
-    EXPECT_EQ(joint_diagonal(a, PositionTree::Node{{1, 2, 1}, {2, 3, 6}}), 7.0);  // 2, 3 and 6
+    EXPECT_EQ(joint_diagonal(a, PositionTree::Node{{{1, 2, 1}, {2, 3, 6}}}), 7.0);  // 2, 3 and 6
 }
 
 }  // namespace
