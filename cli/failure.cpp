@@ -46,7 +46,7 @@ Json error_json(const Error& error) {
 }
 
 int print_usage_error(const Error& error, const FailureStyle& style) {
-    if (style.is_json) print_json(error, style);
+    if (style.is_json) print_json(error, {});  // nothing was written to stdout yet
     const std::string name =
         style.command.empty() ? "tetralight" : str_cat("tetralight ", style.command);
     std::cerr << name << ": " << printable(error_text(error)) << '\n';

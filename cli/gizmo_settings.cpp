@@ -15,8 +15,7 @@ glm::dvec3 read_selection(const Values& values, std::string_view text) {
         .name = "selection", .type = settings::Type::Vector, .range = settings::kPositions};
     const auto position = settings::value_from_text(kPosition, text);
     if (!position) {
-        refuse(values, "show",
-               str_cat("selection needs three numbers: selection=x,y,z, not ", text));
+        refuse_because(values, "show", position.error().in("selection needs three numbers"));
     }
     const auto v = position->get<std::array<double, 3>>();
     return {v[0], v[1], v[2]};

@@ -179,7 +179,7 @@ struct LppvCommand {
         auto status = add_blocks_near_probes(volume, near, blocks);
         if (status) status = add_blocks_near_surfaces(scene, near, blocks);
         if (!status) {
-            refuse_because(*values, "density", status.error());
+            refuse_because(*values, reach > 0.0 ? "reach" : "density", status.error());
         }
         const Stopwatch filling;
         const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads());

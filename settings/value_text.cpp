@@ -217,7 +217,11 @@ Result<Json> weights_from_text(std::string_view text) {
         const bool has_name = equals != std::string_view::npos && equals > 0;
         const auto weight = has_name ? parse_number(part.substr(equals + 1)) : std::nullopt;
         if (!weight) return not_a(whole, "of the form LAYER=WEIGHT");
-        weights[std::string(part.substr(0, equals))] = *weight;
+        const std::string layer(part.substr(0, equals));
+        if (weights.contains(layer)) {
+            return invalid(whole, "layer \"" + layer + "\" is given two weights");
+        }
+        weights[layer] = *weight;
     }
     return weights;
 }
@@ -322,7 +326,9 @@ Result<Json> value_from_text(const Setting& setting, std::string_view text) {
         case Type::Range:
             return range_from_text(text);
         case Type::Text:
-            return text.empty() ? Result<Json>(invalid(text, "the text is empty")) : Json(text);
+            if (!text.empty()) return Json(text);
+            return invalid(
+                text, setting.value_name == "NAME" ? "the name is empty" : "the text is empty");
         case Type::Choice:
             return choice_from_text(setting, text);
         case Type::Path:

@@ -79,7 +79,7 @@ TEST_F(Grid, RefusesNumbersThatAreNone) {
     const auto message = [&](const char* option, const char* value) {
         return misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "1", option, value});
     };
-    EXPECT_TRUE(contains(message("--from", "nan,0,0"), "--from: \"nan,0,0\" is not finite"));
+    EXPECT_TRUE(contains(message("--from", "nan,0,0"), "--from: \"nan\" is not a number"));
     EXPECT_TRUE(contains(message("--max-probes", "0"), "--max-probes"));
     EXPECT_TRUE(contains(misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "nan"}),
                          "--spacing: \"nan\" is not a number"));

@@ -119,7 +119,7 @@ TEST_F(LppvCommand, SaysWhatASparseGridCannotHold) {
     };
     expect({"--density", "1000"}, "--density: a sparse grid of ");
     expect({"--density", "1e8"}, "--density: a box from ");
-    expect({"--reach", "1e5"}, "--density, --reach: a sparse grid of ");
+    expect({"--reach", "1e5"}, "--reach: a sparse grid of ");
 }
 
 TEST_F(LppvCommand, GivesTheBoxOfASparseGrid) {

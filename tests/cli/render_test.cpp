@@ -80,7 +80,7 @@ TEST_F(Render, RefusesToLookFromAPointAtItself) {
 TEST_F(Render, RefusesTwoCameras) {
     const std::string message =
         misuse(arguments({"--eye", "1,2,3", "--target", "0,0,0", "--camera", "camera"}));
-    EXPECT_TRUE(contains(message, "--eye excludes --camera")) << message;
+    EXPECT_TRUE(contains(message, "--camera: does not go with --eye")) << message;
 }
 
 TEST_F(Render, DrawsTheCellsWhenAsked) {
