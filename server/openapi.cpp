@@ -35,7 +35,7 @@ Json property_of(const settings::Setting& setting, std::string_view heading) {
                                         " of stored ", kind, ": ", help);
     }
     if (!setting.without.empty()) schema["x-default"] = in_json_words(setting.without);
-    schema["x-group"] = heading;
+    schema["x-group"] = in_json_words(heading);
     return schema;
 }
 
