@@ -60,7 +60,7 @@ void GridOptions::add_to(CLI::App& command) {
     add_rules(command);
     add_reach(command);
     add_adaptive(command);
-    command.add_option("--name", settings.group_name, "Name of the probe groups")
+    command.add_option("--name", settings.name, "Name of the probe groups")
         ->check(not_empty("name"))
         ->check(name_check())
         ->capture_default_str();
@@ -70,7 +70,7 @@ void GridOptions::add_to(CLI::App& command) {
         ->check(numbers_in(0.0, kLongest))
         ->capture_default_str();
     command
-        .add_option("--max-probes", settings.max_probe_count,
+        .add_option("--max-probes", settings.max_probes,
                     "Refuse grids with more candidates than this; --mode adaptive stays below it "
                     "(default: 10 million, 5000 when adaptive)")
         ->check(whole_numbers(UINT64_MAX, "2^64 - 1"))
@@ -113,8 +113,8 @@ void GridOptions::add_reach(CLI::App& command) {
         ->allow_extra_args(false)
         ->check(position_check())
         ->type_name("X,Y,Z");
-    add_choice(command, "--unreachable", settings.other_spaces,
-               {{"drop", OtherSpaces::Drop}, {"keep", OtherSpaces::Keep}},
+    add_choice(command, "--unreachable", settings.unreachable,
+               {{"drop", UnreachableSpaces::Drop}, {"keep", UnreachableSpaces::Keep}},
                "What becomes of probes in other spaces");
 }
 
@@ -158,7 +158,7 @@ void GridOptions::finish() {
     if (low_option_->count() > 0) settings.bounds = bounds_;
     if (spacing_option_->count() > 0) settings.adaptive.start_spacing = settings.spacing;
     if (clearance_option_->count() > 0) settings.clearance = clearance_;
-    for (const std::string& seed : seeds_) settings.seeds.push_back(*parse_vec3(seed));
+    for (const std::string& seed : seeds_) settings.from.push_back(*parse_vec3(seed));
 }
 
 }  // namespace tetralight::cli

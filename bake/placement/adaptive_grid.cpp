@@ -10,9 +10,9 @@
 #include <utility>
 
 #include <tetralight/bake/placement/light_pool.h>
-#include <tetralight/bake/placement/light_survey.h>
 #include <tetralight/bake/placement/refine_cells.h>
 #include <tetralight/bake/placement/remove_probes.h>
+#include <tetralight/bake/placement/sensor_errors.h>
 #include <tetralight/bake/placement/sensors.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/error_text.h>
@@ -42,13 +42,13 @@ class AdaptiveGrid {
           settings_(settings),
           callback_(callback),
           pool_(input.scene, pool_settings(input, settings)),
-          places_(input.traced, input.bounds, input.clearance, input.may_stand),
+          places_(input.traced, input.bounds, input.clearance, input.is_allowed),
           remover_(pool_) {}
 
     Result<AdaptiveReport> run(std::vector<PlacedProbe>& probes,
                                const std::vector<bool>& is_protected) {
         take_start(probes, is_protected);
-        report_.start_count = set_.probes.size();
+        report_.start_probe_count = set_.probes.size();
         for (const glm::dvec3& sensor : input_.sensors) add_sensor(sensor);
         Status status = refine();
         if (status) status = remove_and_replace();
@@ -137,15 +137,15 @@ class AdaptiveGrid {
             if (auto status = bake(); !status) return status;
             set_.volume = volume_of(pool_, set_.probes);
             const auto errors =
-                survey_light(set_.volume, pool_, checks_, nullptr, input_.thread_count);
+                sensor_errors(set_.volume, pool_, checks_, nullptr, input_.thread_count);
             const double error = relative_error(errors, pool_, checks_);
             const double noise = relative_noise(pool_, checks_);
             set_.error = std::sqrt(std::max(0.0, error * error - noise * noise));
             if (noise < kLargestNoise * std::max(set_.error, settings_.target_error)) break;
-            if (!pool_.double_directions()) break;
+            if (!pool_.double_sample_count()) break;
         }
         set_.errors =
-            survey_light(set_.volume, pool_, sensors_, &input_.traced, input_.thread_count);
+            sensor_errors(set_.volume, pool_, sensors_, &input_.traced, input_.thread_count);
         return Ok{};
     }
 
@@ -158,16 +158,16 @@ class AdaptiveGrid {
     }
 
     Status refine() {
-        const double most = kBeyondCount * static_cast<double>(input_.max_probe_count);
+        const double most = kBeyondCount * static_cast<double>(input_.max_probes);
         while (true) {
             if (auto status = probe_visibility(); !status) return status;
             // More than is asked for is no result.
-            if (set_.probes.size() <= input_.max_probe_count) {
+            if (set_.probes.size() <= input_.max_probes) {
                 if (auto status = accept(); !status) return status;
             }
             report_.end = AdaptiveEnd::TargetReached;
             if (set_.error <= kBeyondError * settings_.target_error) return Ok{};
-            report_.end = AdaptiveEnd::MostProbes;
+            report_.end = AdaptiveEnd::MaxProbes;
             const auto room = most - static_cast<double>(set_.probes.size());
             if (room < 1.0) return Ok{};
             if (insert(static_cast<size_t>(room)) > 0) continue;
@@ -182,7 +182,7 @@ class AdaptiveGrid {
         const RefineRule rule{
             input_.clearance,
             [this](uint32_t sensor) { return has_clearance(pool_.position(sensor)); },
-            [this](const glm::dvec3& p) { return has_clearance(p) && input_.may_stand(p); },
+            [this](const glm::dvec3& p) { return has_clearance(p) && input_.is_allowed(p); },
             std::min(room, std::max<size_t>(growth, 16))};
         std::vector<bool> is_member(pool_.size(), false);
         for (const uint32_t probe : set_.probes) is_member[probe] = true;
@@ -199,7 +199,7 @@ class AdaptiveGrid {
             set_.probes.push_back(add_to_pool(position));
             ++count;
         }
-        report_.largest_count = std::max<uint64_t>(report_.largest_count, set_.probes.size());
+        report_.peak_probe_count = std::max<uint64_t>(report_.peak_probe_count, set_.probes.size());
         return count;
     }
 
@@ -244,8 +244,8 @@ class AdaptiveGrid {
     Status remove_and_replace() {
         is_removing_ = true;
         constexpr double kAnyError = std::numeric_limits<double>::max();
-        while (set_.probes.size() > input_.max_probe_count) {
-            const auto removed = remove(input_.max_probe_count, kAnyError);
+        while (set_.probes.size() > input_.max_probes) {
+            const auto removed = remove(input_.max_probes, kAnyError);
             if (!removed) return removed.error();
             if (!*removed) break;  // all that is left is protected
         }
@@ -298,7 +298,7 @@ class AdaptiveGrid {
         std::vector<bool> is_member(pool_.size(), false);
         for (const uint32_t probe : best_->probes) is_member[probe] = true;
         for (size_t i = 0; i < start_count_; ++i) {
-            if (!is_member[i]) probes[start_places_[i]].fate = Fate::Spared;
+            if (!is_member[i]) probes[start_places_[i]].fate = Fate::Redundant;
         }
         std::vector<uint32_t> added;
         for (const uint32_t probe : best_->probes) {
@@ -314,7 +314,7 @@ class AdaptiveGrid {
         }
         report_.error = best_->error;
         report_.position_count = pool_.size();
-        report_.direction_count = pool_.directions();
+        report_.sample_count = pool_.sample_count();
         report_.ray_count = pool_.ray_count();
     }
 
@@ -323,7 +323,7 @@ class AdaptiveGrid {
     const AdaptiveCallback& callback_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     LightPool pool_;
-    SensorPlaces places_;
+    SensorSequence places_;
     ProbeRemover remover_;
     AdaptiveReport report_;
     Set set_;

@@ -9,7 +9,7 @@
 
 #include <tetralight/bake/bake_settings.h>
 #include <tetralight/bake/placement/free_space.h>
-#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/bake/placement/free_space_map.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/bake/scene/scene_bounds.h>
@@ -44,7 +44,7 @@ using AdaptiveCallback = std::function<bool(const AdaptiveProgress&)>;
 /// Why it ended.
 enum class AdaptiveEnd : uint8_t {
     TargetReached,
-    MostProbes,
+    MaxProbes,
     TimeOver,
     Interrupted,
     NothingToRefine,  ///< all errors are noise, or no better place is free
@@ -61,11 +61,11 @@ struct AdaptiveReport {
     /// Metres between the lattice's probes that it began with.
     glm::dvec3 start_spacing{0.0};
     /// Probes at the start, and before those were removed that do little.
-    uint64_t start_count = 0;
-    uint64_t largest_count = 0;
+    uint64_t start_probe_count = 0;
+    uint64_t peak_probe_count = 0;
     /// Positions whose light was baked, the directions of each, and rays.
     uint64_t position_count = 0;
-    uint32_t direction_count = 0;
+    uint32_t sample_count = 0;
     uint64_t ray_count = 0;
 };
 
@@ -76,12 +76,12 @@ struct AdaptiveInput {
     WorldBox bounds;
     double clearance = 0.0;
     /// Whether a probe may stand at a position that is free.
-    std::function<bool(const glm::dvec3& position)> may_stand;
+    std::function<bool(const glm::dvec3& position)> is_allowed;
     /// The space that a position lies in: each keeps probes that span what its start spans.
     std::function<uint32_t(const glm::dvec3& position)> space_of;
     /// Where light is measured beside places that are spread evenly: in small spaces.
     std::vector<glm::dvec3> sensors;
-    uint64_t max_probe_count = 0;
+    uint64_t max_probes = 0;
     uint32_t thread_count = 0;
 };
 

@@ -13,7 +13,7 @@ namespace tetralight {
 namespace {
 
 /// Moves stay below half of the way to the next candidate.
-constexpr double kReachShare = 0.45;
+constexpr double kMaxPushFraction = 0.45;
 
 Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, PlacementMode mode,
                                                 const CandidateRule& rule) {
@@ -37,10 +37,10 @@ Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustment
     if (!positions) return positions.error();
     const glm::dvec3& s = rule.spacing;
     candidates.reserve(candidates.size() + positions->size());
-    const double reach = kReachShare * std::min({s.x, s.y, s.z});
+    const double max_push = kMaxPushFraction * std::min({s.x, s.y, s.z});
     for (const glm::dvec3& position : *positions) {
         if (adjustment_at(adjustments, position).spacing != owner) continue;
-        candidates.push_back({position, reach, owner != nullptr});
+        candidates.push_back({position, max_push, owner != nullptr});
     }
     return check_candidate_count(static_cast<double>(candidates.size()), rule.max_count);
 }
@@ -87,10 +87,10 @@ std::vector<PlacedProbe> place_candidates(const TraceScene& traced,
                                           const CandidateRule& rule) {
     std::vector<PlacedProbe> placed(candidates.size());
     parallel_for(candidates.size(), rule.thread_count, [&](size_t i) {
-        const auto& [position, reach, is_adjusted] = candidates[i];
+        const auto& [position, max_push, is_adjusted] = candidates[i];
         placed[i] = {position, Fate::Forbidden, 0.0f};
         if (adjustment_at(adjustments, position).forbids_probes) return;
-        placed[i] = place_probe(traced, position, {rule.clearance, reach, rule.bounds});
+        placed[i] = place_probe(traced, position, {rule.clearance, max_push, rule.bounds});
         // Nothing is pushed into a volume that wants nothing.
         if (adjustment_at(adjustments, placed[i].position).forbids_probes) {
             placed[i].fate = Fate::Forbidden;

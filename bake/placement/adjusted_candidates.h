@@ -19,7 +19,7 @@ namespace tetralight {
 struct Candidate {
     glm::dvec3 position{0.0};
     /// It may move this far to be kept, metres.
-    double reach = 0.0;
+    double max_push = 0.0;
     /// An adjustment volume asks for it.
     bool is_adjusted = false;
 };

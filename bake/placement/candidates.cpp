@@ -94,7 +94,7 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
                 traced.ray_origin(hit.side, traced.render_from_world(hit.position), {0, 1, 0});
             for (const double height : rule.heights) {
                 const glm::vec3 top(0.0f, static_cast<float>(height), 0.0f);
-                if (!sees(traced, foot, foot + top)) continue;
+                if (!is_visible(traced, foot, foot + top)) continue;
                 const glm::dvec3 candidate = hit.position + glm::dvec3(0.0, height, 0.0);
                 if (is_in(rule.bounds, candidate)) found.push_back(candidate);
             }
@@ -151,8 +151,8 @@ std::vector<bool> find_crowded(const TraceScene& traced, std::span<const glm::dv
             is_crowded[i] = std::ranges::any_of(near->second, [&](size_t other) {
                 const glm::dvec3& q = positions[other];
                 return glm::distance(p, q) < distance &&
-                       (p == q ||
-                        sees(traced, traced.render_from_world(p), traced.render_from_world(q)));
+                       (p == q || is_visible(traced, traced.render_from_world(p),
+                                             traced.render_from_world(q)));
             });
         }
         if (!is_crowded[i]) kept[{x, y, z}].push_back(i);

@@ -17,35 +17,37 @@ constexpr size_t kMostTries = 256;
 
 /// Evenly chosen ones of a space's posts that are free, in their order.
 std::vector<glm::dvec3> free_places(const TraceScene& traced, const std::vector<glm::dvec3>& posts,
-                                    const PlaceRule& rule) {
+                                    const FreePositionRule& rule) {
     std::vector<glm::dvec3> places;
     const size_t tries = std::min(posts.size(), kMostTries);
-    for (size_t i = 0; i < tries && places.size() < rule.most_places; ++i) {
+    for (size_t i = 0; i < tries && places.size() < rule.max_count; ++i) {
         const glm::dvec3& post = posts[i * posts.size() / tries];
-        if (is_surely_free(traced, post, rule.clearance)) places.push_back(post);
+        if (is_free_with_clearance(traced, post, rule.clearance)) places.push_back(post);
     }
     return places;
 }
 
 }  // namespace
 
-std::vector<SpacePlaces> find_places(const TraceScene& traced, const SpaceMap& map,
-                                     std::span<const uint32_t> filled, const PlaceRule& rule) {
+std::vector<SpacePositions> find_free_positions(const TraceScene& traced, const FreeSpaceMap& map,
+                                                std::span<const uint32_t> filled,
+                                                const FreePositionRule& rule) {
     std::vector<std::pair<uint32_t, std::vector<glm::dvec3>>> posts;
-    for (auto& [space, positions] : map.posts_by_space(rule.bounds)) {
+    for (auto& [space, positions] : map.points_by_space(rule.bounds)) {
         if (std::ranges::binary_search(filled, space)) continue;
         posts.emplace_back(space, std::move(positions));
     }
-    std::vector<SpacePlaces> found(posts.size());
+    std::vector<SpacePositions> found(posts.size());
     parallel_for(posts.size(), rule.thread_count, [&](size_t i) {
         const auto& [space, positions] = posts[i];
         found[i] = {space, free_places(traced, positions, rule), positions.size()};
     });
-    std::erase_if(found, [](const SpacePlaces& space) { return space.places.empty(); });
+    std::erase_if(found, [](const SpacePositions& space) { return space.positions.empty(); });
     return found;
 }
 
-void spread_out(std::vector<glm::dvec3>& places, std::span<const glm::dvec3> taken, size_t count) {
+void sort_farthest_first(std::vector<glm::dvec3>& places, std::span<const glm::dvec3> taken,
+                         size_t count) {
     glm::dvec3 middle(0.0);
     for (const glm::dvec3& place : places) middle += place / static_cast<double>(places.size());
     std::vector<double> room(places.size(), std::numeric_limits<double>::infinity());

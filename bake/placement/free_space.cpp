@@ -45,13 +45,13 @@ class Push {
         : traced_(traced),
           start_(start),
           clearance_(static_cast<float>(rule.clearance)),
-          reach_(static_cast<float>(rule.reach)),
+          max_push_(static_cast<float>(rule.max_push)),
           bounds_(rule.bounds) {}
 
     /// Out of geometry, and then away from what is there.
     [[nodiscard]] std::optional<glm::vec3> out_of_geometry() const {
-        const VirtualOffsetSettings search{reach_, clearance_ * (1.0f + 2.0f * kSlack),
-                                           kMinValidity};
+        const VirtualOffsetSettings search{max_push_, clearance_ * (1.0f + 2.0f * kSlack),
+                                         kMinValidity};
         const auto offset = find_virtual_offset(traced_, start_, search);
         if (!offset) return std::nullopt;
         return along_gradient(start_ + *offset);
@@ -125,7 +125,7 @@ class Push {
 
     /// Beyond the first surface along an axis, if the candidate is behind it.
     [[nodiscard]] std::optional<glm::vec3> exit(const glm::vec3& axis) const {
-        const auto side = traced_.intersect_side({start_, axis, reach_});
+        const auto side = traced_.intersect_side({start_, axis, max_push_});
         if (!side || !side->is_from_behind) return std::nullopt;
         return traced_.ray_origin(*side, start_ + side->distance * axis, axis);
     }
@@ -136,7 +136,7 @@ class Push {
     void add_way(const glm::vec3& from, const glm::vec3& axis, std::vector<Way>& ways) const {
         constexpr int kMaxSteps = 8;
         glm::vec3 place = from;
-        for (int i = 0; i < kMaxSteps && glm::distance(place, start_) <= reach_; ++i) {
+        for (int i = 0; i < kMaxSteps && glm::distance(place, start_) <= max_push_; ++i) {
             const auto nearest = traced_.nearest_surface(place);
             const float distance = nearest ? glm::distance(place, *nearest) : clearance_;
             if (distance >= clearance_) {
@@ -149,24 +149,26 @@ class Push {
     }
 
     [[nodiscard]] bool is_fine(glm::vec3 from, glm::vec3 place) const {
-        return glm::distance(place, start_) <= reach_ &&
+        return glm::distance(place, start_) <= max_push_ &&
                is_in(bounds_, traced_.world_from_render(place)) &&
-               (place == from || sees(traced_, from, place)) &&
-               standing_of(traced_, place, probe_visibility(traced_, place)) == Standing::Free;
+               (place == from || is_visible(traced_, from, place)) &&
+               classify_point(traced_, place, probe_visibility(traced_, place)) ==
+                   PointClass::Free;
     }
 
     const TraceScene& traced_;
     glm::vec3 start_;
     float clearance_;
-    float reach_;
+    float max_push_;
     WorldBox bounds_;
 };
 
 }  // namespace
 
-Standing standing_of(const TraceScene& traced, glm::vec3 position, const ProbeVisibility& around) {
-    if (around.is_inside()) return Standing::Inside;
-    if (around.behind_fraction == 0.0f) return Standing::Free;
+PointClass classify_point(const TraceScene& traced, glm::vec3 position,
+                          const ProbeVisibility& around) {
+    if (around.is_inside()) return PointClass::Inside;
+    if (around.behind_fraction == 0.0f) return PointClass::Free;
     constexpr size_t kEvery = 4;
     int inside = 0, outside = 0;
     for (size_t i = 0; i < probe_visibility_directions().size(); i += kEvery) {
@@ -175,18 +177,19 @@ Standing standing_of(const TraceScene& traced, glm::vec3 position, const ProbeVi
     }
     // Open surfaces miss sides in some directions, and so do faces that coincide; closed solids
     // agree in all others.
-    if (inside > 3 * outside) return Standing::Inside;
-    return outside > 3 * inside ? Standing::Free : Standing::Doubtful;
+    if (inside > 3 * outside) return PointClass::Inside;
+    return outside > 3 * inside ? PointClass::Free : PointClass::Uncertain;
 }
 
-bool is_surely_free(const TraceScene& traced, const glm::dvec3& position, double clearance) {
+bool is_free_with_clearance(const TraceScene& traced, const glm::dvec3& position,
+                            double clearance) {
     const glm::vec3 place = traced.render_from_world(position);
     const ProbeVisibility around = probe_visibility(traced, place);
     return around.surface_distance >= (1.0 - kSlack) * clearance &&
-           standing_of(traced, place, around) == Standing::Free;
+           classify_point(traced, place, around) == PointClass::Free;
 }
 
-bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
+bool is_visible(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
     return !traced.occluded({from, to - from, 1.0f});
 }
 
@@ -194,7 +197,7 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                         const ClearanceRule& rule) {
     const glm::vec3 start = traced.render_from_world(candidate);
     const ProbeVisibility around = probe_visibility(traced, start);
-    const bool is_inside = standing_of(traced, start, around) == Standing::Inside;
+    const bool is_inside = classify_point(traced, start, around) == PointClass::Inside;
     PlacedProbe placed{candidate, Fate::Kept, around.surface_distance};
     if (!is_inside && around.surface_distance >= (1.0 - kSlack) * rule.clearance) return placed;
 

@@ -20,7 +20,7 @@ enum class Fate : uint8_t {
     Unreachable,  ///< in a space that is not asked for
     Forbidden,    ///< in an adjustment volume that forbids probes
     Crowded,      ///< beside another probe
-    Spared,       ///< light is as good without it
+    Redundant,    ///< light is as good without it
 };
 
 inline constexpr int kFateCount = 8;
@@ -34,7 +34,7 @@ struct ClearanceRule {
     /// Metres from every surface; 0 = only not inside.
     double clearance = 0.0;
     /// A candidate that has to move moves this far at most, metres.
-    double reach = 0.0;
+    double max_push = 0.0;
     /// It moves to nowhere else.
     WorldBox bounds{glm::dvec3(-std::numeric_limits<double>::infinity()),
                     glm::dvec3(std::numeric_limits<double>::infinity())};
@@ -58,9 +58,9 @@ struct PlacedProbe {
                                       const ClearanceRule& rule);
 
 /// How a position lies to the geometry around it.
-enum class Standing : uint8_t {
+enum class PointClass : uint8_t {
     Free,
-    Doubtful,  ///< taken for free, but nothing is moved there
+    Uncertain,  ///< taken for free, but nothing is moved there
     Inside,
 };
 
@@ -68,14 +68,14 @@ enum class Standing : uint8_t {
 /// (`ProbeVisibility::is_inside`), and where there are few of them by counting, in some directions,
 /// all surfaces out to the sky: among solids that cross each other the nearest surfaces may all be
 /// fronts of others.
-[[nodiscard]] Standing standing_of(const TraceScene& traced, glm::vec3 position,
-                                   const ProbeVisibility& around);
+[[nodiscard]] PointClass classify_point(const TraceScene& traced, glm::vec3 position,
+                                        const ProbeVisibility& around);
 
 /// Whether a world position is free beyond doubt and `clearance` metres from all surfaces.
-[[nodiscard]] bool is_surely_free(const TraceScene& traced, const glm::dvec3& position,
-                                  double clearance);
+[[nodiscard]] bool is_free_with_clearance(const TraceScene& traced, const glm::dvec3& position,
+                                          double clearance);
 
 /// Whether nothing stands between two positions in render space.
-[[nodiscard]] bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to);
+[[nodiscard]] bool is_visible(const TraceScene& traced, glm::vec3 from, glm::vec3 to);
 
 }  // namespace tetralight

@@ -49,8 +49,8 @@ Result<WorldBox> grid_bounds(const Scene& scene, const ProbeGridSettings& settin
     return *bounds;
 }
 
-WorldBox with_room(const WorldBox& bounds, const glm::dvec3& spacing, double clearance,
-                   const ProbeGridSettings& settings) {
+WorldBox padded_bounds(const WorldBox& bounds, const glm::dvec3& spacing, double clearance,
+                       const ProbeGridSettings& settings) {
     if (settings.bounds) return bounds;
     WorldBox box = bounds;
     const glm::dvec3 size = bounds.size();
@@ -78,13 +78,13 @@ bool is_in(const WorldBox& box, const glm::dvec3& position) {
     return contains(WorldBox{box.min - slack, box.max + slack}, position);
 }
 
-uint64_t most_probes(const ProbeGridSettings& settings) {
+uint64_t probe_limit(const ProbeGridSettings& settings) {
     // Where walls are thin no number of probes brings the error down to nothing.
     const uint64_t usual = settings.mode == PlacementMode::Adaptive ? 5000 : 10'000'000;
-    return settings.max_probe_count.value_or(usual);
+    return settings.max_probes.value_or(usual);
 }
 
-Result<glm::dvec3> first_spacing(const WorldBox& bounds, const ProbeGridSettings& settings) {
+Result<glm::dvec3> candidate_spacing(const WorldBox& bounds, const ProbeGridSettings& settings) {
     const bool is_adaptive = settings.mode == PlacementMode::Adaptive;
     constexpr double kLayers = 8.0, kWider = 1.1;
     const glm::dvec3 size = bounds.size();
@@ -98,7 +98,7 @@ Result<glm::dvec3> first_spacing(const WorldBox& bounds, const ProbeGridSettings
     if (p == bounds.max) {
         return Error{str_cat("bounds are empty: nothing but ", p.x, ",", p.y, ",", p.z)};
     }
-    const uint64_t most = most_probes(settings);
+    const uint64_t most = probe_limit(settings);
     if (settings.mode == PlacementMode::Regular) {
         // As early as can be; other modes have to look for surfaces first.
         if (auto status = check_candidate_count(*count, most); !status) return status.error();

@@ -19,8 +19,8 @@ namespace tetralight {
 class LightPool {
   public:
     /// Directions of a position at first, and at most.
-    static constexpr uint32_t kFewestDirections = 128;
-    static constexpr uint32_t kMostDirections = 4096;
+    static constexpr uint32_t kMinSamples = 128;
+    static constexpr uint32_t kMaxSamples = 4096;
 
     /// Keeps a reference. Of the settings the light's count; how many samples is the pool's matter.
     LightPool(const Scene& scene, BakeSettings settings);
@@ -35,9 +35,11 @@ class LightPool {
     [[nodiscard]] const IrradianceSh& light(uint32_t i) const { return light_[i]; }
 
     /// Standard error of the light, as a share of it.
-    [[nodiscard]] float standard_error(uint32_t i) const { return tallies_[i].standard_error(); }
+    [[nodiscard]] float standard_error(uint32_t i) const {
+        return accumulators_[i].standard_error();
+    }
 
-    [[nodiscard]] uint32_t directions() const { return directions_; }
+    [[nodiscard]] uint32_t sample_count() const { return sample_count_; }
 
     [[nodiscard]] uint64_t ray_count() const;
 
@@ -46,14 +48,14 @@ class LightPool {
     [[nodiscard]] Status bake(const BakeCallback& callback);
 
     /// Twice the directions for all; false: they have the most already.
-    bool double_directions();
+    bool double_sample_count();
 
   private:
     const Scene& scene_;
     BakeSettings settings_;
-    uint32_t directions_ = kFewestDirections;
+    uint32_t sample_count_ = kMinSamples;
     std::vector<glm::dvec3> positions_;
-    std::vector<ProbeAccumulator> tallies_;
+    std::vector<ProbeAccumulator> accumulators_;
     std::vector<IrradianceSh> light_;
 };
 

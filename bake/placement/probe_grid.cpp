@@ -12,10 +12,10 @@
 #include <tetralight/bake/placement/candidates.h>
 #include <tetralight/bake/placement/canonical_scene.h>
 #include <tetralight/bake/placement/empty_spaces.h>
+#include <tetralight/bake/placement/flood_fill.h>
+#include <tetralight/bake/placement/free_space_map.h>
 #include <tetralight/bake/placement/grid_bounds.h>
 #include <tetralight/bake/placement/group_by_region.h>
-#include <tetralight/bake/placement/reach.h>
-#include <tetralight/bake/placement/space_map.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -83,11 +83,11 @@ class GridMaker {
 
     Result<ProbeGrid> run(const AdaptiveCallback& callback) {
         if (auto status = place(); !status) return status.error();
-        auto reach = drop_unreachable(traced_, map_, settings_, probes_);
-        if (!reach) return reach.error();
-        grid_.pockets = std::move(reach->pockets);
-        wanted_ = std::move(reach->wanted);
-        look_into_empty_spaces(reach->filled);
+        auto fill = drop_unreachable(traced_, map_, settings_, probes_);
+        if (!fill) return fill.error();
+        grid_.dropped_spaces = std::move(fill->dropped_spaces);
+        wanted_ = std::move(fill->wanted);
+        look_into_empty_spaces(fill->filled);
         if (settings_.mode == PlacementMode::Adaptive && !kept_positions(probes_).empty()) {
             auto report = adapt(callback);
             if (!report) return report.error();
@@ -116,7 +116,7 @@ class GridMaker {
     }
 
     [[nodiscard]] bool is_wanted(uint32_t space) const {
-        const bool keeps_all = settings_.other_spaces == OtherSpaces::Keep;
+        const bool keeps_all = settings_.unreachable == UnreachableSpaces::Keep;
         return keeps_all || std::ranges::binary_search(wanted_, space);
     }
 
@@ -125,23 +125,23 @@ class GridMaker {
     void look_into_empty_spaces(const std::vector<uint32_t>& filled) {
         constexpr size_t kCubicMetre = 8;  // posts
         const bool is_adaptive = settings_.mode == PlacementMode::Adaptive;
-        const PlaceRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMostPlaces : 1,
-                             rule_.thread_count};
+        const FreePositionRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMostPlaces : 1,
+                                    rule_.thread_count};
         ProbesOfSpaces probes;
         if (is_adaptive) probes = probes_by_space();
         const std::vector<uint32_t> done = is_adaptive ? well_filled(filled, probes) : filled;
-        std::vector<SpacePlaces> spaces = find_places(traced_, map_, done, rule);
+        std::vector<SpacePositions> spaces = find_free_positions(traced_, map_, done, rule);
         if (wanted_.empty() && !spaces.empty()) {  // the largest, where nothing stands anywhere
-            wanted_ = {std::ranges::max_element(spaces, {}, &SpacePlaces::post_count)->space};
+            wanted_ = {std::ranges::max_element(spaces, {}, &SpacePositions::point_count)->space};
         }
-        for (SpacePlaces& space : spaces) {
+        for (SpacePositions& space : spaces) {
             if (is_adaptive && is_wanted(space.space)) {
                 start_in(space, probes[space.space]);
                 continue;
             }
-            const bool is_seeded = !settings_.seeds.empty() && is_wanted(space.space);
-            if (space.post_count < kCubicMetre && !is_seeded) continue;
-            grid_.empty_spaces.push_back({space.places[0], is_wanted(space.space)});
+            const bool is_seeded = !settings_.from.empty() && is_wanted(space.space);
+            if (space.point_count < kCubicMetre && !is_seeded) continue;
+            grid_.empty_spaces.push_back({space.positions[0], is_wanted(space.space)});
         }
     }
 
@@ -165,16 +165,16 @@ class GridMaker {
 
     /// Puts probes to the ends of a space that the lattice missed, and sensors between them, away
     /// from the places that are taken there.
-    void start_in(SpacePlaces& space, const std::vector<glm::dvec3>& taken) {
-        std::erase_if(space.places, [&](const glm::dvec3& place) {
+    void start_in(SpacePositions& space, const std::vector<glm::dvec3>& taken) {
+        std::erase_if(space.positions, [&](const glm::dvec3& place) {
             return adjustment_at(scene_.probe_adjustments, place).forbids_probes ||
                    std::ranges::any_of(taken, [&](const glm::dvec3& probe) {
                        return glm::distance(probe, place) <= rule_.clearance;
                    });
         });
-        spread_out(space.places, taken, kStartPlaces);
-        for (size_t i = 0; i < std::min(space.places.size(), kStartPlaces); ++i) {
-            const glm::dvec3& place = space.places[i];
+        sort_farthest_first(space.positions, taken, kStartPlaces);
+        for (size_t i = 0; i < std::min(space.positions.size(), kStartPlaces); ++i) {
+            const glm::dvec3& place = space.positions[i];
             if (i >= kStartProbes) {
                 sensors_.push_back(place);
                 continue;
@@ -221,7 +221,7 @@ class GridMaker {
         constexpr double kCloser = 0.5;  // sensors in corners, for measuring only
         if (!is_in(rule_.bounds, position)) return false;
         if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
-        return is_surely_free(traced_, position, kCloser * rule_.clearance) &&
+        return is_free_with_clearance(traced_, position, kCloser * rule_.clearance) &&
                std::ranges::binary_search(wanted_, map_.space_of(position));
     }
 
@@ -236,7 +236,7 @@ class GridMaker {
         const std::vector<glm::dvec3> positions = kept_positions(probes_);
         RegionGroups regions =
             group_by_region(positions, map_.spaces_of(positions, settings_.thread_count),
-                            {settings_.group_name, settings_.region_size});
+                            {settings_.name, settings_.region_size});
         grid_.groups = std::move(regions.groups);
         for (const uint32_t i : regions.order) grid_.surface_distances.push_back(distances[i]);
         return std::move(grid_);
@@ -246,7 +246,7 @@ class GridMaker {
     const TraceScene& traced_;
     const ProbeGridSettings& settings_;
     const CandidateRule& rule_;
-    SpaceMap map_;
+    FreeSpaceMap map_;
     std::vector<PlacedProbe> probes_;
     std::vector<bool> is_protected_;   ///< one a candidate
     std::vector<uint32_t> wanted_;     ///< spaces, sorted
@@ -260,18 +260,18 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
                                   const AdaptiveCallback& callback) {
     const auto bounds = grid_bounds(scene, settings);
     if (!bounds) return bounds.error();
-    const auto spacing = first_spacing(*bounds, settings);
+    const auto spacing = candidate_spacing(*bounds, settings);
     if (!spacing) return spacing.error();
     const auto clearance = checked_clearance(*spacing, settings);
     if (!clearance) return clearance.error();
     for (const ProbeAdjustment& adjustment : scene.probe_adjustments) {
         if (auto status = check(adjustment); !status) return status.error();
     }
-    const CandidateRule rule{with_room(*bounds, *spacing, *clearance, settings),
+    const CandidateRule rule{padded_bounds(*bounds, *spacing, *clearance, settings),
                              *spacing,
                              *clearance,
                              heights_apart(settings.heights, *clearance),
-                             most_probes(settings),
+                             probe_limit(settings),
                              settings.thread_count};
     const Scene canonical = canonical_scene(scene);
     const auto traced = TraceScene::make_static(canonical);

@@ -17,8 +17,8 @@
 
 // The probe-grid generator: probes for a scene that nobody has to place by hand.
 //
-//     candidates → place_probe (in or out, clearance) → SpaceMap (reach) ┬→ group_by_region →
-//     groups
+//     candidates → place_probe (in or out, clearance) → FreeSpaceMap (flood fill) ┬→
+//     group_by_region → groups
 //                                                                       └→ refine_grid ─┘
 
 namespace tetralight {
@@ -32,14 +32,14 @@ enum class PlacementMode : uint8_t {
 };
 
 /// What becomes of spaces without a seed.
-enum class OtherSpaces : bool { Drop, Keep };
+enum class UnreachableSpaces : bool { Drop, Keep };
 
 struct ProbeGridSettings {
     PlacementMode mode = PlacementMode::Regular;
     /// Metres between probes on each axis; `adaptive` has its own.
     glm::dvec3 spacing{1.0};
     /// What to fill: no probe stands outside of it. None = the bounds of what contributes global
-    /// illumination, with some room around (`with_room`).
+    /// illumination, with some room around (`padded_bounds`).
     std::optional<WorldBox> bounds;
     /// Nodes whose bounds, with all below them, to fill instead, by name.
     std::vector<std::string> bounds_of;
@@ -50,26 +50,26 @@ struct ProbeGridSettings {
     /// (0.05 when adaptive).
     std::optional<double> clearance;
     /// World positions in the spaces to fill; none = the space that most probes are in.
-    std::vector<glm::dvec3> seeds;
-    OtherSpaces other_spaces = OtherSpaces::Drop;
+    std::vector<glm::dvec3> from;
+    UnreachableSpaces unreachable = UnreachableSpaces::Drop;
     /// Metres along the side of the cubes that groups are split by; 0 = one group for each space.
     double region_size = 0.0;
-    std::string group_name = "grid";
+    std::string name = "grid";
     /// More candidates are refused; the adaptive mode puts so many probes at most. None = 10
     /// million, or 5 000 when adaptive.
-    std::optional<uint64_t> max_probe_count;
+    std::optional<uint64_t> max_probes;
     AdaptiveSettings adaptive;
     /// 0 = all.
     uint32_t thread_count = 0;
 };
 
 /// A space that no seed lies in.
-struct Pocket {
+struct DroppedSpace {
     uint64_t probe_count = 0;
     /// One of its probes: a seed that would keep it.
     glm::dvec3 position{0.0};
 
-    bool operator==(const Pocket&) const = default;
+    bool operator==(const DroppedSpace&) const = default;
 };
 
 /// A space that nothing stands in.
@@ -91,7 +91,7 @@ struct ProbeGrid {
     /// How many candidates had which `Fate`.
     std::array<uint64_t, kFateCount> fate_counts{};
     /// The spaces that were dropped, the largest first.
-    std::vector<Pocket> pockets;
+    std::vector<DroppedSpace> dropped_spaces;
     /// Spaces of a cubic metre or so that no candidate stands in.
     std::vector<EmptySpace> empty_spaces;
     /// The scene's adjustment volumes that do not reach into the bounds, by name.
@@ -107,7 +107,7 @@ struct ProbeGrid {
 /// and the same for every order of the scene's meshes. `callback` is for the adaptive mode.
 ///
 /// Errors: spacing that is not positive, bounds that are empty or not finite, nothing to take
-/// bounds from, a node that is not there, more candidates than `max_probe_count` or memory allows
+/// bounds from, a node that is not there, more candidates than `max_probes` or memory allows
 /// (the message says how many), a seed inside geometry or out of bounds, no floor, no probe left.
 [[nodiscard]] Result<ProbeGrid> make_probe_grid(const Scene& scene,
                                                 const ProbeGridSettings& settings,

@@ -50,7 +50,7 @@ class Refiner {
         for (const CellError& cell : cells) all += cell.sum;
         size_t count = 0;
         for (const CellError& cell : cells) {
-            if (count == rule_.most_cells || done > kWorthwhile * all) break;
+            if (count == rule_.max_cell_count || done > kWorthwhile * all) break;
             done += cell.sum;
             count += refine(cell);
         }
@@ -80,7 +80,7 @@ class Refiner {
         for (const glm::dvec3& position :
              pair_at_wall(input_.traced, from, to, rule_.clearance, glm::distance(from, to))) {
             if (!is_apart(cell, position) || !is_new(position)) continue;
-            if (!rule_.may_stand(position)) continue;
+            if (!rule_.is_allowed(position)) continue;
             result_.positions.push_back(position);
             taken_.push_back(position);
             is_any = true;

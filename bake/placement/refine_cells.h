@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <tetralight/bake/placement/light_pool.h>
-#include <tetralight/bake/placement/light_survey.h>
+#include <tetralight/bake/placement/sensor_errors.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -30,9 +30,9 @@ struct RefineRule {
     /// Whether a probe may stand at a sensor, by its number in the pool.
     std::function<bool(uint32_t sensor)> may_become_probe;
     /// Whether one may stand at a new position.
-    std::function<bool(const glm::dvec3& position)> may_stand;
+    std::function<bool(const glm::dvec3& position)> is_allowed;
     /// Cells that are refined at once.
-    size_t most_cells = 0;
+    size_t max_cell_count = 0;
 };
 
 /// New probes: at sensors of the pool, and at positions that are not in it yet.

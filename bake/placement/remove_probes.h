@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <tetralight/bake/placement/light_pool.h>
-#include <tetralight/bake/placement/light_survey.h>
+#include <tetralight/bake/placement/sensor_errors.h>
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
@@ -16,11 +16,11 @@ namespace tetralight {
 /// How many probes may go.
 struct RemoveRule {
     /// Not fewer probes than this are left.
-    size_t fewest = 4;
+    size_t min_probe_count = 4;
     /// The sum of all sensors' squares that may be reached.
-    double largest_sum = 0.0;
+    double max_square_sum = 0.0;
     /// Share of the probes that may go at once.
-    double largest_share = 0.125;
+    double max_fraction = 0.125;
     uint32_t thread_count = 0;
 };
 

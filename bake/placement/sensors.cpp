@@ -23,8 +23,8 @@ double fraction(uint64_t i, int d) {
 
 }  // namespace
 
-SensorPlaces::SensorPlaces(const TraceScene& traced, const WorldBox& bounds, double surface_offset,
-                           Filter is_free)
+SensorSequence::SensorSequence(const TraceScene& traced, const WorldBox& bounds,
+                               double surface_offset, Filter is_free)
     : traced_(traced),
       bounds_(bounds),
       surface_offset_(surface_offset),
@@ -42,12 +42,12 @@ SensorPlaces::SensorPlaces(const TraceScene& traced, const WorldBox& bounds, dou
     }
 }
 
-glm::dvec3 SensorPlaces::anywhere(uint64_t i) const {
+glm::dvec3 SensorSequence::anywhere(uint64_t i) const {
     return bounds_.min +
            bounds_.size() * glm::dvec3(fraction(i, 0), fraction(i, 1), fraction(i, 2));
 }
 
-glm::dvec3 SensorPlaces::off_a_surface(uint64_t i) const {
+glm::dvec3 SensorSequence::off_a_surface(uint64_t i) const {
     const double wanted = fraction(i, 0) * area_sums_.back();
     const size_t found = std::ranges::upper_bound(area_sums_, wanted) - area_sums_.begin();
     const Triangle& chosen = triangles_[std::min(found, triangles_.size() - 1)];
@@ -61,12 +61,12 @@ glm::dvec3 SensorPlaces::off_a_surface(uint64_t i) const {
     return traced_.world_from_render(place) + surface_offset_ * glm::dvec3(normal);
 }
 
-bool SensorPlaces::counts(const glm::dvec3& position) const {
+bool SensorSequence::counts(const glm::dvec3& position) const {
     const bool is_number = position == position;  // triangles without area have no normal
     return is_number && contains(bounds_, position) && is_free_(position);
 }
 
-std::vector<glm::dvec3> SensorPlaces::next(size_t count, uint32_t thread_count) {
+std::vector<glm::dvec3> SensorSequence::next(size_t count, uint32_t thread_count) {
     constexpr size_t kMostTries = 64;
     std::vector<glm::dvec3> places;
     for (size_t tries = 0; places.size() < count && tries < kMostTries; ++tries) {

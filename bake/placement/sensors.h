@@ -14,15 +14,15 @@ namespace tetralight {
 /// Where things may stand that probes light: positions in free space in turn with positions a
 /// little off surfaces, by their area. A sequence that goes on for ever, evenly spread at every
 /// length (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
-class SensorPlaces {
+class SensorSequence {
   public:
     /// Says whether a place is free, from many threads; corners are nearer to their other side than
     /// the offset.
     using Filter = std::function<bool(const glm::dvec3& position)>;
 
     /// Keeps the references. `surface_offset`: metres off surfaces.
-    SensorPlaces(const TraceScene& traced, const WorldBox& bounds, double surface_offset,
-                 Filter is_free);
+    SensorSequence(const TraceScene& traced, const WorldBox& bounds, double surface_offset,
+                   Filter is_free);
 
     /// About `count` more places: fewer where hardly any place is free.
     [[nodiscard]] std::vector<glm::dvec3> next(size_t count, uint32_t thread_count);

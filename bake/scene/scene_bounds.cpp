@@ -72,7 +72,7 @@ std::optional<WorldBox> scene_bounds(const Scene& scene, const InstanceSelection
     return box;
 }
 
-glm::dvec3 scene_middle(const Scene& scene, const InstanceSelection& selection) {
+glm::dvec3 scene_center(const Scene& scene, const InstanceSelection& selection) {
     constexpr double kWellSpread = 1000.0;
     const auto bounds = scene_bounds(scene, selection);
     if (!bounds) return glm::dvec3(0.0);

@@ -29,6 +29,6 @@ using InstanceSelection = std::function<bool(const MeshInstance&)>;
 /// thousand times as large as the box of the vertices' middle half along each axis, something
 /// stands far away, perhaps by mistake: then the median of the vertices, which it does not move.
 /// The world's origin when there is nothing.
-[[nodiscard]] glm::dvec3 scene_middle(const Scene& scene, const InstanceSelection& selection);
+[[nodiscard]] glm::dvec3 scene_center(const Scene& scene, const InstanceSelection& selection);
 
 }  // namespace tetralight

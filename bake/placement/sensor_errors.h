@@ -31,11 +31,11 @@ struct SensorError {
 
 /// Compares the light that a volume of some of the pool's positions gives at others with the light
 /// there. With `traced` it also says what walls hide.
-[[nodiscard]] std::vector<SensorError> survey_light(const ProbeVolume& volume,
-                                                    const LightPool& pool,
-                                                    std::span<const uint32_t> sensors,
-                                                    const TraceScene* traced,
-                                                    uint32_t thread_count);
+[[nodiscard]] std::vector<SensorError> sensor_errors(const ProbeVolume& volume,
+                                                     const LightPool& pool,
+                                                     std::span<const uint32_t> sensors,
+                                                     const TraceScene* traced,
+                                                     uint32_t thread_count);
 
 /// Root mean square of the errors over the mean irradiance of the sensors; 0 where all is dark.
 [[nodiscard]] double relative_error(std::span<const SensorError> errors, const LightPool& pool,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/bake/placement/free_space_map.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<glm::ivec3> later_neighbors() {
     return offsets;
 }
 
-Lattice make_posts(const WorldBox& bounds, const glm::dvec3& spacing) {
+Lattice make_lattice_around(const WorldBox& bounds, const glm::dvec3& spacing) {
     glm::dvec3 step;
     for (int axis = 0; axis < 3; ++axis) step[axis] = std::min(spacing[axis], kStep);
     const auto count_along = [&](int axis) {
@@ -70,17 +70,17 @@ glm::ivec3 layers_of(const Lattice& lattice, uint64_t i) {
 
 }  // namespace
 
-SpaceMap::SpaceMap(const TraceScene& traced, const WorldBox& bounds, const glm::dvec3& spacing,
-                   uint32_t thread_count)
-    : traced_(traced), posts_(make_posts(bounds, spacing)) {
+FreeSpaceMap::FreeSpaceMap(const TraceScene& traced, const WorldBox& bounds,
+                           const glm::dvec3& spacing, uint32_t thread_count)
+    : traced_(traced), posts_(make_lattice_around(bounds, spacing)) {
     fill(thread_count);
 }
 
-glm::vec3 SpaceMap::post(uint64_t i) const {
+glm::vec3 FreeSpaceMap::post(uint64_t i) const {
     return traced_.render_from_world(posts_.at(i));
 }
 
-void SpaceMap::fill(uint32_t thread_count) {
+void FreeSpaceMap::fill(uint32_t thread_count) {
     const auto count = static_cast<uint32_t>(posts_.count());
     const std::vector<glm::ivec3> offsets = later_neighbors();
     const float on_surface =
@@ -95,7 +95,8 @@ void SpaceMap::fill(uint32_t thread_count) {
         const glm::ivec3 layers = layers_of(posts_, i);
         for (size_t n = 0; n < offsets.size() && blocked[i] == 0; ++n) {
             const glm::ivec3 there = layers + offsets[n];
-            if (!is_in(posts_, there) || !sees(traced_, here, post(index_at(posts_, there)))) {
+            if (!is_in(posts_, there) ||
+                !is_visible(traced_, here, post(index_at(posts_, there)))) {
                 continue;
             }
             links[i] = static_cast<uint16_t>(links[i] | 1u << n);
@@ -113,12 +114,12 @@ void SpaceMap::fill(uint32_t thread_count) {
     }
 }
 
-uint32_t SpaceMap::root(uint32_t post) const {
+uint32_t FreeSpaceMap::root(uint32_t post) const {
     while (parent_[post] != post) post = parent_[post];
     return post;
 }
 
-void SpaceMap::unite(uint32_t a, uint32_t b) {
+void FreeSpaceMap::unite(uint32_t a, uint32_t b) {
     const uint32_t root_a = root(a), root_b = root(b);
     const uint32_t first = std::min(root_a, root_b);
     // Both ways are shortened to the common root, so that later searches are short.
@@ -132,7 +133,7 @@ void SpaceMap::unite(uint32_t a, uint32_t b) {
     }
 }
 
-void SpaceMap::look(const glm::dvec3& position, int reach, std::vector<uint32_t>& posts) const {
+void FreeSpaceMap::look(const glm::dvec3& position, int reach, std::vector<uint32_t>& posts) const {
     glm::ivec3 low;
     for (int axis = 0; axis < 3; ++axis) {
         const LatticeAxis& layers = posts_.axes[axis];
@@ -149,42 +150,43 @@ void SpaceMap::look(const glm::dvec3& position, int reach, std::vector<uint32_t>
                 const uint64_t i = index_at(posts_, layers);
                 if (is_blocked_[i]) continue;
                 const glm::vec3 to = post(i);
-                if (to == from || sees(traced_, from, to))
+                if (to == from || is_visible(traced_, from, to))
                     posts.push_back(static_cast<uint32_t>(i));
             }
         }
     }
 }
 
-std::vector<uint32_t> SpaceMap::visible_posts(const glm::dvec3& position) const {
+std::vector<uint32_t> FreeSpaceMap::visible_points(const glm::dvec3& position) const {
     std::vector<uint32_t> posts;
     for (int reach = 0; reach <= 1 && posts.empty(); ++reach) look(position, reach, posts);
     return posts;
 }
 
-void SpaceMap::join(std::span<const glm::dvec3> positions, uint32_t thread_count) {
+void FreeSpaceMap::join(std::span<const glm::dvec3> positions, uint32_t thread_count) {
     std::vector<std::vector<uint32_t>> seen(positions.size());
     parallel_for(positions.size(), thread_count,
-                 [&](size_t i) { seen[i] = visible_posts(positions[i]); });
+                 [&](size_t i) { seen[i] = visible_points(positions[i]); });
     for (const std::vector<uint32_t>& posts : seen) {
         for (const uint32_t post : posts) unite(posts.front(), post);
     }
 }
 
-uint32_t SpaceMap::space_of(const glm::dvec3& position) const {
-    const std::vector<uint32_t> posts = visible_posts(position);
+uint32_t FreeSpaceMap::space_of(const glm::dvec3& position) const {
+    const std::vector<uint32_t> posts = visible_points(position);
     return posts.empty() ? kNoIndex : root(posts.front());
 }
 
-std::vector<uint32_t> SpaceMap::spaces_of(std::span<const glm::dvec3> positions,
-                                          uint32_t thread_count) const {
+std::vector<uint32_t> FreeSpaceMap::spaces_of(std::span<const glm::dvec3> positions,
+                                              uint32_t thread_count) const {
     std::vector<uint32_t> spaces(positions.size());
     parallel_for(positions.size(), thread_count,
                  [&](size_t i) { spaces[i] = space_of(positions[i]); });
     return spaces;
 }
 
-std::map<uint32_t, std::vector<glm::dvec3>> SpaceMap::posts_by_space(const WorldBox& box) const {
+std::map<uint32_t, std::vector<glm::dvec3>> FreeSpaceMap::points_by_space(
+    const WorldBox& box) const {
     std::map<uint32_t, std::vector<glm::dvec3>> spaces;
     for (uint32_t i = 0; i < parent_.size(); ++i) {
         const glm::dvec3 position = posts_.at(i);
@@ -193,7 +195,7 @@ std::map<uint32_t, std::vector<glm::dvec3>> SpaceMap::posts_by_space(const World
     return spaces;
 }
 
-bool SpaceMap::contains(const glm::dvec3& position) const {
+bool FreeSpaceMap::contains(const glm::dvec3& position) const {
     for (int axis = 0; axis < 3; ++axis) {
         const LatticeAxis& layers = posts_.axes[axis];
         if (position[axis] < layers.first || position[axis] > layers.at(layers.count - 1)) {

@@ -18,16 +18,16 @@ namespace tetralight {
 /// Which places can be reached from which, without passing through a surface: a flood fill over a
 /// lattice of posts, joined where neighbors (of 26) see each other.
 ///
-///     SpaceMap map(traced, bounds, spacing);
+///     FreeSpaceMap map(traced, bounds, spacing);
 ///     map.join(probes);
 ///     bool together = map.space_of(a) == map.space_of(b);
-class SpaceMap {
+class FreeSpaceMap {
   public:
     /// Posts stand half a metre apart, or as far as `spacing` where that is less, in the bounds and
     /// one step around them; farther where they would be more than a million. Openings that no line
     /// between two posts leads through are taken for closed. Keeps a reference.
-    SpaceMap(const TraceScene& traced, const WorldBox& bounds, const glm::dvec3& spacing,
-             uint32_t thread_count = 0);
+    FreeSpaceMap(const TraceScene& traced, const WorldBox& bounds, const glm::dvec3& spacing,
+                 uint32_t thread_count = 0);
 
     /// Joins the spaces that each of some world positions sees: probes in doors.
     void join(std::span<const glm::dvec3> positions, uint32_t thread_count = 0);
@@ -40,7 +40,7 @@ class SpaceMap {
                                                   uint32_t thread_count = 0) const;
 
     /// The posts in a box, but for those on a surface, by the space that they lie in.
-    [[nodiscard]] std::map<uint32_t, std::vector<glm::dvec3>> posts_by_space(
+    [[nodiscard]] std::map<uint32_t, std::vector<glm::dvec3>> points_by_space(
         const WorldBox& box) const;
 
     [[nodiscard]] bool contains(const glm::dvec3& position) const;
@@ -52,7 +52,7 @@ class SpaceMap {
     void unite(uint32_t a, uint32_t b);
     /// The posts around a position that it sees: of the cell that it lies in, or else of those
     /// around that.
-    [[nodiscard]] std::vector<uint32_t> visible_posts(const glm::dvec3& position) const;
+    [[nodiscard]] std::vector<uint32_t> visible_points(const glm::dvec3& position) const;
     void look(const glm::dvec3& position, int reach, std::vector<uint32_t>& posts) const;
 
     const TraceScene& traced_;

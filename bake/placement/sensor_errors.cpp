@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/placement/light_survey.h>
+#include <tetralight/bake/placement/sensor_errors.h>
 
 #include <cmath>
 
@@ -37,7 +37,7 @@ float visible_part(const ProbeVolume& volume, const TraceScene& traced, const gl
         constexpr float kNothing = 1e-3f;
         if (probe == kNoIndex || location.weights[i] < kNothing) continue;
         const glm::vec3 there = traced.render_from_world(volume.exact_positions[probe]);
-        if (there == here || sees(traced, here, there)) {
+        if (there == here || is_visible(traced, here, there)) {
             seen += location.weights[i] * volume.irradiance[probe];
             weight += location.weights[i];
         } else if (location.weights[i] > hidden) {
@@ -59,9 +59,9 @@ ProbeVolume volume_of(const LightPool& pool, std::span<const uint32_t> probes) {
     return volume;
 }
 
-std::vector<SensorError> survey_light(const ProbeVolume& volume, const LightPool& pool,
-                                      std::span<const uint32_t> sensors, const TraceScene* traced,
-                                      uint32_t thread_count) {
+std::vector<SensorError> sensor_errors(const ProbeVolume& volume, const LightPool& pool,
+                                       std::span<const uint32_t> sensors, const TraceScene* traced,
+                                       uint32_t thread_count) {
     std::vector<glm::vec3> positions;
     for (const uint32_t sensor : sensors) positions.emplace_back(pool.position(sensor));
     const ProbeVolumeView view = volume.view();

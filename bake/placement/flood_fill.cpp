@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/placement/reach.h>
+#include <tetralight/bake/placement/flood_fill.h>
 
 #include <algorithm>
 #include <map>
@@ -12,11 +12,12 @@
 namespace tetralight {
 namespace {
 
-Status check_seed(const TraceScene& traced, const SpaceMap& map, const glm::dvec3& seed) {
+Status check_seed(const TraceScene& traced, const FreeSpaceMap& map, const glm::dvec3& seed) {
     const std::string place = str_cat("seed ", seed.x, ",", seed.y, ",", seed.z);
     if (!map.contains(seed)) return Error{place + " lies outside of the bounds"};
     const glm::vec3 position = traced.render_from_world(seed);
-    if (standing_of(traced, position, probe_visibility(traced, position)) == Standing::Inside) {
+    if (classify_point(traced, position, probe_visibility(traced, position)) ==
+        PointClass::Inside) {
         return Error{place + " lies inside geometry"};
     }
     if (map.space_of(seed) == kNoIndex) {
@@ -31,51 +32,51 @@ std::vector<uint32_t> sorted_once(std::vector<uint32_t> spaces) {
     return spaces;
 }
 
-std::vector<uint32_t> wanted_spaces(const SpaceMap& map, const ProbeGridSettings& settings,
+std::vector<uint32_t> wanted_spaces(const FreeSpaceMap& map, const ProbeGridSettings& settings,
                                     const std::vector<uint32_t>& spaces) {
     std::vector<uint32_t> wanted = spaces;
-    if (settings.other_spaces == OtherSpaces::Drop) {
+    if (settings.unreachable == UnreachableSpaces::Drop) {
         wanted = spaces_by_size(spaces);
         wanted.resize(std::min<size_t>(wanted.size(), 1));
-        if (!settings.seeds.empty()) wanted = map.spaces_of(settings.seeds);
+        if (!settings.from.empty()) wanted = map.spaces_of(settings.from);
     }
     return sorted_once(std::move(wanted));
 }
 
 }  // namespace
 
-Result<Reach> drop_unreachable(const TraceScene& traced, SpaceMap& map,
-                               const ProbeGridSettings& settings,
-                               std::vector<PlacedProbe>& probes) {
+Result<FloodFill> drop_unreachable(const TraceScene& traced, FreeSpaceMap& map,
+                                   const ProbeGridSettings& settings,
+                                   std::vector<PlacedProbe>& probes) {
     std::vector<glm::dvec3> positions;
     for (const PlacedProbe& probe : probes) {
         if (is_kept(probe.fate)) positions.push_back(probe.position);
     }
-    for (const glm::dvec3& seed : settings.seeds) {
+    for (const glm::dvec3& seed : settings.from) {
         if (auto status = check_seed(traced, map, seed); !status) return status.error();
     }
     map.join(positions, settings.thread_count);
-    map.join(settings.seeds, settings.thread_count);
+    map.join(settings.from, settings.thread_count);
     const std::vector<uint32_t> spaces = map.spaces_of(positions, settings.thread_count);
-    Reach reach;
-    reach.filled = sorted_once(spaces);
-    reach.wanted = wanted_spaces(map, settings, spaces);
-    std::map<uint32_t, Pocket> pockets;
+    FloodFill fill;
+    fill.filled = sorted_once(spaces);
+    fill.wanted = wanted_spaces(map, settings, spaces);
+    std::map<uint32_t, DroppedSpace> pockets;
     size_t i = 0;
     for (PlacedProbe& probe : probes) {
         if (!is_kept(probe.fate)) continue;
         const uint32_t space = spaces[i++];
-        if (std::ranges::binary_search(reach.wanted, space)) {
-            reach.spaces.push_back(space);
+        if (std::ranges::binary_search(fill.wanted, space)) {
+            fill.spaces.push_back(space);
             continue;
         }
-        Pocket& pocket = pockets[space];
+        DroppedSpace& pocket = pockets[space];
         if (pocket.probe_count++ == 0) pocket.position = probe.position;
         probe.fate = Fate::Unreachable;
     }
-    for (const auto& [space, pocket] : pockets) reach.pockets.push_back(pocket);
-    std::ranges::stable_sort(reach.pockets, std::greater{}, &Pocket::probe_count);
-    return reach;
+    for (const auto& [space, pocket] : pockets) fill.dropped_spaces.push_back(pocket);
+    std::ranges::stable_sort(fill.dropped_spaces, std::greater{}, &DroppedSpace::probe_count);
+    return fill;
 }
 
 }  // namespace tetralight
