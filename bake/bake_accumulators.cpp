@@ -90,7 +90,7 @@ class AccumulatorBaker {
             for (size_t begin = 0; begin < probes.size(); begin += step) {
                 const size_t count = std::min(step, probes.size() - begin);
                 bake_round(std::span(probes).subspan(begin, count), round);
-                if (progress_.is_cancelled()) return Error{"cancelled"};
+                if (progress_.is_cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
                 if (is_time_over(round)) return Ok{};
                 save_now_and_then();
             }

@@ -6,7 +6,6 @@
 
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/bake/scene/read_gltf.h>
-#include <tetralight/base/error_text.h>
 #include <tetralight/cli/amounts.h>
 
 namespace tetralight::cli {
@@ -22,7 +21,7 @@ Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
     auto scene = read_gltf(path);
     if (!scene) return scene.error();
     if (scene->probe_groups.empty()) {
-        return Error{path + ": no node has extras.light_probe_group"};
+        return Error{ErrorCode::NotFound, path + ": no node has extras.light_probe_group"};
     }
     return std::move(scene->probe_groups);
 }
@@ -48,11 +47,9 @@ void GroupFiles::add(const std::string& path, std::vector<ProbeGroup> groups) {
 }
 
 Error GroupFiles::locate(const Error& error) const {
-    for (const auto& [name, paths] : paths_of_group_) {
-        if (error_text(error).starts_with("group \"" + name + "\": "))
-            return error.in(joined(paths));
-    }
-    return error;
+    const auto index = probe_group_index(error.field);
+    if (!index || *index >= groups_.size()) return error;
+    return error.in(joined(paths_of_group_.at(groups_[*index].name)));
 }
 
 }  // namespace tetralight::cli

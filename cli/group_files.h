@@ -22,7 +22,7 @@ class GroupFiles {
 
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
 
-    /// Puts the file, or the files, of the group that an error begins with before it.
+    /// Puts the file, or the files, of the group that an error is about (its field) before it.
     [[nodiscard]] Error locate(const Error& error) const;
 
   private:

@@ -15,7 +15,7 @@
 #include <tetralight/bake/placement/sensor_errors.h>
 #include <tetralight/bake/placement/sensors.h>
 #include <tetralight/base/contract.h>
-#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -52,9 +52,13 @@ class AdaptiveGrid {
         for (const glm::dvec3& sensor : input_.sensors) add_sensor(sensor);
         Status status = refine();
         if (status) status = remove_and_replace();
-        if (!status && error_text(status.error()) != "cancelled") return status.error();
-        if (!best_ && is_time_over()) return Error{"out of time before there was a result"};
-        if (!best_) return Error{"interrupted"};
+        if (!status && status.error().code != ErrorCode::Cancelled) return status.error();
+        if (!best_ && is_time_over()) {
+            return Error{ErrorCode::InvalidArgument, "time_budget",
+                         str_cat(settings_.time_budget_seconds),
+                         "out of time before there was a result"};
+        }
+        if (!best_) return Error{ErrorCode::Cancelled, "interrupted"};
         if (!status)
             report_.end = is_time_over() ? AdaptiveEnd::TimeOver : AdaptiveEnd::Interrupted;
         finish(probes);
@@ -99,7 +103,7 @@ class AdaptiveGrid {
     }
 
     /// Says how far it is; false ends everything.
-    bool goes_on() {
+    bool report_progress() {
         if (is_time_over()) return false;
         const Set& shown = best_ ? *best_ : set_;
         return !callback_ ||
@@ -124,15 +128,16 @@ class AdaptiveGrid {
     }
 
     Status bake() {
-        return pool_.bake([this](const BakeProgress&) { return goes_on(); });
+        return pool_.bake([this](const BakeProgress&) { return report_progress(); });
     }
 
     /// The light and the errors of the set, with less noise until errors stand out of it.
-    Status probe_visibility() {
+    Status measure_errors() {
         while (true) {
             add_sensors();
             if (checks_.empty()) {
-                return Error{"the bounds have no free place off surfaces to measure light at"};
+                return Error{ErrorCode::InvalidArgument, "bounds", "",
+                             "the bounds have no free position off surfaces to measure light at"};
             }
             if (auto status = bake(); !status) return status;
             set_.volume = volume_of(pool_, set_.probes);
@@ -153,14 +158,14 @@ class AdaptiveGrid {
     Status accept() {
         best_ = set_;
         ++report_.round_count;
-        if (!goes_on()) return Error{"cancelled"};
+        if (!report_progress()) return Error{ErrorCode::Cancelled, "cancelled"};
         return Ok{};
     }
 
     Status refine() {
         const double most = kBeyondCount * static_cast<double>(input_.max_probes);
         while (true) {
-            if (auto status = probe_visibility(); !status) return status;
+            if (auto status = measure_errors(); !status) return status;
             // More than is asked for is no result.
             if (set_.probes.size() <= input_.max_probes) {
                 if (auto status = accept(); !status) return status;
@@ -237,7 +242,7 @@ class AdaptiveGrid {
                                   rule);
         if (left.size() == set_.probes.size()) return false;
         set_.probes = std::move(left);
-        if (auto status = probe_visibility(); !status) return status.error();
+        if (auto status = measure_errors(); !status) return status.error();
         return true;
     }
 
@@ -275,7 +280,7 @@ class AdaptiveGrid {
             const size_t count = set_.probes.size();
             const auto room = static_cast<size_t>(share * static_cast<double>(count));
             if (insert(room) == 0) break;
-            if (auto status = probe_visibility(); !status) return status;
+            if (auto status = measure_errors(); !status) return status;
             while (set_.probes.size() > count) {
                 const auto removed = remove(count, std::numeric_limits<double>::max());
                 if (!removed) return removed.error();

@@ -26,7 +26,7 @@ Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, Placem
         case PlacementMode::Surface:
             return surface_candidates(traced, rule);
     }
-    return Error{"unknown mode"};
+    return Error{ErrorCode::InvalidArgument, "mode", "", "unknown mode"};
 }
 
 /// Adds what of a rule's candidates stands where `owner` sets the spacing; null: no volume does.

@@ -23,7 +23,8 @@ std::string a_grid_of(double count) {
 Status check_memory(double count, double bytes_each, uint64_t free_bytes) {
     const double bytes = count * bytes_each;
     if (bytes <= static_cast<double>(free_bytes)) return Ok{};
-    return Error{str_cat(a_grid_of(count), " needs about ", gigabytes(bytes), " of memory, ",
+    return Error{ErrorCode::OutOfResources,
+                 str_cat(a_grid_of(count), " needs about ", gigabytes(bytes), " of memory, ",
                          gigabytes(free_bytes), " are free")};
 }
 
@@ -31,7 +32,8 @@ Status check_memory(double count, double bytes_each, uint64_t free_bytes) {
 
 Status check_candidate_count(double count, uint64_t max_count, uint64_t free_bytes) {
     if (!(count <= static_cast<double>(max_count))) {
-        return Error{str_cat(a_grid_of(count), " is more than the limit of ", max_count)};
+        return Error{ErrorCode::InvalidArgument, "max_probes", str_cat(max_count),
+                     str_cat(a_grid_of(count), " is more than the limit of ", max_count)};
     }
     return check_memory(count, kBytesPerCandidate, free_bytes);
 }

@@ -101,7 +101,8 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
         }
     });
     if (candidates && candidates->empty()) {
-        return Error{str_cat("there is no floor, or no room above it in the bounds, in any of ",
+        return Error{ErrorCode::InvalidArgument, "mode", "layers",
+                     str_cat("there is no floor, or no room above it in the bounds, in any of ",
                              columns->size(), " columns")};
     }
     return candidates;
@@ -132,7 +133,10 @@ Result<std::vector<glm::dvec3>> surface_candidates(const TraceScene& traced,
     if (auto status = check_candidate_count(static_cast<double>(all.size()), rule.max_count);
         !status)
         return status.error();
-    if (all.empty()) return Error{"there is no surface in the bounds"};
+    if (all.empty()) {
+        return Error{ErrorCode::InvalidArgument, "mode", "surface",
+                     "there is no surface in the bounds"};
+    }
     return all;
 }
 

@@ -13,15 +13,19 @@ namespace tetralight {
 namespace {
 
 Status check_seed(const TraceScene& traced, const FreeSpaceMap& map, const glm::dvec3& seed) {
-    const std::string place = str_cat("seed ", seed.x, ",", seed.y, ",", seed.z);
-    if (!map.contains(seed)) return Error{place + " lies outside of the bounds"};
+    const std::string value = str_cat(seed.x, ",", seed.y, ",", seed.z);
+    const auto error = [&](const char* reason) {
+        return Error{ErrorCode::InvalidArgument, "from", value,
+                     str_cat("seed ", value, " is ", reason)};
+    };
+    if (!map.contains(seed)) return error("outside of the bounds");
     const glm::vec3 position = traced.render_from_world(seed);
     if (classify_point(traced, position, probe_visibility(traced, position)) ==
         PointClass::Inside) {
-        return Error{place + " lies inside geometry"};
+        return error("inside geometry");
     }
     if (map.space_of(seed) == kNoIndex) {
-        return Error{place + " lies in a gap that is too narrow to be searched"};
+        return error("in a gap that is too narrow for the flood fill");
     }
     return Ok{};
 }

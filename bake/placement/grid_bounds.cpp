@@ -27,9 +27,13 @@ bool is_part_of(const Scene& scene, const MeshInstance& instance, const std::str
 Status check_name(const Scene& scene, const std::string& name) {
     const auto is_part = [&](const MeshInstance& i) { return is_part_of(scene, i, name); };
     if (std::ranges::any_of(scene.instances, is_part)) return Ok{};
-    const bool is_there = std::ranges::count(scene.nodes, name, &SceneNode::name) > 0;
-    if (is_there) return Error{str_cat("node \"", name, "\" has no mesh to take bounds from")};
-    return Error{str_cat("there is no node \"", name, "\"")};
+    const bool has_node = std::ranges::count(scene.nodes, name, &SceneNode::name) > 0;
+    if (has_node) {
+        return Error{ErrorCode::InvalidArgument, "bounds_of", name,
+                     str_cat("node \"", name, "\" has no mesh to take bounds from")};
+    }
+    return Error{ErrorCode::NotFound, "bounds_of", name,
+                 str_cat("there is no node \"", name, "\"")};
 }
 
 }  // namespace
@@ -45,7 +49,10 @@ Result<WorldBox> grid_bounds(const Scene& scene, const ProbeGridSettings& settin
             return is_part_of(scene, instance, name);
         });
     });
-    if (!bounds) return Error{"the scene has no static geometry to take bounds from"};
+    if (!bounds) {
+        return Error{ErrorCode::InvalidArgument, "bounds", "",
+                     "the scene has no static geometry to take bounds from"};
+    }
     return *bounds;
 }
 
@@ -96,7 +103,9 @@ Result<glm::dvec3> candidate_spacing(const WorldBox& bounds, const ProbeGridSett
     if (!count) return count.error();
     const glm::dvec3& p = bounds.min;
     if (p == bounds.max) {
-        return Error{str_cat("bounds are empty: nothing but ", p.x, ",", p.y, ",", p.z)};
+        const std::string value = str_cat(p.x, ",", p.y, ",", p.z);
+        return Error{ErrorCode::InvalidArgument, "bounds", value,
+                     str_cat("bounds are empty: nothing but ", value)};
     }
     const uint64_t most = probe_limit(settings);
     if (settings.mode == PlacementMode::Regular) {
@@ -122,7 +131,8 @@ Result<double> checked_clearance(const glm::dvec3& spacing, const ProbeGridSetti
     const double usual = std::min(kShare * std::min({spacing.x, spacing.y, spacing.z}), longest);
     const double clearance = settings.clearance.value_or(usual);
     if (clearance >= 0.0 && std::isfinite(clearance)) return clearance;
-    return Error{str_cat("clearance ", clearance, " is not a length")};
+    return Error{ErrorCode::InvalidArgument, "clearance", str_cat(clearance),
+                 str_cat("clearance ", clearance, " is not a length")};
 }
 
 }  // namespace tetralight

@@ -15,15 +15,17 @@ constexpr const char* kAxisNames[] = {"x", "y", "z"};
 /// Of the spacing; thinner bounds are flat.
 constexpr double kFlatShare = 0.001;
 
-Status check(const WorldBox& bounds, const glm::dvec3& spacing) {
+Status check_lattice(const WorldBox& bounds, const glm::dvec3& spacing) {
     for (int axis = 0; axis < 3; ++axis) {
         if (!(spacing[axis] > 0.0) || !std::isfinite(spacing[axis])) {
-            return Error{str_cat("spacing ", spacing[axis], " along ", kAxisNames[axis],
+            return Error{ErrorCode::InvalidArgument, "spacing", str_cat(spacing[axis]),
+                         str_cat("spacing ", spacing[axis], " along ", kAxisNames[axis],
                                  " is not a positive length")};
         }
-        const double low = bounds.min[axis], high = bounds.max[axis];
-        if (!std::isfinite(low) || !std::isfinite(high) || high < low) {
-            return Error{str_cat("bounds ", low, " to ", high, " along ", kAxisNames[axis],
+        const double min = bounds.min[axis], max = bounds.max[axis];
+        if (!std::isfinite(min) || !std::isfinite(max) || max < min) {
+            return Error{ErrorCode::InvalidArgument, "bounds", str_cat(min, ", ", max),
+                         str_cat("bounds ", min, " to ", max, " along ", kAxisNames[axis],
                                  " are empty or not finite")};
         }
     }
@@ -92,7 +94,7 @@ std::vector<glm::dvec3> Lattice::positions() const {
 }
 
 Result<double> lattice_count(const WorldBox& bounds, const glm::dvec3& spacing) {
-    if (auto status = check(bounds, spacing); !status) return status.error();
+    if (auto status = check_lattice(bounds, spacing); !status) return status.error();
     double count = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
         count *= layer_count(bounds.size()[axis], spacing[axis]);

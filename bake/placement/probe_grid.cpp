@@ -199,7 +199,8 @@ class GridMaker {
     Result<AdaptiveReport> adapt(const AdaptiveCallback& callback) {
         const size_t fewest = fewest_probes();
         if (fewest > rule_.max_count) {
-            return Error{str_cat(wanted_.size(), " spaces need ", fewest,
+            return Error{ErrorCode::InvalidArgument, "max_probes", str_cat(rule_.max_count),
+                         str_cat(wanted_.size(), " spaces need ", fewest,
                                  " probes at least, more than the limit of ", rule_.max_count)};
         }
         const AdaptiveInput input{scene_,
@@ -232,7 +233,7 @@ class GridMaker {
             ++grid_.fate_counts[static_cast<size_t>(probe.fate)];
             if (is_kept(probe.fate)) distances.push_back(probe.surface_distance);
         }
-        if (distances.empty()) return Error{none_left(grid_)};
+        if (distances.empty()) return Error{ErrorCode::InvalidArgument, none_left(grid_)};
         const std::vector<glm::dvec3> positions = kept_positions(probes_);
         RegionGroups regions =
             group_by_region(positions, map_.spaces_of(positions, settings_.thread_count),
@@ -265,7 +266,7 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
     const auto clearance = checked_clearance(*spacing, settings);
     if (!clearance) return clearance.error();
     for (const ProbeAdjustment& adjustment : scene.probe_adjustments) {
-        if (auto status = check(adjustment); !status) return status.error();
+        if (auto status = check_adjustment(adjustment); !status) return status.error();
     }
     const CandidateRule rule{padded_bounds(*bounds, *spacing, *clearance, settings),
                              *spacing,

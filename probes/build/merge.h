@@ -59,9 +59,9 @@ struct MergedProbes {
 /// tolerance of both, so that a probe of a sparse part swallows none of a dense one. Clusters are
 /// closed transitively; the lexicographically smallest position stands for its cluster.
 ///
-/// Errors: a group without a name, with control characters (a line break) or bytes that are not
-/// UTF-8 in it, or with the name of another; a position that is not finite or beyond 1e18 (they
-/// name the group and the index).
+/// Returns invalid_argument, with the field `groups[1].positions[7]`, if a group has no name, a
+/// name with control characters (a line break) or bytes that are not UTF-8, or the name of another
+/// group, or if a position is not finite or beyond 1e18.
 [[nodiscard]] Result<MergedProbes> merge(std::span<const ProbeGroup> groups,
                                          const MergeSettings& settings = {});
 
