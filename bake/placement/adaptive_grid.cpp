@@ -20,19 +20,19 @@
 namespace tetralight {
 namespace {
 
-/// Sensors at first, for each probe, and at most.
-constexpr size_t kFewestSensors = 2048, kSensorsPerProbe = 10, kMostSensors = 1 << 16;
-/// Every so many sensors one is left out of all decisions, and tells the error.
+/// The minimum number of sensors, sensors per probe, and the maximum number.
+constexpr size_t kMinSensors = 2048, kSensorsPerProbe = 10, kMaxSensors = 1 << 16;
+/// One of this many sensors is not used for decisions; these give the reported error.
 constexpr uint32_t kCheckEvery = 4;
-/// New probes of a round, as a share of those that are there.
+/// New probes of a round, as a fraction of the current ones.
 constexpr double kGrowth = 0.25;
-/// It refines this far beyond the goal, so that there is something to choose from.
+/// Refinement goes beyond the targets by these factors, so that removal has a choice.
 constexpr double kBeyondCount = 1.3, kBeyondError = 0.9;
-/// Noise of the sensors, as a share of the error, that is too much.
-constexpr double kLargestNoise = 0.5;
-/// Rounds of replacing the least useful probes, and their share.
+/// The maximum noise of the sensors, as a fraction of the error.
+constexpr double kMaxNoise = 0.5;
+/// Rounds of replacing the least useful probes, and the fraction that is replaced.
 constexpr int kReplacements = 8;
-constexpr double kReplacedShare = 0.2;
+constexpr double kReplacedFraction = 0.2;
 
 class AdaptiveGrid {
   public:
@@ -66,11 +66,11 @@ class AdaptiveGrid {
     }
 
   private:
-    /// Probes and what their light is worth.
+    /// Probes, their light, and its errors.
     struct Set {
-        std::vector<uint32_t> probes;  ///< by number in the pool
+        std::vector<uint32_t> probes;  ///< indices in the pool
         ProbeVolume volume;
-        std::vector<SensorError> errors;  ///< one for each that decides
+        std::vector<SensorError> errors;  ///< one for each sensor used for decisions
         double error = std::numeric_limits<double>::infinity();
     };
 
@@ -102,7 +102,7 @@ class AdaptiveGrid {
                elapsed.count() > settings_.time_budget_seconds;
     }
 
-    /// Says how far it is; false ends everything.
+    /// Reports progress. Returns false if the caller cancels or the time is over.
     bool report_progress() {
         if (is_time_over()) return false;
         const Set& shown = best_ ? *best_ : set_;
@@ -113,11 +113,11 @@ class AdaptiveGrid {
 
     void add_sensors() {
         const size_t wanted =
-            std::clamp(kSensorsPerProbe * set_.probes.size(), kFewestSensors, kMostSensors);
-        const size_t there = sensors_.size() + checks_.size();
-        if (there >= wanted) return;
+            std::clamp(kSensorsPerProbe * set_.probes.size(), kMinSensors, kMaxSensors);
+        const size_t count = sensors_.size() + checks_.size();
+        if (count >= wanted) return;
         for (const glm::dvec3& place :
-             places_.next(std::max(wanted - there, there / 2), input_.thread_count)) {
+             places_.next(std::max(wanted - count, count / 2), input_.thread_count)) {
             add_sensor(place);
         }
     }
@@ -131,7 +131,8 @@ class AdaptiveGrid {
         return pool_.bake([this](const BakeProgress&) { return report_progress(); });
     }
 
-    /// The light and the errors of the set, with less noise until errors stand out of it.
+    /// Computes the light and the errors of the set, with more samples until errors exceed the
+    /// noise.
     Status measure_errors() {
         while (true) {
             add_sensors();
@@ -146,7 +147,7 @@ class AdaptiveGrid {
             const double error = relative_error(errors, pool_, checks_);
             const double noise = relative_noise(pool_, checks_);
             set_.error = std::sqrt(std::max(0.0, error * error - noise * noise));
-            if (noise < kLargestNoise * std::max(set_.error, settings_.target_error)) break;
+            if (noise < kMaxNoise * std::max(set_.error, settings_.target_error)) break;
             if (!pool_.double_sample_count()) break;
         }
         set_.errors =
@@ -154,7 +155,7 @@ class AdaptiveGrid {
         return Ok{};
     }
 
-    /// Takes the set for the result so far.
+    /// Makes the set the result so far.
     Status accept() {
         best_ = set_;
         ++report_.round_count;
@@ -166,7 +167,7 @@ class AdaptiveGrid {
         const double most = kBeyondCount * static_cast<double>(input_.max_probes);
         while (true) {
             if (auto status = measure_errors(); !status) return status;
-            // More than is asked for is no result.
+            // A set with too many probes is not a result.
             if (set_.probes.size() <= input_.max_probes) {
                 if (auto status = accept(); !status) return status;
             }
@@ -181,7 +182,7 @@ class AdaptiveGrid {
         }
     }
 
-    /// Puts probes where errors are largest; returns how many.
+    /// Adds probes where errors are largest; returns their number.
     size_t insert(size_t room) {
         const auto growth = static_cast<size_t>(kGrowth * static_cast<double>(set_.probes.size()));
         const RefineRule rule{
@@ -208,7 +209,7 @@ class AdaptiveGrid {
         return count;
     }
 
-    /// Sensors that are nearer to a surface than the clearance are for looking only.
+    /// True if a probe at the position keeps the clearance. Sensors may be closer to surfaces.
     [[nodiscard]] bool has_clearance(const glm::dvec3& world_position) const {
         const glm::vec3 position = input_.traced.render_from_world(world_position);
         const auto nearest = input_.traced.nearest_surface(position);
@@ -217,12 +218,13 @@ class AdaptiveGrid {
                double{glm::distance(*nearest, position)} >= kRounding * input_.clearance;
     }
 
-    /// The sum of squares over all sensors that an error comes to, by what the set has of both.
+    /// The sum of squares over all sensors that corresponds to an error, in proportion to the
+    /// set's.
     [[nodiscard]] double sum_at(double error) const {
         double sum = 0.0;
         for (const SensorError& e : set_.errors) sum += double{e.square};
-        const double share = set_.error > 0.0 ? error / set_.error : 1.0;
-        return sum * share * share;
+        const double ratio = set_.error > 0.0 ? error / set_.error : 1.0;
+        return sum * ratio * ratio;
     }
 
     [[nodiscard]] std::vector<uint32_t> spaces_of(const std::vector<uint32_t>& probes) const {
@@ -233,9 +235,10 @@ class AdaptiveGrid {
         return spaces;
     }
 
-    /// Removes probes down to a number, while the error stays below one; false: none could go.
-    Result<bool> remove(size_t fewest, double largest_error) {
-        const RemoveRule rule{std::max<size_t>(fewest, 4), sum_at(largest_error), 0.125,
+    /// Removes probes down to a number, while the error stays below the maximum. Returns false if
+    /// no probe could be removed.
+    Result<bool> remove(size_t min_count, double max_error) {
+        const RemoveRule rule{std::max<size_t>(min_count, 4), sum_at(max_error), 0.125,
                               input_.thread_count};
         auto left = remover_.pass({set_.probes, spaces_of(set_.probes), set_.volume, sensors_,
                                    set_.errors, is_protected_},
@@ -252,7 +255,7 @@ class AdaptiveGrid {
         while (set_.probes.size() > input_.max_probes) {
             const auto removed = remove(input_.max_probes, kAnyError);
             if (!removed) return removed.error();
-            if (!*removed) break;  // all that is left is protected
+            if (!*removed) break;  // all remaining probes are protected
         }
         if (auto status = accept(); !status) return status;
         if (report_.end == AdaptiveEnd::TargetReached || set_.error <= settings_.target_error) {
@@ -273,12 +276,12 @@ class AdaptiveGrid {
         return Ok{};
     }
 
-    /// Gives the probes that do least another place; fewer of them when that did not help.
+    /// Moves the least useful probes; fewer of them after a round without improvement.
     Status replace() {
-        double share = kReplacedShare;
+        double fraction = kReplacedFraction;
         for (int i = 0; i < kReplacements; ++i) {
             const size_t count = set_.probes.size();
-            const auto room = static_cast<size_t>(share * static_cast<double>(count));
+            const auto room = static_cast<size_t>(fraction * static_cast<double>(count));
             if (insert(room) == 0) break;
             if (auto status = measure_errors(); !status) return status;
             while (set_.probes.size() > count) {
@@ -292,13 +295,13 @@ class AdaptiveGrid {
                 continue;
             }
             set_ = *best_;
-            share *= 0.5;
+            fraction *= 0.5;
         }
         set_ = *best_;
         return Ok{};
     }
 
-    /// Writes the best set back: the start with its fates, and new probes behind it.
+    /// Writes the best set to `probes`: fates of the start, and new probes behind it.
     void finish(std::vector<PlacedProbe>& probes) {
         std::vector<bool> is_member(pool_.size(), false);
         for (const uint32_t probe : best_->probes) is_member[probe] = true;
@@ -333,8 +336,8 @@ class AdaptiveGrid {
     AdaptiveReport report_;
     Set set_;
     std::optional<Set> best_;
-    std::vector<bool> is_protected_;    ///< one a position of the pool
-    std::vector<size_t> start_places_;  ///< of the first positions of the pool, in the start
+    std::vector<bool> is_protected_;    ///< one for each position of the pool
+    std::vector<size_t> start_places_;  ///< index in the start of the first positions of the pool
     size_t start_count_ = 0;
     std::vector<uint32_t> sensors_, checks_;
     uint32_t sensor_count_ = 0;

@@ -12,7 +12,7 @@
 namespace tetralight {
 namespace {
 
-/// Moves stay below half of the way to the next candidate.
+/// Pushes are shorter than half the distance to the next candidate.
 constexpr double kMaxPushFraction = 0.45;
 
 Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, PlacementMode mode,
@@ -29,7 +29,7 @@ Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, Placem
     return Error{ErrorCode::InvalidArgument, "mode", "", "unknown mode"};
 }
 
-/// Adds what of a rule's candidates stands where `owner` sets the spacing; null: no volume does.
+/// Adds the candidates of a rule for which `owner` sets the spacing; null: no volume does.
 Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustments,
            PlacementMode mode, const CandidateRule& rule, const ProbeAdjustment* owner,
            std::vector<Candidate>& candidates) {
@@ -91,7 +91,7 @@ std::vector<PlacedProbe> place_candidates(const TraceScene& traced,
         placed[i] = {position, Fate::Forbidden, 0.0f};
         if (adjustment_at(adjustments, position).forbids_probes) return;
         placed[i] = place_probe(traced, position, {rule.clearance, max_push, rule.bounds});
-        // Nothing is pushed into a volume that wants nothing.
+        // A push must not end in a volume that forbids probes.
         if (adjustment_at(adjustments, placed[i].position).forbids_probes) {
             placed[i].fate = Fate::Forbidden;
         }

@@ -9,9 +9,10 @@
 namespace tetralight {
 namespace {
 
-/// A candidate with its position and fate, and what the output file takes to be written.
+/// A candidate with its position and fate, and the memory that writing the output takes.
 constexpr double kBytesPerCandidate = 400.0;
-/// A probe with its light and sensors, in two volumes with their cells, and what builds those.
+/// A probe with its light and sensors, in two volumes with their cells, and the memory that
+/// building them takes.
 constexpr double kBytesPerRefinedProbe = 8000.0;
 
 std::string a_grid_of(double count) {

@@ -19,7 +19,7 @@ namespace tetralight {
 namespace {
 
 constexpr int kUp = 1;
-/// A line through more surfaces than this goes no further.
+/// The search along a line ends after this number of surfaces.
 constexpr int kMaxHits = 1024;
 
 struct LineHit {
@@ -27,10 +27,10 @@ struct LineHit {
     SurfaceSide side;
 };
 
-/// All surfaces along a line through the bounds, from its high end down.
+/// All surfaces along a line through the bounds, from its maximum to its minimum.
 std::vector<LineHit> hits_along(const TraceScene& traced, const WorldBox& bounds, glm::dvec3 start,
                                 int axis) {
-    // From a little outside, so that a roof that bounds the scene is met from above.
+    // Starts a little outside, so that the ray hits a roof at the boundary from above.
     const double margin = 1e-3 * std::max(bounds.size()[axis], 1.0);
     start[axis] = bounds.max[axis] + margin;
     const double length = bounds.size()[axis] + 2.0 * margin;
@@ -49,14 +49,14 @@ std::vector<LineHit> hits_along(const TraceScene& traced, const WorldBox& bounds
     return hits;
 }
 
-/// The lines along one axis: a lattice over the other two. Each counts as a candidate.
+/// The lines along one axis: a lattice over the other two axes. Each line counts as a candidate.
 Result<std::vector<glm::dvec3>> lines_along(const CandidateRule& rule, int axis) {
     WorldBox flat = rule.bounds;
     flat.min[axis] = flat.max[axis] = 0.0;
     return lattice_candidates({flat, rule.spacing, 0.0, {}, rule.max_count, 0});
 }
 
-/// Calls `add(line, found)` for each line and joins what was found in the lines' order.
+/// Calls `add(line, found)` for each line and concatenates the results in the order of the lines.
 template <class Add>
 Result<std::vector<glm::dvec3>> join_lines(const std::vector<glm::dvec3>& lines,
                                            const CandidateRule& rule, const Add& add) {
@@ -71,8 +71,8 @@ Result<std::vector<glm::dvec3>> join_lines(const std::vector<glm::dvec3>& lines,
 }
 
 bool is_floor(const LineHit& hit) {
-    constexpr float kLeastCosine = 0.5f;
-    return !hit.side.is_back_face && hit.side.normal.y > kLeastCosine;
+    constexpr float kMinCosine = 0.5f;
+    return !hit.side.is_back_face && hit.side.normal.y > kMinCosine;
 }
 
 }  // namespace

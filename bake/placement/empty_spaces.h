@@ -13,31 +13,32 @@
 
 namespace tetralight {
 
-/// Places of one space where a probe may stand.
+/// Free positions in one space.
 struct SpacePositions {
     uint32_t space = 0;
     std::vector<glm::dvec3> positions;
-    /// How many posts of the map the space has in the bounds.
+    /// Points of the map that the space has in the bounds.
     size_t point_count = 0;
 };
 
-/// Where probes may stand, free beyond doubt and at the clearance.
+/// Which positions to find: PointClass::Free, at the clearance.
 struct FreePositionRule {
     WorldBox bounds;
     double clearance = 0.0;
-    /// In each space.
+    /// Positions per space.
     size_t max_count = 1;
     uint32_t thread_count = 0;
 };
 
-/// The spaces of a map, but for those that are `filled` (sorted), and where they have room. Spaces
-/// in the bounds without any are left out.
+/// The spaces of a map that have no probes (`filled` are those that have some, sorted), with free
+/// positions in them. Skips spaces without a free position in the bounds.
 [[nodiscard]] std::vector<SpacePositions> find_free_positions(const TraceScene& traced,
                                                               const FreeSpaceMap& map,
                                                               std::span<const uint32_t> filled,
                                                               const FreePositionRule& rule);
 
-/// Puts the `count` places first that stand farthest from each other and from those `taken`.
+/// Moves `count` positions to the front, by farthest-point sampling: each is the one farthest from
+/// those before it and from those `taken`.
 void sort_farthest_first(std::vector<glm::dvec3>& places, std::span<const glm::dvec3> taken,
                          size_t count);
 

@@ -65,7 +65,7 @@ Result<FloodFill> drop_unreachable(const TraceScene& traced, FreeSpaceMap& map,
     FloodFill fill;
     fill.filled = sorted_once(spaces);
     fill.wanted = wanted_spaces(map, settings, spaces);
-    std::map<uint32_t, DroppedSpace> pockets;
+    std::map<uint32_t, DroppedSpace> dropped;
     size_t i = 0;
     for (PlacedProbe& probe : probes) {
         if (!is_kept(probe.fate)) continue;
@@ -74,11 +74,11 @@ Result<FloodFill> drop_unreachable(const TraceScene& traced, FreeSpaceMap& map,
             fill.spaces.push_back(space);
             continue;
         }
-        DroppedSpace& pocket = pockets[space];
-        if (pocket.probe_count++ == 0) pocket.position = probe.position;
+        DroppedSpace& dropped_space = dropped[space];
+        if (dropped_space.probe_count++ == 0) dropped_space.position = probe.position;
         probe.fate = Fate::Unreachable;
     }
-    for (const auto& [space, pocket] : pockets) fill.dropped_spaces.push_back(pocket);
+    for (const auto& [space, probes_of] : dropped) fill.dropped_spaces.push_back(probes_of);
     std::ranges::stable_sort(fill.dropped_spaces, std::greater{}, &DroppedSpace::probe_count);
     return fill;
 }

@@ -12,20 +12,21 @@
 
 namespace tetralight {
 
-/// What flood fill found.
+/// The result of the flood fill.
 struct FloodFill {
-    /// One a probe that is kept.
+    /// The space of each kept probe.
     std::vector<uint32_t> spaces;
     std::vector<DroppedSpace> dropped_spaces;
-    /// The spaces to fill, sorted. Where other spaces are kept it is only those of probes.
+    /// The spaces to fill, sorted. If unreachable spaces are kept, only those that have probes.
     std::vector<uint32_t> wanted;
     /// All spaces that have probes, kept or dropped, sorted.
     std::vector<uint32_t> filled;
 };
 
-/// Drops the probes that cannot be reached from the seeds, or from the space that most probes are
-/// in, when other spaces are not kept. Joins in the map what probes and seeds see. Error: a seed
-/// inside geometry, out of bounds or in a gap that the map has no post in.
+/// Drops the probes outside of the spaces to fill: those of the seeds (`settings.from`), else the
+/// space with most probes, unless unreachable spaces are kept. Joins the spaces in the map that a
+/// probe or a seed sees. Returns invalid_argument, with the field `from`, if a seed is inside
+/// geometry, outside of the bounds, or in a gap without a point of the map.
 [[nodiscard]] Result<FloodFill> drop_unreachable(const TraceScene& traced, FreeSpaceMap& map,
                                                  const ProbeGridSettings& settings,
                                                  std::vector<PlacedProbe>& probes);

@@ -15,7 +15,7 @@
 namespace tetralight {
 namespace {
 
-/// Of the clearance: what a move goes beyond it, and what rounding may take from it.
+/// Relative to the clearance: how far a push exceeds it, and the tolerance for rounding.
 constexpr float kSlack = 1e-3f;
 
 float surface_distance(const TraceScene& traced, glm::vec3 position) {
@@ -23,12 +23,12 @@ float surface_distance(const TraceScene& traced, glm::vec3 position) {
     return nearest ? glm::distance(position, *nearest) : std::numeric_limits<float>::infinity();
 }
 
-/// Surfaces left from behind minus surfaces entered from the front, along a ray to the sky: how
-/// many closed solids the position lies in.
+/// The number of closed solids that contain the position: along a ray to the sky, the surfaces that
+/// it leaves through back faces minus those that it enters through front faces.
 int solids_around(const TraceScene& traced, glm::vec3 position, glm::vec3 direction) {
-    constexpr int kMostSurfaces = 256;
+    constexpr int kMaxSurfaces = 256;
     int count = 0;
-    for (int i = 0; i < kMostSurfaces; ++i) {
+    for (int i = 0; i < kMaxSurfaces; ++i) {
         const auto side = traced.intersect_side({position, direction});
         if (!side) break;
         count += side->is_from_behind ? 1 : -1;
@@ -38,7 +38,7 @@ int solids_around(const TraceScene& traced, glm::vec3 position, glm::vec3 direct
     return count;
 }
 
-/// The search for a better place for one candidate.
+/// The search for a free position for one candidate.
 class Push {
   public:
     Push(const TraceScene& traced, glm::vec3 start, const ClearanceRule& rule)
@@ -48,16 +48,16 @@ class Push {
           max_push_(static_cast<float>(rule.max_push)),
           bounds_(rule.bounds) {}
 
-    /// Out of geometry, and then away from what is there.
+    /// Out of geometry, and then away from surfaces.
     [[nodiscard]] std::optional<glm::vec3> out_of_geometry() const {
         const VirtualOffsetSettings search{max_push_, clearance_ * (1.0f + 2.0f * kSlack),
-                                         kMinValidity};
+                                           kMinValidity};
         const auto offset = find_virtual_offset(traced_, start_, search);
         if (!offset) return std::nullopt;
         return along_gradient(start_ + *offset);
     }
 
-    /// Away from the nearest surface, from a place that is free.
+    /// Away from the nearest surface, from a free position.
     [[nodiscard]] std::optional<glm::vec3> along_gradient(glm::vec3 from) const {
         constexpr int kMaxSteps = 8;
         glm::vec3 place = from;
@@ -72,8 +72,8 @@ class Push {
         return std::nullopt;
     }
 
-    /// The shortest way along an axis: out of geometry, away from surfaces, or off the surface that
-    /// the candidate stands on.
+    /// The shortest push along an axis: out of geometry, away from surfaces, or off the surface
+    /// that the candidate touches.
     [[nodiscard]] std::optional<glm::vec3> along_axes(bool is_inside, float distance) const {
         constexpr glm::vec3 kAxes[] = {{0, 1, 0},  {0, -1, 0}, {1, 0, 0},
                                        {-1, 0, 0}, {0, 0, 1},  {0, 0, -1}};
@@ -81,7 +81,7 @@ class Push {
         std::vector<Way> ways;
         for (const glm::vec3& axis : kAxes) {
             if (distance < touching) {
-                // A little off, so that the way is not blocked by the surface that it stands on.
+                // A little off the surface that it touches, which would block the way.
                 add_way(start_ + touching * axis, axis, ways);
             } else if (!is_inside) {
                 add_way(start_, axis, ways);
@@ -89,7 +89,7 @@ class Push {
                 add_way(*beyond, axis, ways);
             }
         }
-        // Up comes before other ways that differ by rounding only.
+        // Up comes before other ways whose lengths differ only by rounding.
         const float step = kSlack * clearance_;
         std::ranges::stable_sort(ways, {}, [&](const Way& way) {
             return std::round(glm::distance(way.place, start_) / step);
@@ -100,7 +100,7 @@ class Push {
         return std::nullopt;
     }
 
-    /// Out of an edge or a corner where walls meet, for a candidate that stands in it.
+    /// Out of an edge or a corner between walls, for a candidate that touches it.
     [[nodiscard]] std::optional<glm::vec3> off_edges(float distance) const {
         if (!(distance < touching_distance())) return std::nullopt;
         for (const float axis_count : {2.0f, 3.0f}) {
@@ -117,7 +117,7 @@ class Push {
   private:
     static constexpr float kMinValidity = 0.75f;
 
-    /// A straight way to a place with clearance.
+    /// A straight way to a position with clearance.
     struct Way {
         glm::vec3 from{0.0f};
         glm::vec3 place{0.0f};
@@ -130,7 +130,7 @@ class Push {
         return traced_.ray_origin(*side, start_ + side->distance * axis, axis);
     }
 
-    /// What stands nearer to a surface stands on it.
+    /// A candidate that is closer to a surface touches it.
     [[nodiscard]] float touching_distance() const { return 2.0f * kSlack * clearance_; }
 
     void add_way(const glm::vec3& from, const glm::vec3& axis, std::vector<Way>& ways) const {
@@ -152,8 +152,7 @@ class Push {
         return glm::distance(place, start_) <= max_push_ &&
                is_in(bounds_, traced_.world_from_render(place)) &&
                (place == from || is_visible(traced_, from, place)) &&
-               classify_point(traced_, place, probe_visibility(traced_, place)) ==
-                   PointClass::Free;
+               classify_point(traced_, place, probe_visibility(traced_, place)) == PointClass::Free;
     }
 
     const TraceScene& traced_;

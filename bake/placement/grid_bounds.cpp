@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kUp = 1;
 
-/// Whether an instance is a node of this name, or lies below one.
+/// True if an instance is a node of this name, or below one.
 bool is_part_of(const Scene& scene, const MeshInstance& instance, const std::string& name) {
     if (instance.name == name) return true;
     for (uint32_t node = instance.node; node != kNoIndex; node = scene.nodes[node].parent) {
@@ -86,7 +86,7 @@ bool is_in(const WorldBox& box, const glm::dvec3& position) {
 }
 
 uint64_t probe_limit(const ProbeGridSettings& settings) {
-    // Where walls are thin no number of probes brings the error down to nothing.
+    // With thin walls, no number of probes removes the error.
     const uint64_t usual = settings.mode == PlacementMode::Adaptive ? 5000 : 10'000'000;
     return settings.max_probes.value_or(usual);
 }
@@ -107,18 +107,18 @@ Result<glm::dvec3> candidate_spacing(const WorldBox& bounds, const ProbeGridSett
         return Error{ErrorCode::InvalidArgument, "bounds", value,
                      str_cat("bounds are empty: nothing but ", value)};
     }
-    const uint64_t most = probe_limit(settings);
+    const uint64_t max_count = probe_limit(settings);
     if (settings.mode == PlacementMode::Regular) {
-        // As early as can be; other modes have to look for surfaces first.
-        if (auto status = check_candidate_count(*count, most); !status) return status.error();
+        // Checked as early as possible; other modes have to find surfaces first.
+        if (auto status = check_candidate_count(*count, max_count); !status) return status.error();
     }
     if (!is_adaptive) return spacing;
-    if (auto status = check_refined_count(most); !status) return status.error();
-    // With few probes asked for it is wider; beyond reason it is a slip.
+    if (auto status = check_refined_count(max_count); !status) return status.error();
+    // A huge number of candidates is a mistake, even though the spacing grows below.
     constexpr uint64_t kAnything = 1'000'000'000;
     auto status = check_candidate_count(*count, kAnything, std::numeric_limits<uint64_t>::max());
     if (!status) return status.error();
-    while (*count > static_cast<double>(std::max<uint64_t>(most / 2, 8))) {
+    while (*count > static_cast<double>(std::max<uint64_t>(max_count / 2, 8))) {
         spacing *= kWider;
         count = lattice_count(bounds, spacing);
     }
@@ -126,9 +126,10 @@ Result<glm::dvec3> candidate_spacing(const WorldBox& bounds, const ProbeGridSett
 }
 
 Result<double> checked_clearance(const glm::dvec3& spacing, const ProbeGridSettings& settings) {
-    constexpr double kShare = 0.1;
+    constexpr double kSpacingFraction = 0.1;
     const double longest = settings.mode == PlacementMode::Adaptive ? 0.05 : 0.25;
-    const double usual = std::min(kShare * std::min({spacing.x, spacing.y, spacing.z}), longest);
+    const double usual =
+        std::min(kSpacingFraction * std::min({spacing.x, spacing.y, spacing.z}), longest);
     const double clearance = settings.clearance.value_or(usual);
     if (clearance >= 0.0 && std::isfinite(clearance)) return clearance;
     return Error{ErrorCode::InvalidArgument, "clearance", str_cat(clearance),

@@ -10,7 +10,7 @@ namespace tetralight {
 LightPool::LightPool(const Scene& scene, BakeSettings settings)
     : scene_(scene), settings_(std::move(settings)) {
     settings_.sample_count = kMinSamples;
-    // Never reached: rounds double until there are as many directions as allowed.
+    // Never reached: rounds double until the maximum number of samples.
     settings_.target_error = 1e-9;
     settings_.time_budget_seconds = 0.0;
 }
@@ -31,7 +31,7 @@ Status LightPool::bake(const BakeCallback& callback) {
     accumulators_.resize(positions_.size());
     std::vector<uint32_t> missing;
     for (uint32_t i = 0; i < accumulators_.size(); ++i) {
-        if (accumulators_[i].direction_count < sample_count_) missing.push_back(i);
+        if (accumulators_[i].sample_count < sample_count_) missing.push_back(i);
     }
     if (missing.empty()) return Ok{};
     std::vector<glm::dvec3> positions;

@@ -21,11 +21,11 @@
 namespace tetralight {
 namespace {
 
-/// Probes on surfaces keep this share of the spacing from each other.
-constexpr double kCrowdedShare = 0.5;
-/// Of a space that the lattice missed: probes to start with, these and sensors, and those among
-/// which they are chosen.
-constexpr size_t kStartProbes = 8, kStartPlaces = 64, kMostPlaces = 256;
+/// Minimum distance between probes on surfaces, as a fraction of the spacing.
+constexpr double kCrowdedFraction = 0.5;
+/// In a space without candidates: start probes, start probes plus sensors, and the free positions
+/// that they are chosen from.
+constexpr size_t kStartProbes = 8, kStartPlaces = 64, kMaxPlaces = 256;
 
 std::vector<glm::dvec3> kept_positions(const std::vector<PlacedProbe>& probes) {
     std::vector<glm::dvec3> positions;
@@ -39,7 +39,7 @@ double smallest(const glm::dvec3& spacing) {
     return std::min({spacing.x, spacing.y, spacing.z});
 }
 
-/// Drops what stands beside another probe on the same side of a wall.
+/// Drops probes that are close to another one on the same side of a wall.
 void drop_crowded(const TraceScene& traced, double distance, std::vector<PlacedProbe>& probes) {
     const std::vector<bool> is_crowded = find_crowded(traced, kept_positions(probes), distance);
     size_t i = 0;
@@ -55,7 +55,7 @@ std::string none_left(const ProbeGrid& grid) {
                    " forbidden");
 }
 
-/// Without heights that are nearer than the clearance to one before them.
+/// The heights without those that are closer than the clearance to an earlier one.
 std::vector<double> heights_apart(const std::vector<double>& heights, double clearance) {
     std::vector<double> apart;
     for (const double height : heights) {
@@ -67,7 +67,7 @@ std::vector<double> heights_apart(const std::vector<double>& heights, double cle
     return apart;
 }
 
-/// Positions of those in each space.
+/// Positions of the probes in each space.
 using ProbesOfSpaces = std::map<uint32_t, std::vector<glm::dvec3>>;
 
 /// The stages of one grid.
@@ -87,7 +87,7 @@ class GridMaker {
         if (!fill) return fill.error();
         grid_.dropped_spaces = std::move(fill->dropped_spaces);
         wanted_ = std::move(fill->wanted);
-        look_into_empty_spaces(fill->filled);
+        fill_empty_spaces(fill->filled);
         if (settings_.mode == PlacementMode::Adaptive && !kept_positions(probes_).empty()) {
             auto report = adapt(callback);
             if (!report) return report.error();
@@ -103,7 +103,7 @@ class GridMaker {
         if (!candidates) return candidates.error();
         probes_ = place_candidates(traced_, scene_.probe_adjustments, *candidates, rule_);
         if (settings_.mode == PlacementMode::Surface) {
-            drop_crowded(traced_, kCrowdedShare * smallest(rule_.spacing), probes_);
+            drop_crowded(traced_, kCrowdedFraction * smallest(rule_.spacing), probes_);
         }
         for (const ProbeAdjustment& adjustment : scene_.probe_adjustments) {
             const bool is_outside = !bounds_in(rule_.bounds, adjustment);
@@ -120,18 +120,18 @@ class GridMaker {
         return keeps_all || std::ranges::binary_search(wanted_, space);
     }
 
-    /// Spaces that the lattice missed are told of; the adaptive mode starts in those it shall fill,
-    /// and in those where too few probes stand to enclose anything.
-    void look_into_empty_spaces(const std::vector<uint32_t>& filled) {
-        constexpr size_t kCubicMetre = 8;  // posts
+    /// Reports spaces without candidates. The adaptive mode adds start probes to those that it is
+    /// to fill, and to those whose probes do not enclose a volume.
+    void fill_empty_spaces(const std::vector<uint32_t>& filled) {
+        constexpr size_t kCubicMetre = 8;  // points
         const bool is_adaptive = settings_.mode == PlacementMode::Adaptive;
-        const FreePositionRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMostPlaces : 1,
+        const FreePositionRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMaxPlaces : 1,
                                     rule_.thread_count};
         ProbesOfSpaces probes;
         if (is_adaptive) probes = probes_by_space();
         const std::vector<uint32_t> done = is_adaptive ? well_filled(filled, probes) : filled;
         std::vector<SpacePositions> spaces = find_free_positions(traced_, map_, done, rule);
-        if (wanted_.empty() && !spaces.empty()) {  // the largest, where nothing stands anywhere
+        if (wanted_.empty() && !spaces.empty()) {  // the largest, if there is no probe at all
             wanted_ = {std::ranges::max_element(spaces, {}, &SpacePositions::point_count)->space};
         }
         for (SpacePositions& space : spaces) {
@@ -145,7 +145,7 @@ class GridMaker {
         }
     }
 
-    /// Those of the filled spaces whose probes enclose a volume, or are not wanted.
+    /// The filled spaces whose probes enclose a volume, and those that are not wanted.
     [[nodiscard]] std::vector<uint32_t> well_filled(const std::vector<uint32_t>& filled,
                                                     ProbesOfSpaces& probes) const {
         std::vector<uint32_t> done;
@@ -163,8 +163,8 @@ class GridMaker {
         return result;
     }
 
-    /// Puts probes to the ends of a space that the lattice missed, and sensors between them, away
-    /// from the places that are taken there.
+    /// Adds start probes far apart in a space without candidates, and sensors between them, away
+    /// from the probes in it.
     void start_in(SpacePositions& space, const std::vector<glm::dvec3>& taken) {
         std::erase_if(space.positions, [&](const glm::dvec3& place) {
             return adjustment_at(scene_.probe_adjustments, place).forbids_probes ||
@@ -187,8 +187,8 @@ class GridMaker {
         }
     }
 
-    /// The fewest probes that span what the start spans in each space.
-    [[nodiscard]] size_t fewest_probes() const {
+    /// The minimum number of probes that span what the start spans in each space.
+    [[nodiscard]] size_t min_probe_count() const {
         size_t count = 0;
         for (const auto& [space, probes] : probes_by_space()) {
             count += static_cast<size_t>(affine_dimension(probes) + 1);
@@ -197,29 +197,30 @@ class GridMaker {
     }
 
     Result<AdaptiveReport> adapt(const AdaptiveCallback& callback) {
-        const size_t fewest = fewest_probes();
-        if (fewest > rule_.max_count) {
+        const size_t min_count = min_probe_count();
+        if (min_count > rule_.max_count) {
             return Error{ErrorCode::InvalidArgument, "max_probes", str_cat(rule_.max_count),
-                         str_cat(wanted_.size(), " spaces need ", fewest,
+                         str_cat(wanted_.size(), " spaces need ", min_count,
                                  " probes at least, more than the limit of ", rule_.max_count)};
         }
-        const AdaptiveInput input{scene_,
-                                  traced_,
-                                  rule_.bounds,
-                                  rule_.clearance,
-                                  [this](const glm::dvec3& position) { return is_free(position); },
-                                  [this](const glm::dvec3& p) { return map_.space_of(p); },
-                                  std::move(sensors_),
-                                  rule_.max_count,
-                                  settings_.thread_count};
+        const AdaptiveInput input{
+            scene_,
+            traced_,
+            rule_.bounds,
+            rule_.clearance,
+            [this](const glm::dvec3& position) { return is_allowed(position); },
+            [this](const glm::dvec3& p) { return map_.space_of(p); },
+            std::move(sensors_),
+            rule_.max_count,
+            settings_.thread_count};
         auto report = refine_grid(input, settings_.adaptive, probes_, is_protected_, callback);
         if (report) report->start_spacing = rule_.spacing;
         return report;
     }
 
-    /// Whether the adaptive mode may put a probe there.
-    [[nodiscard]] bool is_free(const glm::dvec3& position) const {
-        constexpr double kCloser = 0.5;  // sensors in corners, for measuring only
+    /// True if the adaptive mode may place a probe at a position.
+    [[nodiscard]] bool is_allowed(const glm::dvec3& position) const {
+        constexpr double kCloser = 0.5;  // sensors in corners may be closer to surfaces
         if (!is_in(rule_.bounds, position)) return false;
         if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
         return is_free_with_clearance(traced_, position, kCloser * rule_.clearance) &&
@@ -249,9 +250,9 @@ class GridMaker {
     const CandidateRule& rule_;
     FreeSpaceMap map_;
     std::vector<PlacedProbe> probes_;
-    std::vector<bool> is_protected_;   ///< one a candidate
+    std::vector<bool> is_protected_;   ///< one for each candidate
     std::vector<uint32_t> wanted_;     ///< spaces, sorted
-    std::vector<glm::dvec3> sensors_;  ///< of spaces that the lattice missed
+    std::vector<glm::dvec3> sensors_;  ///< in spaces without candidates
     ProbeGrid grid_;
 };
 

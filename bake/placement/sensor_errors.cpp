@@ -25,7 +25,7 @@ double relative(double square_sum, double light_sum, size_t count) {
     return std::sqrt(square_sum / n) / (light_sum / n);
 }
 
-/// Light of the corners that see the position, and the largest one that does not.
+/// Sets the hidden corner; returns the mean square for light from visible corners only.
 float visible_part(const ProbeVolume& volume, const TraceScene& traced, const glm::dvec3& position,
                    const IrradianceSh& light, const CellLocation& location, SensorError& error) {
     const Cell& cell = volume.cells[location.cell];
@@ -78,7 +78,7 @@ std::vector<SensorError> sensor_errors(const ProbeVolume& volume, const LightPoo
         error.visible_square =
             visible_part(volume, *traced, pool.position(sensors[i]), light, location, error);
     };
-    // Small sets are surveyed by the thousand, each on a thread of its own.
+    // The caller computes many small sets in parallel, so that each runs on one thread.
     if (traced == nullptr && sensors.size() < 4096) {
         for (size_t i = 0; i < sensors.size(); ++i) look(i);
     } else {
@@ -97,8 +97,8 @@ double relative_error(std::span<const SensorError> errors, const LightPool& pool
 double relative_noise(const LightPool& pool, std::span<const uint32_t> sensors) {
     double sum = 0.0;
     for (const uint32_t sensor : sensors) {
-        const auto share = static_cast<double>(pool.standard_error(sensor));
-        sum += share * share * mean_square(pool.light(sensor));
+        const auto noise = static_cast<double>(pool.standard_error(sensor));
+        sum += noise * noise * mean_square(pool.light(sensor));
     }
     return relative(sum, total_light(pool, sensors), sensors.size());
 }

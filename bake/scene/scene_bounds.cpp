@@ -40,8 +40,8 @@ std::vector<double> some_coordinates(const Scene& scene, const InstanceSelection
 }
 
 /// Precondition: there are values.
-double quantile(std::vector<double>& values, double share) {
-    const auto rank = static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+double quantile(std::vector<double>& values, double fraction) {
+    const auto rank = static_cast<ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
     std::ranges::nth_element(values, values.begin() + rank);
     return values[static_cast<size_t>(rank)];
 }

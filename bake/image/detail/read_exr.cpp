@@ -45,9 +45,8 @@ Result<ImageF> make_image(const Imath::Box2i& window) {
     const int64_t width = int64_t{window.max.x} - window.min.x + 1;
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
     if (width <= 0 || height <= 0) return Error{ErrorCode::Corrupt, "is empty"};
-    if (static_cast<uint64_t>(width) > kMaxImagePixels / static_cast<uint64_t>(height)) {
-        return image_size_error(static_cast<uint64_t>(width), static_cast<uint64_t>(height));
-    }
+    const auto columns = static_cast<uint64_t>(width), rows = static_cast<uint64_t>(height);
+    if (is_too_large(columns, rows)) return image_size_error(columns, rows);
     ImageF image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
     image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
     return image;

@@ -53,7 +53,11 @@ Result<Image8> decode_file(const GltfDocument& document, const GltfImage& image,
     if (!relative) return relative.error().in(place);
     const std::string path = folder_of(document.path) + *relative;
     const auto bytes = read_file(path);
-    if (!bytes) return in_member(bytes.error().in(place), ".uri");
+    if (!bytes) {
+        Error error = in_member(bytes.error().in(place), ".uri");
+        if (error.value.empty()) error.value = quoted_value(image.uri);
+        return error;
+    }
     auto pixels = decode_image8(*bytes, str_cat(place, ": ", path));
     if (!pixels) return in_member(pixels.error(), ".uri");
     return pixels;

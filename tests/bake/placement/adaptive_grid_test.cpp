@@ -224,7 +224,7 @@ TEST(AdaptiveGrid, WithoutAPlaceToMeasureItReportsNoError) {
     const auto report = refine_grid(input, {}, probes, {}, {});
     ASSERT_FALSE(report);
     EXPECT_EQ(error_text(report.error()),
-              "the bounds have no free place off surfaces to measure light at");
+              "the bounds have no free position off surfaces to measure light at");
 }
 
 TEST(AdaptiveGrid, SaysWithWhichSpacingItBegan) {

@@ -74,9 +74,9 @@ TEST(FloodFill, SeedsOnBothSidesKeepBothAsGroupsOfTheirOwn) {
 TEST(FloodFill, RefusesSeedsThatLieInAWallOrOutside) {
     ProbeGridSettings settings = settings_for(kTen, 1.0);
     settings.from = {{1.9, 0, 0}};
-    EXPECT_EQ(error_of(sealed_box(), settings), "seed 1.9,0,0 lies inside geometry");
+    EXPECT_EQ(error_of(sealed_box(), settings), "seed 1.9,0,0 is inside geometry");
     settings.from = {{99, 0, 0}};
-    EXPECT_EQ(error_of(sealed_box(), settings), "seed 99,0,0 lies outside of the bounds");
+    EXPECT_EQ(error_of(sealed_box(), settings), "seed 99,0,0 is outside of the bounds");
 }
 
 TEST(FloodFill, ASpaceBetweenTheProbesIsToldOf) {
