@@ -9,8 +9,8 @@
 
 #include <tetralight/bake/bake_probes.h>
 #include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/free_space_map.h>
 #include <tetralight/bake/placement/light_difference.h>
-#include <tetralight/bake/placement/space_map.h>
 #include <tetralight/bake/probe_visibility.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/base/error_text.h>
@@ -67,7 +67,7 @@ class Places {
 };
 
 /// The space that holds most probes of a coarse grid.
-uint32_t largest_space(const GridSubject& subject, SpaceMap& map) {
+uint32_t largest_space(const GridSubject& subject, FreeSpaceMap& map) {
     const ProbeGrid grid = regular_grid(subject, 1000);
     map.join(grid.groups[0].positions);
     return map.space_of(grid.groups[0].positions[0]);
@@ -76,7 +76,7 @@ uint32_t largest_space(const GridSubject& subject, SpaceMap& map) {
 std::vector<glm::dvec3> free_positions(const GridSubject& subject, size_t count) {
     const auto traced = TraceScene::make_static(subject.scene);
     require(bool(traced), "scene");
-    SpaceMap map(*traced, subject.bounds, glm::dvec3(0.5));
+    FreeSpaceMap map(*traced, subject.bounds, glm::dvec3(0.5));
     const uint32_t wanted = largest_space(subject, map);
     Places places(subject, *traced);
     std::vector<glm::dvec3> found;
@@ -182,7 +182,7 @@ ProbeGrid adaptive_grid(const GridSubject& subject, uint64_t probe_count) {
     ProbeGridSettings settings;
     settings.mode = PlacementMode::Adaptive;
     settings.bounds = subject.bounds;
-    settings.max_probe_count = probe_count;
+    settings.max_probes = probe_count;
     settings.adaptive.target_error = 1e-4;  // not reached, so that all probes are used
     auto grid = make_probe_grid(subject.scene, settings);
     require(bool(grid), grid ? "" : error_text(grid.error()));

@@ -23,7 +23,7 @@ constexpr Reason kReasons[] = {{Fate::Inside, "inside_geometry", "inside geometr
                                {Fate::Unreachable, "unreachable", "unreachable"},
                                {Fate::Forbidden, "forbidden", "forbidden by a volume"},
                                {Fate::Crowded, "crowded", "beside another probe"},
-                               {Fate::Spared, "spared", "light is as good without"}};
+                               {Fate::Redundant, "spared", "light is as good without"}};
 
 /// Upper ends of the histogram's bins, metres.
 constexpr std::array<float, 8> kEnds{0.05f, 0.1f, 0.25f, 0.5f,
@@ -66,10 +66,10 @@ Json adaptive_json(const AdaptiveReport& report) {
             {"end", name_of(report.end)},
             {"rounds", report.round_count},
             {"start_spacing", to_json(report.start_spacing)},
-            {"start_probes", report.start_count},
-            {"most_probes", report.largest_count},
+            {"start_probes", report.start_probe_count},
+            {"most_probes", report.peak_probe_count},
             {"sampled_positions", report.position_count},
-            {"samples", report.direction_count},
+            {"samples", report.sample_count},
             {"rays", report.ray_count}};
 }
 
@@ -77,7 +77,7 @@ std::string adaptive_text(const AdaptiveReport& report) {
     return str_cat("error ", percent(report.error), " (", name_of(report.end), ") after ",
                    counted(report.round_count, "round"), ", by the light of ",
                    counted(report.position_count, "position"), " with ",
-                   counted(report.direction_count, "sample"), " each, ",
+                   counted(report.sample_count, "sample"), " each, ",
                    magnitude(static_cast<double>(report.ray_count)), "rays\n");
 }
 
@@ -94,15 +94,15 @@ std::string place_text(const glm::dvec3& position) {
 constexpr size_t kMostLines = 3;
 
 void add_pockets(const ProbeGrid& grid, std::vector<std::string>& lines) {
-    for (size_t i = 0; i < std::min(grid.pockets.size(), kMostLines); ++i) {
-        const uint64_t count = grid.pockets[i].probe_count;
-        const std::string place = place_text(grid.pockets[i].position);
+    for (size_t i = 0; i < std::min(grid.dropped_spaces.size(), kMostLines); ++i) {
+        const uint64_t count = grid.dropped_spaces[i].probe_count;
+        const std::string place = place_text(grid.dropped_spaces[i].position);
         lines.push_back(str_cat(counted(count, "probe"), " around ", place,
                                 " cannot be reached and ", count == 1 ? "was" : "were",
                                 " dropped; --from ", place, " would keep them"));
     }
-    if (grid.pockets.size() > kMostLines) {
-        lines.push_back(str_cat("and ", grid.pockets.size() - kMostLines,
+    if (grid.dropped_spaces.size() > kMostLines) {
+        lines.push_back(str_cat("and ", grid.dropped_spaces.size() - kMostLines,
                                 " smaller spaces; --unreachable keep keeps all"));
     }
 }
@@ -132,7 +132,7 @@ Json grid_json(const std::string& output, const ProbeGrid& grid) {
               {"pushed", grid.count(Fate::Pushed)}};
     for (const Reason& reason : kReasons) json[reason.key] = grid.count(reason.fate);
     Json pockets = Json::array();
-    for (const Pocket& pocket : grid.pockets) {
+    for (const DroppedSpace& pocket : grid.dropped_spaces) {
         pockets.push_back({{"probes", pocket.probe_count}, {"position", to_json(pocket.position)}});
     }
     json["pockets"] = pockets;

@@ -50,17 +50,9 @@ void GroupFiles::add(const std::string& path, std::vector<ProbeGroup> groups) {
 }
 
 Error GroupFiles::locate(const Error& error) const {
-    std::map<std::string, size_t> counts;
-    for (const ProbeGroup& group : groups_) ++counts[group.name];
-    const auto is_wrong = [&](const ProbeGroup& group) {
-        return counts[group.name] > 1 || !merge(std::span(&group, 1));
-    };
-    for (const auto& [name, paths] : paths_of_group_) {
-        for (const ProbeGroup& group : groups_) {
-            if (group.name == name && is_wrong(group)) return error.in(joined(paths));
-        }
-    }
-    return error;
+    const auto index = probe_group_index(error.field);
+    if (!index || *index >= groups_.size()) return error;
+    return error.in(joined(paths_of_group_.at(groups_[*index].name)));
 }
 
 }  // namespace tetralight::cli

@@ -22,8 +22,7 @@ class GroupFiles {
 
     [[nodiscard]] const std::vector<ProbeGroup>& groups() const { return groups_; }
 
-    /// The error of merging the groups, or of a later step, with the file, or files, of the first
-    /// group that cannot be merged before the message; unchanged if all can.
+    /// Puts the file, or the files, of the group that an error is about (its field) before it.
     [[nodiscard]] Error locate(const Error& error) const;
 
   private:

@@ -20,11 +20,11 @@ struct FontVertex {
 
 static_assert(sizeof(FontVertex) == 16);
 
-/// Pixels of one of the font's.
+/// Pixels of the image for one pixel of the font.
 constexpr float kScale = 2.0f;
 
 struct Rectangle {
-    float low_x, low_y, high_x, high_y;
+    float min_x, min_y, max_x, max_y;
 };
 
 void fill(Image8& image, const Rectangle& r, const std::array<uint8_t, 4>& color) {
@@ -32,8 +32,8 @@ void fill(Image8& image, const Rectangle& r, const std::array<uint8_t, 4>& color
         return static_cast<uint32_t>(
             std::clamp(std::round(coordinate), 0.0f, static_cast<float>(size)));
     };
-    for (uint32_t y = pixel(r.low_y, image.height); y < pixel(r.high_y, image.height); ++y) {
-        for (uint32_t x = pixel(r.low_x, image.width); x < pixel(r.high_x, image.width); ++x) {
+    for (uint32_t y = pixel(r.min_y, image.height); y < pixel(r.max_y, image.height); ++y) {
+        for (uint32_t x = pixel(r.min_x, image.width); x < pixel(r.max_x, image.width); ++x) {
             image.pixels[size_t{y} * image.width + x] = color;
         }
     }
@@ -46,16 +46,16 @@ void draw_text(Image8& image, float x, float y, std::string_view text) {
     std::vector<FontVertex> vertices(80 * copy.size() + 4);
     const int count = stb_easy_font_print(0.0f, 0.0f, copy.data(), nullptr, vertices.data(),
                                           static_cast<int>(vertices.size() * sizeof(FontVertex)));
-    for (const bool is_rim : {true, false}) {
-        const float grow = is_rim ? 1.0f : 0.0f;
+    for (const bool is_outline : {true, false}) {
+        const float grow = is_outline ? 1.0f : 0.0f;
         for (int i = 0; i < count; ++i) {
-            const FontVertex& low = vertices[static_cast<size_t>(4 * i)];
-            const FontVertex& high = vertices[static_cast<size_t>(4 * i + 2)];
+            const FontVertex& min = vertices[static_cast<size_t>(4 * i)];
+            const FontVertex& max = vertices[static_cast<size_t>(4 * i + 2)];
             fill(image,
-                 {x + kScale * low.x - grow, y + kScale * low.y - grow, x + kScale * high.x + grow,
-                  y + kScale * high.y + grow},
-                 is_rim ? std::array<uint8_t, 4>{20, 20, 20, 255}
-                        : std::array<uint8_t, 4>{255, 255, 255, 255});
+                 {x + kScale * min.x - grow, y + kScale * min.y - grow, x + kScale * max.x + grow,
+                  y + kScale * max.y + grow},
+                 is_outline ? std::array<uint8_t, 4>{20, 20, 20, 255}
+                            : std::array<uint8_t, 4>{255, 255, 255, 255});
         }
     }
 }

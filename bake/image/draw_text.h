@@ -7,8 +7,8 @@
 
 namespace tetralight {
 
-/// Writes ASCII text into a picture, white on a dark rim, 14 pixels high; `x` and `y` are the upper
-/// left corner. What lies outside of the picture is left out.
+/// Draws ASCII text into an image, white with a dark outline, 14 pixels high. `x` and `y` are the
+/// upper left corner. Text outside of the image is clipped.
 void draw_text(Image8& image, float x, float y, std::string_view text);
 
 }  // namespace tetralight

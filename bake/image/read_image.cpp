@@ -8,6 +8,7 @@
 #include <memory>
 #include <string_view>
 
+#include <tetralight/bake/image/detail/image_size.h>
 #include <tetralight/bake/image/detail/radiance_length.h>
 #include <tetralight/bake/image/detail/read_exr.h>
 #include <tetralight/base/file.h>
@@ -26,7 +27,7 @@ namespace {
 
 constexpr float kLargestHalf = 65504.0f;
 
-/// Sums over directions and bounces stay far from the largest float, 3e38.
+/// So that sums over samples and bounces stay far below the largest float, 3e38.
 constexpr float kLargestRadiance = 1e30f;
 
 struct FreeStb {
@@ -49,16 +50,13 @@ const stbi_uc* stb_data(std::span<const std::byte> bytes) {
 
 Error stb_error(const std::string& name) {
     const char* reason = stbi_failure_reason();
-    return {str_cat(name, ": cannot decode image (", reason != nullptr ? reason : "unknown", ")")};
+    return {ErrorCode::Corrupt,
+            str_cat(name, ": cannot decode image (", reason != nullptr ? reason : "unknown", ")")};
 }
 
-bool is_too_large(uint64_t width, uint64_t height) {
-    return height != 0 && width > kMaxImagePixels / height;
-}
-
-Error too_large(const std::string& name, uint64_t width, uint64_t height) {
-    return {str_cat(name, ": ", width, " x ", height, " pixels are more than the largest size (",
-                    kMaxImagePixels, " pixels)")};
+Status check_size(const std::string& name, uint64_t width, uint64_t height) {
+    if (!detail::is_too_large(width, height)) return Ok{};
+    return detail::image_size_error(width, height).in(name);
 }
 
 uint32_t big_endian_at(std::span<const std::byte> bytes, size_t offset) {
@@ -69,21 +67,20 @@ uint32_t big_endian_at(std::span<const std::byte> bytes, size_t offset) {
     return value;
 }
 
-/// stb_image calls a PNG that is too large for it an unknown image; this says what is wrong.
+/// Checks the size of a PNG: stb_image reports one that is too large for it as an unknown image.
 Status check_png_size(std::span<const std::byte> bytes, const std::string& name) {
     constexpr size_t kWidthOffset = 16;
     constexpr size_t kHeightOffset = 20;
     if (!starts_with(bytes, "\x89PNG") || bytes.size() < kHeightOffset + 4) return Ok{};
-    const uint64_t width = big_endian_at(bytes, kWidthOffset);
-    const uint64_t height = big_endian_at(bytes, kHeightOffset);
-    if (is_too_large(width, height)) return too_large(name, width, height);
-    return Ok{};
+    return check_size(name, big_endian_at(bytes, kWidthOffset),
+                      big_endian_at(bytes, kHeightOffset));
 }
 
 /// Reads the size from the header, so that nothing is allocated for an image that is too large.
 Result<ImageSize> read_size(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
-        return Error{str_cat(name, ": ", bytes.size(), " bytes are too many for an image file")};
+        return Error{ErrorCode::Unsupported,
+                     str_cat(name, ": ", bytes.size(), " bytes are too many for an image file")};
     }
     const auto png = check_png_size(bytes, name);
     if (!png) return png.error();
@@ -93,10 +90,12 @@ Result<ImageSize> read_size(std::span<const std::byte> bytes, const std::string&
                               &size.height, &channel_count) == 0) {
         return stb_error(name);
     }
-    if (size.width <= 0 || size.height <= 0) return Error{name + ": image is empty"};
-    const auto width = static_cast<uint64_t>(size.width);
-    const auto height = static_cast<uint64_t>(size.height);
-    if (is_too_large(width, height)) return too_large(name, width, height);
+    if (size.width <= 0 || size.height <= 0) {
+        return Error{ErrorCode::Corrupt, name + ": image is empty"};
+    }
+    const auto checked =
+        check_size(name, static_cast<uint64_t>(size.width), static_cast<uint64_t>(size.height));
+    if (!checked) return checked.error();
     return size;
 }
 
@@ -105,8 +104,8 @@ Result<ImageF> decode_radiance_hdr(std::span<const std::byte> bytes, const std::
     if (!size) return size.error();
     if (!detail::has_all_scan_lines(bytes, static_cast<uint32_t>(size->width),
                                     static_cast<uint32_t>(size->height))) {
-        return Error{str_cat(path, ": is cut off or corrupt (", size->width, " x ", size->height,
-                             " pixels)")};
+        return Error{ErrorCode::Corrupt, str_cat(path, ": is cut off or corrupt (", size->width,
+                                                 " x ", size->height, " pixels)")};
     }
     int width = 0;
     int height = 0;
@@ -143,14 +142,15 @@ Result<ImageF> read_any_hdr(const std::string& path) {
     const auto bytes = file->bytes();
     if (starts_with(bytes, "\x76\x2f\x31\x01")) return detail::read_exr(path);
     if (starts_with(bytes, "#?")) return decode_radiance_hdr(bytes, path);
-    return Error{path + ": is neither a Radiance .hdr nor an OpenEXR image"};
+    return Error{ErrorCode::Unsupported,
+                 path + ": is neither a Radiance .hdr nor an OpenEXR image"};
 }
 
 }  // namespace
 
 Result<Image8> decode_image8(std::span<const std::byte> bytes, const std::string& name) {
     if (!starts_with(bytes, "\x89PNG") && !starts_with(bytes, "\xff\xd8")) {
-        return Error{name + ": is neither a PNG nor a JPEG image"};
+        return Error{ErrorCode::Unsupported, name + ": is neither a PNG nor a JPEG image"};
     }
     const auto size = read_size(bytes, name);
     if (!size) return size.error();

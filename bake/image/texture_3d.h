@@ -17,7 +17,7 @@ enum class TexelFormat : uint8_t {
     Rgba32Float,
 };
 
-/// A 3D texture of one level. x grows first, then y, then z.
+/// A 3D texture with one mip level. x varies fastest, then y, then z.
 struct Texture3dView {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -30,7 +30,7 @@ struct Texture3dView {
 /// Writes a DDS file with a DX10 header; the old file stays whole on failure.
 [[nodiscard]] Status write_dds(const std::string& path, const Texture3dView& texture);
 
-/// Keys and their texts.
+/// Pairs of a key and a text.
 using TextureMetadata = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes a KTX 2.0 file, not compressed, whose x, y and z point right, up and out; the old file

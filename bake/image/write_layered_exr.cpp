@@ -4,19 +4,13 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfOutputFile.h>
-#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 
 #include <half.h>
 #include <algorithm>
-#include <exception>
-#include <new>
-#include <span>
 
-#include <tetralight/bake/image/read_image.h>
-#include <tetralight/base/file.h>
-#include <tetralight/base/str_cat.h>
+#include <tetralight/bake/image/detail/encode_exr.h>
+#include <tetralight/bake/image/detail/image_size.h>
 
 namespace tetralight {
 namespace {
@@ -26,7 +20,7 @@ float value_of(const ExrChannel& channel, size_t pixel) {
     return *reinterpret_cast<const float*>(bytes + pixel * channel.stride);
 }
 
-/// OpenEXR writes halves from halves. What is too large becomes the largest.
+/// The channels as halves, as OpenEXR requires. Larger values become the largest half.
 std::vector<std::vector<half>> halves_of(const LayeredImage& image) {
     std::vector<std::vector<half>> halves(image.channels.size());
     for (size_t c = 0; c < halves.size(); ++c) {
@@ -38,7 +32,7 @@ std::vector<std::vector<half>> halves_of(const LayeredImage& image) {
     return halves;
 }
 
-/// OpenEXR takes char* for reading and writing alike; an output file only reads.
+/// OpenEXR uses char* for reading and writing; an output file only reads.
 Imf::Slice slice_of(Imf::PixelType type, const void* first, size_t stride, uint32_t width) {
     return {type, static_cast<char*>(const_cast<void*>(first)), stride, stride * width};
 }
@@ -59,32 +53,17 @@ std::string encode(const LayeredImage& image, ExrPrecision precision) {
                       is_half ? slice_of(Imf::HALF, halves[c].data(), sizeof(half), image.width)
                               : slice_of(Imf::FLOAT, channel.first, channel.stride, image.width));
     }
-    Imf::StdOSStream stream;
-    {
-        Imf::OutputFile file(stream, header);
-        file.setFrameBuffer(source);
-        file.writePixels(static_cast<int>(image.height));
-    }
-    return stream.str();
+    return detail::encode_exr(header, source);
 }
 
 }  // namespace
 
 Status write_layered_exr(const std::string& path, const LayeredImage& image,
                          ExrPrecision precision) {
-    const uint64_t pixel_count = uint64_t{image.width} * image.height;
-    if (pixel_count == 0 || pixel_count > kMaxImagePixels) {
-        return Error{str_cat(path, ": cannot write an image of ", image.width, " x ", image.height,
-                             " pixels")};
+    if (auto status = detail::check_writable_size(path, image.width, image.height); !status) {
+        return status;
     }
-    try {
-        const std::string bytes = encode(image, precision);
-        return write_file(path, std::as_bytes(std::span(bytes)));
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& exception) {
-        return Error{str_cat(path, ": cannot encode OpenEXR image (", exception.what(), ")")};
-    }
+    return detail::write_encoded_exr(path, [&] { return encode(image, precision); });
 }
 
 }  // namespace tetralight

@@ -11,9 +11,9 @@
 
 namespace tetralight {
 
-/// One channel of an image: the float of pixel i is `stride` bytes behind that of pixel i − 1.
+/// One channel of an image: the float of pixel i is at `first` + i · `stride` bytes.
 struct ExrChannel {
-    std::string name;  ///< "layer.R": viewers group channels by what stands before the point
+    std::string name;  ///< "layer.R": viewers group channels by the part before the dot
     const float* first = nullptr;
     size_t stride = 0;
 };

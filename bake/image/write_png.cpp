@@ -2,10 +2,10 @@
 #include <cstddef>
 #include <vector>
 
-#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/image/detail/image_size.h>
 #include <tetralight/bake/image/write_image.h>
+#include <tetralight/base/contract.h>
 #include <tetralight/base/file.h>
-#include <tetralight/base/str_cat.h>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
@@ -26,15 +26,14 @@ void append_bytes(void* target, void* data, int size) {
 Status write_png(const std::string& path, const Image8& image) {
     const uint64_t pixel_count = uint64_t{image.width} * image.height;
     TETRALIGHT_ASSERT(image.pixels.size() == pixel_count, "an image has width * height pixels");
-    if (pixel_count == 0 || pixel_count > kMaxImagePixels) {
-        return Error{str_cat(path, ": cannot write an image of ", image.width, " x ", image.height,
-                             " pixels")};
+    if (auto status = detail::check_writable_size(path, image.width, image.height); !status) {
+        return status;
     }
     std::vector<std::byte> bytes;
     const int width = static_cast<int>(image.width);
     if (stbi_write_png_to_func(append_bytes, &bytes, width, static_cast<int>(image.height), 4,
                                image.pixels.data(), width * 4) == 0) {
-        return Error{path + ": cannot encode PNG image"};
+        return Error{ErrorCode::OutOfResources, path + ": cannot encode PNG image"};
     }
     return write_file(path, bytes);
 }

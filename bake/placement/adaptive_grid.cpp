@@ -10,28 +10,29 @@
 #include <utility>
 
 #include <tetralight/bake/placement/light_pool.h>
-#include <tetralight/bake/placement/light_survey.h>
 #include <tetralight/bake/placement/refine_cells.h>
 #include <tetralight/bake/placement/remove_probes.h>
+#include <tetralight/bake/placement/sensor_errors.h>
 #include <tetralight/bake/placement/sensors.h>
 #include <tetralight/base/contract.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
 
-/// Sensors at first, for each probe, and at most.
-constexpr size_t kFewestSensors = 2048, kSensorsPerProbe = 10, kMostSensors = 1 << 16;
-/// Every so many sensors one is left out of all decisions, and tells the error.
+/// The minimum number of sensors, sensors per probe, and the maximum number.
+constexpr size_t kMinSensors = 2048, kSensorsPerProbe = 10, kMaxSensors = 1 << 16;
+/// One of this many sensors is not used for decisions; these give the reported error.
 constexpr uint32_t kCheckEvery = 4;
-/// New probes of a round, as a share of those that are there.
+/// New probes of a round, as a fraction of the current ones.
 constexpr double kGrowth = 0.25;
-/// It refines this far beyond the goal, so that there is something to choose from.
+/// Refinement goes beyond the targets by these factors, so that removal has a choice.
 constexpr double kBeyondCount = 1.3, kBeyondError = 0.9;
-/// Noise of the sensors, as a share of the error, that is too much.
-constexpr double kLargestNoise = 0.5;
-/// Rounds of replacing the least useful probes, and their share.
+/// The maximum noise of the sensors, as a fraction of the error.
+constexpr double kMaxNoise = 0.5;
+/// Rounds of replacing the least useful probes, and the fraction that is replaced.
 constexpr int kReplacements = 8;
-constexpr double kReplacedShare = 0.2;
+constexpr double kReplacedFraction = 0.2;
 
 class AdaptiveGrid {
   public:
@@ -41,18 +42,22 @@ class AdaptiveGrid {
           settings_(settings),
           callback_(callback),
           pool_(input.scene, pool_settings(input, settings)),
-          places_(input.traced, input.bounds, input.clearance, input.may_stand),
+          places_(input.traced, input.bounds, input.clearance, input.is_allowed),
           remover_(pool_) {}
 
     Result<AdaptiveReport> run(std::vector<PlacedProbe>& probes,
                                const std::vector<bool>& is_protected) {
         take_start(probes, is_protected);
-        report_.start_count = set_.probes.size();
+        report_.start_probe_count = set_.probes.size();
         for (const glm::dvec3& sensor : input_.sensors) add_sensor(sensor);
         Status status = refine();
         if (status) status = remove_and_replace();
         if (!status && status.error().code != ErrorCode::Cancelled) return status.error();
-        if (!best_ && is_time_over()) return Error{"out of time before there was a result"};
+        if (!best_ && is_time_over()) {
+            return Error{ErrorCode::InvalidArgument, "time_budget",
+                         str_cat(settings_.time_budget_seconds),
+                         "out of time before there was a result"};
+        }
         if (!best_) return Error{ErrorCode::Cancelled, "interrupted"};
         if (!status)
             report_.end = is_time_over() ? AdaptiveEnd::TimeOver : AdaptiveEnd::Interrupted;
@@ -61,11 +66,11 @@ class AdaptiveGrid {
     }
 
   private:
-    /// Probes and what their light is worth.
+    /// Probes, their light, and its errors.
     struct Set {
-        std::vector<uint32_t> probes;  ///< by number in the pool
+        std::vector<uint32_t> probes;  ///< indices in the pool
         ProbeVolume volume;
-        std::vector<SensorError> errors;  ///< one for each that decides
+        std::vector<SensorError> errors;  ///< one for each sensor used for decisions
         double error = std::numeric_limits<double>::infinity();
     };
 
@@ -97,8 +102,8 @@ class AdaptiveGrid {
                elapsed.count() > settings_.time_budget_seconds;
     }
 
-    /// Says how far it is; false ends everything.
-    bool goes_on() {
+    /// Reports progress. Returns false if the caller cancels or the time is over.
+    bool report_progress() {
         if (is_time_over()) return false;
         const Set& shown = best_ ? *best_ : set_;
         return !callback_ ||
@@ -108,11 +113,11 @@ class AdaptiveGrid {
 
     void add_sensors() {
         const size_t wanted =
-            std::clamp(kSensorsPerProbe * set_.probes.size(), kFewestSensors, kMostSensors);
-        const size_t there = sensors_.size() + checks_.size();
-        if (there >= wanted) return;
+            std::clamp(kSensorsPerProbe * set_.probes.size(), kMinSensors, kMaxSensors);
+        const size_t count = sensors_.size() + checks_.size();
+        if (count >= wanted) return;
         for (const glm::dvec3& place :
-             places_.next(std::max(wanted - there, there / 2), input_.thread_count)) {
+             places_.next(std::max(wanted - count, count / 2), input_.thread_count)) {
             add_sensor(place);
         }
     }
@@ -123,50 +128,52 @@ class AdaptiveGrid {
     }
 
     Status bake() {
-        return pool_.bake([this](const BakeProgress&) { return goes_on(); });
+        return pool_.bake([this](const BakeProgress&) { return report_progress(); });
     }
 
-    /// The light and the errors of the set, with less noise until errors stand out of it.
-    Status probe_visibility() {
+    /// Computes the light and the errors of the set, with more samples until errors exceed the
+    /// noise.
+    Status measure_errors() {
         while (true) {
             add_sensors();
             if (checks_.empty()) {
-                return Error{"the bounds have no free place off surfaces to measure light at"};
+                return Error{ErrorCode::InvalidArgument, "bounds", "",
+                             "the bounds have no free position off surfaces to measure light at"};
             }
             if (auto status = bake(); !status) return status;
             set_.volume = volume_of(pool_, set_.probes);
             const auto errors =
-                survey_light(set_.volume, pool_, checks_, nullptr, input_.thread_count);
+                sensor_errors(set_.volume, pool_, checks_, nullptr, input_.thread_count);
             const double error = relative_error(errors, pool_, checks_);
             const double noise = relative_noise(pool_, checks_);
             set_.error = std::sqrt(std::max(0.0, error * error - noise * noise));
-            if (noise < kLargestNoise * std::max(set_.error, settings_.target_error)) break;
-            if (!pool_.double_directions()) break;
+            if (noise < kMaxNoise * std::max(set_.error, settings_.target_error)) break;
+            if (!pool_.double_sample_count()) break;
         }
         set_.errors =
-            survey_light(set_.volume, pool_, sensors_, &input_.traced, input_.thread_count);
+            sensor_errors(set_.volume, pool_, sensors_, &input_.traced, input_.thread_count);
         return Ok{};
     }
 
-    /// Takes the set for the result so far.
+    /// Makes the set the result so far.
     Status accept() {
         best_ = set_;
         ++report_.round_count;
-        if (!goes_on()) return Error{ErrorCode::Cancelled, "cancelled"};
+        if (!report_progress()) return Error{ErrorCode::Cancelled, "cancelled"};
         return Ok{};
     }
 
     Status refine() {
-        const double most = kBeyondCount * static_cast<double>(input_.max_probe_count);
+        const double most = kBeyondCount * static_cast<double>(input_.max_probes);
         while (true) {
-            if (auto status = probe_visibility(); !status) return status;
-            // More than is asked for is no result.
-            if (set_.probes.size() <= input_.max_probe_count) {
+            if (auto status = measure_errors(); !status) return status;
+            // A set with too many probes is not a result.
+            if (set_.probes.size() <= input_.max_probes) {
                 if (auto status = accept(); !status) return status;
             }
             report_.end = AdaptiveEnd::TargetReached;
             if (set_.error <= kBeyondError * settings_.target_error) return Ok{};
-            report_.end = AdaptiveEnd::MostProbes;
+            report_.end = AdaptiveEnd::MaxProbes;
             const auto room = most - static_cast<double>(set_.probes.size());
             if (room < 1.0) return Ok{};
             if (insert(static_cast<size_t>(room)) > 0) continue;
@@ -175,13 +182,13 @@ class AdaptiveGrid {
         }
     }
 
-    /// Puts probes where errors are largest; returns how many.
+    /// Adds probes where errors are largest; returns their number.
     size_t insert(size_t room) {
         const auto growth = static_cast<size_t>(kGrowth * static_cast<double>(set_.probes.size()));
         const RefineRule rule{
             input_.clearance,
             [this](uint32_t sensor) { return has_clearance(pool_.position(sensor)); },
-            [this](const glm::dvec3& p) { return has_clearance(p) && input_.may_stand(p); },
+            [this](const glm::dvec3& p) { return has_clearance(p) && input_.is_allowed(p); },
             std::min(room, std::max<size_t>(growth, 16))};
         std::vector<bool> is_member(pool_.size(), false);
         for (const uint32_t probe : set_.probes) is_member[probe] = true;
@@ -198,11 +205,11 @@ class AdaptiveGrid {
             set_.probes.push_back(add_to_pool(position));
             ++count;
         }
-        report_.largest_count = std::max<uint64_t>(report_.largest_count, set_.probes.size());
+        report_.peak_probe_count = std::max<uint64_t>(report_.peak_probe_count, set_.probes.size());
         return count;
     }
 
-    /// Sensors that are nearer to a surface than the clearance are for looking only.
+    /// True if a probe at the position keeps the clearance. Sensors may be closer to surfaces.
     [[nodiscard]] bool has_clearance(const glm::dvec3& world_position) const {
         const glm::vec3 position = input_.traced.render_from_world(world_position);
         const auto nearest = input_.traced.nearest_surface(position);
@@ -211,12 +218,13 @@ class AdaptiveGrid {
                double{glm::distance(*nearest, position)} >= kRounding * input_.clearance;
     }
 
-    /// The sum of squares over all sensors that an error comes to, by what the set has of both.
+    /// The sum of squares over all sensors that corresponds to an error, in proportion to the
+    /// set's.
     [[nodiscard]] double sum_at(double error) const {
         double sum = 0.0;
         for (const SensorError& e : set_.errors) sum += double{e.square};
-        const double share = set_.error > 0.0 ? error / set_.error : 1.0;
-        return sum * share * share;
+        const double ratio = set_.error > 0.0 ? error / set_.error : 1.0;
+        return sum * ratio * ratio;
     }
 
     [[nodiscard]] std::vector<uint32_t> spaces_of(const std::vector<uint32_t>& probes) const {
@@ -227,26 +235,27 @@ class AdaptiveGrid {
         return spaces;
     }
 
-    /// Removes probes down to a number, while the error stays below one; false: none could go.
-    Result<bool> remove(size_t fewest, double largest_error) {
-        const RemoveRule rule{std::max<size_t>(fewest, 4), sum_at(largest_error), 0.125,
+    /// Removes probes down to a number, while the error stays below the maximum. Returns false if
+    /// no probe could be removed.
+    Result<bool> remove(size_t min_count, double max_error) {
+        const RemoveRule rule{std::max<size_t>(min_count, 4), sum_at(max_error), 0.125,
                               input_.thread_count};
         auto left = remover_.pass({set_.probes, spaces_of(set_.probes), set_.volume, sensors_,
                                    set_.errors, is_protected_},
                                   rule);
         if (left.size() == set_.probes.size()) return false;
         set_.probes = std::move(left);
-        if (auto status = probe_visibility(); !status) return status.error();
+        if (auto status = measure_errors(); !status) return status.error();
         return true;
     }
 
     Status remove_and_replace() {
         is_removing_ = true;
         constexpr double kAnyError = std::numeric_limits<double>::max();
-        while (set_.probes.size() > input_.max_probe_count) {
-            const auto removed = remove(input_.max_probe_count, kAnyError);
+        while (set_.probes.size() > input_.max_probes) {
+            const auto removed = remove(input_.max_probes, kAnyError);
             if (!removed) return removed.error();
-            if (!*removed) break;  // all that is left is protected
+            if (!*removed) break;  // all remaining probes are protected
         }
         if (auto status = accept(); !status) return status;
         if (report_.end == AdaptiveEnd::TargetReached || set_.error <= settings_.target_error) {
@@ -267,14 +276,14 @@ class AdaptiveGrid {
         return Ok{};
     }
 
-    /// Gives the probes that do least another place; fewer of them when that did not help.
+    /// Moves the least useful probes; fewer of them after a round without improvement.
     Status replace() {
-        double share = kReplacedShare;
+        double fraction = kReplacedFraction;
         for (int i = 0; i < kReplacements; ++i) {
             const size_t count = set_.probes.size();
-            const auto room = static_cast<size_t>(share * static_cast<double>(count));
+            const auto room = static_cast<size_t>(fraction * static_cast<double>(count));
             if (insert(room) == 0) break;
-            if (auto status = probe_visibility(); !status) return status;
+            if (auto status = measure_errors(); !status) return status;
             while (set_.probes.size() > count) {
                 const auto removed = remove(count, std::numeric_limits<double>::max());
                 if (!removed) return removed.error();
@@ -286,18 +295,18 @@ class AdaptiveGrid {
                 continue;
             }
             set_ = *best_;
-            share *= 0.5;
+            fraction *= 0.5;
         }
         set_ = *best_;
         return Ok{};
     }
 
-    /// Writes the best set back: the start with its fates, and new probes behind it.
+    /// Writes the best set to `probes`: fates of the start, and new probes behind it.
     void finish(std::vector<PlacedProbe>& probes) {
         std::vector<bool> is_member(pool_.size(), false);
         for (const uint32_t probe : best_->probes) is_member[probe] = true;
         for (size_t i = 0; i < start_count_; ++i) {
-            if (!is_member[i]) probes[start_places_[i]].fate = Fate::Spared;
+            if (!is_member[i]) probes[start_places_[i]].fate = Fate::Redundant;
         }
         std::vector<uint32_t> added;
         for (const uint32_t probe : best_->probes) {
@@ -313,7 +322,7 @@ class AdaptiveGrid {
         }
         report_.error = best_->error;
         report_.position_count = pool_.size();
-        report_.direction_count = pool_.directions();
+        report_.sample_count = pool_.sample_count();
         report_.ray_count = pool_.ray_count();
     }
 
@@ -322,13 +331,13 @@ class AdaptiveGrid {
     const AdaptiveCallback& callback_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     LightPool pool_;
-    SensorPlaces places_;
+    SensorSequence places_;
     ProbeRemover remover_;
     AdaptiveReport report_;
     Set set_;
     std::optional<Set> best_;
-    std::vector<bool> is_protected_;    ///< one a position of the pool
-    std::vector<size_t> start_places_;  ///< of the first positions of the pool, in the start
+    std::vector<bool> is_protected_;    ///< one for each position of the pool
+    std::vector<size_t> start_places_;  ///< index in the start of the first positions of the pool
     size_t start_count_ = 0;
     std::vector<uint32_t> sensors_, checks_;
     uint32_t sensor_count_ = 0;

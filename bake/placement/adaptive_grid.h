@@ -9,7 +9,7 @@
 
 #include <tetralight/bake/bake_settings.h>
 #include <tetralight/bake/placement/free_space.h>
-#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/bake/placement/free_space_map.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/bake/scene/scene_bounds.h>
@@ -18,81 +18,82 @@
 namespace tetralight {
 
 struct AdaptiveSettings {
-    /// Metres between the probes that it begins with; none = an eighth of the longest side.
+    /// Spacing of the start lattice, metres. Default: an eighth of the longest side.
     std::optional<glm::dvec3> start_spacing;
-    /// Done when light interpolated from the probes is this near to the light that is there: root
-    /// mean square over positions, normals and channels, as a share of the mean irradiance.
+    /// Refinement ends at this error of the interpolated light: root mean square over positions,
+    /// normals and channels, as a fraction of the mean irradiance.
     double target_error = 0.05;
-    /// Seconds after which nothing is refined any more; 0 = none. Not reproducible.
+    /// Refinement ends after this time, seconds; 0 = no limit. The result is not reproducible.
     double time_budget_seconds = 0.0;
-    /// Of it the light: bounces, surfaces, clamp, seed. How many samples it takes is found out.
+    /// Settings of the light: bounces, surfaces, clamp, seed. Sample counts are ignored: the
+    /// sensors determine them.
     BakeSettings bake;
 };
 
-/// How far it is.
+/// Progress of the refinement.
 struct AdaptiveProgress {
     uint32_t round = 0;
     size_t probe_count = 0;
-    /// Of the probes that there are.
+    /// Error with the current probes.
     double error = 0.0;
     bool is_removing = false;
 };
 
-/// Called after each round and now and then in between; false ends it.
+/// Called after each round and from time to time within one. Returns false to cancel.
 using AdaptiveCallback = std::function<bool(const AdaptiveProgress&)>;
 
-/// Why it ended.
+/// Why the refinement ended.
 enum class AdaptiveEnd : uint8_t {
     TargetReached,
-    MostProbes,
+    MaxProbes,
     TimeOver,
     Interrupted,
-    NothingToRefine,  ///< all errors are noise, or no better place is free
+    NothingToRefine,  ///< all errors are noise, or no better position is free
 };
 
-/// "target reached" and so on.
+/// The name in reports: "target reached"...
 [[nodiscard]] const char* name_of(AdaptiveEnd end);
 
 struct AdaptiveReport {
-    /// At positions that had no say in where probes went, without the noise of their own light.
+    /// Error at sensors that are not used for decisions, with their noise subtracted.
     double error = 0.0;
     AdaptiveEnd end = AdaptiveEnd::TargetReached;
     uint32_t round_count = 0;
-    /// Metres between the lattice's probes that it began with.
+    /// Spacing of the start lattice, metres.
     glm::dvec3 start_spacing{0.0};
-    /// Probes at the start, and before those were removed that do little.
-    uint64_t start_count = 0;
-    uint64_t largest_count = 0;
-    /// Positions whose light was baked, the directions of each, and rays.
+    /// Probes at the start, and the largest number before removal.
+    uint64_t start_probe_count = 0;
+    uint64_t peak_probe_count = 0;
+    /// Positions whose light was baked, samples of each, and rays.
     uint64_t position_count = 0;
-    uint32_t direction_count = 0;
+    uint32_t sample_count = 0;
     uint64_t ray_count = 0;
 };
 
-/// Where it works.
+/// The scene and the rules of the refinement.
 struct AdaptiveInput {
     const Scene& scene;
     const TraceScene& traced;
     WorldBox bounds;
     double clearance = 0.0;
-    /// Whether a probe may stand at a position that is free.
-    std::function<bool(const glm::dvec3& position)> may_stand;
-    /// The space that a position lies in: each keeps probes that span what its start spans.
+    /// Returns true if a free position may have a probe.
+    std::function<bool(const glm::dvec3& position)> is_allowed;
+    /// Returns the space of a position. Each space keeps probes that span what its start spans.
     std::function<uint32_t(const glm::dvec3& position)> space_of;
-    /// Where light is measured beside places that are spread evenly: in small spaces.
+    /// Additional sensors, in small spaces that evenly distributed sensors miss.
     std::vector<glm::dvec3> sensors;
-    uint64_t max_probe_count = 0;
+    uint64_t max_probes = 0;
     uint32_t thread_count = 0;
 };
 
-/// Puts probes where light changes: from the `start`, of which those that are not kept stay as they
-/// are, it refines cells whose interpolated light is wrong, round by round, and then removes the
-/// probes that do least. Returns the start with the fates that it has now, and new probes behind
-/// it. Probes flagged `is_protected` (one a start) stay. Deterministic without a time budget.
+/// Places probes where the light changes. Starts with the kept ones of `probes`, refines the cells
+/// whose interpolated light is wrong, round by round, and then removes the probes with the least
+/// effect. Updates the fates in `probes` and appends new probes. Probes with `is_protected` (one
+/// flag for each of `probes`, or none at all) are not removed. Deterministic without a time budget.
 ///
-/// When it is interrupted or out of time, the result is that of the last round; the error
-/// "interrupted" (or "out of time ...") says that there was none yet. Further errors: no place to
-/// measure light at, and spaces that need more probes than there may be.
+/// If the callback cancels or the time is over, the result is that of the last round. Returns
+/// cancelled, or invalid_argument with the field `time_budget`, if there is no round yet, and
+/// invalid_argument if there is no free position to measure light at.
 [[nodiscard]] Result<AdaptiveReport> refine_grid(const AdaptiveInput& input,
                                                  const AdaptiveSettings& settings,
                                                  std::vector<PlacedProbe>& probes,

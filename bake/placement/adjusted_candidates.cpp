@@ -12,8 +12,8 @@
 namespace tetralight {
 namespace {
 
-/// Moves stay below half of the way to the next candidate.
-constexpr double kReachShare = 0.45;
+/// Pushes are shorter than half the distance to the next candidate.
+constexpr double kMaxPushFraction = 0.45;
 
 Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, PlacementMode mode,
                                                 const CandidateRule& rule) {
@@ -26,10 +26,10 @@ Result<std::vector<glm::dvec3>> make_candidates(const TraceScene& traced, Placem
         case PlacementMode::Surface:
             return surface_candidates(traced, rule);
     }
-    return Error{"unknown mode"};
+    return Error{ErrorCode::InvalidArgument, "mode", "", "unknown mode"};
 }
 
-/// Adds what of a rule's candidates stands where `owner` sets the spacing; null: no volume does.
+/// Adds the candidates of a rule for which `owner` sets the spacing; null: no volume does.
 Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustments,
            PlacementMode mode, const CandidateRule& rule, const ProbeAdjustment* owner,
            std::vector<Candidate>& candidates) {
@@ -37,10 +37,10 @@ Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustment
     if (!positions) return positions.error();
     const glm::dvec3& s = rule.spacing;
     candidates.reserve(candidates.size() + positions->size());
-    const double reach = kReachShare * std::min({s.x, s.y, s.z});
+    const double max_push = kMaxPushFraction * std::min({s.x, s.y, s.z});
     for (const glm::dvec3& position : *positions) {
         if (adjustment_at(adjustments, position).spacing != owner) continue;
-        candidates.push_back({position, reach, owner != nullptr});
+        candidates.push_back({position, max_push, owner != nullptr});
     }
     return check_candidate_count(static_cast<double>(candidates.size()), rule.max_count);
 }
@@ -87,11 +87,11 @@ std::vector<PlacedProbe> place_candidates(const TraceScene& traced,
                                           const CandidateRule& rule) {
     std::vector<PlacedProbe> placed(candidates.size());
     parallel_for(candidates.size(), rule.thread_count, [&](size_t i) {
-        const auto& [position, reach, is_adjusted] = candidates[i];
+        const auto& [position, max_push, is_adjusted] = candidates[i];
         placed[i] = {position, Fate::Forbidden, 0.0f};
         if (adjustment_at(adjustments, position).forbids_probes) return;
-        placed[i] = place_probe(traced, position, {rule.clearance, reach, rule.bounds});
-        // Nothing is pushed into a volume that wants nothing.
+        placed[i] = place_probe(traced, position, {rule.clearance, max_push, rule.bounds});
+        // A push must not end in a volume that forbids probes.
         if (adjustment_at(adjustments, placed[i].position).forbids_probes) {
             placed[i].fate = Fate::Forbidden;
         }

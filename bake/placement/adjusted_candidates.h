@@ -15,26 +15,26 @@
 
 namespace tetralight {
 
-/// A candidate of the scene's rule, or of an adjustment volume.
+/// A candidate from the grid's spacing, or from an adjustment volume.
 struct Candidate {
     glm::dvec3 position{0.0};
-    /// It may move this far to be kept, metres.
-    double reach = 0.0;
-    /// An adjustment volume asks for it.
+    /// The maximum distance that it may be pushed, metres.
+    double max_push = 0.0;
+    /// True if it comes from the spacing of an adjustment volume.
     bool is_adjusted = false;
 };
 
-/// The part of the bounds that a volume reaches into; none where it lies outside.
+/// The intersection of the bounds with the bounds of a volume; empty if it is outside.
 [[nodiscard]] std::optional<WorldBox> bounds_in(const WorldBox& bounds,
                                                 const ProbeAdjustment& adjustment);
 
-/// Candidates of the mode by the rule where no volume sets a spacing, and by the volume's own
-/// spacing where one does. Errors as in candidates.h.
+/// Candidates of the mode: with the spacing of the smallest volume around them that sets one, else
+/// with that of the rule. Errors as in candidates.h.
 [[nodiscard]] Result<std::vector<Candidate>> adjusted_candidates(
     const TraceScene& traced, std::span<const ProbeAdjustment> adjustments, PlacementMode mode,
     const CandidateRule& rule);
 
-/// `place_probe` for each, but where a volume forbids probes.
+/// `place_probe` for each candidate; Fate::Forbidden where a volume forbids probes.
 [[nodiscard]] std::vector<PlacedProbe> place_candidates(
     const TraceScene& traced, std::span<const ProbeAdjustment> adjustments,
     std::span<const Candidate> candidates, const CandidateRule& rule);

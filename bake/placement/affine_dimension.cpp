@@ -11,7 +11,7 @@ int affine_dimension(std::span<const glm::dvec3> positions) {
     glm::dvec3 axes[3];
     double extent = 0.0;
     for (int dimension = 0; dimension < 3; ++dimension) {
-        // The farthest from what is spanned so far: the axes are at right angles.
+        // The position farthest from the span of the previous axes gives the next, orthogonal axis.
         double farthest = 0.0;
         for (const glm::dvec3& position : positions) {
             glm::dvec3 rest = position - positions[0];

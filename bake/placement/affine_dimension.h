@@ -6,8 +6,8 @@
 
 namespace tetralight {
 
-/// What positions span: -1 = there are none, 0 = a point, 1 = a line, 2 = a plane, 3 = space. What
-/// is flatter than a millionth of their extent counts as flat.
+/// The dimension that positions span: -1 = no positions, 0 = a point, 1 = a line, 2 = a plane,
+/// 3 = space. An extent below a millionth of the largest one counts as zero.
 [[nodiscard]] int affine_dimension(std::span<const glm::dvec3> positions);
 
 }  // namespace tetralight

@@ -9,9 +9,10 @@
 namespace tetralight {
 namespace {
 
-/// A candidate with its position and fate, and what the output file takes to be written.
+/// A candidate with its position and fate, and the memory that writing the output takes.
 constexpr double kBytesPerCandidate = 400.0;
-/// A probe with its light and sensors, in two volumes with their cells, and what builds those.
+/// A probe with its light and sensors, in two volumes with their cells, and the memory that
+/// building them takes.
 constexpr double kBytesPerRefinedProbe = 8000.0;
 
 std::string a_grid_of(double count) {
@@ -23,7 +24,8 @@ std::string a_grid_of(double count) {
 Status check_memory(double count, double bytes_each, uint64_t free_bytes) {
     const double bytes = count * bytes_each;
     if (bytes <= static_cast<double>(free_bytes)) return Ok{};
-    return Error{str_cat(a_grid_of(count), " needs about ", gigabytes(bytes), " of memory, ",
+    return Error{ErrorCode::OutOfResources,
+                 str_cat(a_grid_of(count), " needs about ", gigabytes(bytes), " of memory, ",
                          gigabytes(free_bytes), " are free")};
 }
 
@@ -31,7 +33,8 @@ Status check_memory(double count, double bytes_each, uint64_t free_bytes) {
 
 Status check_candidate_count(double count, uint64_t max_count, uint64_t free_bytes) {
     if (!(count <= static_cast<double>(max_count))) {
-        return Error{str_cat(a_grid_of(count), " is more than the limit of ", max_count)};
+        return Error{ErrorCode::InvalidArgument, "max_probes", str_cat(max_count),
+                     str_cat(a_grid_of(count), " is more than the limit of ", max_count)};
     }
     return check_memory(count, kBytesPerCandidate, free_bytes);
 }

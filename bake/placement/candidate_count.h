@@ -8,12 +8,13 @@
 
 namespace tetralight {
 
-/// Refuses a grid of more candidates than `max_count`, or than memory holds, before any of it is
-/// taken. The messages say how many there would be: counts may be beyond any integer.
+/// Returns invalid_argument, with the field `max_probes`, if a grid has more than `max_count`
+/// candidates, and out_of_resources if they do not fit into memory. `count` is a double since it
+/// may exceed every integer type.
 [[nodiscard]] Status check_candidate_count(double count, uint64_t max_count,
                                            uint64_t free_bytes = free_memory());
 
-/// Refuses to refine a grid up to more probes than memory holds.
+/// Returns out_of_resources if an adaptive grid with `count` probes does not fit into memory.
 [[nodiscard]] Status check_refined_count(uint64_t count, uint64_t free_bytes = free_memory());
 
 }  // namespace tetralight

@@ -19,7 +19,7 @@ namespace tetralight {
 namespace {
 
 constexpr int kUp = 1;
-/// A line through more surfaces than this goes no further.
+/// The search along a line ends after this number of surfaces.
 constexpr int kMaxHits = 1024;
 
 struct LineHit {
@@ -27,10 +27,10 @@ struct LineHit {
     SurfaceSide side;
 };
 
-/// All surfaces along a line through the bounds, from its high end down.
+/// All surfaces along a line through the bounds, from its maximum to its minimum.
 std::vector<LineHit> hits_along(const TraceScene& traced, const WorldBox& bounds, glm::dvec3 start,
                                 int axis) {
-    // From a little outside, so that a roof that bounds the scene is met from above.
+    // Starts a little outside, so that the ray hits a roof at the boundary from above.
     const double margin = 1e-3 * std::max(bounds.size()[axis], 1.0);
     start[axis] = bounds.max[axis] + margin;
     const double length = bounds.size()[axis] + 2.0 * margin;
@@ -49,14 +49,14 @@ std::vector<LineHit> hits_along(const TraceScene& traced, const WorldBox& bounds
     return hits;
 }
 
-/// The lines along one axis: a lattice over the other two. Each counts as a candidate.
+/// The lines along one axis: a lattice over the other two axes. Each line counts as a candidate.
 Result<std::vector<glm::dvec3>> lines_along(const CandidateRule& rule, int axis) {
     WorldBox flat = rule.bounds;
     flat.min[axis] = flat.max[axis] = 0.0;
     return lattice_candidates({flat, rule.spacing, 0.0, {}, rule.max_count, 0});
 }
 
-/// Calls `add(line, found)` for each line and joins what was found in the lines' order.
+/// Calls `add(line, found)` for each line and concatenates the results in the order of the lines.
 template <class Add>
 Result<std::vector<glm::dvec3>> join_lines(const std::vector<glm::dvec3>& lines,
                                            const CandidateRule& rule, const Add& add) {
@@ -71,8 +71,8 @@ Result<std::vector<glm::dvec3>> join_lines(const std::vector<glm::dvec3>& lines,
 }
 
 bool is_floor(const LineHit& hit) {
-    constexpr float kLeastCosine = 0.5f;
-    return !hit.side.is_back_face && hit.side.normal.y > kLeastCosine;
+    constexpr float kMinCosine = 0.5f;
+    return !hit.side.is_back_face && hit.side.normal.y > kMinCosine;
 }
 
 }  // namespace
@@ -94,14 +94,15 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
                 traced.ray_origin(hit.side, traced.render_from_world(hit.position), {0, 1, 0});
             for (const double height : rule.heights) {
                 const glm::vec3 top(0.0f, static_cast<float>(height), 0.0f);
-                if (!sees(traced, foot, foot + top)) continue;
+                if (!is_visible(traced, foot, foot + top)) continue;
                 const glm::dvec3 candidate = hit.position + glm::dvec3(0.0, height, 0.0);
                 if (is_in(rule.bounds, candidate)) found.push_back(candidate);
             }
         }
     });
     if (candidates && candidates->empty()) {
-        return Error{str_cat("there is no floor, or no room above it in the bounds, in any of ",
+        return Error{ErrorCode::InvalidArgument, "mode", "layers",
+                     str_cat("there is no floor, or no room above it in the bounds, in any of ",
                              columns->size(), " columns")};
     }
     return candidates;
@@ -132,7 +133,10 @@ Result<std::vector<glm::dvec3>> surface_candidates(const TraceScene& traced,
     if (auto status = check_candidate_count(static_cast<double>(all.size()), rule.max_count);
         !status)
         return status.error();
-    if (all.empty()) return Error{"there is no surface in the bounds"};
+    if (all.empty()) {
+        return Error{ErrorCode::InvalidArgument, "mode", "surface",
+                     "there is no surface in the bounds"};
+    }
     return all;
 }
 
@@ -151,8 +155,8 @@ std::vector<bool> find_crowded(const TraceScene& traced, std::span<const glm::dv
             is_crowded[i] = std::ranges::any_of(near->second, [&](size_t other) {
                 const glm::dvec3& q = positions[other];
                 return glm::distance(p, q) < distance &&
-                       (p == q ||
-                        sees(traced, traced.render_from_world(p), traced.render_from_world(q)));
+                       (p == q || is_visible(traced, traced.render_from_world(p),
+                                             traced.render_from_world(q)));
             });
         }
         if (!is_crowded[i]) kept[{x, y, z}].push_back(i);

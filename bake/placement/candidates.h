@@ -10,12 +10,13 @@
 #include <tetralight/bake/scene/scene_bounds.h>
 #include <tetralight/base/result.h>
 
-// Where probes might stand, before anyone looks whether they can. All in world space, in a fixed
-// order, and the same for any number of threads. Errors: those of `make_lattice`.
+// Candidate positions of probes, before they are classified. All functions work in world space and
+// return a fixed order that does not depend on the number of threads. Errors: those of
+// `make_lattice`.
 
 namespace tetralight {
 
-/// What candidates are made from.
+/// The settings of candidates.
 struct CandidateRule {
     WorldBox bounds;
     glm::dvec3 spacing{1.0};
@@ -30,20 +31,20 @@ struct CandidateRule {
 /// A lattice (`make_lattice`).
 [[nodiscard]] Result<std::vector<glm::dvec3>> lattice_candidates(const CandidateRule& rule);
 
-/// Columns `spacing` apart, and in each the heights above every floor in the bounds: surfaces that
-/// face up, by less than 60° off, seen from above, of all storeys. Heights that something stands
-/// between and the floor are left out, and so are those above the bounds. Error: nothing is left.
+/// Positions in columns `spacing` apart, at the heights above every floor in the bounds. A floor is
+/// a front face whose normal is less than 60° from up. Skips heights that a surface separates from
+/// the floor, and those outside of the bounds. Returns invalid_argument if there is no position.
 [[nodiscard]] Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
                                                                const CandidateRule& rule);
 
-/// Both sides of every surface in the bounds, at the clearance, about one `spacing` apart: where
-/// lines along the axes meet surfaces that face more along this axis than along the others. What
-/// is not in the bounds is left out.
+/// Positions on both sides of every surface in the bounds, at the clearance, about one `spacing`
+/// apart: where lines along an axis hit surfaces whose normal is closest to this axis. Skips
+/// positions outside of the bounds. Returns invalid_argument if there is no position.
 [[nodiscard]] Result<std::vector<glm::dvec3>> surface_candidates(const TraceScene& traced,
                                                                  const CandidateRule& rule);
 
-/// Flags candidates that stand nearer than `distance` to one before them that is not flagged, and
-/// see it. Precondition: distance > 0.
+/// Flags candidates that are closer than `distance` to an earlier candidate without a flag that is
+/// visible from them. Precondition: distance > 0.
 [[nodiscard]] std::vector<bool> find_crowded(const TraceScene& traced,
                                              std::span<const glm::dvec3> positions,
                                              double distance);

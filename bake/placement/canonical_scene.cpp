@@ -25,7 +25,7 @@ std::array<Corner, 3> corners(const Mesh& mesh, const Triangle& triangle) {
     return {corner(mesh, triangle[0]), corner(mesh, triangle[1]), corner(mesh, triangle[2])};
 }
 
-/// Starts each triangle with its smallest corner, and sorts them.
+/// Rotates each triangle so that its smallest corner is first, and sorts the triangles.
 void sort_triangles(Mesh& mesh) {
     std::vector<Triangle> triangles(mesh.indices.size() / 3);
     for (size_t i = 0; i < triangles.size(); ++i) {
@@ -44,7 +44,7 @@ void sort_triangles(Mesh& mesh) {
     }
 }
 
-/// Of what an instance is, not of where it stands in lists. The mesh is sorted.
+/// A hash of an instance's contents, independent of indices. Precondition: the mesh is sorted.
 uint64_t hash_of(const Scene& scene, const MeshInstance& instance) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     ContentHash hash;
@@ -58,7 +58,7 @@ uint64_t hash_of(const Scene& scene, const MeshInstance& instance) {
     return hash.value();
 }
 
-/// Puts the elements in the order of their keys.
+/// Sorts elements by their keys.
 template <class T>
 void sort_by(std::vector<T>& elements, const std::vector<uint64_t>& keys) {
     std::vector<size_t> order(elements.size());

@@ -5,9 +5,9 @@
 
 namespace tetralight {
 
-/// The same scene with its instances, their triangles and its lights in an order that follows from
-/// what they are: scenes that differ in order alone become one, and so do the rays and the light
-/// that are found in them. Things that move, cameras and probe groups are left out.
+/// The same scene with its instances, their triangles and its lights in an order that depends only
+/// on their contents: scenes that differ only in order become equal, and so do rays and light in
+/// them. Without moving objects, cameras and probe groups.
 [[nodiscard]] Scene canonical_scene(const Scene& scene);
 
 }  // namespace tetralight

@@ -12,42 +12,44 @@
 namespace tetralight {
 namespace {
 
-/// So many posts of a space are tried: all of them lie on the same side of closed surfaces.
-constexpr size_t kMostTries = 256;
+/// Points of a space that are tried. All of them are on the same side of closed surfaces.
+constexpr size_t kMaxTries = 256;
 
-/// Evenly chosen ones of a space's posts that are free, in their order.
-std::vector<glm::dvec3> free_places(const TraceScene& traced, const std::vector<glm::dvec3>& posts,
-                                    const PlaceRule& rule) {
+/// Evenly chosen free points of a space, in their order.
+std::vector<glm::dvec3> free_places(const TraceScene& traced, const std::vector<glm::dvec3>& points,
+                                    const FreePositionRule& rule) {
     std::vector<glm::dvec3> places;
-    const size_t tries = std::min(posts.size(), kMostTries);
-    for (size_t i = 0; i < tries && places.size() < rule.most_places; ++i) {
-        const glm::dvec3& post = posts[i * posts.size() / tries];
-        if (is_surely_free(traced, post, rule.clearance)) places.push_back(post);
+    const size_t tries = std::min(points.size(), kMaxTries);
+    for (size_t i = 0; i < tries && places.size() < rule.max_count; ++i) {
+        const glm::dvec3& point = points[i * points.size() / tries];
+        if (is_free_with_clearance(traced, point, rule.clearance)) places.push_back(point);
     }
     return places;
 }
 
 }  // namespace
 
-std::vector<SpacePlaces> find_places(const TraceScene& traced, const SpaceMap& map,
-                                     std::span<const uint32_t> filled, const PlaceRule& rule) {
-    std::vector<std::pair<uint32_t, std::vector<glm::dvec3>>> posts;
-    for (auto& [space, positions] : map.posts_by_space(rule.bounds)) {
+std::vector<SpacePositions> find_free_positions(const TraceScene& traced, const FreeSpaceMap& map,
+                                                std::span<const uint32_t> filled,
+                                                const FreePositionRule& rule) {
+    std::vector<std::pair<uint32_t, std::vector<glm::dvec3>>> points;
+    for (auto& [space, positions] : map.points_by_space(rule.bounds)) {
         if (std::ranges::binary_search(filled, space)) continue;
-        posts.emplace_back(space, std::move(positions));
+        points.emplace_back(space, std::move(positions));
     }
-    std::vector<SpacePlaces> found(posts.size());
-    parallel_for(posts.size(), rule.thread_count, [&](size_t i) {
-        const auto& [space, positions] = posts[i];
+    std::vector<SpacePositions> found(points.size());
+    parallel_for(points.size(), rule.thread_count, [&](size_t i) {
+        const auto& [space, positions] = points[i];
         found[i] = {space, free_places(traced, positions, rule), positions.size()};
     });
-    std::erase_if(found, [](const SpacePlaces& space) { return space.places.empty(); });
+    std::erase_if(found, [](const SpacePositions& space) { return space.positions.empty(); });
     return found;
 }
 
-void spread_out(std::vector<glm::dvec3>& places, std::span<const glm::dvec3> taken, size_t count) {
-    glm::dvec3 middle(0.0);
-    for (const glm::dvec3& place : places) middle += place / static_cast<double>(places.size());
+void sort_farthest_first(std::vector<glm::dvec3>& places, std::span<const glm::dvec3> taken,
+                         size_t count) {
+    glm::dvec3 center(0.0);
+    for (const glm::dvec3& place : places) center += place / static_cast<double>(places.size());
     std::vector<double> room(places.size(), std::numeric_limits<double>::infinity());
     const auto take = [&](const glm::dvec3& position) {
         for (size_t i = 0; i < places.size(); ++i) {
@@ -55,7 +57,7 @@ void spread_out(std::vector<glm::dvec3>& places, std::span<const glm::dvec3> tak
         }
     };
     for (const glm::dvec3& position : taken) take(position);
-    if (taken.empty()) take(middle);
+    if (taken.empty()) take(center);
     for (size_t done = 0; done < std::min(count, places.size()); ++done) {
         const auto best =
             std::max_element(room.begin() + static_cast<std::ptrdiff_t>(done), room.end()) -

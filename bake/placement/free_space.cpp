@@ -15,7 +15,7 @@
 namespace tetralight {
 namespace {
 
-/// Of the clearance: what a move goes beyond it, and what rounding may take from it.
+/// Relative to the clearance: how far a push exceeds it, and the tolerance for rounding.
 constexpr float kSlack = 1e-3f;
 
 float surface_distance(const TraceScene& traced, glm::vec3 position) {
@@ -23,12 +23,12 @@ float surface_distance(const TraceScene& traced, glm::vec3 position) {
     return nearest ? glm::distance(position, *nearest) : std::numeric_limits<float>::infinity();
 }
 
-/// Surfaces left from behind minus surfaces entered from the front, along a ray to the sky: how
-/// many closed solids the position lies in.
+/// The number of closed solids that contain the position: along a ray to the sky, the surfaces that
+/// it leaves through back faces minus those that it enters through front faces.
 int solids_around(const TraceScene& traced, glm::vec3 position, glm::vec3 direction) {
-    constexpr int kMostSurfaces = 256;
+    constexpr int kMaxSurfaces = 256;
     int count = 0;
-    for (int i = 0; i < kMostSurfaces; ++i) {
+    for (int i = 0; i < kMaxSurfaces; ++i) {
         const auto side = traced.intersect_side({position, direction});
         if (!side) break;
         count += side->is_from_behind ? 1 : -1;
@@ -38,26 +38,26 @@ int solids_around(const TraceScene& traced, glm::vec3 position, glm::vec3 direct
     return count;
 }
 
-/// The search for a better place for one candidate.
+/// The search for a free position for one candidate.
 class Push {
   public:
     Push(const TraceScene& traced, glm::vec3 start, const ClearanceRule& rule)
         : traced_(traced),
           start_(start),
           clearance_(static_cast<float>(rule.clearance)),
-          reach_(static_cast<float>(rule.reach)),
+          max_push_(static_cast<float>(rule.max_push)),
           bounds_(rule.bounds) {}
 
-    /// Out of geometry, and then away from what is there.
+    /// Out of geometry, and then away from surfaces.
     [[nodiscard]] std::optional<glm::vec3> out_of_geometry() const {
-        const VirtualOffsetSettings search{reach_, clearance_ * (1.0f + 2.0f * kSlack),
+        const VirtualOffsetSettings search{max_push_, clearance_ * (1.0f + 2.0f * kSlack),
                                            kMinValidity};
         const auto offset = find_virtual_offset(traced_, start_, search);
         if (!offset) return std::nullopt;
         return along_gradient(start_ + *offset);
     }
 
-    /// Away from the nearest surface, from a place that is free.
+    /// Away from the nearest surface, from a free position.
     [[nodiscard]] std::optional<glm::vec3> along_gradient(glm::vec3 from) const {
         constexpr int kMaxSteps = 8;
         glm::vec3 place = from;
@@ -72,8 +72,8 @@ class Push {
         return std::nullopt;
     }
 
-    /// The shortest way along an axis: out of geometry, away from surfaces, or off the surface that
-    /// the candidate stands on.
+    /// The shortest push along an axis: out of geometry, away from surfaces, or off the surface
+    /// that the candidate touches.
     [[nodiscard]] std::optional<glm::vec3> along_axes(bool is_inside, float distance) const {
         constexpr glm::vec3 kAxes[] = {{0, 1, 0},  {0, -1, 0}, {1, 0, 0},
                                        {-1, 0, 0}, {0, 0, 1},  {0, 0, -1}};
@@ -81,7 +81,7 @@ class Push {
         std::vector<Way> ways;
         for (const glm::vec3& axis : kAxes) {
             if (distance < touching) {
-                // A little off, so that the way is not blocked by the surface that it stands on.
+                // A little off the surface that it touches, which would block the way.
                 add_way(start_ + touching * axis, axis, ways);
             } else if (!is_inside) {
                 add_way(start_, axis, ways);
@@ -89,7 +89,7 @@ class Push {
                 add_way(*beyond, axis, ways);
             }
         }
-        // Up comes before other ways that differ by rounding only.
+        // Up comes before other ways whose lengths differ only by rounding.
         const float step = kSlack * clearance_;
         std::ranges::stable_sort(ways, {}, [&](const Way& way) {
             return std::round(glm::distance(way.place, start_) / step);
@@ -100,7 +100,7 @@ class Push {
         return std::nullopt;
     }
 
-    /// Out of an edge or a corner where walls meet, for a candidate that stands in it.
+    /// Out of an edge or a corner between walls, for a candidate that touches it.
     [[nodiscard]] std::optional<glm::vec3> off_edges(float distance) const {
         if (!(distance < touching_distance())) return std::nullopt;
         for (const float axis_count : {2.0f, 3.0f}) {
@@ -117,7 +117,7 @@ class Push {
   private:
     static constexpr float kMinValidity = 0.75f;
 
-    /// A straight way to a place with clearance.
+    /// A straight way to a position with clearance.
     struct Way {
         glm::vec3 from{0.0f};
         glm::vec3 place{0.0f};
@@ -125,18 +125,18 @@ class Push {
 
     /// Beyond the first surface along an axis, if the candidate is behind it.
     [[nodiscard]] std::optional<glm::vec3> exit(const glm::vec3& axis) const {
-        const auto side = traced_.intersect_side({start_, axis, reach_});
+        const auto side = traced_.intersect_side({start_, axis, max_push_});
         if (!side || !side->is_from_behind) return std::nullopt;
         return traced_.ray_origin(*side, start_ + side->distance * axis, axis);
     }
 
-    /// What stands nearer to a surface stands on it.
+    /// A candidate that is closer to a surface touches it.
     [[nodiscard]] float touching_distance() const { return 2.0f * kSlack * clearance_; }
 
     void add_way(const glm::vec3& from, const glm::vec3& axis, std::vector<Way>& ways) const {
         constexpr int kMaxSteps = 8;
         glm::vec3 place = from;
-        for (int i = 0; i < kMaxSteps && glm::distance(place, start_) <= reach_; ++i) {
+        for (int i = 0; i < kMaxSteps && glm::distance(place, start_) <= max_push_; ++i) {
             const auto nearest = traced_.nearest_surface(place);
             const float distance = nearest ? glm::distance(place, *nearest) : clearance_;
             if (distance >= clearance_) {
@@ -149,24 +149,25 @@ class Push {
     }
 
     [[nodiscard]] bool is_fine(glm::vec3 from, glm::vec3 place) const {
-        return glm::distance(place, start_) <= reach_ &&
+        return glm::distance(place, start_) <= max_push_ &&
                is_in(bounds_, traced_.world_from_render(place)) &&
-               (place == from || sees(traced_, from, place)) &&
-               standing_of(traced_, place, probe_visibility(traced_, place)) == Standing::Free;
+               (place == from || is_visible(traced_, from, place)) &&
+               classify_point(traced_, place, probe_visibility(traced_, place)) == PointClass::Free;
     }
 
     const TraceScene& traced_;
     glm::vec3 start_;
     float clearance_;
-    float reach_;
+    float max_push_;
     WorldBox bounds_;
 };
 
 }  // namespace
 
-Standing standing_of(const TraceScene& traced, glm::vec3 position, const ProbeVisibility& around) {
-    if (around.is_inside()) return Standing::Inside;
-    if (around.behind_fraction == 0.0f) return Standing::Free;
+PointClass classify_point(const TraceScene& traced, glm::vec3 position,
+                          const ProbeVisibility& around) {
+    if (around.is_inside()) return PointClass::Inside;
+    if (around.behind_fraction == 0.0f) return PointClass::Free;
     constexpr size_t kEvery = 4;
     int inside = 0, outside = 0;
     for (size_t i = 0; i < probe_visibility_directions().size(); i += kEvery) {
@@ -175,18 +176,19 @@ Standing standing_of(const TraceScene& traced, glm::vec3 position, const ProbeVi
     }
     // Open surfaces miss sides in some directions, and so do faces that coincide; closed solids
     // agree in all others.
-    if (inside > 3 * outside) return Standing::Inside;
-    return outside > 3 * inside ? Standing::Free : Standing::Doubtful;
+    if (inside > 3 * outside) return PointClass::Inside;
+    return outside > 3 * inside ? PointClass::Free : PointClass::Uncertain;
 }
 
-bool is_surely_free(const TraceScene& traced, const glm::dvec3& position, double clearance) {
+bool is_free_with_clearance(const TraceScene& traced, const glm::dvec3& position,
+                            double clearance) {
     const glm::vec3 place = traced.render_from_world(position);
     const ProbeVisibility around = probe_visibility(traced, place);
     return around.surface_distance >= (1.0 - kSlack) * clearance &&
-           standing_of(traced, place, around) == Standing::Free;
+           classify_point(traced, place, around) == PointClass::Free;
 }
 
-bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
+bool is_visible(const TraceScene& traced, glm::vec3 from, glm::vec3 to) {
     return !traced.occluded({from, to - from, 1.0f});
 }
 
@@ -194,7 +196,7 @@ PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                         const ClearanceRule& rule) {
     const glm::vec3 start = traced.render_from_world(candidate);
     const ProbeVisibility around = probe_visibility(traced, start);
-    const bool is_inside = standing_of(traced, start, around) == Standing::Inside;
+    const bool is_inside = classify_point(traced, start, around) == PointClass::Inside;
     PlacedProbe placed{candidate, Fate::Kept, around.surface_distance};
     if (!is_inside && around.surface_distance >= (1.0 - kSlack) * rule.clearance) return placed;
 

@@ -11,16 +11,16 @@
 
 namespace tetralight {
 
-/// What became of a candidate for a probe.
+/// The result for a candidate.
 enum class Fate : uint8_t {
     Kept,
     Pushed,       ///< kept, out of geometry or away from a surface
-    Inside,       ///< inside geometry, and no way out in reach
-    TooClose,     ///< nearer to a surface than the clearance, and no better place in reach
-    Unreachable,  ///< in a space that is not asked for
+    Inside,       ///< inside geometry, with no free position in reach of a push
+    TooClose,     ///< closer to a surface than the clearance, with no free position in reach
+    Unreachable,  ///< in a space that is not to be filled
     Forbidden,    ///< in an adjustment volume that forbids probes
-    Crowded,      ///< beside another probe
-    Spared,       ///< light is as good without it
+    Crowded,      ///< too close to another probe
+    Redundant,    ///< the light is as accurate without it
 };
 
 inline constexpr int kFateCount = 8;
@@ -29,53 +29,52 @@ inline constexpr int kFateCount = 8;
     return fate == Fate::Kept || fate == Fate::Pushed;
 }
 
-/// Where probes may stand.
+/// Which positions probes may have.
 struct ClearanceRule {
-    /// Metres from every surface; 0 = only not inside.
+    /// Minimum distance to every surface, metres; 0 = anywhere outside of geometry.
     double clearance = 0.0;
-    /// A candidate that has to move moves this far at most, metres.
-    double reach = 0.0;
-    /// It moves to nowhere else.
+    /// The maximum distance of a push, metres.
+    double max_push = 0.0;
+    /// No push ends outside of this box.
     WorldBox bounds{glm::dvec3(-std::numeric_limits<double>::infinity()),
                     glm::dvec3(std::numeric_limits<double>::infinity())};
 };
 
-/// A candidate, and where it stands in the end.
+/// A candidate, its final position and its fate.
 struct PlacedProbe {
     glm::dvec3 position{0.0};
     Fate fate = Fate::Kept;
-    /// Metres to the nearest surface; infinite: there is none.
+    /// Distance to the nearest surface, metres; infinite if there is none.
     float surface_distance = 0.0f;
 
     bool operator==(const PlacedProbe&) const = default;
 };
 
-/// Keeps a candidate where it stands, moves it out of geometry and away from surfaces, or says why
-/// it cannot be kept. A move leads through no surface but the one that the candidate is behind of:
-/// the shortest way along one of the axes, which leaves it in the planes of its lattice, or else
-/// away from the nearest surface. Pure.
+/// Keeps a free candidate, pushes one that is inside geometry or too close to a surface, or gives
+/// the reason if there is no free position. A push passes through no surface except the one that
+/// the candidate is behind. It is along one of the axes if possible, by the shortest distance,
+/// which keeps the candidate in planes of its lattice, or else away from the nearest surface. Pure.
 [[nodiscard]] PlacedProbe place_probe(const TraceScene& traced, const glm::dvec3& candidate,
                                       const ClearanceRule& rule);
 
-/// How a position lies to the geometry around it.
-enum class Standing : uint8_t {
+/// The class of a position relative to the geometry around it.
+enum class PointClass : uint8_t {
     Free,
-    Doubtful,  ///< taken for free, but nothing is moved there
+    Uncertain,  ///< counts as free, but no probe is pushed there
     Inside,
 };
 
-/// How a position in render space stands: by the shares of back faces around it
-/// (`ProbeVisibility::is_inside`), and where there are few of them by counting, in some directions,
-/// all surfaces out to the sky: among solids that cross each other the nearest surfaces may all be
-/// fronts of others.
-[[nodiscard]] Standing standing_of(const TraceScene& traced, glm::vec3 position,
-                                   const ProbeVisibility& around);
+/// Classifies a position in render space by the fractions of back faces around it
+/// (`ProbeVisibility::is_inside`). If some but few are back faces, counts all surfaces out to the
+/// sky in some directions: in intersecting solids the nearest surfaces may all be front faces.
+[[nodiscard]] PointClass classify_point(const TraceScene& traced, glm::vec3 position,
+                                        const ProbeVisibility& around);
 
-/// Whether a world position is free beyond doubt and `clearance` metres from all surfaces.
-[[nodiscard]] bool is_surely_free(const TraceScene& traced, const glm::dvec3& position,
-                                  double clearance);
+/// True if a world position is PointClass::Free and `clearance` metres or more from all surfaces.
+[[nodiscard]] bool is_free_with_clearance(const TraceScene& traced, const glm::dvec3& position,
+                                          double clearance);
 
-/// Whether nothing stands between two positions in render space.
-[[nodiscard]] bool sees(const TraceScene& traced, glm::vec3 from, glm::vec3 to);
+/// True if no surface is between two positions in render space.
+[[nodiscard]] bool is_visible(const TraceScene& traced, glm::vec3 from, glm::vec3 to);
 
 }  // namespace tetralight

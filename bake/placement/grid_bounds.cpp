@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kUp = 1;
 
-/// Whether an instance is a node of this name, or lies below one.
+/// True if an instance is a node of this name, or below one.
 bool is_part_of(const Scene& scene, const MeshInstance& instance, const std::string& name) {
     if (instance.name == name) return true;
     for (uint32_t node = instance.node; node != kNoIndex; node = scene.nodes[node].parent) {
@@ -27,9 +27,13 @@ bool is_part_of(const Scene& scene, const MeshInstance& instance, const std::str
 Status check_name(const Scene& scene, const std::string& name) {
     const auto is_part = [&](const MeshInstance& i) { return is_part_of(scene, i, name); };
     if (std::ranges::any_of(scene.instances, is_part)) return Ok{};
-    const bool is_there = std::ranges::count(scene.nodes, name, &SceneNode::name) > 0;
-    if (is_there) return Error{str_cat("node \"", name, "\" has no mesh to take bounds from")};
-    return Error{str_cat("there is no node \"", name, "\"")};
+    const bool has_node = std::ranges::count(scene.nodes, name, &SceneNode::name) > 0;
+    if (has_node) {
+        return Error{ErrorCode::InvalidArgument, "bounds_of", name,
+                     str_cat("node \"", name, "\" has no mesh to take bounds from")};
+    }
+    return Error{ErrorCode::NotFound, "bounds_of", name,
+                 str_cat("there is no node \"", name, "\"")};
 }
 
 }  // namespace
@@ -45,12 +49,15 @@ Result<WorldBox> grid_bounds(const Scene& scene, const ProbeGridSettings& settin
             return is_part_of(scene, instance, name);
         });
     });
-    if (!bounds) return Error{"the scene has no static geometry to take bounds from"};
+    if (!bounds) {
+        return Error{ErrorCode::InvalidArgument, "bounds", "",
+                     "the scene has no static geometry to take bounds from"};
+    }
     return *bounds;
 }
 
-WorldBox with_room(const WorldBox& bounds, const glm::dvec3& spacing, double clearance,
-                   const ProbeGridSettings& settings) {
+WorldBox padded_bounds(const WorldBox& bounds, const glm::dvec3& spacing, double clearance,
+                       const ProbeGridSettings& settings) {
     if (settings.bounds) return bounds;
     WorldBox box = bounds;
     const glm::dvec3 size = bounds.size();
@@ -78,13 +85,13 @@ bool is_in(const WorldBox& box, const glm::dvec3& position) {
     return contains(WorldBox{box.min - slack, box.max + slack}, position);
 }
 
-uint64_t most_probes(const ProbeGridSettings& settings) {
-    // Where walls are thin no number of probes brings the error down to nothing.
+uint64_t probe_limit(const ProbeGridSettings& settings) {
+    // With thin walls, no number of probes removes the error.
     const uint64_t usual = settings.mode == PlacementMode::Adaptive ? 5000 : 10'000'000;
-    return settings.max_probe_count.value_or(usual);
+    return settings.max_probes.value_or(usual);
 }
 
-Result<glm::dvec3> first_spacing(const WorldBox& bounds, const ProbeGridSettings& settings) {
+Result<glm::dvec3> candidate_spacing(const WorldBox& bounds, const ProbeGridSettings& settings) {
     const bool is_adaptive = settings.mode == PlacementMode::Adaptive;
     constexpr double kLayers = 8.0, kWider = 1.1;
     const glm::dvec3 size = bounds.size();
@@ -96,20 +103,22 @@ Result<glm::dvec3> first_spacing(const WorldBox& bounds, const ProbeGridSettings
     if (!count) return count.error();
     const glm::dvec3& p = bounds.min;
     if (p == bounds.max) {
-        return Error{str_cat("bounds are empty: nothing but ", p.x, ",", p.y, ",", p.z)};
+        const std::string value = str_cat(p.x, ",", p.y, ",", p.z);
+        return Error{ErrorCode::InvalidArgument, "bounds", value,
+                     str_cat("bounds are empty: nothing but ", value)};
     }
-    const uint64_t most = most_probes(settings);
+    const uint64_t max_count = probe_limit(settings);
     if (settings.mode == PlacementMode::Regular) {
-        // As early as can be; other modes have to look for surfaces first.
-        if (auto status = check_candidate_count(*count, most); !status) return status.error();
+        // Checked as early as possible; other modes have to find surfaces first.
+        if (auto status = check_candidate_count(*count, max_count); !status) return status.error();
     }
     if (!is_adaptive) return spacing;
-    if (auto status = check_refined_count(most); !status) return status.error();
-    // With few probes asked for it is wider; beyond reason it is a slip.
+    if (auto status = check_refined_count(max_count); !status) return status.error();
+    // A huge number of candidates is a mistake, even though the spacing grows below.
     constexpr uint64_t kAnything = 1'000'000'000;
     auto status = check_candidate_count(*count, kAnything, std::numeric_limits<uint64_t>::max());
     if (!status) return status.error();
-    while (*count > static_cast<double>(std::max<uint64_t>(most / 2, 8))) {
+    while (*count > static_cast<double>(std::max<uint64_t>(max_count / 2, 8))) {
         spacing *= kWider;
         count = lattice_count(bounds, spacing);
     }
@@ -117,12 +126,14 @@ Result<glm::dvec3> first_spacing(const WorldBox& bounds, const ProbeGridSettings
 }
 
 Result<double> checked_clearance(const glm::dvec3& spacing, const ProbeGridSettings& settings) {
-    constexpr double kShare = 0.1;
+    constexpr double kSpacingFraction = 0.1;
     const double longest = settings.mode == PlacementMode::Adaptive ? 0.05 : 0.25;
-    const double usual = std::min(kShare * std::min({spacing.x, spacing.y, spacing.z}), longest);
+    const double usual =
+        std::min(kSpacingFraction * std::min({spacing.x, spacing.y, spacing.z}), longest);
     const double clearance = settings.clearance.value_or(usual);
     if (clearance >= 0.0 && std::isfinite(clearance)) return clearance;
-    return Error{str_cat("clearance ", clearance, " is not a length")};
+    return Error{ErrorCode::InvalidArgument, "clearance", str_cat(clearance),
+                 str_cat("clearance ", clearance, " is not a length")};
 }
 
 }  // namespace tetralight

@@ -8,30 +8,30 @@
 
 namespace tetralight {
 
-/// The box to fill: what is given, or around the nodes that are named, or around all that
-/// contributes global illumination. A node's box is that of all below it. Errors: a name that no
-/// node has, or none that has a mesh, and nothing to take bounds from.
+/// The box to fill: `bounds`, or the bounds of the nodes `bounds_of` with all nodes below them, or
+/// the bounds of all instances that contribute global illumination. Returns not_found if no node
+/// has the name, and invalid_argument if none of them has a mesh, or if there is no geometry.
 [[nodiscard]] Result<WorldBox> grid_bounds(const Scene& scene, const ProbeGridSettings& settings);
 
-/// The box with room for what the mode puts around the scene's surfaces: flat scenes have air above
-/// them, layers stand above the highest floor, and surfaces have outer sides. A box that is given
-/// stays as it is.
-[[nodiscard]] WorldBox with_room(const WorldBox& bounds, const glm::dvec3& spacing,
-                                 double clearance, const ProbeGridSettings& settings);
+/// The box with the padding that the mode needs: air above flat scenes, layers above the highest
+/// floor, the clearance outside of outer walls. `settings.bounds` is not padded.
+[[nodiscard]] WorldBox padded_bounds(const WorldBox& bounds, const glm::dvec3& spacing,
+                                     double clearance, const ProbeGridSettings& settings);
 
-/// Whether a position lies in a box, rounding aside.
+/// True if a position is in a box, with a tolerance for rounding.
 [[nodiscard]] bool is_in(const WorldBox& box, const glm::dvec3& position);
 
-/// The most probes that are allowed.
-[[nodiscard]] uint64_t most_probes(const ProbeGridSettings& settings);
+/// The maximum number of probes: `max_probes`, or its default.
+[[nodiscard]] uint64_t probe_limit(const ProbeGridSettings& settings);
 
-/// Metres between the candidates. The adaptive mode's are an eighth of the longest side when it is
-/// not told, and farther apart where they would be more than half of its probes. Errors: those of
-/// `lattice_count`, and what is beyond reason.
-[[nodiscard]] Result<glm::dvec3> first_spacing(const WorldBox& bounds,
-                                               const ProbeGridSettings& settings);
+/// Spacing of the candidates, metres. In the adaptive mode, its default is an eighth of the longest
+/// side, and it grows until the candidates are at most half of `max_probes`. Errors: those of
+/// `lattice_count` and `check_candidate_count`; invalid_argument if the bounds are one point.
+[[nodiscard]] Result<glm::dvec3> candidate_spacing(const WorldBox& bounds,
+                                                   const ProbeGridSettings& settings);
 
-/// Metres that probes keep from surfaces. Error: it is negative or not finite.
+/// Minimum distance of probes to surfaces, metres. Returns invalid_argument if it is negative or
+/// not finite.
 [[nodiscard]] Result<double> checked_clearance(const glm::dvec3& spacing,
                                                const ProbeGridSettings& settings);
 

@@ -11,30 +11,30 @@
 
 namespace tetralight {
 
-/// How regions are cut out and named.
+/// The size and the name of regions.
 struct RegionRule {
     std::string name;
-    /// Metres along the side of the cubes that spaces are cut into, from the world's origin; 0 =
-    /// not cut.
+    /// Side of the cubes that split spaces into regions, metres, from the world's origin; 0 = not
+    /// split.
     double size = 0.0;
 };
 
-/// Probes by region: "grid" when there is one space, or else "grid space 1" for that with most
-/// probes and so on, followed by the cube it is cut to: "grid 0,-1,2". Within a group probes keep
-/// their order. `order` (one a probe) says where each of them went: the probes of all groups one
-/// after the other.
+/// Probes grouped by region. A group is named "grid" if there is one space, else "grid space 1" for
+/// the space with most probes and so on, followed by its cube: "grid 0,-1,2". Probes keep their
+/// order within a group. `order` has the index of each probe of all groups, one group after the
+/// other.
 struct RegionGroups {
     std::vector<ProbeGroup> groups;
     std::vector<uint32_t> order;
 };
 
-/// Precondition: one space a position.
+/// Precondition: `spaces` has one element for each position.
 [[nodiscard]] RegionGroups group_by_region(std::span<const glm::dvec3> positions,
                                            std::span<const uint32_t> spaces,
                                            const RegionRule& rule);
 
-/// The different values of `spaces`: that of most positions first, equal ones by their first
-/// position.
+/// The distinct values of `spaces` by their number of positions, the largest first; ties by their
+/// first position.
 [[nodiscard]] std::vector<uint32_t> spaces_by_size(std::span<const uint32_t> spaces);
 
 }  // namespace tetralight

@@ -12,18 +12,20 @@ namespace tetralight {
 namespace {
 
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
-/// Of the spacing; thinner bounds are flat.
-constexpr double kFlatShare = 0.001;
+/// Bounds that are thinner than this fraction of the spacing are flat.
+constexpr double kFlatFraction = 0.001;
 
-Status check(const WorldBox& bounds, const glm::dvec3& spacing) {
+Status check_lattice(const WorldBox& bounds, const glm::dvec3& spacing) {
     for (int axis = 0; axis < 3; ++axis) {
         if (!(spacing[axis] > 0.0) || !std::isfinite(spacing[axis])) {
-            return Error{str_cat("spacing ", spacing[axis], " along ", kAxisNames[axis],
+            return Error{ErrorCode::InvalidArgument, "spacing", str_cat(spacing[axis]),
+                         str_cat("spacing ", spacing[axis], " along ", kAxisNames[axis],
                                  " is not a positive length")};
         }
-        const double low = bounds.min[axis], high = bounds.max[axis];
-        if (!std::isfinite(low) || !std::isfinite(high) || high < low) {
-            return Error{str_cat("bounds ", low, " to ", high, " along ", kAxisNames[axis],
+        const double min = bounds.min[axis], max = bounds.max[axis];
+        if (!std::isfinite(min) || !std::isfinite(max) || max < min) {
+            return Error{ErrorCode::InvalidArgument, "bounds", str_cat(min, ", ", max),
+                         str_cat("bounds ", min, " to ", max, " along ", kAxisNames[axis],
                                  " are empty or not finite")};
         }
     }
@@ -31,17 +33,17 @@ Status check(const WorldBox& bounds, const glm::dvec3& spacing) {
 }
 
 bool is_flat(double size, double spacing) {
-    return size < kFlatShare * spacing;
+    return size < kFlatFraction * spacing;
 }
 
-/// How many layers fit; may be beyond any integer.
+/// The number of layers that fit; may exceed every integer type.
 double layer_count(double size, double spacing) {
     if (is_flat(size, spacing)) return 1.0;
-    // What is short of a whole spacing by rounding only (bounds come from float vertices) is whole.
+    // Bounds come from float vertices: a size just below a multiple of the spacing counts as one.
     return std::max(2.0, std::floor(size / spacing + 1e-6));
 }
 
-/// Less than asked for where two layers would not fit.
+/// The spacing, reduced along axes where two layers would not fit.
 glm::dvec3 fitting_spacing(const WorldBox& bounds, const glm::dvec3& spacing) {
     glm::dvec3 fitting = spacing;
     for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +55,7 @@ glm::dvec3 fitting_spacing(const WorldBox& bounds, const glm::dvec3& spacing) {
     return fitting;
 }
 
-/// A power of two, multiples of which floats hold exactly wherever the bounds reach.
+/// A power of two whose multiples are exact floats everywhere in the bounds.
 double float_step(const WorldBox& bounds) {
     double farthest = std::numeric_limits<double>::min();
     for (int axis = 0; axis < 3; ++axis) {
@@ -69,7 +71,7 @@ double rounded(double value, double step) {
 
 LatticeAxis layers_along(const WorldBox& bounds, double spacing, double count, double step,
                          int axis) {
-    // Spacings that are not many steps would change visibly.
+    // Rounding would change a spacing of few steps visibly.
     constexpr double kFewSteps = 1024.0;
     const bool is_rounded = spacing > kFewSteps * step;
     if (is_rounded) spacing = rounded(spacing, step);
@@ -92,7 +94,7 @@ std::vector<glm::dvec3> Lattice::positions() const {
 }
 
 Result<double> lattice_count(const WorldBox& bounds, const glm::dvec3& spacing) {
-    if (auto status = check(bounds, spacing); !status) return status.error();
+    if (auto status = check_lattice(bounds, spacing); !status) return status.error();
     double count = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
         count *= layer_count(bounds.size()[axis], spacing[axis]);

@@ -38,16 +38,16 @@ struct Lattice {
     bool operator==(const Lattice&) const = default;
 };
 
-/// How many positions `make_lattice` gives; may be beyond any integer. Errors: spacing that is not
-/// positive, bounds that are empty or not finite.
+/// The number of positions of `make_lattice`, which may exceed every integer type. Returns
+/// invalid_argument, with the field `spacing` or `bounds`, if the spacing is not positive, or the
+/// bounds are empty or not finite.
 [[nodiscard]] Result<double> lattice_count(const WorldBox& bounds, const glm::dvec3& spacing);
 
-/// The lattice in the middle of the bounds, half a spacing or more from their sides. An axis that
-/// is too short for two layers has two nevertheless, a quarter of it from its ends, so that what
-/// stands between them has light; a flat one (thinner than a thousandth of the spacing) has one
-/// layer. Spacing and start are rounded to what floats hold exactly, by less than 1e-6 of the
-/// farthest coordinate, so that neighbors stand exactly in line: that is what keeps the tetrahedra
-/// between them from degenerating.
+/// A lattice centred in the bounds, half a spacing or more from their sides. An axis that is too
+/// short for two layers has two, a quarter of its length from its ends, so that there is light
+/// between them; a flat axis (thinner than a thousandth of the spacing) has one layer. Spacing and
+/// start are rounded to exact floats, by less than 1e-6 of the farthest coordinate, so that
+/// neighbors are exactly collinear and the tetrahedra between them do not degenerate.
 ///
 /// Errors: those of `lattice_count` and `check_candidate_count`.
 [[nodiscard]] Result<Lattice> make_lattice(const WorldBox& bounds, const glm::dvec3& spacing,

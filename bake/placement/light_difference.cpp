@@ -17,7 +17,7 @@ struct Moments {
     Moments() {
         constexpr double kWeight = 1.0 / 26.0;
         for (int n = 0; n < 27; ++n) {
-            if (n == 13) continue;  // the middle of the cube
+            if (n == 13) continue;  // the center of the cube
             const glm::vec3 normal(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
             const auto basis = sh_basis(glm::normalize(normal));
             for (int i = 0; i < kCount; ++i) {

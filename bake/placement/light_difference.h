@@ -3,8 +3,8 @@
 
 #include <tetralight/probes/sh.h>
 
-// How different two lights are: over the 26 normals towards the faces, edges and corners of a cube,
-// and the three colour channels.
+// Norms of irradiance, to compare two lights: over the 26 normals towards the faces, edges and
+// corners of a cube, and the three colour channels.
 
 namespace tetralight {
 

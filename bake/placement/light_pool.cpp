@@ -9,8 +9,8 @@ namespace tetralight {
 
 LightPool::LightPool(const Scene& scene, BakeSettings settings)
     : scene_(scene), settings_(std::move(settings)) {
-    settings_.sample_count = kFewestDirections;
-    // Never reached: rounds double until there are as many directions as allowed.
+    settings_.sample_count = kMinSamples;
+    // Never reached: rounds double until the maximum number of samples.
     settings_.target_error = 1e-9;
     settings_.time_budget_seconds = 0.0;
 }
@@ -22,38 +22,38 @@ uint32_t LightPool::add(const glm::dvec3& position) {
 
 uint64_t LightPool::ray_count() const {
     uint64_t count = 0;
-    for (const ProbeAccumulator& accumulator : tallies_) count += accumulator.ray_count;
+    for (const ProbeAccumulator& accumulator : accumulators_) count += accumulator.ray_count;
     return count;
 }
 
 Status LightPool::bake(const BakeCallback& callback) {
-    settings_.max_sample_count = directions_;
-    tallies_.resize(positions_.size());
+    settings_.max_sample_count = sample_count_;
+    accumulators_.resize(positions_.size());
     std::vector<uint32_t> missing;
-    for (uint32_t i = 0; i < tallies_.size(); ++i) {
-        if (tallies_[i].sample_count < directions_) missing.push_back(i);
+    for (uint32_t i = 0; i < accumulators_.size(); ++i) {
+        if (accumulators_[i].sample_count < sample_count_) missing.push_back(i);
     }
     if (missing.empty()) return Ok{};
     std::vector<glm::dvec3> positions;
     std::vector<ProbeAccumulator> accumulators;
     for (const uint32_t i : missing) {
         positions.push_back(positions_[i]);
-        accumulators.push_back(tallies_[i]);
+        accumulators.push_back(accumulators_[i]);
     }
     auto status =
         bake_accumulators(scene_, positions, settings_, accumulators, {.progress = callback});
     if (!status) return status;
     light_.resize(positions_.size());
     for (size_t k = 0; k < missing.size(); ++k) {
-        tallies_[missing[k]] = accumulators[k];
+        accumulators_[missing[k]] = accumulators[k];
         light_[missing[k]] = irradiance_from_radiance(accumulators[k].radiance());
     }
     return Ok{};
 }
 
-bool LightPool::double_directions() {
-    if (directions_ >= kMostDirections) return false;
-    directions_ *= 2;
+bool LightPool::double_sample_count() {
+    if (sample_count_ >= kMaxSamples) return false;
+    sample_count_ *= 2;
     return true;
 }
 

@@ -14,18 +14,18 @@
 
 namespace tetralight {
 
-/// Light at positions that are added one after the other, baked with few directions at first and
-/// with more when they are asked for: what was found before is kept.
+/// Light at positions that are added one by one. It is baked with few samples at first and with
+/// more on demand; earlier samples are kept.
 class LightPool {
   public:
-    /// Directions of a position at first, and at most.
-    static constexpr uint32_t kFewestDirections = 128;
-    static constexpr uint32_t kMostDirections = 4096;
+    /// The first and the maximum number of samples of a position.
+    static constexpr uint32_t kMinSamples = 128;
+    static constexpr uint32_t kMaxSamples = 4096;
 
-    /// Keeps a reference. Of the settings the light's count; how many samples is the pool's matter.
+    /// Keeps a reference to the scene. Ignores the sample counts of the settings.
     LightPool(const Scene& scene, BakeSettings settings);
 
-    /// Returns the number of a new position, which has no light yet.
+    /// Returns the index of a new position, which has no light yet.
     uint32_t add(const glm::dvec3& position);
 
     [[nodiscard]] size_t size() const { return positions_.size(); }
@@ -34,26 +34,28 @@ class LightPool {
 
     [[nodiscard]] const IrradianceSh& light(uint32_t i) const { return light_[i]; }
 
-    /// Standard error of the light, as a share of it.
-    [[nodiscard]] float standard_error(uint32_t i) const { return tallies_[i].standard_error(); }
+    /// Standard error of the light, as a fraction of it.
+    [[nodiscard]] float standard_error(uint32_t i) const {
+        return accumulators_[i].standard_error();
+    }
 
-    [[nodiscard]] uint32_t directions() const { return directions_; }
+    [[nodiscard]] uint32_t sample_count() const { return sample_count_; }
 
     [[nodiscard]] uint64_t ray_count() const;
 
-    /// Bakes what was added, with as many directions as the others have. Errors: those of
+    /// Bakes new positions with as many samples as the others have. Errors: those of
     /// `bake_accumulators`.
     [[nodiscard]] Status bake(const BakeCallback& callback);
 
-    /// Twice the directions for all; false: they have the most already.
-    bool double_directions();
+    /// Doubles the samples of all positions. Returns false if they have the maximum number.
+    bool double_sample_count();
 
   private:
     const Scene& scene_;
     BakeSettings settings_;
-    uint32_t directions_ = kFewestDirections;
+    uint32_t sample_count_ = kMinSamples;
     std::vector<glm::dvec3> positions_;
-    std::vector<ProbeAccumulator> tallies_;
+    std::vector<ProbeAccumulator> accumulators_;
     std::vector<IrradianceSh> light_;
 };
 

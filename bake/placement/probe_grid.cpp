@@ -12,20 +12,20 @@
 #include <tetralight/bake/placement/candidates.h>
 #include <tetralight/bake/placement/canonical_scene.h>
 #include <tetralight/bake/placement/empty_spaces.h>
+#include <tetralight/bake/placement/flood_fill.h>
+#include <tetralight/bake/placement/free_space_map.h>
 #include <tetralight/bake/placement/grid_bounds.h>
 #include <tetralight/bake/placement/group_by_region.h>
-#include <tetralight/bake/placement/reach.h>
-#include <tetralight/bake/placement/space_map.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
 
-/// Probes on surfaces keep this share of the spacing from each other.
-constexpr double kCrowdedShare = 0.5;
-/// Of a space that the lattice missed: probes to start with, these and sensors, and those among
-/// which they are chosen.
-constexpr size_t kStartProbes = 8, kStartPlaces = 64, kMostPlaces = 256;
+/// Minimum distance between probes on surfaces, as a fraction of the spacing.
+constexpr double kCrowdedFraction = 0.5;
+/// In a space without candidates: start probes, start probes plus sensors, and the free positions
+/// that they are chosen from.
+constexpr size_t kStartProbes = 8, kStartPlaces = 64, kMaxPlaces = 256;
 
 std::vector<glm::dvec3> kept_positions(const std::vector<PlacedProbe>& probes) {
     std::vector<glm::dvec3> positions;
@@ -39,7 +39,7 @@ double smallest(const glm::dvec3& spacing) {
     return std::min({spacing.x, spacing.y, spacing.z});
 }
 
-/// Drops what stands beside another probe on the same side of a wall.
+/// Drops probes that are close to another one on the same side of a wall.
 void drop_crowded(const TraceScene& traced, double distance, std::vector<PlacedProbe>& probes) {
     const std::vector<bool> is_crowded = find_crowded(traced, kept_positions(probes), distance);
     size_t i = 0;
@@ -55,7 +55,7 @@ std::string none_left(const ProbeGrid& grid) {
                    " forbidden");
 }
 
-/// Without heights that are nearer than the clearance to one before them.
+/// The heights without those that are closer than the clearance to an earlier one.
 std::vector<double> heights_apart(const std::vector<double>& heights, double clearance) {
     std::vector<double> apart;
     for (const double height : heights) {
@@ -67,7 +67,7 @@ std::vector<double> heights_apart(const std::vector<double>& heights, double cle
     return apart;
 }
 
-/// Positions of those in each space.
+/// Positions of the probes in each space.
 using ProbesOfSpaces = std::map<uint32_t, std::vector<glm::dvec3>>;
 
 /// The stages of one grid.
@@ -83,11 +83,11 @@ class GridMaker {
 
     Result<ProbeGrid> run(const AdaptiveCallback& callback) {
         if (auto status = place(); !status) return status.error();
-        auto reach = drop_unreachable(traced_, map_, settings_, probes_);
-        if (!reach) return reach.error();
-        grid_.pockets = std::move(reach->pockets);
-        wanted_ = std::move(reach->wanted);
-        look_into_empty_spaces(reach->filled);
+        auto fill = drop_unreachable(traced_, map_, settings_, probes_);
+        if (!fill) return fill.error();
+        grid_.dropped_spaces = std::move(fill->dropped_spaces);
+        wanted_ = std::move(fill->wanted);
+        fill_empty_spaces(fill->filled);
         if (settings_.mode == PlacementMode::Adaptive && !kept_positions(probes_).empty()) {
             auto report = adapt(callback);
             if (!report) return report.error();
@@ -103,7 +103,7 @@ class GridMaker {
         if (!candidates) return candidates.error();
         probes_ = place_candidates(traced_, scene_.probe_adjustments, *candidates, rule_);
         if (settings_.mode == PlacementMode::Surface) {
-            drop_crowded(traced_, kCrowdedShare * smallest(rule_.spacing), probes_);
+            drop_crowded(traced_, kCrowdedFraction * smallest(rule_.spacing), probes_);
         }
         for (const ProbeAdjustment& adjustment : scene_.probe_adjustments) {
             const bool is_outside = !bounds_in(rule_.bounds, adjustment);
@@ -116,36 +116,36 @@ class GridMaker {
     }
 
     [[nodiscard]] bool is_wanted(uint32_t space) const {
-        const bool keeps_all = settings_.other_spaces == OtherSpaces::Keep;
+        const bool keeps_all = settings_.unreachable == UnreachableSpaces::Keep;
         return keeps_all || std::ranges::binary_search(wanted_, space);
     }
 
-    /// Spaces that the lattice missed are told of; the adaptive mode starts in those it shall fill,
-    /// and in those where too few probes stand to enclose anything.
-    void look_into_empty_spaces(const std::vector<uint32_t>& filled) {
-        constexpr size_t kCubicMetre = 8;  // posts
+    /// Reports spaces without candidates. The adaptive mode adds start probes to those that it is
+    /// to fill, and to those whose probes do not enclose a volume.
+    void fill_empty_spaces(const std::vector<uint32_t>& filled) {
+        constexpr size_t kCubicMetre = 8;  // points
         const bool is_adaptive = settings_.mode == PlacementMode::Adaptive;
-        const PlaceRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMostPlaces : 1,
-                             rule_.thread_count};
+        const FreePositionRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMaxPlaces : 1,
+                                    rule_.thread_count};
         ProbesOfSpaces probes;
         if (is_adaptive) probes = probes_by_space();
         const std::vector<uint32_t> done = is_adaptive ? well_filled(filled, probes) : filled;
-        std::vector<SpacePlaces> spaces = find_places(traced_, map_, done, rule);
-        if (wanted_.empty() && !spaces.empty()) {  // the largest, where nothing stands anywhere
-            wanted_ = {std::ranges::max_element(spaces, {}, &SpacePlaces::post_count)->space};
+        std::vector<SpacePositions> spaces = find_free_positions(traced_, map_, done, rule);
+        if (wanted_.empty() && !spaces.empty()) {  // the largest, if there is no probe at all
+            wanted_ = {std::ranges::max_element(spaces, {}, &SpacePositions::point_count)->space};
         }
-        for (SpacePlaces& space : spaces) {
+        for (SpacePositions& space : spaces) {
             if (is_adaptive && is_wanted(space.space)) {
                 start_in(space, probes[space.space]);
                 continue;
             }
-            const bool is_seeded = !settings_.seeds.empty() && is_wanted(space.space);
-            if (space.post_count < kCubicMetre && !is_seeded) continue;
-            grid_.empty_spaces.push_back({space.places[0], is_wanted(space.space)});
+            const bool is_seeded = !settings_.from.empty() && is_wanted(space.space);
+            if (space.point_count < kCubicMetre && !is_seeded) continue;
+            grid_.empty_spaces.push_back({space.positions[0], is_wanted(space.space)});
         }
     }
 
-    /// Those of the filled spaces whose probes enclose a volume, or are not wanted.
+    /// The filled spaces whose probes enclose a volume, and those that are not wanted.
     [[nodiscard]] std::vector<uint32_t> well_filled(const std::vector<uint32_t>& filled,
                                                     ProbesOfSpaces& probes) const {
         std::vector<uint32_t> done;
@@ -163,18 +163,18 @@ class GridMaker {
         return result;
     }
 
-    /// Puts probes to the ends of a space that the lattice missed, and sensors between them, away
-    /// from the places that are taken there.
-    void start_in(SpacePlaces& space, const std::vector<glm::dvec3>& taken) {
-        std::erase_if(space.places, [&](const glm::dvec3& place) {
+    /// Adds start probes far apart in a space without candidates, and sensors between them, away
+    /// from the probes in it.
+    void start_in(SpacePositions& space, const std::vector<glm::dvec3>& taken) {
+        std::erase_if(space.positions, [&](const glm::dvec3& place) {
             return adjustment_at(scene_.probe_adjustments, place).forbids_probes ||
                    std::ranges::any_of(taken, [&](const glm::dvec3& probe) {
                        return glm::distance(probe, place) <= rule_.clearance;
                    });
         });
-        spread_out(space.places, taken, kStartPlaces);
-        for (size_t i = 0; i < std::min(space.places.size(), kStartPlaces); ++i) {
-            const glm::dvec3& place = space.places[i];
+        sort_farthest_first(space.positions, taken, kStartPlaces);
+        for (size_t i = 0; i < std::min(space.positions.size(), kStartPlaces); ++i) {
+            const glm::dvec3& place = space.positions[i];
             if (i >= kStartProbes) {
                 sensors_.push_back(place);
                 continue;
@@ -187,8 +187,8 @@ class GridMaker {
         }
     }
 
-    /// The fewest probes that span what the start spans in each space.
-    [[nodiscard]] size_t fewest_probes() const {
+    /// The minimum number of probes that span what the start spans in each space.
+    [[nodiscard]] size_t min_probe_count() const {
         size_t count = 0;
         for (const auto& [space, probes] : probes_by_space()) {
             count += static_cast<size_t>(affine_dimension(probes) + 1);
@@ -197,31 +197,33 @@ class GridMaker {
     }
 
     Result<AdaptiveReport> adapt(const AdaptiveCallback& callback) {
-        const size_t fewest = fewest_probes();
-        if (fewest > rule_.max_count) {
-            return Error{str_cat(wanted_.size(), " spaces need ", fewest,
+        const size_t min_count = min_probe_count();
+        if (min_count > rule_.max_count) {
+            return Error{ErrorCode::InvalidArgument, "max_probes", str_cat(rule_.max_count),
+                         str_cat(wanted_.size(), " spaces need ", min_count,
                                  " probes at least, more than the limit of ", rule_.max_count)};
         }
-        const AdaptiveInput input{scene_,
-                                  traced_,
-                                  rule_.bounds,
-                                  rule_.clearance,
-                                  [this](const glm::dvec3& position) { return is_free(position); },
-                                  [this](const glm::dvec3& p) { return map_.space_of(p); },
-                                  std::move(sensors_),
-                                  rule_.max_count,
-                                  settings_.thread_count};
+        const AdaptiveInput input{
+            scene_,
+            traced_,
+            rule_.bounds,
+            rule_.clearance,
+            [this](const glm::dvec3& position) { return is_allowed(position); },
+            [this](const glm::dvec3& p) { return map_.space_of(p); },
+            std::move(sensors_),
+            rule_.max_count,
+            settings_.thread_count};
         auto report = refine_grid(input, settings_.adaptive, probes_, is_protected_, callback);
         if (report) report->start_spacing = rule_.spacing;
         return report;
     }
 
-    /// Whether the adaptive mode may put a probe there.
-    [[nodiscard]] bool is_free(const glm::dvec3& position) const {
-        constexpr double kCloser = 0.5;  // sensors in corners, for measuring only
+    /// True if the adaptive mode may place a probe at a position.
+    [[nodiscard]] bool is_allowed(const glm::dvec3& position) const {
+        constexpr double kCloser = 0.5;  // sensors in corners may be closer to surfaces
         if (!is_in(rule_.bounds, position)) return false;
         if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
-        return is_surely_free(traced_, position, kCloser * rule_.clearance) &&
+        return is_free_with_clearance(traced_, position, kCloser * rule_.clearance) &&
                std::ranges::binary_search(wanted_, map_.space_of(position));
     }
 
@@ -232,11 +234,11 @@ class GridMaker {
             ++grid_.fate_counts[static_cast<size_t>(probe.fate)];
             if (is_kept(probe.fate)) distances.push_back(probe.surface_distance);
         }
-        if (distances.empty()) return Error{none_left(grid_)};
+        if (distances.empty()) return Error{ErrorCode::InvalidArgument, none_left(grid_)};
         const std::vector<glm::dvec3> positions = kept_positions(probes_);
         RegionGroups regions =
             group_by_region(positions, map_.spaces_of(positions, settings_.thread_count),
-                            {settings_.group_name, settings_.region_size});
+                            {settings_.name, settings_.region_size});
         grid_.groups = std::move(regions.groups);
         for (const uint32_t i : regions.order) grid_.surface_distances.push_back(distances[i]);
         return std::move(grid_);
@@ -246,11 +248,11 @@ class GridMaker {
     const TraceScene& traced_;
     const ProbeGridSettings& settings_;
     const CandidateRule& rule_;
-    SpaceMap map_;
+    FreeSpaceMap map_;
     std::vector<PlacedProbe> probes_;
-    std::vector<bool> is_protected_;   ///< one a candidate
+    std::vector<bool> is_protected_;   ///< one for each candidate
     std::vector<uint32_t> wanted_;     ///< spaces, sorted
-    std::vector<glm::dvec3> sensors_;  ///< of spaces that the lattice missed
+    std::vector<glm::dvec3> sensors_;  ///< in spaces without candidates
     ProbeGrid grid_;
 };
 
@@ -260,18 +262,18 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
                                   const AdaptiveCallback& callback) {
     const auto bounds = grid_bounds(scene, settings);
     if (!bounds) return bounds.error();
-    const auto spacing = first_spacing(*bounds, settings);
+    const auto spacing = candidate_spacing(*bounds, settings);
     if (!spacing) return spacing.error();
     const auto clearance = checked_clearance(*spacing, settings);
     if (!clearance) return clearance.error();
     for (const ProbeAdjustment& adjustment : scene.probe_adjustments) {
-        if (auto status = check(adjustment); !status) return status.error();
+        if (auto status = check_adjustment(adjustment); !status) return status.error();
     }
-    const CandidateRule rule{with_room(*bounds, *spacing, *clearance, settings),
+    const CandidateRule rule{padded_bounds(*bounds, *spacing, *clearance, settings),
                              *spacing,
                              *clearance,
                              heights_apart(settings.heights, *clearance),
-                             most_probes(settings),
+                             probe_limit(settings),
                              settings.thread_count};
     const Scene canonical = canonical_scene(scene);
     const auto traced = TraceScene::make_static(canonical);

@@ -15,15 +15,15 @@
 #include <tetralight/base/result.h>
 #include <tetralight/probes/probe_group.h>
 
-// The probe-grid generator: probes for a scene that nobody has to place by hand.
+// The probe-grid generator: places probes in a scene automatically.
 //
-//     candidates → place_probe (in or out, clearance) → SpaceMap (reach) ┬→ group_by_region →
-//     groups
+//     candidates → place_probe (in or out, clearance) → FreeSpaceMap (flood fill) ┬→
+//     group_by_region → groups
 //                                                                       └→ refine_grid ─┘
 
 namespace tetralight {
 
-/// Where candidates stand.
+/// Where candidates are.
 enum class PlacementMode : uint8_t {
     Regular,   ///< on a lattice
     Layers,    ///< at heights above every floor
@@ -31,68 +31,69 @@ enum class PlacementMode : uint8_t {
     Adaptive,  ///< where light changes
 };
 
-/// What becomes of spaces without a seed.
-enum class OtherSpaces : bool { Drop, Keep };
+/// What happens to probes in spaces that are not to be filled.
+enum class UnreachableSpaces : bool { Drop, Keep };
 
 struct ProbeGridSettings {
     PlacementMode mode = PlacementMode::Regular;
-    /// Metres between probes on each axis; `adaptive` has its own.
+    /// Metres between probes on each axis; the adaptive mode uses `adaptive.start_spacing`.
     glm::dvec3 spacing{1.0};
-    /// What to fill: no probe stands outside of it. None = the bounds of what contributes global
-    /// illumination, with some room around (`with_room`).
+    /// The box to fill: no probe is outside of it. Default: the bounds of the instances that
+    /// contribute global illumination, padded (`padded_bounds`).
     std::optional<WorldBox> bounds;
-    /// Nodes whose bounds, with all below them, to fill instead, by name.
+    /// Names of nodes to take the bounds of instead, with all nodes below them.
     std::vector<std::string> bounds_of;
-    /// Layers: metres above the floor. Of those nearer to each other than the clearance the first
-    /// counts.
+    /// Layers: metres above the floor. A height that is closer than the clearance to an earlier one
+    /// is ignored.
     std::vector<double> heights{0.3, 1.7};
-    /// Metres that probes keep from surfaces; none = a tenth of the smallest spacing, 0.25 at most
-    /// (0.05 when adaptive).
+    /// Minimum distance of probes to surfaces, metres. Default: a tenth of the smallest spacing, at
+    /// most 0.25 (adaptive: 0.05).
     std::optional<double> clearance;
-    /// World positions in the spaces to fill; none = the space that most probes are in.
-    std::vector<glm::dvec3> seeds;
-    OtherSpaces other_spaces = OtherSpaces::Drop;
-    /// Metres along the side of the cubes that groups are split by; 0 = one group for each space.
+    /// Seeds of the flood fill: world positions in the spaces to fill. Empty: the space with most
+    /// probes.
+    std::vector<glm::dvec3> from;
+    UnreachableSpaces unreachable = UnreachableSpaces::Drop;
+    /// Side of the cubes that split spaces into regions, metres; 0 = one group for each space.
     double region_size = 0.0;
-    std::string group_name = "grid";
-    /// More candidates are refused; the adaptive mode puts so many probes at most. None = 10
-    /// million, or 5 000 when adaptive.
-    std::optional<uint64_t> max_probe_count;
+    std::string name = "grid";
+    /// Maximum number of candidates, or of probes in the adaptive mode. Default: 10 million
+    /// (adaptive: 5 000).
+    std::optional<uint64_t> max_probes;
     AdaptiveSettings adaptive;
     /// 0 = all.
     uint32_t thread_count = 0;
 };
 
-/// A space that no seed lies in.
-struct Pocket {
+/// A space whose probes were dropped.
+struct DroppedSpace {
     uint64_t probe_count = 0;
     /// One of its probes: a seed that would keep it.
     glm::dvec3 position{0.0};
 
-    bool operator==(const Pocket&) const = default;
+    bool operator==(const DroppedSpace&) const = default;
 };
 
-/// A space that nothing stands in.
+/// A space without probes.
 struct EmptySpace {
-    /// Where a probe could stand.
+    /// A free position in it.
     glm::dvec3 position{0.0};
-    /// It was asked for.
+    /// True if it is one of the spaces to fill.
     bool is_wanted = false;
 
     bool operator==(const EmptySpace&) const = default;
 };
 
 struct ProbeGrid {
-    /// Of one region each, in world space; none is empty.
+    /// One for each region, in world space; none is empty.
     std::vector<ProbeGroup> groups;
-    /// Metres from each probe of the groups, in their order, to the nearest surface.
+    /// Distance from each probe of the groups, in their order, to the nearest surface, metres.
     std::vector<float> surface_distances;
     uint64_t candidate_count = 0;
-    /// How many candidates had which `Fate`.
+    /// Number of candidates with each `Fate`.
     std::array<uint64_t, kFateCount> fate_counts{};
     /// The spaces that were dropped, the largest first.
-    std::vector<Pocket> pockets;
-    /// Spaces of a cubic metre or so that no candidate stands in.
+    std::vector<DroppedSpace> dropped_spaces;
+    /// Spaces of at least about a cubic metre without a candidate.
     std::vector<EmptySpace> empty_spaces;
     /// The scene's adjustment volumes that do not reach into the bounds, by name.
     std::vector<std::string> adjustments_outside;
@@ -103,12 +104,15 @@ struct ProbeGrid {
     [[nodiscard]] uint64_t probe_count() const { return surface_distances.size(); }
 };
 
-/// Fills a scene with probes, as its adjustment volumes allow. Deterministic (time budgets aside),
-/// and the same for every order of the scene's meshes. `callback` is for the adaptive mode.
+/// Fills a scene with probes, as its adjustment volumes allow. Deterministic except with a time
+/// budget, and the same for every order of the scene's meshes. `callback` is for the adaptive mode.
 ///
-/// Errors: spacing that is not positive, bounds that are empty or not finite, nothing to take
-/// bounds from, a node that is not there, more candidates than `max_probe_count` or memory allows
-/// (the message says how many), a seed inside geometry or out of bounds, no floor, no probe left.
+/// Returns invalid_argument, with the setting as the field, if the spacing is not positive, the
+/// bounds are empty or not finite, there is no geometry to take bounds from, there are more
+/// candidates than `max_probes`, a seed is inside geometry or outside of the bounds, there is no
+/// floor, or no probe is left; not_found if no node has a name of `bounds_of`; out_of_resources if
+/// the candidates do not fit into memory; cancelled if the callback cancels before there is a
+/// result.
 [[nodiscard]] Result<ProbeGrid> make_probe_grid(const Scene& scene,
                                                 const ProbeGridSettings& settings,
                                                 const AdaptiveCallback& callback = {});

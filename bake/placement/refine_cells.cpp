@@ -11,10 +11,10 @@
 namespace tetralight {
 namespace {
 
-/// Cells that hold this share of all errors together are refined; the rest is noise for now.
-constexpr double kWorthwhile = 0.9;
-/// New probes keep this share of the distance to their cell's corners from each other.
-constexpr double kApart = 0.5;
+/// The refined cells hold this fraction of all errors; the others may be noise.
+constexpr double kRefinedFraction = 0.9;
+/// Minimum distance between new probes, as a fraction of the distance to their cell's corners.
+constexpr double kDistanceFraction = 0.5;
 
 /// The errors of one cell.
 struct CellError {
@@ -50,7 +50,7 @@ class Refiner {
         for (const CellError& cell : cells) all += cell.sum;
         size_t count = 0;
         for (const CellError& cell : cells) {
-            if (count == rule_.most_cells || done > kWorthwhile * all) break;
+            if (count == rule_.max_cell_count || done > kRefinedFraction * all) break;
             done += cell.sum;
             count += refine(cell);
         }
@@ -58,7 +58,7 @@ class Refiner {
     }
 
   private:
-    /// Whether anything was added.
+    /// Returns true if a probe was added.
     bool refine(const CellError& cell) {
         const SensorError& error = input_.errors[cell.worst];
         const uint32_t sensor = input_.sensors[cell.worst];
@@ -80,7 +80,7 @@ class Refiner {
         for (const glm::dvec3& position :
              pair_at_wall(input_.traced, from, to, rule_.clearance, glm::distance(from, to))) {
             if (!is_apart(cell, position) || !is_new(position)) continue;
-            if (!rule_.may_stand(position)) continue;
+            if (!rule_.is_allowed(position)) continue;
             result_.positions.push_back(position);
             taken_.push_back(position);
             is_any = true;
@@ -88,7 +88,7 @@ class Refiner {
         return is_any;
     }
 
-    /// Not beside a corner of the cell, or what was taken before.
+    /// True if a position is not too close to a corner of the cell or to a new probe.
     [[nodiscard]] bool is_apart(const CellError& cell, const glm::dvec3& position) const {
         double room = std::numeric_limits<double>::infinity();
         for (const uint32_t probe : input_.volume.cells[cell.cell].vertices) {
@@ -96,14 +96,14 @@ class Refiner {
             room = std::min(room, glm::distance(position, input_.volume.exact_positions[probe]));
         }
         if (!(room > rule_.clearance)) return false;
-        // A pair stands nearer to each other than to anything else.
-        const double least = std::min(kApart * room, 1.5 * rule_.clearance);
+        // The two probes of a pair are closer to each other than to other probes.
+        const double least = std::min(kDistanceFraction * room, 1.5 * rule_.clearance);
         return std::ranges::none_of(taken_, [&](const glm::dvec3& other) {
             return glm::distance(position, other) < least;
         });
     }
 
-    /// The far side of a wall is no part of the cell.
+    /// True if no probe is within the clearance. The far side of a wall is outside of the cell.
     [[nodiscard]] bool is_new(const glm::dvec3& position) const {
         return std::ranges::none_of(input_.volume.exact_positions, [&](const glm::dvec3& probe) {
             return glm::distance(position, probe) <= rule_.clearance;

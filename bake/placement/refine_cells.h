@@ -9,33 +9,33 @@
 #include <vector>
 
 #include <tetralight/bake/placement/light_pool.h>
-#include <tetralight/bake/placement/light_survey.h>
+#include <tetralight/bake/placement/sensor_errors.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
 
-/// What a volume is refined with.
+/// The volume to refine, and the errors of the sensors in it.
 struct RefineInput {
     const ProbeVolume& volume;
     const LightPool& pool;
     std::span<const uint32_t> sensors;
-    std::span<const SensorError> errors;  ///< one a sensor
+    std::span<const SensorError> errors;  ///< one for each sensor
     const TraceScene& traced;
 };
 
 struct RefineRule {
-    /// Metres that probes keep from surfaces.
+    /// Minimum distance of probes to surfaces, metres.
     double clearance = 0.0;
-    /// Whether a probe may stand at a sensor, by its number in the pool.
+    /// Returns true if a sensor, an index in the pool, may become a probe.
     std::function<bool(uint32_t sensor)> may_become_probe;
-    /// Whether one may stand at a new position.
-    std::function<bool(const glm::dvec3& position)> may_stand;
-    /// Cells that are refined at once.
-    size_t most_cells = 0;
+    /// Returns true if a new position may have a probe.
+    std::function<bool(const glm::dvec3& position)> is_allowed;
+    /// The maximum number of cells to refine.
+    size_t max_cell_count = 0;
 };
 
-/// New probes: at sensors of the pool, and at positions that are not in it yet.
+/// New probes: sensors of the pool, and positions that are not in the pool.
 struct Refinement {
     std::vector<uint32_t> sensors;
     std::vector<glm::dvec3> positions;
@@ -43,15 +43,15 @@ struct Refinement {
     [[nodiscard]] size_t count() const { return sensors.size() + positions.size(); }
 };
 
-/// Chooses the cells with the largest errors. Where the light of the corners in sight is wrong, a
-/// probe goes to the worst sensor of the cell. Where it comes through a wall, a pair goes to both
-/// sides of the wall, where the line to the hidden corner is cut: then the edges between the two
-/// sides are short, and cells beside them lie on one side.
+/// Refines the cells with the largest errors. If the light of the visible corners is wrong, adds a
+/// probe at the worst sensor of the cell. If light leaks through a wall, adds a pair of probes on
+/// both sides of the wall, where the line to the hidden corner intersects it: then the edges
+/// through the wall are short, and the cells beside them are on one side.
 [[nodiscard]] Refinement refine_cells(const RefineInput& input, const RefineRule& rule);
 
-/// Positions on both sides of the first surface between two world positions, `clearance` off it:
-/// through a sheet, or through a solid of at most `thickness`. Fewer where there is nothing between
-/// or no room behind.
+/// Positions on both sides of the first surface between two world positions, at `clearance` from
+/// it: through a sheet, or through a solid of at most `thickness`. Fewer than two if there is no
+/// surface, or no space behind it.
 [[nodiscard]] std::vector<glm::dvec3> pair_at_wall(const TraceScene& traced, const glm::dvec3& from,
                                                    const glm::dvec3& to, double clearance,
                                                    double thickness);

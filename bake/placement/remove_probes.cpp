@@ -118,7 +118,7 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
         const std::vector<uint32_t> neighbors = in_pool(star.neighbors, probes);
         const std::vector<uint32_t> around = in_pool(star.sensors, sensors);
         ContentHash key;
-        key.add(pool_.directions());
+        key.add(pool_.sample_count());
         key.add(neighbors);
         key.add(around);
         costs[i].key = key.value();
@@ -130,7 +130,7 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
         for (const uint32_t sensor : star.sensors) costs[i].change -= double{errors[sensor].square};
         if (neighbors.empty()) return;
         const ProbeVolume without = volume_of(pool_, neighbors);
-        for (const SensorError& e : survey_light(without, pool_, around, nullptr, 1)) {
+        for (const SensorError& e : sensor_errors(without, pool_, around, nullptr, 1)) {
             costs[i].change += double{e.square};
         }
     });
@@ -141,14 +141,15 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
     std::ranges::stable_sort(queue, {}, [&](uint32_t i) { return costs[i].change; });
     double sum = 0.0;
     for (const SensorError& error : errors) sum += double{error.square};
-    const auto most = static_cast<size_t>(rule.largest_share * static_cast<double>(probes.size()));
+    const auto most = static_cast<size_t>(rule.max_fraction * static_cast<double>(probes.size()));
     std::vector<bool> is_gone(probes.size(), false), is_stale(probes.size(), false);
     ProbesOfSpaces left_in(pool_, probes, spaces);
     size_t gone = 0;
     for (const uint32_t i : queue) {
-        if (gone >= std::max<size_t>(most, 1) || probes.size() - gone <= rule.fewest) break;
+        if (gone >= std::max<size_t>(most, 1) || probes.size() - gone <= rule.min_probe_count)
+            break;
         if (is_stale[i] || is_protected[probes[i]]) continue;
-        if (sum + costs[i].change > rule.largest_sum) break;
+        if (sum + costs[i].change > rule.max_square_sum) break;
         if (!left_in.remove(i)) continue;
         sum += costs[i].change;
         is_gone[i] = true;

@@ -23,8 +23,8 @@ double fraction(uint64_t i, int d) {
 
 }  // namespace
 
-SensorPlaces::SensorPlaces(const TraceScene& traced, const WorldBox& bounds, double surface_offset,
-                           Filter is_free)
+SensorSequence::SensorSequence(const TraceScene& traced, const WorldBox& bounds,
+                               double surface_offset, Filter is_free)
     : traced_(traced),
       bounds_(bounds),
       surface_offset_(surface_offset),
@@ -42,12 +42,12 @@ SensorPlaces::SensorPlaces(const TraceScene& traced, const WorldBox& bounds, dou
     }
 }
 
-glm::dvec3 SensorPlaces::anywhere(uint64_t i) const {
+glm::dvec3 SensorSequence::in_bounds(uint64_t i) const {
     return bounds_.min +
            bounds_.size() * glm::dvec3(fraction(i, 0), fraction(i, 1), fraction(i, 2));
 }
 
-glm::dvec3 SensorPlaces::off_a_surface(uint64_t i) const {
+glm::dvec3 SensorSequence::off_a_surface(uint64_t i) const {
     const double wanted = fraction(i, 0) * area_sums_.back();
     const size_t found = std::ranges::upper_bound(area_sums_, wanted) - area_sums_.begin();
     const Triangle& chosen = triangles_[std::min(found, triangles_.size() - 1)];
@@ -61,21 +61,21 @@ glm::dvec3 SensorPlaces::off_a_surface(uint64_t i) const {
     return traced_.world_from_render(place) + surface_offset_ * glm::dvec3(normal);
 }
 
-bool SensorPlaces::counts(const glm::dvec3& position) const {
+bool SensorSequence::is_usable(const glm::dvec3& position) const {
     const bool is_number = position == position;  // triangles without area have no normal
     return is_number && contains(bounds_, position) && is_free_(position);
 }
 
-std::vector<glm::dvec3> SensorPlaces::next(size_t count, uint32_t thread_count) {
-    constexpr size_t kMostTries = 64;
+std::vector<glm::dvec3> SensorSequence::next(size_t count, uint32_t thread_count) {
+    constexpr size_t kMaxTries = 64;
     std::vector<glm::dvec3> places;
-    for (size_t tries = 0; places.size() < count && tries < kMostTries; ++tries) {
+    for (size_t tries = 0; places.size() < count && tries < kMaxTries; ++tries) {
         std::vector<glm::dvec3> some(count);
         std::vector<uint8_t> is_fine(count, 0);
         parallel_for(count, thread_count, [&](size_t k) {
             const uint64_t i = tried_ + k;
-            some[k] = i % 2 == 0 || triangles_.empty() ? anywhere(i) : off_a_surface(i);
-            is_fine[k] = counts(some[k]);
+            some[k] = i % 2 == 0 || triangles_.empty() ? in_bounds(i) : off_a_surface(i);
+            is_fine[k] = is_usable(some[k]);
         });
         for (size_t k = 0; k < count && places.size() < count; ++k) {
             ++tried_;

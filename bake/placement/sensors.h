@@ -11,26 +11,26 @@
 
 namespace tetralight {
 
-/// Where things may stand that probes light: positions in free space in turn with positions a
-/// little off surfaces, by their area. A sequence that goes on for ever, evenly spread at every
-/// length (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
-class SensorPlaces {
+/// Positions of objects that probes light: alternately in free space and a little off surfaces, in
+/// proportion to area. An infinite low-discrepancy sequence (Roberts 2018, "The Unreasonable
+/// Effectiveness of Quasirandom Sequences").
+class SensorSequence {
   public:
-    /// Says whether a place is free, from many threads; corners are nearer to their other side than
-    /// the offset.
+    /// Returns true if a position is free; called from many threads. In corners, positions off one
+    /// surface are closer than the offset to another.
     using Filter = std::function<bool(const glm::dvec3& position)>;
 
-    /// Keeps the references. `surface_offset`: metres off surfaces.
-    SensorPlaces(const TraceScene& traced, const WorldBox& bounds, double surface_offset,
-                 Filter is_free);
+    /// Keeps the references. `surface_offset`: distance from surfaces, metres.
+    SensorSequence(const TraceScene& traced, const WorldBox& bounds, double surface_offset,
+                   Filter is_free);
 
-    /// About `count` more places: fewer where hardly any place is free.
+    /// The next `count` positions; fewer if hardly any position is free.
     [[nodiscard]] std::vector<glm::dvec3> next(size_t count, uint32_t thread_count);
 
   private:
-    [[nodiscard]] glm::dvec3 anywhere(uint64_t i) const;
+    [[nodiscard]] glm::dvec3 in_bounds(uint64_t i) const;
     [[nodiscard]] glm::dvec3 off_a_surface(uint64_t i) const;
-    [[nodiscard]] bool counts(const glm::dvec3& position) const;
+    [[nodiscard]] bool is_usable(const glm::dvec3& position) const;
 
     struct Triangle {
         uint32_t geometry = 0;

@@ -153,7 +153,7 @@ Result<TraceScene> TraceScene::make_static(const Scene& scene, const SurfaceSett
 Result<TraceScene> TraceScene::make_from(const Scene& scene, const Selection& selection,
                                          std::unique_ptr<State> state) {
     state->scene = &scene;
-    state->origin = scene_middle(scene, selection);
+    state->origin = scene_center(scene, selection);
 
     RayCaster caster({&TraceScene::accepts_hit, state.get()});
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {

@@ -6,9 +6,9 @@
 
 namespace tetralight {
 
-/// What no bake can take: intensities, multipliers and ranges that are negative or not finite
-/// (which read_gltf() refuses as well), and names with control characters. Errors name the light
-/// and the value.
+/// Returns invalid_argument, with the field `lights[2].range`, if an intensity, a multiplier, a
+/// radius or a range is negative or not finite (which read_gltf() refuses as well), or if a name
+/// has control characters.
 [[nodiscard]] Status check_lights(const Scene& scene);
 
 }  // namespace tetralight

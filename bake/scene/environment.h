@@ -5,10 +5,10 @@
 
 namespace tetralight {
 
-/// `direction` turned by `angle_radians` about +Y, counter-clockwise seen from above.
+/// `direction` rotated by `angle_radians` about +Y, counter-clockwise seen from above.
 [[nodiscard]] glm::vec3 rotated_about_y(glm::vec3 direction, float angle_radians);
 
-/// Radiance that arrives from `direction` (a unit vector away from the eye), bilinearly filtered.
+/// Radiance that arrives from `direction` (a unit vector away from the point), bilinearly filtered.
 [[nodiscard]] glm::vec3 environment_radiance(const Environment& environment, glm::vec3 direction);
 
 }  // namespace tetralight

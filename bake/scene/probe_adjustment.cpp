@@ -17,7 +17,7 @@ bool is_before(const ProbeAdjustment& a, const ProbeAdjustment& b) {
     return size_a != size_b ? size_a < size_b : a.name < b.name;
 }
 
-/// The smallest volume around a position that has a setting.
+/// The smallest volume that contains a position and has a setting; null if there is none.
 template <class Has>
 const ProbeAdjustment* smallest(std::span<const ProbeAdjustment> adjustments,
                                 const glm::dvec3& position, const Has& has) {
@@ -29,30 +29,42 @@ const ProbeAdjustment* smallest(std::span<const ProbeAdjustment> adjustments,
     return found;
 }
 
+Error transform_error(const char* message) {
+    return {ErrorCode::InvalidArgument, "transform", "", message};
+}
+
+/// Returns invalid_argument: `NAME VALUE REASON`.
+template <class Number>
+Error setting_error(const char* name, Number value, const char* reason) {
+    return {ErrorCode::InvalidArgument, name, str_cat(value), str_cat(name, " ", value, reason)};
+}
+
 Status check_transform(const glm::dmat4& transform) {
     for (int i = 0; i < 16; ++i) {
-        if (!std::isfinite(transform[i / 4][i % 4])) return Error{"its transform is not finite"};
+        if (!std::isfinite(transform[i / 4][i % 4]))
+            return transform_error("its transform is not finite");
     }
     const bool is_affine = transform[0][3] == 0.0 && transform[1][3] == 0.0 &&
                            transform[2][3] == 0.0 && transform[3][3] == 1.0;
-    if (!is_affine) return Error{"its transform is not affine"};
+    if (!is_affine) return transform_error("its transform is not affine");
     const double size = std::abs(glm::determinant(glm::dmat3(transform)));
-    if (!(size > 0.0) || !std::isfinite(size)) return Error{"it has no volume"};
+    if (!(size > 0.0) || !std::isfinite(size)) return transform_error("it has no volume");
     return Ok{};
 }
 
 Status check_settings(const ProbeAdjustment& a) {
     if (a.spacing && !(*a.spacing > 0.0 && std::isfinite(*a.spacing))) {
-        return Error{str_cat("spacing ", *a.spacing, " is not a positive length")};
+        return setting_error("spacing", *a.spacing, " is not a positive length");
     }
     if (a.validity && !(*a.validity >= 0.0f && *a.validity <= 1.0f)) {
-        return Error{str_cat("validity ", *a.validity, " is not from 0 to 1")};
+        return setting_error("validity", *a.validity, " is not from 0 to 1");
     }
     if (a.intensity && !(*a.intensity >= 0.0f && std::isfinite(*a.intensity))) {
-        return Error{str_cat("intensity ", *a.intensity, " is negative or not finite")};
+        return setting_error("intensity", *a.intensity, " is negative or not finite");
     }
     if (!a.forbids_probes && !a.spacing && !a.validity && !a.intensity) {
-        return Error{"it adjusts nothing (forbid, spacing, validity, intensity)"};
+        return Error{ErrorCode::InvalidArgument,
+                     "it adjusts nothing (forbid, spacing, validity, intensity)"};
     }
     return Ok{};
 }
@@ -65,10 +77,10 @@ bool contains(const ProbeAdjustment& adjustment, const glm::dvec3& position) {
     return std::max({std::abs(local.x), std::abs(local.y), std::abs(local.z)}) <= 0.5;
 }
 
-Status check_size(AdjustmentShape shape, const glm::dvec3& size) {
-    const char* what = shape == AdjustmentShape::Box ? "size " : "radius ";
+Status check_adjustment_size(AdjustmentShape shape, const glm::dvec3& size) {
+    const char* name = shape == AdjustmentShape::Box ? "size" : "radius";
     for (int i = 0; i < 3; ++i) {
-        if (!(size[i] > 0.0)) return Error{str_cat(what, size[i], " is not a positive length")};
+        if (!(size[i] > 0.0)) return setting_error(name, size[i], " is not a positive length");
     }
     return Ok{};
 }
@@ -97,7 +109,7 @@ AdjustmentAt adjustment_at(std::span<const ProbeAdjustment> adjustments,
     return at;
 }
 
-Status check(const ProbeAdjustment& adjustment) {
+Status check_adjustment(const ProbeAdjustment& adjustment) {
     const std::string place = str_cat("adjustment volume \"", adjustment.name, "\"");
     if (auto status = check_transform(adjustment.world_from_volume); !status) {
         return status.error().in(place);

@@ -10,37 +10,38 @@
 
 #include <tetralight/base/result.h>
 
-// Adjustment volumes: what people say about probes in a part of a scene, against what the
-// generator and the bake would do by themselves.
+// Adjustment volumes: boxes and spheres in which the user overrides what the grid generator and the
+// bake do with probes.
 
 namespace tetralight {
 
 enum class AdjustmentShape : uint8_t {
-    Box,     ///< of side 1 around the volume's origin
-    Sphere,  ///< of radius 1 around it
+    Box,     ///< side 1, centred at the volume's origin
+    Sphere,  ///< radius 1, centred at the volume's origin
 };
 
-/// A box or a sphere, placed, turned and scaled by its transform, and what holds in it. What is not
-/// set is left to larger volumes around, and to the rule without any.
+/// A box or a sphere under a transform, and the settings inside it. A setting without a value is
+/// taken from a larger volume around the position, or else has its default.
 struct ProbeAdjustment {
     std::string name;
     AdjustmentShape shape = AdjustmentShape::Box;
     /// Affine, invertible.
     glm::dmat4 world_from_volume{1.0};
-    /// Whether the generator puts no probe here.
+    /// True: the generator places no probes here. False: it does, inside a volume that forbids
+    /// them.
     std::optional<bool> forbids_probes;
-    /// Metres between the generator's probes.
+    /// Distance between the generator's probes, metres.
     std::optional<double> spacing;
-    /// Validity that probes have, whatever they see: 1 = in free space, 0 = in geometry.
+    /// Validity of probes, in place of the measured one: 1 = in free space, 0 = in geometry.
     std::optional<float> validity;
-    /// Factor on the light of probes.
+    /// Factor on the light of probes, ≥ 0.
     std::optional<float> intensity;
 
     bool operator==(const ProbeAdjustment&) const = default;
 };
 
-/// What holds at a position: of each setting, that of the smallest volume around it that has one;
-/// of equally small ones the first by name.
+/// The settings at a position. Each comes from the smallest volume that contains the position and
+/// has a value; among volumes of equal size, from the first by name.
 struct AdjustmentAt {
     bool forbids_probes = false;
     /// The volume that sets the spacing.
@@ -54,15 +55,16 @@ struct AdjustmentAt {
 
 [[nodiscard]] bool contains(const ProbeAdjustment& adjustment, const glm::dvec3& position);
 
-/// Error: a side of a box or the radius of a sphere, which is three times there, is not positive.
-[[nodiscard]] Status check_size(AdjustmentShape shape, const glm::dvec3& size);
+/// Returns invalid_argument, with the field `size` or `radius`, if a side of a box or the radius of
+/// a sphere is not positive. The size of a sphere is its radius, three times.
+[[nodiscard]] Status check_adjustment_size(AdjustmentShape shape, const glm::dvec3& size);
 
 /// Cubic metres.
 [[nodiscard]] double volume_of(const ProbeAdjustment& adjustment);
 
-/// Error, with the volume's name: a transform that is not affine, finite and invertible, a spacing
-/// that is not positive, a validity outside of [0, 1], an intensity that is negative or not finite,
-/// or nothing that is adjusted.
-[[nodiscard]] Status check(const ProbeAdjustment& adjustment);
+/// Returns invalid_argument, with the setting as the field, if the transform is not affine, finite
+/// and invertible, the spacing is not positive, the validity is outside of [0, 1], the intensity is
+/// negative or not finite, or no setting has a value. The message names the volume.
+[[nodiscard]] Status check_adjustment(const ProbeAdjustment& adjustment);
 
 }  // namespace tetralight

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <exception>
 #include <glm/gtc/matrix_transform.hpp>
-#include <initializer_list>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 
+#include <tetralight/bake/scene/detail/error_field.h>
+#include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
@@ -17,29 +18,18 @@
 namespace tetralight {
 namespace {
 
+using detail::check_keys;
+using detail::in_member;
+using detail::shown_json;
+using detail::wrong_type;
 using nlohmann::json;
 
-std::string shown(const json& value) {
-    constexpr size_t kLongest = 40;
-    const std::string dumped = value.dump();
-    return dumped.size() <= kLongest ? dumped : dumped.substr(0, kLongest) + "...";
-}
-
-Status check_keys(const json& object, std::initializer_list<std::string_view> known) {
-    for (const auto& [key, value] : object.items()) {
-        if (std::ranges::find(known, key) == known.end()) {
-            return Error{str_cat("unknown key \"", key, "\"")};
-        }
-    }
-    return Ok{};
-}
-
-/// Sets what a key says; nothing when it is not there.
+/// Reads the number of a key; leaves `number` unchanged if the key is absent.
 template <class Number>
 Status read_number(const json& object, const char* key, std::optional<Number>& number) {
     const auto value = object.find(key);
     if (value == object.end()) return Ok{};
-    if (!value->is_number()) return Error{str_cat(key, " is not a number (", shown(*value), ")")};
+    if (!value->is_number()) return wrong_type(*value, key, "a number");
     number = value->get<Number>();
     return Ok{};
 }
@@ -49,20 +39,33 @@ Status read_vec3(const json& object, const char* key, glm::dvec3& v) {
     if (value == object.end()) return Ok{};
     const bool is_vec3 = value->is_array() && value->size() == 3 &&
                          std::ranges::all_of(*value, [](const json& n) { return n.is_number(); });
-    if (!is_vec3) return Error{str_cat(key, " is not three numbers (", shown(*value), ")")};
+    if (!is_vec3) return wrong_type(*value, key, "three numbers");
     for (int i = 0; i < 3; ++i) v[i] = (*value)[static_cast<size_t>(i)].get<double>();
     return Ok{};
 }
 
+/// An error of `check_adjustment`, whose field names a key of the volume.
+Error relative(Error error) {
+    if (!error.field.empty()) error.field.insert(0, ".");
+    return error;
+}
+
 Status read_place(const json& object, ProbeAdjustment& adjustment) {
     const auto shape = object.find("shape");
-    if (shape == object.end()) return Error{"shape is missing"};
+    if (shape == object.end()) {
+        return Error{ErrorCode::Corrupt, ".shape", "", "shape is missing"};
+    }
     const bool is_box = *shape == "box";
     if (!is_box && *shape != "sphere") {
-        return Error{str_cat("shape ", shown(*shape), " is not \"box\" or \"sphere\"")};
+        const std::string shown = shown_json(*shape);
+        return Error{ErrorCode::InvalidArgument, ".shape", shown,
+                     str_cat("shape ", shown, " is not \"box\" or \"sphere\"")};
     }
     const char* other = is_box ? "radius" : "size";
-    if (object.contains(other)) return Error{str_cat(other, " does not fit the shape")};
+    if (object.contains(other)) {
+        return Error{ErrorCode::InvalidArgument, str_cat(".", other), shown_json(object[other]),
+                     str_cat(other, " does not fit the shape")};
+    }
     glm::dvec3 center(0.0), size(1.0);
     std::optional<double> radius;
     if (auto status = read_vec3(object, "center", center); !status) return status;
@@ -70,16 +73,16 @@ Status read_place(const json& object, ProbeAdjustment& adjustment) {
     if (auto status = read_number(object, "radius", radius); !status) return status;
     adjustment.shape = is_box ? AdjustmentShape::Box : AdjustmentShape::Sphere;
     if (!is_box) size = glm::dvec3(radius.value_or(1.0));
-    if (auto status = check_size(adjustment.shape, size); !status) return status;
+    if (auto status = check_adjustment_size(adjustment.shape, size); !status) {
+        return relative(status.error());
+    }
     adjustment.world_from_volume = glm::scale(glm::translate(glm::dmat4(1.0), center), size);
     return Ok{};
 }
 
 Status read_settings(const json& object, ProbeAdjustment& adjustment) {
     if (const auto forbid = object.find("forbid"); forbid != object.end()) {
-        if (!forbid->is_boolean()) {
-            return Error{str_cat("forbid is not a boolean (", shown(*forbid), ")")};
-        }
+        if (!forbid->is_boolean()) return wrong_type(*forbid, "forbid", "a boolean");
         adjustment.forbids_probes = forbid->get<bool>();
     }
     if (auto s = read_number(object, "spacing", adjustment.spacing); !s) return s;
@@ -89,10 +92,12 @@ Status read_settings(const json& object, ProbeAdjustment& adjustment) {
 
 Result<ProbeAdjustment> read_adjustment(const json& object, size_t index) {
     const std::string place = str_cat("adjustment ", index);
-    if (!object.is_object()) return Error{str_cat(place, ": is not an object")};
+    if (!object.is_object()) {
+        return Error{ErrorCode::Corrupt, "", shown_json(object), place + ": is not an object"};
+    }
     const auto name = object.find("name");
     if (name == object.end() || !name->is_string() || name->get<std::string>().empty()) {
-        return Error{str_cat(place, ": has no name")};
+        return Error{ErrorCode::Corrupt, ".name", "", place + ": has no name"};
     }
     ProbeAdjustment adjustment;
     adjustment.name = name->get<std::string>();
@@ -101,24 +106,27 @@ Result<ProbeAdjustment> read_adjustment(const json& object, size_t index) {
     if (status) status = read_place(object, adjustment);
     if (status) status = read_settings(object, adjustment);
     if (!status) return status.error().in(str_cat("adjustment volume \"", adjustment.name, "\""));
-    if (status = check(adjustment); !status) return status.error();
+    if (status = check_adjustment(adjustment); !status) return relative(status.error());
     return adjustment;
 }
 
 Result<std::vector<ProbeAdjustment>> read_document(const json& document) {
-    if (!document.is_object()) return Error{"is not a JSON object"};
+    if (!document.is_object()) return Error{ErrorCode::Corrupt, "is not a JSON object"};
     if (auto status = check_keys(document, {"adjustments"}); !status) return status.error();
     const auto values = document.find("adjustments");
     if (values == document.end() || !values->is_array()) {
-        return Error{"adjustments is missing or not an array"};
+        return Error{ErrorCode::Corrupt, "adjustments", "",
+                     "adjustments is missing or not an array"};
     }
     std::vector<ProbeAdjustment> adjustments;
     std::set<std::string> names;
     for (const json& value : *values) {
         auto adjustment = read_adjustment(value, adjustments.size());
-        if (!adjustment) return adjustment.error();
+        const std::string member = str_cat("adjustments[", adjustments.size(), "]");
+        if (!adjustment) return in_member(adjustment.error(), member);
         if (!names.insert(adjustment->name).second) {
-            return Error{str_cat("two adjustment volumes are named \"", adjustment->name, "\"")};
+            return Error{ErrorCode::Corrupt, member + ".name", adjustment->name,
+                         str_cat("two adjustment volumes are named \"", adjustment->name, "\"")};
         }
         adjustments.push_back(std::move(*adjustment));
     }
@@ -133,7 +141,7 @@ Result<std::vector<ProbeAdjustment>> parse(std::span<const std::byte> bytes) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{json_error_reason(exception)};
+        return Error{ErrorCode::Corrupt, json_error_reason(exception)};
     }
 }
 
@@ -143,7 +151,7 @@ Result<std::vector<ProbeAdjustment>> read_probe_adjustments(const std::string& p
     const auto file = MappedFile::open(path);
     if (!file) return file.error();
     auto adjustments = parse(file->bytes());
-    if (!adjustments) return adjustments.error().in(path);
+    if (!adjustments) return in_member(adjustments.error().in(path), "");
     return adjustments;
 }
 

@@ -17,8 +17,9 @@ namespace tetralight {
 ///         { "name": "stage", "shape": "sphere", "center": [0, 1, 4], "radius": 2,
 ///           "spacing": 0.5, "validity": 1, "intensity": 0.8 } ] }
 ///
-/// Names are unique; center is (0, 0, 0), size (1, 1, 1) and radius 1 when they are left out.
-/// Errors name the volume, the key and the value; unknown keys are errors.
+/// Names are unique. Defaults: center (0, 0, 0), size (1, 1, 1), radius 1. Returns corrupt for keys
+/// that are unknown, missing or of the wrong type, and invalid_argument for values out of range,
+/// with the member as the field: `adjustments[1].spacing`.
 [[nodiscard]] Result<std::vector<ProbeAdjustment>> read_probe_adjustments(const std::string& path);
 
 }  // namespace tetralight

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/probe_groups_json.h>
 
-#include <algorithm>
+#include <charconv>
 #include <exception>
 #include <functional>
-#include <initializer_list>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <system_error>
 
+#include <tetralight/bake/scene/detail/error_field.h>
+#include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/bake/scene/detail/probe_group_check.h>
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
@@ -19,9 +20,10 @@
 namespace tetralight {
 namespace {
 
+using detail::in_member;
 using nlohmann::json;
 
-/// Follows the parser, so that an error of syntax can name the group and the probe it is in.
+/// Follows the parser, so that a syntax error names the group and the probe that it is in.
 class ParsePlace {
   public:
     bool operator()(int depth, json::parse_event_t event, const json& parsed) {
@@ -42,13 +44,18 @@ class ParsePlace {
         return true;
     }
 
-    /// The first key that a group has twice; the parser keeps only the last one and says nothing.
+    /// The first key that a group has twice. The parser keeps the last value without an error.
     [[nodiscard]] const std::optional<Error>& duplicate_key() const { return duplicate_key_; }
 
     [[nodiscard]] Error located(Error error) const {
         if (!is_in_group_) return error;
-        if (is_in_probe_) error = error.in(str_cat("probe ", probe_count_));
-        return error.in(detail::group_place(group_count_ - 1, name_));
+        const size_t group = group_count_ - 1;
+        if (is_in_probe_) {
+            error = in_member(error.in(str_cat("probe ", probe_count_)),
+                              str_cat(".positions[", probe_count_, "]"));
+        }
+        return in_member(error.in(detail::group_place(group, name_)),
+                         str_cat("groups[", group, "]"));
     }
 
   private:
@@ -66,7 +73,8 @@ class ParsePlace {
     void start_key(const std::string& key) {
         key_ = key;
         if (keys_.insert(key).second || duplicate_key_) return;
-        duplicate_key_ = located(Error{str_cat("key \"", key, "\" stands twice")});
+        duplicate_key_ =
+            located({ErrorCode::Corrupt, "." + key, "", str_cat("key \"", key, "\" stands twice")});
     }
 
     std::optional<Error> duplicate_key_;
@@ -79,40 +87,40 @@ class ParsePlace {
     std::string key_;
 };
 
-/// A value as messages show it.
-std::string shown(const json& value) {
-    constexpr size_t kLongest = 40;
-    const std::string dumped = value.dump();
-    return dumped.size() <= kLongest ? dumped : dumped.substr(0, kLongest) + "...";
-}
-
-Result<double> read_number(const json& value) {
-    if (!value.is_number()) return Error{str_cat("is not a number (", shown(value), ")")};
-    return value.get<double>();
+/// Returns corrupt: `NAME is not WANTED (VALUE)`. The field is that of the enclosing member.
+Error not_wanted(const json& value, std::string_view name, std::string_view wanted) {
+    Error error = detail::wrong_type(value, name, wanted);
+    error.field.clear();
+    return error;
 }
 
 Result<glm::dvec3> read_position(const json& value) {
     if (!value.is_array() || value.size() != 3) {
-        return Error{str_cat("position is not three numbers (", shown(value), ")")};
+        return not_wanted(value, "position", "three numbers");
     }
     constexpr const char* kAxes[] = {"x", "y", "z"};
     glm::dvec3 position{};
     for (int axis = 0; axis < 3; ++axis) {
-        const auto number = read_number(value[static_cast<size_t>(axis)]);
-        if (!number)
-            return Error{str_cat("position: ", kAxes[axis], " ", error_text(number.error()))};
-        position[axis] = *number;
+        const json& number = value[static_cast<size_t>(axis)];
+        if (!number.is_number()) {
+            return in_member(not_wanted(number, kAxes[axis], "a number").in("position"),
+                             str_cat("[", axis, "]"));
+        }
+        position[axis] = number.get<double>();
     }
     return position;
 }
 
 Result<std::vector<glm::dvec3>> read_positions(const json& value) {
-    if (!value.is_array()) return Error{str_cat("positions is not an array (", shown(value), ")")};
+    if (!value.is_array()) return not_wanted(value, "positions", "an array");
     std::vector<glm::dvec3> positions;
     positions.reserve(value.size());
     for (const json& element : value) {
         const auto position = read_position(element);
-        if (!position) return position.error().in(str_cat("probe ", positions.size()));
+        if (!position) {
+            return in_member(position.error().in(str_cat("probe ", positions.size())),
+                             str_cat("[", positions.size(), "]"));
+        }
         positions.push_back(*position);
     }
     return positions;
@@ -120,64 +128,58 @@ Result<std::vector<glm::dvec3>> read_positions(const json& value) {
 
 Result<glm::dmat4> read_transform(const json& value) {
     if (!value.is_array() || value.size() != 16) {
-        return Error{str_cat("transform is not 16 numbers (", shown(value), ")")};
+        return not_wanted(value, "transform", "16 numbers");
     }
     glm::dmat4 transform{};
     for (int i = 0; i < 16; ++i) {
-        const auto number = read_number(value[static_cast<size_t>(i)]);
-        if (!number)
-            return Error{str_cat("transform: number ", i, " ", error_text(number.error()))};
-        transform[i / 4][i % 4] = *number;
+        const json& number = value[static_cast<size_t>(i)];
+        if (!number.is_number()) {
+            return in_member(not_wanted(number, str_cat("number ", i), "a number").in("transform"),
+                             str_cat("[", i, "]"));
+        }
+        transform[i / 4][i % 4] = number.get<double>();
     }
     return transform;
-}
-
-Status check_keys(const json& object, std::initializer_list<std::string_view> known) {
-    for (const auto& [key, value] : object.items()) {
-        if (std::find(known.begin(), known.end(), key) == known.end()) {
-            return Error{str_cat("unknown key \"", key, "\"")};
-        }
-    }
-    return Ok{};
 }
 
 Status read_optional_parts(const json& value, ProbeGroup& group) {
     if (const auto transform = value.find("transform"); transform != value.end()) {
         const auto world_from_group = read_transform(*transform);
-        if (!world_from_group) return world_from_group.error();
+        if (!world_from_group) return in_member(world_from_group.error(), ".transform");
         group.world_from_group = *world_from_group;
     }
     if (const auto dering = value.find("dering"); dering != value.end()) {
-        if (!dering->is_boolean())
-            return Error{str_cat("dering is not a boolean (", shown(*dering), ")")};
+        if (!dering->is_boolean()) return detail::wrong_type(*dering, "dering", "a boolean");
         group.dering = dering->get<bool>();
     }
     return Ok{};
 }
 
 Result<ProbeGroup> read_named_group(const json& value, std::string name) {
-    const auto keys = check_keys(value, {"name", "transform", "dering", "positions"});
+    const auto keys = detail::check_keys(value, {"name", "transform", "dering", "positions"});
     if (!keys) return keys.error();
     ProbeGroup group;
     group.name = std::move(name);
     const auto parts = read_optional_parts(value, group);
     if (!parts) return parts.error();
     const auto positions_value = value.find("positions");
-    if (positions_value == value.end()) return Error{"positions is missing"};
+    if (positions_value == value.end()) {
+        return Error{ErrorCode::Corrupt, ".positions", "", "positions is missing"};
+    }
     auto positions = read_positions(*positions_value);
-    if (!positions) return positions.error();
+    if (!positions) return in_member(positions.error(), ".positions");
     group.positions = std::move(*positions);
     return group;
 }
 
 Result<ProbeGroup> read_group(const json& value, size_t group_index) {
     const std::string place = str_cat("group ", group_index);
-    if (!value.is_object()) return Error{str_cat(place, ": is not an object (", shown(value), ")")};
+    if (!value.is_object()) return not_wanted(value, place + ":", "an object");
     const auto name = value.find("name");
-    if (name == value.end()) return Error{place + ": name is missing"};
-    if (!name->is_string()) {
-        return Error{str_cat(place, ": name is not a string (", shown(*name), ")")};
+    if (name == value.end()) {
+        return Error{ErrorCode::Corrupt, ".name", "", place + ": name is missing"};
     }
+    if (!name->is_string()) return detail::wrong_type(*name, "name", "a string").in(place);
     auto group = read_named_group(value, name->get<std::string>());
     if (!group) {
         return group.error().in(detail::group_place(group_index, name->get<std::string>()));
@@ -186,16 +188,18 @@ Result<ProbeGroup> read_group(const json& value, size_t group_index) {
 }
 
 Result<std::vector<ProbeGroup>> read_document(const json& document) {
-    if (!document.is_object()) return Error{"is not a JSON object"};
-    const auto keys = check_keys(document, {"groups"});
+    if (!document.is_object()) return Error{ErrorCode::Corrupt, "is not a JSON object"};
+    const auto keys = detail::check_keys(document, {"groups"});
     if (!keys) return keys.error();
     const auto values = document.find("groups");
-    if (values == document.end()) return Error{"groups is missing"};
-    if (!values->is_array()) return Error{str_cat("groups is not an array (", shown(*values), ")")};
+    if (values == document.end()) {
+        return Error{ErrorCode::Corrupt, "groups", "", "groups is missing"};
+    }
+    if (!values->is_array()) return detail::wrong_type(*values, "groups", "an array");
     std::vector<ProbeGroup> groups;
     for (const json& value : *values) {
         auto group = read_group(value, groups.size());
-        if (!group) return group.error();
+        if (!group) return in_member(group.error(), str_cat("groups[", groups.size(), "]"));
         groups.push_back(std::move(*group));
     }
     const auto status = detail::check_probe_groups(groups);
@@ -203,10 +207,14 @@ Result<std::vector<ProbeGroup>> read_document(const json& document) {
     return groups;
 }
 
-/// Files of ours that were given for a group file by mistake.
+/// Recognizes other files that are given by mistake.
 Status check_first_bytes(std::string_view bytes) {
-    if (bytes.starts_with("TETRAPV\n")) return Error{"is a probe volume, not a group file"};
-    if (bytes.starts_with("glTF")) return Error{"is a binary glTF scene; its extension is .glb"};
+    if (bytes.starts_with("TETRAPV\n")) {
+        return Error{ErrorCode::InvalidArgument, "is a probe volume, not a group file"};
+    }
+    if (bytes.starts_with("glTF")) {
+        return Error{ErrorCode::InvalidArgument, "is a binary glTF scene; its extension is .glb"};
+    }
     return Ok{};
 }
 
@@ -222,9 +230,10 @@ Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const json::out_of_range& exception) {
-        return place.located(Error{"is not finite: " + json_error_reason(exception)});
+        return place.located(
+            {ErrorCode::Corrupt, "is not finite: " + json_error_reason(exception)});
     } catch (const std::exception& exception) {
-        return place.located(Error{json_error_reason(exception)});
+        return place.located({ErrorCode::Corrupt, json_error_reason(exception)});
     }
 }
 
@@ -234,8 +243,18 @@ Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path) {
     const auto file = MappedFile::open(path);
     if (!file) return file.error();
     auto groups = parse_groups(file->bytes());
-    if (!groups) return groups.error().in(path);
+    if (!groups) return in_member(groups.error().in(path), "");
     return groups;
+}
+
+std::optional<size_t> probe_group_index(std::string_view field) {
+    constexpr std::string_view kMember = "groups[";
+    if (!field.starts_with(kMember)) return std::nullopt;
+    size_t index = 0;
+    const char* first = field.data() + kMember.size();
+    const auto [end, error] = std::from_chars(first, field.data() + field.size(), index);
+    if (error != std::errc() || end == first) return std::nullopt;
+    return index;
 }
 
 }  // namespace tetralight

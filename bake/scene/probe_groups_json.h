@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tetralight/base/result.h>
@@ -17,13 +20,17 @@ namespace tetralight {
 ///                     "dering": false,                                             (optional)
 ///                     "positions": [[x, y, z], ...] } ] }
 ///
-/// Two groups of one name, unknown keys, a transform that is not affine, numbers that are not
-/// finite and more than 64 levels of nesting are errors that say where. There may be no group, and
-/// groups may have no probes.
+/// There may be no group, and groups may have no probes. Returns corrupt, with the member as the
+/// field (`groups[1].positions[7]`), for two groups of one name, unknown keys, a transform that is
+/// not affine, numbers that are not finite, and more than 64 levels of nesting.
 [[nodiscard]] Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path);
 
-/// Writes what `read_probe_groups` reads; numbers come back bit for bit.
+/// Writes a file that `read_probe_groups` reads; numbers keep their bits. Returns invalid_argument
+/// if there are no groups or a name is not UTF-8.
 [[nodiscard]] Status write_probe_groups(const std::string& path,
                                         std::span<const ProbeGroup> groups);
+
+/// The group that the field of an error names: 1 for `groups[1].positions[7]`.
+[[nodiscard]] std::optional<size_t> probe_group_index(std::string_view field);
 
 }  // namespace tetralight

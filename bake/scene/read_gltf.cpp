@@ -78,8 +78,10 @@ Status add_sky(const detail::GltfDocument& document, Scene& scene) {
     const glm::dvec3& radiance = *document.sky_radiance;
     scene.environment.radiance = glm::vec3(radiance);
     if (std::min({radiance.x, radiance.y, radiance.z}) >= 0.0) return Ok{};
-    return Error{str_cat("scene: extras.sky.radiance (", radiance.x, ", ", radiance.y, ", ",
-                         radiance.z, ") is negative")};
+    const std::string value = str_cat(radiance.x, ", ", radiance.y, ", ", radiance.z);
+    return Error{ErrorCode::InvalidArgument,
+                 str_cat("scenes[", document.scene, "].extras.sky.radiance"), value,
+                 str_cat("scene: extras.sky.radiance (", value, ") is negative")};
 }
 
 Status add_all(const detail::GltfDocument& document, Scene& scene) {

@@ -19,10 +19,12 @@ namespace tetralight {
 /// KHR_materials_unlit; extras of a light or of its node, and of materials (docs/scenes.md);
 /// `extras.light_probe_group: true` of a node, whose POINTS primitive, or else whose child nodes,
 /// are the probes, with `extras.dering`; `extras.probe_adjustment` of a node. Unknown light types
-/// and missing optional features become warnings; a required extension that is not listed here is
-/// an error.
+/// and missing optional features become warnings.
 ///
-/// Every error names the file, the element and the value.
+/// Returns corrupt if the file breaks the rules of glTF, invalid_argument if a value of extras is
+/// out of range, unsupported if the file requires an extension that is not listed here, and
+/// not_found (or the system's reason) if it refers to a file that cannot be read. Messages name the
+/// file, the element and the value; fields name the member: `materials[2].alphaCutoff`.
 [[nodiscard]] Result<Scene> read_gltf(const std::string& path);
 
 }  // namespace tetralight

@@ -16,8 +16,8 @@
 #include <tetralight/probes/no_index.h>
 #include <tetralight/probes/probe_group.h>
 
-// What a bake reads, as plain values: filled by read_gltf(), or by hand. Elements refer to each
-// other by index. Space is glTF's: right-handed, Y up, metres.
+// The input of a bake as plain values, from read_gltf() or made by the caller. Elements refer to
+// each other by index. Coordinates are those of glTF: right-handed, Y up, metres.
 
 namespace tetralight {
 
@@ -60,10 +60,10 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool is_double_sided = false;
-    /// KHR_materials_unlit: shows its base colour whatever the light. A bake takes that for
-    /// emission and reflects nothing.
+    /// KHR_materials_unlit: shows its base colour independent of light. In a bake the base colour
+    /// is emission, and the material reflects nothing.
     bool is_unlit = false;
-    /// Whether a bake sees what the material emits (`extras.bake_emission`).
+    /// True if a bake includes the material's emission (`extras.bake_emission`).
     bool bakes_emission = true;
 
     bool operator==(const Material&) const = default;
@@ -84,10 +84,10 @@ struct Mesh {
     bool operator==(const Mesh&) const = default;
 };
 
-/// Where a thing that moves takes its probe light from.
+/// How a moving object takes its light from probes.
 enum class LightProbeUsage : uint8_t {
-    Off,          ///< none: the ambient light of the volume
-    Blend,        ///< one place: its anchor, else the centre of its bounds
+    Off,          ///< no probes: the ambient light of the volume
+    Blend,        ///< at one position: its anchor, else the centre of its bounds
     ProxyVolume,  ///< a grid around it (lppv/lppv.h)
 };
 
@@ -98,8 +98,8 @@ struct SceneNode {
     glm::dmat4 world_from_node{1.0};
     /// `extras.light_probes`, inherited.
     LightProbeUsage light_probes = LightProbeUsage::Blend;
-    /// `extras.probe_anchor`, inherited: the node at whose origin things that move take their
-    /// light, or kNoIndex.
+    /// `extras.probe_anchor`, inherited: the node at whose origin moving objects take their light,
+    /// or kNoIndex.
     uint32_t probe_anchor = kNoIndex;
 
     bool operator==(const SceneNode&) const = default;
@@ -111,9 +111,9 @@ struct MeshInstance {
     glm::dmat4 world_from_mesh{1.0};
     /// Name of the glTF node, for messages and for finding objects.
     std::string name;
-    /// False for things that move: the bake does not see them (`extras.contribute_gi: false`).
+    /// False for moving objects, which a bake ignores (`extras.contribute_gi: false`).
     bool contributes_gi = true;
-    /// The node that shows it, or kNoIndex.
+    /// The node of the instance, or kNoIndex.
     uint32_t node = kNoIndex;
 
     bool operator==(const MeshInstance&) const = default;
@@ -121,11 +121,11 @@ struct MeshInstance {
 
 /// Distant light from all directions.
 struct Environment {
-    /// Radiance of every direction; scales the image when there is one.
+    /// Radiance of every direction; a factor on the image if there is one.
     glm::vec3 radiance{0.0f};
     /// Equirectangular; empty = constant. Centre = +X, +Z to its right, +Y up, before the rotation.
     ImageF image;
-    /// Turns the image about +Y, counter-clockwise seen from above.
+    /// Rotation of the image about +Y, counter-clockwise seen from above.
     float rotation_radians = 0.0f;
 
     bool operator==(const Environment&) const = default;
@@ -154,7 +154,7 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<ProbeGroup> probe_groups;
     std::vector<ProbeAdjustment> probe_adjustments;
-    /// What was left out or mended, one line each, for the user.
+    /// Warnings for the user, one line each: parts that were skipped or replaced.
     std::vector<std::string> warnings;
 
     bool operator==(const Scene&) const = default;

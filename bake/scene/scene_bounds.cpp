@@ -40,8 +40,8 @@ std::vector<double> some_coordinates(const Scene& scene, const InstanceSelection
 }
 
 /// Precondition: there are values.
-double quantile(std::vector<double>& values, double share) {
-    const auto rank = static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+double quantile(std::vector<double>& values, double fraction) {
+    const auto rank = static_cast<ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
     std::ranges::nth_element(values, values.begin() + rank);
     return values[static_cast<size_t>(rank)];
 }
@@ -72,7 +72,7 @@ std::optional<WorldBox> scene_bounds(const Scene& scene, const InstanceSelection
     return box;
 }
 
-glm::dvec3 scene_middle(const Scene& scene, const InstanceSelection& selection) {
+glm::dvec3 scene_center(const Scene& scene, const InstanceSelection& selection) {
     constexpr double kWellSpread = 1000.0;
     const auto bounds = scene_bounds(scene, selection);
     if (!bounds) return glm::dvec3(0.0);

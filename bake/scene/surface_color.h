@@ -9,15 +9,16 @@
 
 #include <tetralight/bake/scene/scene.h>
 
-// What light transport needs of a material at one point: diffuse reflectivity, emission, alpha.
+// Properties of a material at one point, for light transport: diffuse reflectivity, emission,
+// alpha.
 
 namespace tetralight {
 
 /// How a bake changes the reflectivity of surfaces.
 struct SurfaceSettings {
-    /// 1 to 10: albedo^(1 / boost) bounces more light; black and white stay. 1 = as it is.
+    /// 1 to 10: the albedo becomes albedo^(1 / boost); black and white do not change. 1 = no boost.
     float albedo_boost = 1.0f;
-    /// No surface reflects more than this, 0 to 1.
+    /// Maximum albedo, 0 to 1.
     float max_albedo = 1.0f;
 
     bool operator==(const SurfaceSettings&) const = default;
@@ -39,36 +40,35 @@ struct MeshPoint {
 /// `barycentric` are the weights of the triangle's second and third corner.
 [[nodiscard]] MeshPoint mesh_point(const Mesh& mesh, uint32_t triangle, glm::vec2 barycentric);
 
-/// Share of light that is reflected diffusely by a material of glTF's metallic-roughness model:
+/// Fraction of light that a material of glTF's metallic-roughness model reflects diffusely:
 ///
 ///     base (1 − metallic) (1 − 0.04) + F0 · roughness / 2,    F0 = mix(0.04, base, metallic)
 ///
-/// Dielectrics reflect 4 % as a mirror image, metals all. Half of that, times the roughness, is
-/// spread so widely that it counts as diffuse: rough metals pass light on. `roughness` is glTF's,
-/// not its square. Never above 0.98 for colours up to 1.
+/// Dielectrics reflect 4 % specularly, metals all. Half of the specular reflection, times the
+/// roughness, is so wide that it counts as diffuse: rough metals bounce light. `roughness` is
+/// glTF's, not its square. Never above 0.98 for colours up to 1.
 [[nodiscard]] glm::vec3 diffuse_reflectivity(glm::vec3 base_color, float metallic, float roughness);
 
-/// The same at a point, textures included; 0 where the material is unlit.
+/// The same at a point, with textures; 0 if the material is unlit.
 [[nodiscard]] glm::vec3 diffuse_reflectivity(const Scene& scene, const MeshPoint& point);
 
-/// An albedo under the settings of a bake: boosted first, then limited.
+/// An albedo with the settings of a bake applied: first the boost, then the maximum.
 [[nodiscard]] glm::vec3 adjusted_albedo(glm::vec3 albedo, const SurfaceSettings& settings);
 
 /// Base colour and alpha at a point: factor times texture times the colour of the vertices.
 [[nodiscard]] glm::vec4 base_color(const Scene& scene, const MeshPoint& point);
 
-/// What a material emits: radiance, times the texture's colour where there is one; of unlit
-/// materials times the colour of the vertices too.
+/// The emission of a material: radiance, times the texture's colour if there is one, and for unlit
+/// materials times the colour of the vertices.
 struct EmissionSource {
     glm::vec3 factor{0.0f};
     TextureUse texture;
 };
 
-/// Unlit materials show their base colour, and that is what they emit; others what they say.
-/// `bakes_emission` is left to the caller.
+/// Unlit materials emit their base colour, others their emission. Does not read `bakes_emission`.
 [[nodiscard]] EmissionSource emission_source(const Material& material);
 
-/// Radiance that the front of a surface emits at a point.
+/// Radiance that the front face of a surface emits at a point.
 [[nodiscard]] glm::vec3 emitted_radiance(const Scene& scene, const MeshPoint& point);
 
 }  // namespace tetralight

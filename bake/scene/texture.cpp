@@ -18,7 +18,7 @@ struct TexelPair {
     float second_weight = 0.0f;
 };
 
-/// Brings a coordinate into one period, so that large ones neither overflow nor lose the fraction.
+/// The coordinate in one period, so that a large one neither overflows nor loses its fraction.
 float reduced(float coordinate, TextureWrap wrap) {
     if (!std::isfinite(coordinate)) return 0.0f;
     switch (wrap) {
@@ -64,7 +64,7 @@ glm::vec4 lerp(glm::vec4 first, glm::vec4 second, float second_weight) {
     return first * (1.0f - second_weight) + second * second_weight;
 }
 
-/// Decodes four texels and filters what they mean.
+/// Decodes four texels and interpolates the decoded values.
 template <class Decode>
 glm::vec4 filtered(const Texture& texture, glm::vec2 uv, Decode decode) {
     const Image8& image = texture.image;

@@ -11,7 +11,7 @@ namespace tetralight {
 /// Bilinear lookup of a colour texture: RGB decoded from sRGB before filtering, alpha linear.
 [[nodiscard]] glm::vec4 sample_texture(const Texture& texture, glm::vec2 uv);
 
-/// The same of a texture that holds numbers: all four channels linear, 0 to 1.
+/// Bilinear lookup of a data texture: all four channels linear, 0 to 1.
 [[nodiscard]] glm::vec4 sample_data_texture(const Texture& texture, glm::vec2 uv);
 
 }  // namespace tetralight

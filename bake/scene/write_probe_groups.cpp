@@ -6,7 +6,6 @@
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {
@@ -50,14 +49,8 @@ std::string json_text(std::span<const ProbeGroup> groups) {
 }  // namespace
 
 Status write_probe_groups(const std::string& path, std::span<const ProbeGroup> groups) {
-    if (groups.empty()) return Error{path + ": there are no probe groups to write"};
-    const auto status = detail::check_probe_groups(groups);
+    const auto status = detail::check_writable_groups(groups);
     if (!status) return status.error().in(path);
-    for (const ProbeGroup& group : groups) {
-        if (!is_utf8(group.name)) {
-            return Error{str_cat(path, ": group \"", group.name, "\": the name is not UTF-8")};
-        }
-    }
     const std::string out = json_text(groups);
     return write_file(path, std::as_bytes(std::span(out)));
 }

@@ -9,8 +9,6 @@
 #include <tetralight/bake/scene/detail/probe_group_check.h>
 #include <tetralight/bake/scene/probe_groups_gltf.h>
 #include <tetralight/base/file.h>
-#include <tetralight/base/str_cat.h>
-#include <tetralight/base/utf8.h>
 
 namespace tetralight {
 namespace {
@@ -35,7 +33,7 @@ Json array(const glm::dmat4& m) {
     return numbers;
 }
 
-/// Grows the document and its binary chunk group by group.
+/// A glTF document and its binary chunk, to which groups are added.
 class Document {
   public:
     Document() {
@@ -87,11 +85,11 @@ class Document {
     /// Returns the index of a new mesh with the group's points, relative to the first of them.
     size_t add_points(const ProbeGroup& group, const glm::dvec3& first) {
         std::vector<glm::vec3> points;
-        glm::vec3 low(0.0f), high(0.0f);
+        glm::vec3 min(0.0f), max(0.0f);
         for (const glm::dvec3& position : group.positions) {
             points.emplace_back(position - first);
-            low = glm::min(low, points.back());
-            high = glm::max(high, points.back());
+            min = glm::min(min, points.back());
+            max = glm::max(max, points.back());
         }
         const std::span bytes = std::as_bytes(std::span(points));
         const size_t index = json_["meshes"].size();
@@ -103,8 +101,8 @@ class Document {
                                       {"componentType", kFloat},
                                       {"count", points.size()},
                                       {"type", "VEC3"},
-                                      {"min", array(low)},
-                                      {"max", array(high)}});
+                                      {"min", array(min)},
+                                      {"max", array(max)}});
         const Json primitive = {{"attributes", {{"POSITION", index}}}, {"mode", kPoints}};
         json_["meshes"].push_back({{"name", group.name}, {"primitives", Json::array({primitive})}});
         binary_.insert(binary_.end(), bytes.begin(), bytes.end());
@@ -118,17 +116,10 @@ class Document {
 }  // namespace
 
 Status write_probe_groups_glb(const std::string& path, std::span<const ProbeGroup> groups) {
-    if (groups.empty()) return Error{path + ": there are no probe groups to write"};
-    if (auto status = detail::check_probe_groups(groups); !status) {
-        return status.error().in(path);
-    }
+    const auto status = detail::check_writable_groups(groups);
+    if (!status) return status.error().in(path);
     Document document;
-    for (const ProbeGroup& group : groups) {
-        if (!is_utf8(group.name)) {
-            return Error{str_cat(path, ": group \"", group.name, "\": the name is not UTF-8")};
-        }
-        document.add(group);
-    }
+    for (const ProbeGroup& group : groups) document.add(group);
     return write_file(path, document.bytes());
 }
 

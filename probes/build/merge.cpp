@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
+#include <utility>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/utf8.h>
@@ -17,22 +19,30 @@ namespace {
 
 constexpr double kFarthest = 1e18;
 
+/// Returns invalid_argument for a member of a group. `merge` completes the field.
+Error group_error(const ProbeGroup& group, std::string member, std::string value,
+                  const std::string& message) {
+    return {ErrorCode::InvalidArgument, std::move(member), std::move(value),
+            str_cat("group \"", group.name, "\": ", message)};
+}
+
 Error position_error(const ProbeGroup& group, size_t index, const char* what, glm::dvec3 p) {
-    return {ErrorCode::InvalidArgument, str_cat("probes[", index, "].position"),
-            str_cat(p.x, ", ", p.y, ", ", p.z),
-            str_cat("group \"", group.name, "\": probe ", index, ": position ", what, " (", p.x,
-                    ", ", p.y, ", ", p.z, ")")};
+    const std::string value = str_cat(p.x, ", ", p.y, ", ", p.z);
+    return group_error(group, str_cat("positions[", index, "]"), value,
+                       str_cat("probe ", index, ": position ", what, " (", value, ")"));
 }
 
 Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
-    if (group.name.empty())
+    if (group.name.empty()) {
         return Error{ErrorCode::InvalidArgument, "name", "", "a probe group has no name"};
+    }
     if (const auto status = check_characters(group.name); !status) {
-        return status.error().in(str_cat("group \"", group.name, "\""));
+        Error error = status.error().in(str_cat("group \"", group.name, "\""));
+        error.field = "name";
+        return error;
     }
     if (previous != nullptr && previous->name == group.name) {
-        return Error{ErrorCode::InvalidArgument, "name", group.name,
-                     str_cat("group \"", group.name, "\": there are two groups of this name")};
+        return group_error(group, "name", group.name, "there are two groups of this name");
     }
     return Ok{};
 }
@@ -105,9 +115,12 @@ Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettin
     for (uint32_t g = 0; g < sorted.size(); ++g) {
         const ProbeGroup& group = *sorted[g];
         const auto name = check_name(group, g > 0 ? sorted[g - 1] : nullptr);
-        if (!name) return name.error();
-        auto group_positions = world_positions(group);
-        if (!group_positions) return group_positions.error();
+        auto group_positions = name ? world_positions(group) : name.error();
+        if (!group_positions) {
+            Error error = group_positions.error();
+            error.field.insert(0, str_cat("groups[", &group - groups.data(), "]."));
+            return error;
+        }
         const auto snap = detail::snap_to_lattice(*group_positions);
         merged.group_is_lattice.push_back(snap.has_value());
         merged.largest_snap = std::max(merged.largest_snap, snap.value_or(0.0));

@@ -59,9 +59,9 @@ struct MergedProbes {
 /// tolerances of both, so that probes of a sparse part do not absorb those of a dense one. Clusters
 /// are closed transitively; the lexicographically smallest position represents its cluster.
 ///
-/// Returns invalid_argument if the name of a group is empty, used twice, not UTF-8 or holds control
-/// characters, or if a position is not finite or a coordinate exceeds 1e18 (the message holds the
-/// group and the index).
+/// Returns invalid_argument, with the field `groups[1].positions[7]`, if a group has no name, a
+/// name with control characters (a line break) or bytes that are not UTF-8, or the name of another
+/// group, or if a position is not finite or beyond 1e18.
 [[nodiscard]] Result<MergedProbes> merge(std::span<const ProbeGroup> groups,
                                          const MergeSettings& settings = {});
 

@@ -118,7 +118,7 @@ Renderer::Renderer(const Scene& scene, const ProbeVolumeView& volume, const Scen
       shaders_(std::move(shaders)),
       origin_(scene.instances.empty()
                   ? volume.info.world_origin
-                  : scene_middle(scene, [](const MeshInstance&) { return true; })),
+                  : scene_center(scene, [](const MeshInstance&) { return true; })),
       sky_(packed_sky(volume)),
       volume_(moved(make_shader_volume(volume), volume, origin_)),
       meshes_(scene, light.emission_weights),

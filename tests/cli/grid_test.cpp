@@ -59,7 +59,7 @@ TEST_F(Grid, KeepsAllSpacesWithoutAWordWhenAsked) {
 TEST_F(Grid, RefusesAPositionInAWallOrOutside) {
     const std::string message = fail_and_keep(
         "g.json", {"grid", kCourtyard, "-o", "g.json", "--spacing", "2", "--from", "0,900,0"});
-    EXPECT_TRUE(contains(message, "seed 0,900,0 lies outside of the bounds")) << message;
+    EXPECT_TRUE(contains(message, "seed 0,900,0 is outside of the bounds")) << message;
 }
 
 TEST_F(Grid, RefusesWhatDoesNotGoTogether) {

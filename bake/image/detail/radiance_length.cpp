@@ -13,7 +13,7 @@ constexpr uint32_t kChannelCount = 4;
 constexpr uint32_t kMinRunLengthWidth = 8;
 constexpr uint32_t kMaxRunLengthWidth = 32767;
 
-/// What follows the header: lines, an empty line, and the line with the resolution.
+/// The bytes behind the header, which is lines, an empty line, and the line with the resolution.
 Bytes scan_lines(Bytes file) {
     const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
     const size_t header_end = text.find("\n\n");
@@ -27,8 +27,8 @@ bool starts_run_length_line(Bytes bytes) {
            bytes[2] < std::byte{128};
 }
 
-/// Takes one encoded channel of one line from the front of `bytes`. A first byte above 128 repeats
-/// the next byte, another one stands before so many bytes.
+/// Removes one encoded channel of one line from the front of `bytes`. A code above 128 is followed
+/// by one byte that is repeated code − 128 times, another code by that many bytes.
 bool skip_channel(Bytes& bytes, uint32_t width) {
     for (uint32_t done = 0; done < width;) {
         if (bytes.empty()) return false;

@@ -7,7 +7,8 @@
 
 namespace tetralight::detail {
 
-/// Whether a Radiance .hdr file holds all its scan lines. stb_image reads black past the end.
+/// True if a Radiance .hdr file holds all its scan lines. (stb_image returns black pixels for
+/// missing ones.)
 [[nodiscard]] bool has_all_scan_lines(std::span<const std::byte> file, uint32_t width,
                                       uint32_t height);
 

@@ -12,13 +12,13 @@
 #include <exception>
 #include <new>
 
-#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/image/detail/image_size.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
 
-/// Names of the channels that fill red, green and blue.
+/// Names of the file's channels for red, green and blue.
 using ChannelNames = std::array<const char*, 3>;
 
 Result<ChannelNames> find_channels(const Imf::ChannelList& channels) {
@@ -30,9 +30,12 @@ Result<ChannelNames> find_channels(const Imf::ChannelList& channels) {
                                    : ChannelNames{"R", "G", "B"};
     for (const char* name : names) {
         const Imf::Channel* channel = channels.findChannel(name);
-        if (channel == nullptr) return Error{str_cat("has no channel ", name)};
+        if (channel == nullptr) {
+            return Error{ErrorCode::Unsupported, str_cat("has no channel ", name)};
+        }
         if (channel->xSampling != 1 || channel->ySampling != 1) {
-            return Error{str_cat("channel ", name, " is subsampled, which is not supported")};
+            return Error{ErrorCode::Unsupported,
+                         str_cat("channel ", name, " is subsampled, which is not supported")};
         }
     }
     return names;
@@ -41,11 +44,9 @@ Result<ChannelNames> find_channels(const Imf::ChannelList& channels) {
 Result<ImageF> make_image(const Imath::Box2i& window) {
     const int64_t width = int64_t{window.max.x} - window.min.x + 1;
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-    if (width <= 0 || height <= 0) return Error{"is empty"};
-    if (static_cast<uint64_t>(width) > kMaxImagePixels / static_cast<uint64_t>(height)) {
-        return Error{str_cat(width, " x ", height, " pixels are more than the largest size (",
-                             kMaxImagePixels, " pixels)")};
-    }
+    if (width <= 0 || height <= 0) return Error{ErrorCode::Corrupt, "is empty"};
+    const auto columns = static_cast<uint64_t>(width), rows = static_cast<uint64_t>(height);
+    if (is_too_large(columns, rows)) return image_size_error(columns, rows);
     ImageF image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
     image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
     return image;
@@ -84,7 +85,8 @@ Result<ImageF> read_exr(const std::string& path) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{str_cat(path, ": cannot read OpenEXR image (", exception.what(), ")")};
+        return Error{ErrorCode::Corrupt,
+                     str_cat(path, ": cannot read OpenEXR image (", exception.what(), ")")};
     }
 }
 

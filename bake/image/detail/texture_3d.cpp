@@ -11,7 +11,8 @@ Status check_texture(const std::string& path, const Texture3dView& texture) {
     TETRALIGHT_ASSERT(texture.texels.size() == texels * texel_bytes(texture.format),
                       "a texture has width * height * depth texels");
     if (texels > 0) return Ok{};
-    return Error{str_cat(path, ": cannot write a texture of ", texture.width, " x ", texture.height,
+    return Error{ErrorCode::InvalidArgument,
+                 str_cat(path, ": cannot write a texture of ", texture.width, " x ", texture.height,
                          " x ", texture.depth, " texels")};
 }
 

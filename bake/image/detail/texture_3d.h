@@ -11,7 +11,8 @@ namespace tetralight::detail {
     return format == TexelFormat::Rgba16Float ? 8 : 16;
 }
 
-/// Asserts that the texels are as many as the sizes say; error: a side is 0.
+/// Asserts that the number of texels is width · height · depth. Returns invalid_argument if it is
+/// 0.
 [[nodiscard]] Status check_texture(const std::string& path, const Texture3dView& texture);
 
 }  // namespace tetralight::detail

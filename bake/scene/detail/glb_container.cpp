@@ -22,16 +22,17 @@ uint32_t read_u32(Bytes bytes, size_t offset) {
     return value;
 }
 
-/// Length of the chunk whose header lies at `offset`.
+/// Length of the data of the chunk whose header is at `offset`.
 Result<size_t> chunk_length(Bytes bytes, size_t offset) {
     if (bytes.size() - offset < kChunkHeaderSize) {
-        return Error{str_cat("is cut off in the chunk header at byte ", offset)};
+        return Error{ErrorCode::Corrupt,
+                     str_cat("is cut off in the chunk header at byte ", offset)};
     }
     const size_t length = read_u32(bytes, offset);
     const size_t left = bytes.size() - offset - kChunkHeaderSize;
     if (length <= left) return length;
-    return Error{str_cat("is cut off: the chunk at byte ", offset, " has ", length, " bytes, ",
-                         left, " are left")};
+    return Error{ErrorCode::Corrupt, str_cat("is cut off: the chunk at byte ", offset, " has ",
+                                             length, " bytes, ", left, " are left")};
 }
 
 }  // namespace
@@ -41,17 +42,22 @@ bool is_glb(Bytes bytes) {
 }
 
 Result<Bytes> glb_json(Bytes bytes) {
-    if (bytes.size() < kGlbHeaderSize) return Error{"is cut off in the GLB header"};
+    if (bytes.size() < kGlbHeaderSize)
+        return Error{ErrorCode::Corrupt, "is cut off in the GLB header"};
     const uint32_t version = read_u32(bytes, 4);
-    if (version != kGlbVersion) return Error{str_cat("GLB version ", version, " is not supported")};
+    if (version != kGlbVersion) {
+        return Error{ErrorCode::Unsupported, "version", str_cat(version),
+                     str_cat("GLB version ", version, " is not supported")};
+    }
     const size_t length = read_u32(bytes, 8);
     if (length != bytes.size()) {
-        return Error{str_cat("has ", bytes.size(), " bytes, its header says ", length)};
+        return Error{ErrorCode::Corrupt, "length", str_cat(length),
+                     str_cat("has ", bytes.size(), " bytes, its header says ", length)};
     }
     const auto json_length = chunk_length(bytes, kGlbHeaderSize);
     if (!json_length) return json_length.error();
     if (read_u32(bytes, kGlbHeaderSize + 4) != kJsonChunk) {
-        return Error{"first chunk is not JSON"};
+        return Error{ErrorCode::Corrupt, "first chunk is not JSON"};
     }
     for (size_t offset = kGlbHeaderSize; offset < bytes.size();) {
         const auto size = chunk_length(bytes, offset);

@@ -8,10 +8,11 @@
 
 namespace tetralight::detail {
 
+/// True if the bytes begin like a .glb file.
 [[nodiscard]] bool is_glb(std::span<const std::byte> bytes);
 
-/// The JSON chunk of a .glb file. All chunks are measured, since tinygltf reads past the end of a
-/// last chunk that claims a few bytes too many.
+/// The JSON chunk of a .glb file. Returns corrupt if any chunk does not fit into the file: tinygltf
+/// would read past the end of a last chunk whose length is a few bytes too large.
 [[nodiscard]] Result<std::span<const std::byte>> glb_json(std::span<const std::byte> bytes);
 
 }  // namespace tetralight::detail

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -19,10 +20,11 @@ constexpr uint32_t kUnsignedShort = 5123;
 constexpr uint32_t kUnsignedInt = 5125;
 constexpr uint32_t kFloat = 5126;
 
-/// Elements that no byte of the file stands for: a bound against small files that fill memory.
+/// Elements of an accessor without a buffer view, which are zeros: limited, so that a small file
+/// cannot fill memory.
 constexpr uint64_t kMaxZeroElements = 1 << 20;
 
-/// Bytes of one component; 0 for types that nothing here reads.
+/// Bytes of one component; 0 if the type is unknown or not read.
 uint64_t component_size(uint32_t component_type) {
     switch (component_type) {
         case kByte:
@@ -46,18 +48,22 @@ struct ElementRun {
     uint64_t element_size = 0;
 };
 
-/// Copies the elements of a run, tightly packed. All numbers are below 2^33, so nothing overflows.
+/// Copies the elements of a run, tightly packed. No product overflows, since all numbers are below
+/// 2^33.
 Result<std::vector<std::byte>> gather(const GltfDocument& document, uint32_t view_index,
                                       const ElementRun& run) {
     const GltfBufferView& view = document.buffer_views[view_index];
     const uint64_t stride = view.byte_stride == 0 ? run.element_size : view.byte_stride;
     if (stride < run.element_size) {
-        return Error{str_cat("byteStride ", stride, " of buffer view ", view_index,
+        return Error{ErrorCode::Corrupt, str_cat("bufferViews[", view_index, "].byteStride"),
+                     str_cat(stride),
+                     str_cat("byteStride ", stride, " of buffer view ", view_index,
                              " is less than an element's ", run.element_size, " bytes")};
     }
     const uint64_t end = run.byte_offset + (run.count - 1) * stride + run.element_size;
     if (end > view.byte_length) {
-        return Error{str_cat("bytes ", run.byte_offset, " to ", end, " are outside of buffer view ",
+        return Error{ErrorCode::Corrupt,
+                     str_cat("bytes ", run.byte_offset, " to ", end, " are outside of buffer view ",
                              view_index, " (", view.byte_length, " bytes)")};
     }
     const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
@@ -91,25 +97,29 @@ Status replace_sparse(const GltfDocument& document, const GltfAccessor& accessor
                       std::span<std::byte> packed) {
     const GltfSparse& sparse = *accessor.sparse;
     if (sparse.count == 0 || sparse.count > accessor.count) {
-        return Error{str_cat("sparse count ", sparse.count, " is not in 1 to ", accessor.count)};
+        return Error{ErrorCode::Corrupt, ".sparse.count", str_cat(sparse.count),
+                     str_cat("sparse count ", sparse.count, " is not in 1 to ", accessor.count)};
     }
     if (!is_index_type(sparse.index_component_type)) {
-        return Error{str_cat("sparse indices: component type ", sparse.index_component_type,
+        return Error{ErrorCode::Corrupt, ".sparse.indices.componentType",
+                     str_cat(sparse.index_component_type),
+                     str_cat("sparse indices: component type ", sparse.index_component_type,
                              " is not supported")};
     }
     const uint64_t element_size = packed.size() / accessor.count;
     const uint64_t index_size = component_size(sparse.index_component_type);
     const auto indices =
         gather(document, sparse.index_view, {sparse.index_byte_offset, sparse.count, index_size});
-    if (!indices) return indices.error().in("sparse indices");
+    if (!indices) return in_member(indices.error().in("sparse indices"), ".sparse.indices");
     const auto values =
         gather(document, sparse.value_view, {sparse.value_byte_offset, sparse.count, element_size});
-    if (!values) return values.error().in("sparse values");
+    if (!values) return in_member(values.error().in("sparse values"), ".sparse.values");
     for (uint64_t i = 0; i < sparse.count; ++i) {
         const uint32_t index =
             unsigned_at(&(*indices)[i * index_size], sparse.index_component_type);
         if (index >= accessor.count) {
-            return Error{str_cat("sparse index ", index, " is out of range (", accessor.count,
+            return Error{ErrorCode::Corrupt, str_cat(".sparse.indices[", i, "]"), str_cat(index),
+                         str_cat("sparse index ", index, " is out of range (", accessor.count,
                                  " elements)")};
         }
         std::memcpy(&packed[index * element_size], &(*values)[i * element_size], element_size);
@@ -122,7 +132,7 @@ Result<std::vector<std::byte>> packed_elements(const GltfDocument& document,
                                                const GltfAccessor& accessor) {
     const uint64_t element_size =
         component_size(accessor.component_type) * accessor.component_count;
-    if (accessor.count == 0) return Error{"has no elements"};
+    if (accessor.count == 0) return Error{ErrorCode::Corrupt, ".count", "0", "has no elements"};
     std::vector<std::byte> packed;
     if (accessor.buffer_view != kNoIndex) {
         auto gathered = gather(document, accessor.buffer_view,
@@ -130,7 +140,8 @@ Result<std::vector<std::byte>> packed_elements(const GltfDocument& document,
         if (!gathered) return gathered.error();
         packed = std::move(*gathered);
     } else if (accessor.count > kMaxZeroElements) {
-        return Error{str_cat(accessor.count, " elements without a buffer view are more than ",
+        return Error{ErrorCode::Unsupported, ".count", str_cat(accessor.count),
+                     str_cat(accessor.count, " elements without a buffer view are more than ",
                              kMaxZeroElements)};
     } else {
         packed.resize(accessor.count * element_size);
@@ -169,13 +180,19 @@ float float_at(const std::byte* bytes, uint32_t component_type, bool is_normaliz
     return value;
 }
 
+Error component_type_error(const GltfAccessor& accessor, const char* reason) {
+    return {ErrorCode::Corrupt, ".componentType", str_cat(accessor.component_type),
+            str_cat("component type ", accessor.component_type, reason)};
+}
+
 Status check_float_type(const GltfAccessor& accessor, int component_count) {
     if (accessor.component_count != static_cast<uint32_t>(component_count)) {
-        return Error{str_cat("is not of type VEC", component_count)};
+        return Error{ErrorCode::Corrupt, ".type", "",
+                     str_cat("is not of type VEC", component_count)};
     }
     const bool is_known = component_size(accessor.component_type) != 0;
     if (is_known && accessor.component_type != kUnsignedInt) return Ok{};
-    return Error{str_cat("component type ", accessor.component_type, " is not supported here")};
+    return component_type_error(accessor, " is not supported here");
 }
 
 template <class Vector>
@@ -193,6 +210,7 @@ Result<std::vector<Vector>> decode_vectors(const GltfDocument& document,
             const float value = float_at(bytes, accessor.component_type, accessor.is_normalized);
             if (!std::isfinite(value)) {
                 return Error{
+                    ErrorCode::Corrupt, str_cat("[", i, "][", axis, "]"), str_cat(value),
                     str_cat("element ", i, " is not finite (component ", axis, " is ", value, ")")};
             }
             vectors[i][axis] = value;
@@ -202,11 +220,34 @@ Result<std::vector<Vector>> decode_vectors(const GltfDocument& document,
     return vectors;
 }
 
+Error in_accessor(const Error& error, uint32_t accessor_index) {
+    return in_member(error.in(str_cat("accessor ", accessor_index)),
+                     str_cat("accessors[", accessor_index, "]"));
+}
+
 template <class Vector>
 Result<std::vector<Vector>> read_vectors(const GltfDocument& document, uint32_t accessor_index) {
     auto vectors = decode_vectors<Vector>(document, document.accessors[accessor_index]);
-    if (!vectors) return vectors.error().in(str_cat("accessor ", accessor_index));
+    if (!vectors) return in_accessor(vectors.error(), accessor_index);
     return vectors;
+}
+
+Result<std::vector<uint32_t>> decode_indices(const GltfDocument& document,
+                                             const GltfAccessor& accessor) {
+    if (accessor.component_count != 1) {
+        return Error{ErrorCode::Corrupt, ".type", "", "is not of type SCALAR"};
+    }
+    if (!is_index_type(accessor.component_type)) {
+        return component_type_error(accessor, " is not supported for indices");
+    }
+    const auto packed = packed_elements(document, accessor);
+    if (!packed) return packed.error();
+    const uint64_t size = component_size(accessor.component_type);
+    std::vector<uint32_t> indices(accessor.count);
+    for (size_t i = 0; i < indices.size(); ++i) {
+        indices[i] = unsigned_at(&(*packed)[i * size], accessor.component_type);
+    }
+    return indices;
 }
 
 }  // namespace
@@ -237,28 +278,19 @@ Result<std::vector<glm::vec4>> read_colors(const GltfDocument& document, uint32_
     for (size_t i = 0; i < colors.size(); ++i) {
         for (int channel = 0; channel < 4; ++channel) {
             if (colors[i][channel] >= 0.0f) continue;
-            return Error{str_cat("accessor ", accessor_index, ": element ", i, " is negative (",
-                                 colors[i][channel], ")")};
+            const float value = colors[i][channel];
+            return in_accessor(
+                {ErrorCode::Corrupt, str_cat("[", i, "][", channel, "]"), str_cat(value),
+                 str_cat("element ", i, " is negative (", value, ")")},
+                accessor_index);
         }
     }
     return colors;
 }
 
 Result<std::vector<uint32_t>> read_indices(const GltfDocument& document, uint32_t accessor_index) {
-    const GltfAccessor& accessor = document.accessors[accessor_index];
-    const std::string place = str_cat("accessor ", accessor_index);
-    if (accessor.component_count != 1) return Error{place + ": is not of type SCALAR"};
-    if (!is_index_type(accessor.component_type)) {
-        return Error{str_cat(place, ": component type ", accessor.component_type,
-                             " is not supported for indices")};
-    }
-    const auto packed = packed_elements(document, accessor);
-    if (!packed) return packed.error().in(place);
-    const uint64_t size = component_size(accessor.component_type);
-    std::vector<uint32_t> indices(accessor.count);
-    for (size_t i = 0; i < indices.size(); ++i) {
-        indices[i] = unsigned_at(&(*packed)[i * size], accessor.component_type);
-    }
+    auto indices = decode_indices(document, document.accessors[accessor_index]);
+    if (!indices) return in_accessor(indices.error(), accessor_index);
     return indices;
 }
 

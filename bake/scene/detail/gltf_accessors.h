@@ -10,8 +10,8 @@
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/base/result.h>
 
-// Accessors read to plain arrays: floats as they stand, 8- and 16-bit integers as
-// KHR_mesh_quantization defines them (normalized or not). Messages name the accessor.
+// Reads accessors into plain arrays: floats unchanged, 8- and 16-bit integers as
+// KHR_mesh_quantization defines them (normalized or not). Errors name the accessor.
 
 namespace tetralight::detail {
 

@@ -5,9 +5,13 @@
 #include <exception>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include <tetralight/bake/scene/detail/error_field.h>
+#include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_rules.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
+#include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 
@@ -28,24 +32,27 @@ uint64_t size_or(const json& element, const char* key, uint64_t otherwise) {
 
 Status check_version(const json& document) {
     const json* version = find_json(document, "asset/version");
-    if (version == nullptr || !version->is_string()) return Error{"asset.version is missing"};
+    if (version == nullptr || !version->is_string()) {
+        return Error{ErrorCode::Corrupt, "asset.version", "", "asset.version is missing"};
+    }
     if (version->get_ref<const std::string&>().starts_with("2.")) return Ok{};
-    return Error{str_cat("asset.version ", shown_json(*version), " is not supported (2.x is)")};
+    return Error{ErrorCode::Unsupported, "asset.version", shown_json(*version),
+                 str_cat("asset.version ", shown_json(*version), " is not supported (2.x is)")};
 }
 
 Status check_required_extensions(const json& document) {
     const json* required = find_json(document, "extensionsRequired");
     if (required == nullptr) return Ok{};
     if (!required->is_array()) {
-        return Error{str_cat("extensionsRequired is not an array (", shown_json(*required), ")")};
+        return in_member(wrong_type(*required, "extensionsRequired", "an array"), "");
     }
     for (const json& extension : *required) {
         const bool is_supported =
             extension.is_string() &&
-            std::find(std::begin(kSupportedExtensions), std::end(kSupportedExtensions),
-                      extension.get_ref<const std::string&>()) != std::end(kSupportedExtensions);
+            std::ranges::count(kSupportedExtensions, extension.get_ref<const std::string&>()) > 0;
         if (is_supported) continue;
-        return Error{str_cat("required extension ", shown_json(extension), " is not supported")};
+        return Error{ErrorCode::Unsupported, "extensionsRequired", shown_json(extension),
+                     str_cat("required extension ", shown_json(extension), " is not supported")};
     }
     return Ok{};
 }
@@ -56,7 +63,8 @@ Status check_default_scene(const json& document) {
     const json* scenes = find_json(document, "scenes");
     const size_t count = scenes == nullptr ? 0 : scenes->size();
     if (scene->is_number_unsigned() && scene->get<uint64_t>() < count) return Ok{};
-    return Error{str_cat("scene ", shown_json(*scene), " is out of range (", count, " scenes)")};
+    return Error{ErrorCode::Corrupt, "scene", shown_json(*scene),
+                 str_cat("scene ", shown_json(*scene), " is out of range (", count, " scenes)")};
 }
 
 Status check_uri(const json& element) {
@@ -67,17 +75,27 @@ Status check_uri(const json& element) {
     return Ok{};
 }
 
+/// Returns corrupt with the member `key` of an element as its field.
+Error element_error(const char* section, size_t index, const char* key, std::string value,
+                    const std::string& message) {
+    const Error error{ErrorCode::Corrupt, str_cat(".", key), std::move(value), message};
+    return in_element(error, section, index, "");
+}
+
 Status check_buffers(const json& document, GltfContainer container) {
     const json* buffers = find_json(document, "buffers");
     if (buffers == nullptr) return Ok{};
     for (size_t i = 0; i < buffers->size(); ++i) {
         const json& buffer = (*buffers)[i];
         const bool is_embedded = container == GltfContainer::Glb && i == 0;
-        if (!buffer.contains("uri") && !is_embedded)
-            return Error{str_cat("buffer ", i, ": has no uri")};
-        if (buffer["byteLength"] == 0) return Error{str_cat("buffer ", i, ": byteLength is 0")};
+        if (!buffer.contains("uri") && !is_embedded) {
+            return element_error("buffers", i, "uri", "", "has no uri");
+        }
+        if (buffer["byteLength"] == 0) {
+            return element_error("buffers", i, "byteLength", "0", "byteLength is 0");
+        }
         const auto uri = check_uri(buffer);
-        if (!uri) return uri.error().in(str_cat("buffer ", i));
+        if (!uri) return in_element(uri.error(), "buffers", i, "");
     }
     return Ok{};
 }
@@ -87,7 +105,7 @@ Status check_image_uris(const json& document) {
     if (images == nullptr) return Ok{};
     for (size_t i = 0; i < images->size(); ++i) {
         const auto uri = check_uri((*images)[i]);
-        if (!uri) return uri.error().in(str_cat("image ", i));
+        if (!uri) return in_element(uri.error(), "images", i, "");
     }
     return Ok{};
 }
@@ -101,18 +119,21 @@ Status check_buffer_views(const json& document) {
         const uint64_t buffer_length = document["buffers"][buffer]["byteLength"].get<uint64_t>();
         const uint64_t offset = size_or(view, "byteOffset", 0);
         const uint64_t length = size_or(view, "byteLength", 0);
-        if (length == 0) return Error{str_cat("buffer view ", i, ": byteLength is 0")};
+        if (length == 0) {
+            return element_error("bufferViews", i, "byteLength", "0", "byteLength is 0");
+        }
         if (offset + length > buffer_length) {  // both < 2^32
-            return Error{str_cat("buffer view ", i, ": bytes ", offset, " to ", offset + length,
-                                 " are outside of buffer ", buffer, " (", buffer_length,
-                                 " bytes)")};
+            return element_error(
+                "bufferViews", i, "byteLength", str_cat(length),
+                str_cat("bytes ", offset, " to ", offset + length, " are outside of buffer ",
+                        buffer, " (", buffer_length, " bytes)"));
         }
     }
     return Ok{};
 }
 
 Status check_document(const json& document, GltfContainer container) {
-    if (!document.is_object()) return Error{"is not a JSON object"};
+    if (!document.is_object()) return Error{ErrorCode::Corrupt, "is not a JSON object"};
     if (const auto status = check_version(document); !status) return status;
     if (const auto status = check_required_extensions(document); !status) return status;
     if (const auto status = check_gltf_sections(document); !status) return status;
@@ -131,7 +152,8 @@ Status check_gltf_json(std::string_view json_text, GltfContainer container) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{str_cat("is not glTF (", json_error_reason(exception), ")")};
+        return Error{ErrorCode::Corrupt,
+                     str_cat("is not glTF (", json_error_reason(exception), ")")};
     }
 }
 

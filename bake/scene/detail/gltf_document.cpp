@@ -4,14 +4,16 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/glb_container.h>
 #include <tetralight/bake/scene/detail/gltf_check.h>
 #include <tetralight/bake/scene/detail/gltf_model.h>
+#include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 
@@ -21,18 +23,19 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 bool pretend_file_exists(const std::string&, void*) {
-    return true;  // what is missing is found out by reading, with the system's reason
+    return true;  // reading the file gives the system's reason if it is missing
 }
 
 std::string keep_path(const std::string& path, void*) {
     return path;
 }
 
-bool read_buffer_file(std::vector<unsigned char>* out, std::string* error, const std::string& path,
-                      void*) {
+/// Reads the file of a buffer. `failure` is a `std::optional<Error>` that takes the reason.
+bool read_buffer_file(std::vector<unsigned char>* out, std::string*, const std::string& path,
+                      void* failure) {
     const auto bytes = read_file(path);
     if (!bytes) {
-        *error = error_text(bytes.error());
+        *static_cast<std::optional<Error>*>(failure) = bytes.error();
         return false;
     }
     const auto* first = reinterpret_cast<const unsigned char*>(bytes->data());
@@ -40,27 +43,29 @@ bool read_buffer_file(std::vector<unsigned char>* out, std::string* error, const
     return true;
 }
 
-/// Keeps the encoded bytes of a data URI. Images in buffer views are found through the view.
+/// Keeps the encoded bytes of a data URI. Images in buffer views are read through the view.
 bool keep_encoded_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                         const unsigned char* bytes, int size, void*) {
     if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
     return true;
 }
 
-/// tinygltf's messages, which may have several lines and hold a whole data URI, as one short line.
+/// A message of tinygltf, which may have several lines and hold a whole data URI, as one short
+/// line.
 std::string one_line(std::string message) {
-    constexpr size_t kLongest = 200;
+    constexpr size_t kMaxLength = 200;
     while (!message.empty() && message.back() == '\n') message.pop_back();
     for (char& c : message) {
         if (c == '\n') c = ' ';
     }
-    return message.size() <= kLongest ? message : message.substr(0, kLongest) + "...";
+    return message.size() <= kMaxLength ? message : message.substr(0, kMaxLength) + "...";
 }
 
 Result<tinygltf::Model> parse_model(Bytes bytes, const std::string& folder) {
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(keep_encoded_image, nullptr);
-    parser.SetFsCallbacks({pretend_file_exists, keep_path, read_buffer_file, nullptr, nullptr});
+    std::optional<Error> failure;
+    parser.SetFsCallbacks({pretend_file_exists, keep_path, read_buffer_file, nullptr, &failure});
     tinygltf::Model model;
     std::string error;
     std::string warning;
@@ -71,15 +76,19 @@ Result<tinygltf::Model> parse_model(Bytes bytes, const std::string& folder) {
             ? parser.LoadBinaryFromMemory(&model, &error, &warning, first, size, folder)
             : parser.LoadASCIIFromString(&model, &error, &warning,
                                          reinterpret_cast<const char*>(first), size, folder);
-    // A parsed model may come with errors too: of parts that check_gltf_json() passes over, since
-    // nothing here reads them (a skin without matrices, say).
+    // tinygltf also reports errors of a model that it parsed: in parts that are not read, and that
+    // check_gltf_json() does not check (a skin without matrices, for example).
     if (is_parsed) return model;
-    return Error{one_line(error.empty() ? "cannot parse glTF" : error)};
+    // The parser appends buffers one by one, so that the next one is the one it could not read.
+    if (failure)
+        return in_element(in_member(*failure, ".uri"), "buffers", model.buffers.size(), "");
+    return Error{ErrorCode::Corrupt, one_line(error.empty() ? "cannot parse glTF" : error)};
 }
 
 Result<GltfDocument> parse_document(Bytes bytes, const std::string& path) {
     if (bytes.size() > std::numeric_limits<uint32_t>::max()) {
-        return Error{str_cat(bytes.size(), " bytes are too many for a glTF file")};
+        return Error{ErrorCode::Unsupported,
+                     str_cat(bytes.size(), " bytes are too many for a glTF file")};
     }
     const auto container = is_glb(bytes) ? GltfContainer::Glb : GltfContainer::Gltf;
     const auto json = container == GltfContainer::Glb ? glb_json(bytes) : Result<Bytes>(bytes);
@@ -104,8 +113,19 @@ Result<GltfDocument> read_gltf_document(const std::string& path) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
-        return Error{str_cat(path, ": cannot parse glTF (", exception.what(), ")")};
+        return Error{ErrorCode::Corrupt,
+                     str_cat(path, ": cannot parse glTF (", exception.what(), ")")};
     }
+}
+
+Error in_element(const Error& error, std::string_view section, size_t index,
+                 const std::string& name) {
+    for (const GltfSection& s : gltf_sections()) {
+        if (section != s.name) continue;
+        return in_member(error.in(gltf_place(s.element, index, name)),
+                         str_cat(member_path(s.path), "[", index, "]"));
+    }
+    return error;
 }
 
 std::string gltf_place(const char* kind, size_t index, const std::string& name) {

@@ -7,13 +7,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/result.h>
 
-// What a glTF file says, as plain values and before it is interpreted. Indices are in range or
-// kNoIndex, where the file leaves them out; numbers are finite; buffer views lie in their buffers.
+// The contents of a glTF file as plain values, before they are interpreted. Indices are in range,
+// or kNoIndex if the file leaves them out; numbers are finite; buffer views lie in their buffers.
 
 namespace tetralight::detail {
 
@@ -21,7 +22,7 @@ struct GltfBufferView {
     uint32_t buffer = 0;
     uint64_t byte_offset = 0;
     uint64_t byte_length = 0;
-    /// 0 = elements follow one another.
+    /// 0 = tightly packed.
     uint64_t byte_stride = 0;
 };
 
@@ -41,14 +42,14 @@ struct GltfAccessor {
     uint64_t byte_offset = 0;
     /// glTF's code, 5120 (byte) to 5126 (float).
     uint32_t component_type = 0;
-    /// 1 to 4; 0 for matrices, which nothing here reads.
+    /// 1 to 4; 0 for matrices, which are not read.
     uint32_t component_count = 0;
     bool is_normalized = false;
     uint64_t count = 0;
     std::optional<GltfSparse> sparse;
 };
 
-/// Accessors by the name of what they hold: `POSITION`, `TEXCOORD_0`, `TRANSLATION`.
+/// Accessors by the name of their attribute: `POSITION`, `TEXCOORD_0`, `TRANSLATION`.
 using GltfAttributes = std::map<std::string, uint32_t>;
 
 struct GltfPrimitive {
@@ -103,8 +104,8 @@ struct GltfSampler {
     uint32_t wrap_t = 0;
 };
 
-/// Extras of a light, or of its node, which win. A string that is not one reads "(not a string)", a
-/// number that is not one NaN.
+/// Extras of a light, or of its node, which take precedence. A value that should be a string and is
+/// not becomes "(not a string)"; one that should be a number and is not becomes NaN.
 struct GltfLightExtras {
     std::optional<std::string> mode;
     std::optional<std::string> falloff;
@@ -130,7 +131,7 @@ struct GltfLight {
 
 struct GltfCamera {
     std::string name;
-    /// None = not a perspective camera.
+    /// Empty if the camera is not a perspective one.
     std::optional<double> fov_y_radians;
 };
 
@@ -155,7 +156,7 @@ struct GltfNode {
     bool has_skin = false;
     /// EXT_mesh_gpu_instancing.
     std::optional<GltfAttributes> instancing;
-    // Extras of Tetralight's own.
+    // Extras that Tetralight defines.
     std::optional<bool> contributes_gi;
     std::optional<std::string> light_probes;
     std::optional<std::string> probe_anchor;
@@ -166,7 +167,7 @@ struct GltfNode {
 };
 
 struct GltfDocument {
-    /// The file's path, to which other files are relative and with which messages begin.
+    /// The file's path. URIs are relative to its folder, and messages begin with it.
     std::string path;
     std::vector<std::vector<unsigned char>> buffers;
     std::vector<GltfBufferView> buffer_views;
@@ -179,16 +180,24 @@ struct GltfDocument {
     std::vector<GltfLight> lights;
     std::vector<GltfCamera> cameras;
     std::vector<GltfNode> nodes;
-    /// Roots of the default scene: the file's choice, else its first scene; none = no scene.
+    /// Roots of the default scene, which is the one that the file names, else its first one. Empty
+    /// if there is no scene.
     std::optional<std::vector<uint32_t>> scene_roots;
+    /// Index of the default scene.
+    uint32_t scene = 0;
     /// Radiance of the sky, from the default scene's `extras.sky`.
     std::optional<glm::dvec3> sky_radiance;
 };
 
-/// Reads and checks a .gltf or .glb file and its buffers. Image files are left for later.
+/// Reads and checks a .gltf or .glb file and its buffers, but not its image files.
 [[nodiscard]] Result<GltfDocument> read_gltf_document(const std::string& path);
 
-/// How messages name an element: `mesh 3 "wall"`, without the name where it has none.
+/// How messages name an element: `mesh 3 "wall"`, or `mesh 3` if it has no name.
 [[nodiscard]] std::string gltf_place(const char* kind, size_t index, const std::string& name);
+
+/// The same error in an element of a section (gltf_schema.h): `node 3 "lamp": ` before the message,
+/// and `nodes[3]` before a relative field.
+[[nodiscard]] Error in_element(const Error& error, std::string_view section, size_t index,
+                               const std::string& name);
 
 }  // namespace tetralight::detail

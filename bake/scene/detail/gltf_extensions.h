@@ -6,25 +6,25 @@
 
 #include <tetralight/bake/scene/detail/gltf_model.h>
 
-// What extensions and extras of tinygltf's elements say.
+// Reads extensions and extras of tinygltf's elements.
 
 namespace tetralight::detail {
 
-/// kNoIndex for tinygltf's −1.
+/// The index; kNoIndex for tinygltf's −1.
 [[nodiscard]] uint32_t index_from(int index);
 
-/// Null where the element has no such extension.
+/// Null if the element does not have the extension.
 [[nodiscard]] const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions,
                                                     const char* name);
 
-/// Precondition: the value is a number where there is one.
+/// The number, or `otherwise` if there is no value. Precondition: the value is a number.
 [[nodiscard]] double number_at(const tinygltf::Value& object, const char* key, double otherwise);
 
-/// What is no string reads "(not a string)".
+/// The string, "(not a string)" for another type, or nothing if the key is absent.
 [[nodiscard]] std::optional<std::string> string_extra(const tinygltf::Value& extras,
                                                       const char* key);
 
-/// Precondition: the value is a boolean where there is one.
+/// The boolean, or nothing if the key is absent. Precondition: the value is a boolean.
 [[nodiscard]] std::optional<bool> boolean_extra(const tinygltf::Value& extras, const char* key);
 
 /// `extras.bake_emission`: a string, or a boolean for "baked" and "none".

@@ -8,14 +8,16 @@
 namespace tetralight::detail {
 namespace {
 
-/// Attributes of EXT_mesh_gpu_instancing, filled up to one length.
+/// Attributes of EXT_mesh_gpu_instancing, all of one length; absent ones have default values.
 struct InstanceAttributes {
     std::vector<glm::vec3> translations;
     std::vector<glm::vec4> rotations;
     std::vector<glm::vec3> scales;
 };
 
-/// Number of instances, on which all attributes have to agree.
+constexpr const char* kAttributes = ".extensions.EXT_mesh_gpu_instancing.attributes";
+
+/// The number of instances. Returns corrupt if attributes have different lengths.
 Result<size_t> instance_count(const GltfDocument& document, const GltfAttributes& attributes) {
     size_t count = 0;
     for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"}) {
@@ -23,11 +25,15 @@ Result<size_t> instance_count(const GltfDocument& document, const GltfAttributes
         if (attribute == attributes.end()) continue;
         const size_t own = document.accessors[attribute->second].count;
         if (count != 0 && own != count) {
-            return Error{str_cat(name, " has ", own, " elements, another attribute has ", count)};
+            return Error{ErrorCode::Corrupt, str_cat(kAttributes, ".", name), "",
+                         str_cat(name, " has ", own, " elements, another attribute has ", count)};
         }
         count = own;
     }
-    if (count == 0) return Error{"has neither TRANSLATION nor ROTATION nor SCALE"};
+    if (count == 0) {
+        return Error{ErrorCode::Corrupt, kAttributes, "",
+                     "has neither TRANSLATION nor ROTATION nor SCALE"};
+    }
     return count;
 }
 
@@ -62,12 +68,12 @@ Result<InstanceAttributes> read_attributes(const GltfDocument& document,
     return result;
 }
 
-/// The transforms at which a node shows its mesh: its own, or those of its instancing.
+/// The transforms of a node's mesh: the node's own, or those of its instances.
 Result<std::vector<glm::dmat4>> read_transforms(const GltfDocument& document,
                                                 const GltfWorldNode& placed) {
     const auto& instancing = document.nodes[placed.node].instancing;
     if (!is_invertible(placed.world_from_node)) {
-        return Error{"transform is not invertible; its mesh would be flat"};
+        return Error{ErrorCode::Corrupt, "transform is not invertible; its mesh would be flat"};
     }
     if (!instancing) return std::vector<glm::dmat4>{placed.world_from_node};
     const auto attributes = read_attributes(document, *instancing);
@@ -82,7 +88,8 @@ Result<std::vector<glm::dmat4>> read_transforms(const GltfDocument& document,
         transforms.push_back(placed.world_from_node * node_from_instance);
         const bool is_finite = is_finite_affine(transforms.back());
         if (is_finite && is_invertible(transforms.back())) continue;
-        return Error{str_cat("EXT_mesh_gpu_instancing: transform ", i, " is not ",
+        return Error{ErrorCode::Corrupt, kAttributes, "",
+                     str_cat("EXT_mesh_gpu_instancing: transform ", i, " is not ",
                              is_finite ? "invertible" : "finite")};
     }
     return transforms;
@@ -101,7 +108,7 @@ Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
         if (node.mesh == kNoIndex || is_probe[placed.node]) continue;
         const auto transforms = read_transforms(document, placed);
         if (!transforms) {
-            return transforms.error().in(gltf_place("node", placed.node, node.name));
+            return in_element(transforms.error(), "nodes", placed.node, node.name);
         }
         for (const glm::dmat4& world_from_mesh : *transforms) {
             for (const uint32_t mesh : meshes.meshes_of[node.mesh]) {

@@ -11,8 +11,8 @@
 
 namespace tetralight::detail {
 
-/// What stands where: one instance for each triangle primitive of each node's mesh, times the
-/// node's EXT_mesh_gpu_instancing. Nodes that are probes are left out.
+/// One instance for each triangle primitive of each node's mesh, times the instances of the node's
+/// EXT_mesh_gpu_instancing. Skips nodes that are probes.
 [[nodiscard]] Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
                                                                std::span<const GltfWorldNode> nodes,
                                                                const std::vector<bool>& is_probe,

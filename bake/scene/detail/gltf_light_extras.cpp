@@ -3,17 +3,29 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
 
+/// Returns invalid_argument for the member `extras.NAME`; messages begin with its name.
+Error extra_error(const char* name, std::string value, const std::string& message) {
+    return {ErrorCode::InvalidArgument, str_cat(".extras.", name), std::move(value),
+            str_cat("extras.", name, message)};
+}
+
+/// Returns invalid_argument for a word that is not one of those allowed.
+Error word_error(const char* name, const std::string& word, const char* allowed) {
+    return extra_error(name, word, str_cat(" \"", word, "\" is ", allowed));
+}
+
 Result<LightMode> mode_from(const std::string& mode) {
     if (mode == "mixed") return LightMode::Mixed;
     if (mode == "baked") return LightMode::Baked;
     if (mode == "realtime") return LightMode::Realtime;
-    return Error{str_cat("extras.mode \"", mode, "\" is not \"mixed\", \"baked\" or \"realtime\"")};
+    return word_error("mode", mode, "not \"mixed\", \"baked\" or \"realtime\"");
 }
 
 Result<LightFalloff> falloff_from(const std::string& falloff) {
@@ -21,17 +33,17 @@ Result<LightFalloff> falloff_from(const std::string& falloff) {
     if (falloff == "inverse-square-range") return LightFalloff::InverseSquareRange;
     if (falloff == "linear") return LightFalloff::Linear;
     if (falloff == "legacy") return LightFalloff::Legacy;
-    return Error{str_cat("extras.falloff \"", falloff,
-                         "\" is not \"gltf\", \"inverse-square-range\", \"linear\" or \"legacy\"")};
+    return word_error("falloff", falloff,
+                      "not \"gltf\", \"inverse-square-range\", \"linear\" or \"legacy\"");
 }
 
-/// A number ≥ 0, or `otherwise`.
+/// A number ≥ 0, or `otherwise` if there is none.
 Result<float> number_from(const std::optional<double>& value, const char* name, float otherwise) {
     if (!value) return otherwise;
     const auto number = static_cast<float>(*value);
-    if (std::isnan(*value)) return Error{str_cat("extras.", name, " is not a number")};
+    if (std::isnan(*value)) return extra_error(name, "", " is not a number");
     if (number >= 0.0f && std::isfinite(number)) return number;
-    return Error{str_cat("extras.", name, " ", *value, " is negative or too large")};
+    return extra_error(name, str_cat(*value), str_cat(" ", *value, " is negative or too large"));
 }
 
 Status apply_mode(const GltfLightExtras& extras, Light& light) {
@@ -50,25 +62,32 @@ Status apply_falloff(const GltfLightExtras& extras, Light& light) {
     if (!falloff) return falloff.error();
     light.falloff = *falloff;
     const bool is_distant = light.type == LightType::Directional;
-    if (is_distant) return Error{"extras.falloff is not for directional lights"};
+    if (is_distant) {
+        return extra_error("falloff", *extras.falloff, " is not for directional lights");
+    }
     if (light.falloff == LightFalloff::Gltf || light.range > 0.0f) return Ok{};
-    return Error{str_cat("extras.falloff \"", *extras.falloff, "\" needs a range > 0")};
+    return extra_error("falloff", *extras.falloff,
+                       str_cat(" \"", *extras.falloff, "\" needs a range > 0"));
 }
 
 Status apply_size(const GltfLightExtras& extras, Light& light) {
     const bool is_distant = light.type == LightType::Directional;
     if (is_distant && extras.radius) {
-        return Error{"extras.radius is not for directional lights; they have extras.angle"};
+        return extra_error("radius", str_cat(*extras.radius),
+                           " is not for directional lights; they have extras.angle");
     }
     if (!is_distant && extras.angle_degrees) {
-        return Error{"extras.angle is for directional lights; others have extras.radius"};
+        return extra_error("angle", str_cat(*extras.angle_degrees),
+                           " is for directional lights; others have extras.radius");
     }
     const auto radius = number_from(extras.radius, "radius", 0.0f);
     if (!radius) return radius.error();
     const auto angle = number_from(extras.angle_degrees, "angle", 0.0f);
     if (!angle) return angle.error();
-    if (*angle > 180.0f)
-        return Error{str_cat("extras.angle ", *angle, " is more than 180 degrees")};
+    if (*angle > 180.0f) {
+        return extra_error("angle", str_cat(*angle),
+                           str_cat(" ", *angle, " is more than 180 degrees"));
+    }
     light.radius = is_distant ? *angle / 360.0f * std::numbers::pi_v<float> : *radius;
     return Ok{};
 }
@@ -79,7 +98,7 @@ Status apply_rectangle(const GltfLightExtras& extras, Light& light) {
     const auto height = number_from(extras.height, "height", 0.0f);
     if (!height) return height.error();
     if (*width == 0.0f || *height == 0.0f) {
-        return Error{"extras.shape \"rectangle\" needs a width and a height > 0"};
+        return extra_error("shape", "rectangle", " \"rectangle\" needs a width and a height > 0");
     }
     light.type = LightType::Rectangle;
     light.radius = 0.0f;
@@ -91,14 +110,15 @@ Status apply_rectangle(const GltfLightExtras& extras, Light& light) {
 Status apply_shape(const GltfLightExtras& extras, Light& light) {
     if (!extras.shape) return Ok{};
     if (light.type == LightType::Directional) {
-        return Error{"extras.shape is not for directional lights"};
+        return extra_error("shape", *extras.shape, " is not for directional lights");
     }
     if (*extras.shape == "rectangle") return apply_rectangle(extras, light);
     if (*extras.shape != "disc") {
-        return Error{
-            str_cat("extras.shape \"", *extras.shape, "\" is neither \"rectangle\" nor \"disc\"")};
+        return word_error("shape", *extras.shape, "neither \"rectangle\" nor \"disc\"");
     }
-    if (light.radius == 0.0f) return Error{"extras.shape \"disc\" needs a radius > 0"};
+    if (light.radius == 0.0f) {
+        return extra_error("shape", "disc", " \"disc\" needs a radius > 0");
+    }
     light.type = LightType::Disc;
     return Ok{};
 }

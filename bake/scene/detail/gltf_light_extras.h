@@ -6,12 +6,13 @@
 
 namespace tetralight::detail {
 
-/// The extras of a node over those of its light.
+/// The extras of a light, replaced by those of its node where the node has some.
 [[nodiscard]] GltfLightExtras merged_extras(const GltfLightExtras& of_node,
                                             const GltfLightExtras& of_light);
 
-/// Sets what extras say: mode, falloff, indirect multiplier, size and shape. `light` has its type
-/// and range already; a shape changes the type.
+/// Sets mode, falloff, indirect multiplier, size and shape from extras. Precondition: `light` has
+/// its type and range; a shape changes the type. Returns invalid_argument, with the field
+/// `.extras.NAME`, for unknown words, numbers out of range and extras that do not fit the type.
 [[nodiscard]] Status apply_light_extras(const GltfLightExtras& extras, Light& light);
 
 }  // namespace tetralight::detail

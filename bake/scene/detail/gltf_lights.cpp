@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_light_extras.h>
 #include <tetralight/base/str_cat.h>
 
@@ -21,14 +22,20 @@ std::optional<LightType> type_from(const std::string& type) {
 }
 
 Status read_intensity(const GltfLight& source, Light& light) {
-    if (source.intensity < 0.0)
-        return Error{str_cat("intensity ", source.intensity, " is negative")};
+    if (source.intensity < 0.0) {
+        return Error{ErrorCode::Corrupt, ".intensity", str_cat(source.intensity),
+                     str_cat("intensity ", source.intensity, " is negative")};
+    }
     for (int channel = 0; channel < 3; ++channel) {
         const double color = source.color[channel];
-        if (color < 0.0) return Error{str_cat("color ", color, " is negative")};
+        if (color < 0.0) {
+            return Error{ErrorCode::Corrupt, str_cat(".color[", channel, "]"), str_cat(color),
+                         str_cat("color ", color, " is negative")};
+        }
         light.intensity[channel] = static_cast<float>(color * source.intensity);
         if (std::isfinite(light.intensity[channel])) continue;
-        return Error{str_cat("intensity is not finite (", color, " * ", source.intensity, ")")};
+        return Error{ErrorCode::Corrupt, ".intensity", str_cat(source.intensity),
+                     str_cat("intensity is not finite (", color, " * ", source.intensity, ")")};
     }
     return Ok{};
 }
@@ -36,10 +43,12 @@ Status read_intensity(const GltfLight& source, Light& light) {
 Status read_range(const GltfLight& source, Light& light) {
     light.range = static_cast<float>(source.range);
     if (source.range >= 0.0 && std::isfinite(light.range)) return Ok{};
-    return Error{str_cat("range ", source.range, " is negative or too large")};
+    return Error{ErrorCode::Corrupt, ".range", str_cat(source.range),
+                 str_cat("range ", source.range, " is negative or too large")};
 }
 
-/// Exporters write equal angles for a cone with a hard edge, and a right angle rounded up to float.
+/// Accepts what exporters write: equal angles for a cone with a hard edge, and a right angle that
+/// is rounded up to a float.
 Status read_cone(const GltfLight& source, Light& light) {
     constexpr double kRightAngle = std::numbers::pi / 2.0;
     constexpr double kRounding = 1e-6;
@@ -47,7 +56,8 @@ Status read_cone(const GltfLight& source, Light& light) {
     const double outer = source.outer_cone_radians;
     const bool is_cone = inner >= 0.0 && inner <= outer && outer > 0.0;
     if (!is_cone || outer > kRightAngle + kRounding) {
-        return Error{str_cat("cone angles ", inner, " and ", outer,
+        return Error{ErrorCode::Corrupt, ".spot", str_cat(inner, ", ", outer),
+                     str_cat("cone angles ", inner, " and ", outer,
                              " are not 0 <= inner <= outer <= pi / 2")};
     }
     light.cos_inner_cone = static_cast<float>(std::cos(std::min(inner, kRightAngle)));
@@ -55,26 +65,30 @@ Status read_cone(const GltfLight& source, Light& light) {
     return Ok{};
 }
 
-/// Lights shine along their node's −Z; a rectangle's width lies along its X. Neither its scale nor
-/// its mirroring matters (KHR_lights_punctual).
+/// Lights shine along their node's −Z; a rectangle's width is along its X. The node's scale and
+/// mirroring have no effect (KHR_lights_punctual).
 Status place_light(const glm::dmat4& world_from_node, Light& light) {
     light.position = glm::vec3(world_from_node[3]);
     for (int axis = 0; axis < 3; ++axis) {
         if (std::isfinite(light.position[axis])) continue;
-        return Error{str_cat("position is too far away (", world_from_node[3][axis], ")")};
+        return Error{ErrorCode::Corrupt,
+                     str_cat("position is too far away (", world_from_node[3][axis], ")")};
     }
     if (light.type == LightType::Point) return Ok{};
     const glm::dvec3 direction = -glm::dvec3(world_from_node[2]);
     const double length = glm::length(direction);
     if (!(length > 0.0) || !std::isfinite(length)) {
-        return Error{str_cat("direction is undefined: its node is scaled to ", length)};
+        return Error{ErrorCode::Corrupt,
+                     str_cat("direction is undefined: its node is scaled to ", length)};
     }
     light.direction = glm::vec3(direction / length);
     if (light.type != LightType::Rectangle) return Ok{};
     const glm::dvec3 forward = direction / length;
     const glm::dvec3 x(world_from_node[0]);
     const glm::dvec3 across = x - forward * glm::dot(forward, x);
-    if (!(glm::length(across) > 0.0)) return Error{"width is undefined: its node has no X axis"};
+    if (!(glm::length(across) > 0.0)) {
+        return Error{ErrorCode::Corrupt, "width is undefined: its node has no X axis"};
+    }
     light.tangent = glm::vec3(glm::normalize(across));
     return Ok{};
 }
@@ -88,10 +102,16 @@ Result<Light> read_light(const GltfLight& source, LightType type, const GltfWorl
     if (type == LightType::Spot) {
         if (const auto status = read_cone(source, light); !status) return status.error();
     }
+    const std::string node_member = str_cat("nodes[", placed.node, "]");
     const auto extras = merged_extras(node.light_extras, source.extras);
-    if (const auto status = apply_light_extras(extras, light); !status) return status.error();
+    Light alone = light;
+    if (const auto status = apply_light_extras(extras, light); !status) {
+        const auto of_node = apply_light_extras(node.light_extras, alone);
+        const bool is_of_node = !of_node && of_node.error().field == status.error().field;
+        return is_of_node ? in_member(status.error(), node_member) : status.error();
+    }
     if (const auto status = place_light(placed.world_from_node, light); !status) {
-        return status.error();
+        return in_member(status.error(), node_member);
     }
     return light;
 }
@@ -113,7 +133,8 @@ Result<GltfLights> read_lights(const GltfDocument& document, std::span<const Glt
         }
         const auto light = read_light(source, *type, placed, node);
         if (!light) {
-            return light.error().in(place).in(gltf_place("node", placed.node, node.name));
+            const Error error = in_element(light.error(), "lights", node.light, source.name);
+            return in_element(error, "nodes", placed.node, node.name);
         }
         result.lights.push_back(*light);
         result.names.push_back(node.name.empty() ? source.name : node.name);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_textures.h>
 #include <tetralight/base/str_cat.h>
 
@@ -13,7 +14,8 @@ constexpr uint32_t kUvSetCount = 2;
 
 Result<float> factor_from(double value, const char* name) {
     if (value >= 0.0 && value <= 1.0) return static_cast<float>(value);
-    return Error{str_cat(name, " ", value, " is not in 0 to 1")};
+    return Error{ErrorCode::Corrupt, str_cat(".pbrMetallicRoughness.", name), str_cat(value),
+                 str_cat(name, " ", value, " is not in 0 to 1")};
 }
 
 Result<glm::vec4> base_color_from(const GltfMaterial& source) {
@@ -26,17 +28,25 @@ Result<glm::vec4> base_color_from(const GltfMaterial& source) {
     return color;
 }
 
+constexpr const char* kEmissiveStrength =
+    ".extensions.KHR_materials_emissive_strength.emissiveStrength";
+
 Result<glm::vec3> emission_from(const GltfMaterial& source) {
     if (source.emissive_strength < 0.0) {
-        return Error{str_cat("emissiveStrength ", source.emissive_strength, " is negative")};
+        return Error{ErrorCode::Corrupt, kEmissiveStrength, str_cat(source.emissive_strength),
+                     str_cat("emissiveStrength ", source.emissive_strength, " is negative")};
     }
     glm::vec3 emission{};
     for (int channel = 0; channel < 3; ++channel) {
         const double factor = source.emissive_factor[channel];
-        if (factor < 0.0) return Error{str_cat("emissiveFactor ", factor, " is negative")};
+        if (factor < 0.0) {
+            return Error{ErrorCode::Corrupt, str_cat(".emissiveFactor[", channel, "]"),
+                         str_cat(factor), str_cat("emissiveFactor ", factor, " is negative")};
+        }
         emission[channel] = static_cast<float>(factor * source.emissive_strength);
         if (std::isfinite(emission[channel])) continue;
         return Error{
+            ErrorCode::Corrupt, kEmissiveStrength, str_cat(source.emissive_strength),
             str_cat("emission is not finite (", factor, " * ", source.emissive_strength, ")")};
     }
     return emission;
@@ -46,7 +56,8 @@ Result<AlphaMode> alpha_mode_from(const std::string& mode) {
     if (mode == "OPAQUE") return AlphaMode::Opaque;
     if (mode == "MASK") return AlphaMode::Mask;
     if (mode == "BLEND") return AlphaMode::Blend;
-    return Error{str_cat("alphaMode \"", mode, "\" is not OPAQUE, MASK or BLEND")};
+    return Error{ErrorCode::Corrupt, ".alphaMode", quoted_value(mode),
+                 str_cat("alphaMode \"", mode, "\" is not OPAQUE, MASK or BLEND")};
 }
 
 bool is_finite(const glm::mat3& matrix) {
@@ -58,14 +69,18 @@ bool is_finite(const glm::mat3& matrix) {
     return true;
 }
 
-/// The same use with an index of the scene's textures.
-Result<TextureUse> texture_use_from(TextureUse use, const char* name, GltfTextureReader& reader) {
+/// The same use with an index of the scene's textures. `path` is the texture's member of the
+/// material, whose last part is `name`.
+Result<TextureUse> texture_use_from(TextureUse use, const char* path, GltfTextureReader& reader) {
     if (use.texture == kNoIndex) return use;
+    const std::string name = path + std::string_view(path).rfind('.') + 1;
     if (use.uv_set >= kUvSetCount) {
-        return Error{str_cat(name, ": texCoord ", use.uv_set, " is not supported (0 and 1 are)")};
+        return Error{ErrorCode::Unsupported, str_cat(path, ".texCoord"), str_cat(use.uv_set),
+                     str_cat(name, ": texCoord ", use.uv_set, " is not supported (0 and 1 are)")};
     }
     if (!is_finite(use.image_from_mesh)) {
-        return Error{str_cat(name, ": KHR_texture_transform is not finite")};
+        return Error{ErrorCode::Corrupt, str_cat(path, ".extensions.KHR_texture_transform"), "",
+                     str_cat(name, ": KHR_texture_transform is not finite")};
     }
     const auto texture = reader.read(use.texture);
     if (!texture) return texture.error().in(name);
@@ -73,20 +88,22 @@ Result<TextureUse> texture_use_from(TextureUse use, const char* name, GltfTextur
     return use;
 }
 
-/// Leaves out textures of what does not show: an image file that only they name may be missing.
+/// Reads the textures that have an effect. The image files of others may be missing.
 Status read_textures(const GltfMaterial& source, GltfTextureReader& reader, Material& material) {
-    const auto base_color = texture_use_from(source.base_color_texture, "baseColorTexture", reader);
+    const auto base_color = texture_use_from(source.base_color_texture,
+                                             ".pbrMetallicRoughness.baseColorTexture", reader);
     if (!base_color) return base_color.error();
     material.base_color_texture = *base_color;
     if (material.is_unlit) return Ok{};
     if (material.metallic > 0.0f || material.roughness > 0.0f) {
         const auto factors =
-            texture_use_from(source.metallic_roughness_texture, "metallicRoughnessTexture", reader);
+            texture_use_from(source.metallic_roughness_texture,
+                             ".pbrMetallicRoughness.metallicRoughnessTexture", reader);
         if (!factors) return factors.error();
         material.metallic_roughness_texture = *factors;
     }
     if (material.emission == glm::vec3(0.0f)) return Ok{};
-    const auto emission = texture_use_from(source.emission_texture, "emissiveTexture", reader);
+    const auto emission = texture_use_from(source.emission_texture, ".emissiveTexture", reader);
     if (!emission) return emission.error();
     material.emission_texture = *emission;
     return Ok{};
@@ -95,7 +112,8 @@ Status read_textures(const GltfMaterial& source, GltfTextureReader& reader, Mate
 Result<bool> bakes_emission_from(const std::string& word) {
     if (word == "baked") return true;
     if (word == "none") return false;
-    return Error{str_cat("extras.bake_emission \"", word, "\" is neither \"none\" nor \"baked\"")};
+    return Error{ErrorCode::InvalidArgument, ".extras.bake_emission", quoted_value(word),
+                 str_cat("extras.bake_emission \"", word, "\" is neither \"none\" nor \"baked\"")};
 }
 
 Status read_factors(const GltfMaterial& source, Material& material) {
@@ -129,7 +147,8 @@ Result<Material> read_material(const GltfMaterial& source, GltfTextureReader& re
     material.alpha_mode = *alpha_mode;
     material.alpha_cutoff = static_cast<float>(source.alpha_cutoff);
     if (!(source.alpha_cutoff >= 0.0) || !std::isfinite(material.alpha_cutoff)) {
-        return Error{str_cat("alphaCutoff ", source.alpha_cutoff, " is negative or too large")};
+        return Error{ErrorCode::Corrupt, ".alphaCutoff", str_cat(source.alpha_cutoff),
+                     str_cat("alphaCutoff ", source.alpha_cutoff, " is negative or too large")};
     }
     const auto textures = read_textures(source, reader, material);
     if (!textures) return textures.error();
@@ -144,7 +163,7 @@ Result<GltfMaterials> read_materials(const GltfDocument& document) {
     for (size_t i = 0; i < document.materials.size(); ++i) {
         const GltfMaterial& source = document.materials[i];
         auto material = read_material(source, reader);
-        if (!material) return material.error().in(gltf_place("material", i, source.name));
+        if (!material) return in_element(material.error(), "materials", i, source.name);
         result.materials.push_back(std::move(*material));
     }
     result.textures = std::move(reader.textures);

@@ -18,7 +18,7 @@ struct GltfMaterials {
 
 [[nodiscard]] Result<GltfMaterials> read_materials(const GltfDocument& document);
 
-/// Gives meshes without a material glTF's default one, which is appended where it is needed.
+/// Gives meshes without a material glTF's default material, which is appended if any mesh needs it.
 void assign_default_material(std::vector<Material>& materials, std::vector<Mesh>& meshes);
 
 }  // namespace tetralight::detail

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_accessors.h>
 #include <tetralight/base/str_cat.h>
 
@@ -15,7 +16,7 @@ constexpr uint32_t kTriangles = 4;
 constexpr uint32_t kTriangleStrip = 5;
 constexpr uint32_t kTriangleFan = 6;
 
-/// The corners in the order the primitive gives them: its indices, or each vertex once.
+/// The vertex of each corner, in the order of the primitive: its indices, or each vertex once.
 Result<std::vector<uint32_t>> read_corners(const GltfDocument& document,
                                            const GltfPrimitive& primitive, size_t vertex_count) {
     if (primitive.indices == kNoIndex) {
@@ -27,13 +28,14 @@ Result<std::vector<uint32_t>> read_corners(const GltfDocument& document,
     if (!corners) return corners.error();
     for (const uint32_t index : *corners) {
         if (index < vertex_count) continue;
-        return Error{str_cat("index ", index, " is out of range (", vertex_count, " vertices)")};
+        return Error{ErrorCode::Corrupt, ".indices", str_cat(index),
+                     str_cat("index ", index, " is out of range (", vertex_count, " vertices)")};
     }
     return corners;
 }
 
-/// Triangle i of a strip is (i, i + 1 + i % 2, i + 2 - i % 2). Triangles that only join parts of a
-/// strip, and have no area, are left out.
+/// Triangle i of a strip is (i, i + 1 + i % 2, i + 2 - i % 2). Skips the triangles without area
+/// that join two parts of a strip.
 std::vector<uint32_t> triangles_from_strip(const std::vector<uint32_t>& corners) {
     std::vector<uint32_t> indices;
     for (size_t i = 0; i + 2 < corners.size(); ++i) {
@@ -55,15 +57,16 @@ std::vector<uint32_t> triangles_from_fan(const std::vector<uint32_t>& corners) {
 
 Result<std::vector<uint32_t>> triangles_from(std::vector<uint32_t> corners, uint32_t mode) {
     if (corners.size() < 3 || (mode == kTriangles && corners.size() % 3 != 0)) {
-        return Error{str_cat(corners.size(), " corners do not make whole triangles")};
+        return Error{ErrorCode::Corrupt, ".indices", str_cat(corners.size()),
+                     str_cat(corners.size(), " corners do not make whole triangles")};
     }
     if (mode == kTriangleStrip) return triangles_from_strip(corners);
     if (mode == kTriangleFan) return triangles_from_fan(corners);
     return corners;
 }
 
-/// Exact for what is degenerate by construction: two corners in one place, three in a row along an
-/// axis or a diagonal. What is merely thin stays.
+/// False for triangles that are degenerate by construction: two equal corners, or three on a line
+/// along an axis or a diagonal. True for thin triangles.
 bool has_area(const Mesh& mesh, const uint32_t* corners) {
     const glm::dvec3 a(mesh.positions[corners[0]]);
     const glm::dvec3 b(mesh.positions[corners[1]]);
@@ -71,7 +74,7 @@ bool has_area(const Mesh& mesh, const uint32_t* corners) {
     return glm::cross(b - a, c - a) != glm::dvec3(0.0);
 }
 
-/// Takes out triangles that no ray can hit; returns how many.
+/// Removes triangles that no ray can hit; returns their number.
 size_t remove_flat_triangles(Mesh& mesh) {
     auto& indices = mesh.indices;
     size_t kept = 0;
@@ -88,6 +91,7 @@ size_t remove_flat_triangles(Mesh& mesh) {
 Status check_count(size_t count, const char* attribute, const Mesh& mesh) {
     if (count == mesh.positions.size()) return Ok{};
     return Error{
+        ErrorCode::Corrupt, str_cat(".attributes.", attribute), "",
         str_cat(attribute, " has ", count, " elements, POSITION has ", mesh.positions.size())};
 }
 
@@ -103,7 +107,7 @@ Status read_vertex_colors(const GltfDocument& document, const GltfAttributes& at
     return Ok{};
 }
 
-/// Reads normals, texture coordinates and colours, where there are some.
+/// Reads normals, texture coordinates and colours, if the primitive has them.
 Status read_optional_attributes(const GltfDocument& document, const GltfAttributes& attributes,
                                 Mesh& mesh) {
     if (const auto normal = attributes.find("NORMAL"); normal != attributes.end()) {
@@ -128,7 +132,9 @@ Status read_optional_attributes(const GltfDocument& document, const GltfAttribut
 
 Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& primitive) {
     const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end()) return Error{"has no POSITION"};
+    if (position == primitive.attributes.end()) {
+        return Error{ErrorCode::Corrupt, ".attributes.POSITION", "", "has no POSITION"};
+    }
     auto positions = read_vec3s(document, position->second);
     if (!positions) return positions.error().in("POSITION");
     Mesh mesh;
@@ -151,11 +157,13 @@ Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshe
         const GltfPrimitive& primitive = source.primitives[i];
         const std::string place = str_cat("primitive ", i);
         if (primitive.mode > kTriangleFan) {
-            return Error{str_cat(place, ": mode ", primitive.mode, " is not known")};
+            return Error{ErrorCode::Corrupt, str_cat(".primitives[", i, "].mode"),
+                         str_cat(primitive.mode),
+                         str_cat(place, ": mode ", primitive.mode, " is not known")};
         }
         if (primitive.mode < kTriangles) continue;  // points and lines reflect no light
         auto mesh = read_primitive(document, primitive);
-        if (!mesh) return mesh.error().in(place);
+        if (!mesh) return in_member(mesh.error().in(place), str_cat(".primitives[", i, "]"));
         flat_count += remove_flat_triangles(*mesh);
         if (mesh->indices.empty()) continue;
         meshes_of_source.push_back(static_cast<uint32_t>(result.meshes.size()));
@@ -176,7 +184,7 @@ Result<GltfMeshes> read_meshes(const GltfDocument& document) {
     GltfMeshes result;
     for (size_t i = 0; i < document.meshes.size(); ++i) {
         const auto status = read_mesh(document, document.meshes[i], result);
-        if (!status) return status.error().in(gltf_place("mesh", i, document.meshes[i].name));
+        if (!status) return in_element(status.error(), "meshes", i, document.meshes[i].name);
     }
     return result;
 }

@@ -12,13 +12,13 @@ namespace tetralight::detail {
 /// The meshes of a scene: one for each primitive that has triangles.
 struct GltfMeshes {
     std::vector<Mesh> meshes;
-    /// For each glTF mesh, which of `meshes` are its primitives.
+    /// For each glTF mesh, the indices in `meshes` of its primitives.
     std::vector<std::vector<uint32_t>> meshes_of;
-    /// Meshes of which triangles without area were left out.
+    /// One for each mesh that has triangles without area, which are left out.
     std::vector<std::string> warnings;
 };
 
-/// Reads all triangle primitives. `material` is kNoIndex where the file names none.
+/// Reads all triangle primitives. `material` is kNoIndex if the file names none.
 [[nodiscard]] Result<GltfMeshes> read_meshes(const GltfDocument& document);
 
 }  // namespace tetralight::detail

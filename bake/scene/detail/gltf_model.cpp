@@ -37,7 +37,8 @@ GltfAccessor converted(const tinygltf::Accessor& accessor) {
     result.count = accessor.count;
     const auto& sparse = accessor.sparse;
     if (!sparse.isSparse) return result;
-    // tinygltf keeps these as int: what does not fit comes back as 4 billion and is out of range.
+    // tinygltf stores these as int: a value that does not fit becomes about 4 billion, out of
+    // range.
     result.sparse = {static_cast<uint32_t>(sparse.count),
                      index_from(sparse.indices.bufferView),
                      static_cast<uint32_t>(sparse.indices.byteOffset),
@@ -199,6 +200,7 @@ GltfDocument document_from(tinygltf::Model model, const std::string& path) {
     document.cameras = all_converted<GltfCamera>(model.cameras);
     document.nodes = all_converted<GltfNode>(model.nodes);
     document.scene_roots = scene_roots(model);
+    if (model.defaultScene > 0) document.scene = static_cast<uint32_t>(model.defaultScene);
     document.sky_radiance = sky_radiance(model);
     return document;
 }

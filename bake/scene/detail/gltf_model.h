@@ -6,8 +6,8 @@
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
 
-// The only header that knows tinygltf, for the two files that use it. It parses and decodes base64;
-// files are read, images are decoded and everything is checked by our own code.
+// The only header that includes tinygltf, for the files that use it. tinygltf parses JSON and
+// decodes base64; our own code reads files, decodes images and checks everything.
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
@@ -16,7 +16,7 @@
 
 namespace tetralight::detail {
 
-/// What a model says, without interpretation. Precondition: its JSON passed check_gltf_json().
+/// The contents of a model as plain values. Precondition: its JSON passed check_gltf_json().
 [[nodiscard]] GltfDocument document_from(tinygltf::Model model, const std::string& path);
 
 }  // namespace tetralight::detail

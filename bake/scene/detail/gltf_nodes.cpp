@@ -4,14 +4,16 @@
 #include <map>
 #include <string>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_transform.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
 
-std::string node_place(const GltfDocument& document, uint32_t node) {
-    return gltf_place("node", node, document.nodes[node].name);
+/// Returns corrupt for a node.
+Error node_error(const GltfDocument& document, uint32_t node, const std::string& message) {
+    return in_element({ErrorCode::Corrupt, message}, "nodes", node, document.nodes[node].name);
 }
 
 Result<std::vector<uint32_t>> find_parents(const GltfDocument& document) {
@@ -19,8 +21,9 @@ Result<std::vector<uint32_t>> find_parents(const GltfDocument& document) {
     for (uint32_t node = 0; node < document.nodes.size(); ++node) {
         for (const uint32_t child : document.nodes[node].children) {
             if (parents[child] != kNoIndex) {
-                return Error{str_cat(node_place(document, child), ": has two parents, nodes ",
-                                     parents[child], " and ", node)};
+                return node_error(
+                    document, child,
+                    str_cat("has two parents, nodes ", parents[child], " and ", node));
             }
             parents[child] = node;
         }
@@ -28,7 +31,7 @@ Result<std::vector<uint32_t>> find_parents(const GltfDocument& document) {
     return parents;
 }
 
-/// Where each node has one parent at most, what no parentless node leads to is a cycle.
+/// Precondition: each node has at most one parent. Then nodes that no root leads to form a cycle.
 Status check_no_cycle(const GltfDocument& document, const std::vector<uint32_t>& parents) {
     std::vector<uint32_t> pending;
     for (uint32_t node = 0; node < parents.size(); ++node) {
@@ -44,7 +47,7 @@ Status check_no_cycle(const GltfDocument& document, const std::vector<uint32_t>&
     }
     for (uint32_t node = 0; node < parents.size(); ++node) {
         if (is_reached[node]) continue;
-        return Error{node_place(document, node) + ": is part of a cycle of nodes"};
+        return node_error(document, node, "is part of a cycle of nodes");
     }
     return Ok{};
 }
@@ -53,7 +56,8 @@ Result<LightProbeUsage> usage_from(const std::string& word) {
     if (word == "off") return LightProbeUsage::Off;
     if (word == "blend") return LightProbeUsage::Blend;
     if (word == "proxy_volume") return LightProbeUsage::ProxyVolume;
-    return Error{str_cat("extras.light_probes is \"", word,
+    return Error{ErrorCode::InvalidArgument, ".extras.light_probes", quoted_value(word),
+                 str_cat("extras.light_probes is \"", word,
                          "\", not \"off\", \"blend\" or \"proxy_volume\"")};
 }
 
@@ -70,10 +74,11 @@ Result<std::vector<uint32_t>> find_roots(const GltfDocument& document,
     std::vector<bool> is_root(parents.size(), false);
     for (const uint32_t node : *document.scene_roots) {
         if (parents[node] != kNoIndex) {
-            return Error{str_cat(node_place(document, node),
-                                 ": is a root of the scene and a child of node ", parents[node])};
+            return node_error(
+                document, node,
+                str_cat("is a root of the scene and a child of node ", parents[node]));
         }
-        if (is_root[node]) return Error{node_place(document, node) + ": stands twice in the scene"};
+        if (is_root[node]) return node_error(document, node, "stands twice in the scene");
         is_root[node] = true;
     }
     return *document.scene_roots;
@@ -81,7 +86,7 @@ Result<std::vector<uint32_t>> find_roots(const GltfDocument& document,
 
 struct PendingNode {
     uint32_t node = 0;
-    /// Where the parent stands in the result; kNoIndex for roots.
+    /// Index of the parent in the result; kNoIndex for roots.
     uint32_t parent_position = kNoIndex;
 };
 
@@ -102,13 +107,13 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
     if (source.probe_anchor) placed.anchored_by = node;
     if (source.light_probes) {
         const auto usage = usage_from(*source.light_probes);
-        if (!usage) return usage.error().in(node_place(document, node));
+        if (!usage) return in_element(usage.error(), "nodes", node, source.name);
         placed.light_probes = *usage;
     }
     if (is_finite_affine(source.parent_from_node) && is_finite_affine(placed.world_from_node)) {
         return placed;
     }
-    return Error{node_place(document, node) + ": transform is not finite or not affine"};
+    return node_error(document, node, "transform is not finite or not affine");
 }
 
 Result<std::vector<GltfWorldNode>> flatten_from(const GltfDocument& document,
@@ -133,7 +138,7 @@ Result<std::vector<GltfWorldNode>> flatten_from(const GltfDocument& document,
     return result;
 }
 
-/// Where the node of each name stands; kNoIndex where several have it.
+/// The index of the node of each name; kNoIndex if several nodes have the name.
 std::map<std::string, uint32_t> unique_names(std::span<const SceneNode> nodes) {
     std::map<std::string, uint32_t> positions;
     for (uint32_t i = 0; i < nodes.size(); ++i) {
@@ -171,10 +176,14 @@ Result<std::vector<SceneNode>> scene_nodes(const GltfDocument& document,
         const std::string& anchor = *document.nodes[nodes[i].anchored_by].probe_anchor;
         const auto found = positions.find(anchor);
         if (found == positions.end() || found->second == kNoIndex) {
-            return Error{str_cat(node_place(document, nodes[i].anchored_by),
-                                 ": extras.probe_anchor is \"", anchor, "\", ",
-                                 found == positions.end() ? "which no node is called"
-                                                          : "which several nodes are called")};
+            const uint32_t node = nodes[i].anchored_by;
+            const bool is_unknown = found == positions.end();
+            const Error error{
+                is_unknown ? ErrorCode::NotFound : ErrorCode::InvalidArgument,
+                ".extras.probe_anchor", quoted_value(anchor),
+                str_cat("extras.probe_anchor is \"", anchor, "\", ",
+                        is_unknown ? "which no node is called" : "which several nodes are called")};
+            return in_element(error, "nodes", node, document.nodes[node].name);
         }
         result[i].probe_anchor = found->second;
     }

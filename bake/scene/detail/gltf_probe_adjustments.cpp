@@ -3,10 +3,13 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
+
+constexpr const char* kMember = ".extras.probe_adjustment";
 
 std::optional<float> to_float(const std::optional<double>& number) {
     if (!number) return std::nullopt;
@@ -16,19 +19,23 @@ std::optional<float> to_float(const std::optional<double>& number) {
 Result<ProbeAdjustment> converted(const GltfAdjustment& extras, const glm::dmat4& placed) {
     const bool is_box = extras.shape == "box";
     if (!is_box && extras.shape != "sphere") {
-        return Error{str_cat("extras.probe_adjustment.shape \"", extras.shape,
+        return Error{ErrorCode::InvalidArgument, ".shape", quoted_value(extras.shape),
+                     str_cat("extras.probe_adjustment.shape \"", extras.shape,
                              "\" is not \"box\" or \"sphere\"")};
     }
     if (is_box ? extras.radius.has_value() : extras.size.has_value()) {
-        return Error{str_cat("extras.probe_adjustment: ", is_box ? "radius" : "size",
-                             " does not fit the shape")};
+        const char* other = is_box ? "radius" : "size";
+        return Error{ErrorCode::InvalidArgument, str_cat(".", other), "",
+                     str_cat("extras.probe_adjustment: ", other, " does not fit the shape")};
     }
     ProbeAdjustment adjustment;
     adjustment.shape = is_box ? AdjustmentShape::Box : AdjustmentShape::Sphere;
     const glm::dvec3 size =
         is_box ? extras.size.value_or(glm::dvec3(1.0)) : glm::dvec3(extras.radius.value_or(1.0));
-    if (auto status = check_size(adjustment.shape, size); !status) {
-        return status.error().in("extras.probe_adjustment");
+    if (auto status = check_adjustment_size(adjustment.shape, size); !status) {
+        Error error = status.error().in("extras.probe_adjustment");
+        error.field.insert(0, ".");
+        return error;
     }
     adjustment.world_from_volume = glm::scale(placed, size);
     adjustment.forbids_probes = extras.forbid;
@@ -47,9 +54,16 @@ Result<std::vector<ProbeAdjustment>> read_gltf_probe_adjustments(
         const GltfNode& node = document.nodes[placed.node];
         if (!node.probe_adjustment) continue;
         auto adjustment = converted(*node.probe_adjustment, placed.world_from_node);
-        if (!adjustment) return adjustment.error().in(gltf_place("node", placed.node, node.name));
+        if (!adjustment) {
+            const Error error = in_member(adjustment.error(), kMember);
+            return in_element(error, "nodes", placed.node, node.name);
+        }
         adjustment->name = node.name.empty() ? str_cat("node ", placed.node) : node.name;
-        if (auto status = check(*adjustment); !status) return status.error();
+        if (auto status = check_adjustment(*adjustment); !status) {
+            Error error = status.error();
+            error.field = str_cat("nodes[", placed.node, "]", kMember, ".", error.field);
+            return error;
+        }
         adjustments.push_back(std::move(*adjustment));
     }
     return adjustments;

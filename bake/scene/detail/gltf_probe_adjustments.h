@@ -11,8 +11,8 @@
 
 namespace tetralight::detail {
 
-/// The adjustment volumes of all nodes that have `extras.probe_adjustment`: a box of its `size`, or
-/// a sphere of its `radius`, as the node places, turns and scales it.
+/// The adjustment volumes of all nodes that have `extras.probe_adjustment`: a box with its `size`,
+/// or a sphere with its `radius`, under the node's transform.
 [[nodiscard]] Result<std::vector<ProbeAdjustment>> read_gltf_probe_adjustments(
     const GltfDocument& document, std::span<const GltfWorldNode> nodes);
 

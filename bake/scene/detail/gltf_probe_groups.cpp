@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_accessors.h>
 #include <tetralight/bake/scene/detail/probe_group_check.h>
+#include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -10,11 +12,13 @@ namespace {
 
 constexpr uint32_t kPoints = 0;
 
-/// Where the primitive's points are: at its indices, else at all positions.
+/// The positions of the primitive's points: those of its indices, or all.
 Result<std::vector<glm::dvec3>> read_points(const GltfDocument& document,
                                             const GltfPrimitive& primitive) {
     const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end()) return Error{"has no POSITION"};
+    if (position == primitive.attributes.end()) {
+        return Error{ErrorCode::Corrupt, ".attributes.POSITION", "", "has no POSITION"};
+    }
     const auto positions = read_vec3s(document, position->second);
     if (!positions) return positions.error().in("POSITION");
     if (primitive.indices == kNoIndex) {
@@ -26,6 +30,7 @@ Result<std::vector<glm::dvec3>> read_points(const GltfDocument& document,
     for (const uint32_t index : *indices) {
         if (index >= positions->size()) {
             return Error{
+                ErrorCode::Corrupt, ".indices", str_cat(index),
                 str_cat("index ", index, " is out of range (", positions->size(), " vertices)")};
         }
         points.emplace_back((*positions)[index]);
@@ -33,7 +38,7 @@ Result<std::vector<glm::dvec3>> read_points(const GltfDocument& document,
     return points;
 }
 
-/// The points of all POINTS primitives of a mesh; empty where it has none.
+/// The points of all POINTS primitives of a mesh; empty if it has none.
 Result<std::vector<glm::dvec3>> read_mesh_points(const GltfDocument& document,
                                                  uint32_t mesh_index) {
     std::vector<glm::dvec3> all;
@@ -43,16 +48,17 @@ Result<std::vector<glm::dvec3>> read_mesh_points(const GltfDocument& document,
         if (mesh.primitives[i].mode != kPoints) continue;
         const auto points = read_points(document, mesh.primitives[i]);
         if (!points) {
-            return points.error()
-                .in(str_cat("primitive ", i))
-                .in(gltf_place("mesh", mesh_index, mesh.name));
+            const Error error = in_member(points.error().in(str_cat("primitive ", i)),
+                                          str_cat(".primitives[", i, "]"));
+            return in_element(error, "meshes", mesh_index, mesh.name);
         }
         all.insert(all.end(), points->begin(), points->end());
     }
     return all;
 }
 
-/// Makes probes of a group node's children, those that are groups themselves left out.
+/// The positions of a group node's children, which are marked as probes. Skips children that are
+/// groups themselves.
 std::vector<glm::dvec3> take_children(const GltfDocument& document, const GltfNode& node,
                                       std::vector<bool>& is_probe) {
     std::vector<glm::dvec3> positions;
@@ -79,19 +85,24 @@ Result<GltfProbeGroups> read_gltf_probe_groups(const GltfDocument& document,
                                                std::span<const GltfWorldNode> nodes) {
     GltfProbeGroups result;
     result.is_probe.resize(document.nodes.size(), false);
+    std::vector<uint32_t> group_nodes;
     for (const GltfWorldNode& placed : nodes) {
         const GltfNode& node = document.nodes[placed.node];
         if (!node.is_probe_group) continue;
         if (node.name.empty()) {
-            return Error{str_cat("node ", placed.node, ": is a probe group and has no name")};
+            const Error error{ErrorCode::Corrupt, ".name", "", "is a probe group and has no name"};
+            return in_element(error, "nodes", placed.node, "");
         }
         auto group = read_group(document, placed, result.is_probe);
-        if (!group) return group.error().in(gltf_place("node", placed.node, node.name));
+        if (!group) return in_element(group.error(), "nodes", placed.node, node.name);
         result.groups.push_back(std::move(*group));
+        group_nodes.push_back(placed.node);
     }
-    const auto status = check_probe_groups(result.groups);
-    if (!status) return status.error();
-    return result;
+    const auto checked = check_probe_groups(result.groups);
+    if (checked) return result;
+    Error error = checked.error();
+    error.field = str_cat("nodes[", group_nodes[probe_group_index(error.field).value_or(0)], "]");
+    return error;
 }
 
 }  // namespace tetralight::detail

@@ -10,10 +10,10 @@
 
 namespace tetralight::detail {
 
-/// The probe groups of a scene, and which nodes are probes rather than objects.
+/// The probe groups of a scene, and the nodes that are probes and not objects.
 struct GltfProbeGroups {
     std::vector<ProbeGroup> groups;
-    /// One for each node of the document.
+    /// For each node of the document: true if it is a probe.
     std::vector<bool> is_probe;
 };
 

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
+#include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -15,7 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Checks elements against rules; needs the document to know how many targets there are.
+/// Checks elements against rules. It needs the document for the number of elements that an index
+/// may name.
 class Checker {
   public:
     explicit Checker(const json& document) : document_(document) {}
@@ -25,11 +28,12 @@ class Checker {
             const json* elements = find_json(document_, section.path);
             if (elements == nullptr) continue;
             if (!elements->is_array()) {
-                return Error{
-                    str_cat(section.name, " is not an array (", shown_json(*elements), ")")};
+                Error error = wrong_type(*elements, section.name, "an array");
+                error.field = member_path(section.path);
+                return error;
             }
             const auto status = check_elements(*elements, section.element, section.rules);
-            if (!status) return status;
+            if (!status) return in_member(status.error(), member_path(section.path));
         }
         return Ok{};
     }
@@ -42,15 +46,18 @@ class Checker {
             if (status) continue;
             const json* name = find_json(elements[i], "name");
             const bool has_name = name != nullptr && name->is_string();
-            return status.error().in(
-                gltf_place(kind, i, has_name ? name->get<std::string>() : std::string()));
+            const std::string place =
+                gltf_place(kind, i, has_name ? name->get<std::string>() : std::string());
+            return in_member(status.error().in(place), str_cat("[", i, "]"));
         }
         return Ok{};
     }
 
     [[nodiscard]] Status check_element(const json& element, std::span<const GltfRule> rules) const {
-        if (!element.is_object())
-            return Error{str_cat("is not an object (", shown_json(element), ")")};
+        if (!element.is_object()) {
+            return Error{ErrorCode::Corrupt, "", shown_json(element),
+                         str_cat("is not an object (", shown_json(element), ")")};
+        }
         for (const GltfRule& rule : rules) {
             const auto status = check_rule(element, rule);
             if (!status) return status;
@@ -65,19 +72,18 @@ class Checker {
         const json* parent = is_nested ? find_json(element, path.substr(0, slash)) : &element;
         if (parent == nullptr) return Ok{};
         if (!parent->is_object()) {
-            if (path.substr(0, slash) == "extras") return Ok{};  // anything may stand there
-            return Error{
-                str_cat(path.substr(0, slash), " is not an object (", shown_json(*parent), ")")};
+            if (path.substr(0, slash) == "extras") return Ok{};  // extras may be any JSON
+            return checked(false, *parent, path.substr(0, slash), "an object");
         }
         const std::string_view key = is_nested ? path.substr(slash + 1) : path;
         const auto value = parent->find(std::string(key));
-        if (value != parent->end()) return check_value(*value, rule, str_cat(path));
+        if (value != parent->end()) return check_value(*value, rule, path);
         if (rule.need == GltfNeed::Optional) return Ok{};
-        return Error{str_cat(path, " is missing")};
+        return Error{ErrorCode::Corrupt, "." + member_path(path), "", str_cat(path, " is missing")};
     }
 
     [[nodiscard]] Status check_value(const json& value, const GltfRule& rule,
-                                     const std::string& name) const {
+                                     std::string_view name) const {
         switch (rule.kind) {
             case GltfKind::Index:
                 return check_index(value, rule, name);
@@ -103,15 +109,19 @@ class Checker {
         return Ok{};
     }
 
-    [[nodiscard]] Status check_primitives(const json& value, const std::string& name) const {
+    [[nodiscard]] Status check_primitives(const json& value, std::string_view name) const {
         if (!value.is_array()) return checked(false, value, name, "an array");
-        return check_elements(value, "primitive", gltf_primitive_rules());
+        const auto status = check_elements(value, "primitive", gltf_primitive_rules());
+        if (status) return status;
+        return in_member(status.error(), "." + member_path(name));
     }
 
-    [[nodiscard]] static Status checked(bool is_right, const json& value, const std::string& name,
-                                        const char* wanted) {
+    [[nodiscard]] static Status checked(bool is_right, const json& value, std::string_view name,
+                                        std::string_view wanted) {
         if (is_right) return Ok{};
-        return Error{str_cat(name, " is not ", wanted, " (", shown_json(value), ")")};
+        Error error = wrong_type(value, name, wanted);
+        error.field = "." + member_path(name);
+        return error;
     }
 
     [[nodiscard]] size_t target_count(std::string_view target) const {
@@ -124,49 +134,47 @@ class Checker {
     }
 
     [[nodiscard]] Status check_index(const json& value, const GltfRule& rule,
-                                     const std::string& name) const {
+                                     std::string_view name) const {
         if (!value.is_number_integer()) return checked(false, value, name, "an index");
         const size_t count = target_count(rule.target);
         if (value.is_number_unsigned() && value.get<uint64_t>() < count) return Ok{};
-        return Error{str_cat(name, " ", shown_json(value), " is out of range (", count, " ",
+        return Error{ErrorCode::Corrupt, "." + member_path(name), shown_json(value),
+                     str_cat(name, " ", shown_json(value), " is out of range (", count, " ",
                              rule.target, ")")};
     }
 
     [[nodiscard]] Status check_indices(const json& values, bool is_right_container,
-                                       const GltfRule& rule, const std::string& name) const {
+                                       const GltfRule& rule, std::string_view name) const {
         if (!is_right_container) return checked(false, values, name, "a list of indices");
         for (const auto& [key, value] : values.items()) {
             const auto status = check_index(value, rule, str_cat(name, " ", key));
-            if (!status) return status;
+            if (status) continue;
+            Error error = status.error();
+            error.field =
+                "." + member_path(name) + (values.is_array() ? str_cat("[", key, "]") : "." + key);
+            return error;
         }
         return Ok{};
     }
 
-    [[nodiscard]] static Status check_size(const json& value, const std::string& name) {
+    [[nodiscard]] static Status check_size(const json& value, std::string_view name) {
         constexpr uint64_t kLargest = std::numeric_limits<uint32_t>::max();
         const bool is_size = value.is_number_unsigned() && value.get<uint64_t>() <= kLargest;
         return checked(is_size, value, name, "an integer from 0 to 4294967295");
     }
 
     [[nodiscard]] static Status check_numbers(const json& value, const GltfRule& rule,
-                                              const std::string& name) {
-        const bool is_right = value.is_array() && value.size() == rule.length &&
-                              std::all_of(value.begin(), value.end(),
-                                          [](const json& number) { return number.is_number(); });
-        return checked(is_right, value, name,
-                       str_cat("an array of ", rule.length, " numbers").c_str());
+                                              std::string_view name) {
+        const bool is_right =
+            value.is_array() && value.size() == rule.length &&
+            std::ranges::all_of(value, [](const json& number) { return number.is_number(); });
+        return checked(is_right, value, name, str_cat("an array of ", rule.length, " numbers"));
     }
 
     const json& document_;
 };
 
 }  // namespace
-
-std::string shown_json(const json& value) {
-    constexpr size_t kLongest = 40;
-    const std::string dumped = value.dump();
-    return dumped.size() <= kLongest ? dumped : dumped.substr(0, kLongest) + "...";
-}
 
 const json* find_json(const json& value, std::string_view path) {
     const json* found = &value;

@@ -2,20 +2,17 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 #include <string_view>
 
 #include <tetralight/base/result.h>
 
 namespace tetralight::detail {
 
-/// A value as messages show it: as JSON, cut off where it is long.
-[[nodiscard]] std::string shown_json(const nlohmann::json& value);
-
-/// Steps from `value` along a path of keys parted by '/'; null where it ends early.
+/// The value at a path of keys separated by '/'; null if there is none.
 [[nodiscard]] const nlohmann::json* find_json(const nlohmann::json& value, std::string_view path);
 
-/// Checks all elements of all sections against the rules of gltf_schema.h.
+/// Checks all elements of all sections against the rules of gltf_schema.h. Returns corrupt with the
+/// property as the field, `nodes[3].extras.dering`, if one does not obey.
 [[nodiscard]] Status check_gltf_sections(const nlohmann::json& document);
 
 }  // namespace tetralight::detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 
+#include <algorithm>
+
 namespace tetralight::detail {
 namespace {
 
@@ -160,6 +162,12 @@ constexpr GltfSection kSections[] = {
 
 std::span<const GltfSection> gltf_sections() {
     return kSections;
+}
+
+std::string member_path(std::string_view path) {
+    std::string members(path);
+    std::ranges::replace(members, '/', '.');
+    return members;
 }
 
 std::span<const GltfRule> gltf_primitive_rules() {

@@ -3,14 +3,16 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+#include <string_view>
 
 namespace tetralight::detail {
 
-/// What a property's value has to be.
+/// The type that the value of a property must have.
 enum class GltfKind {
     Index,      ///< index of an element of `target`
-    IndexList,  ///< array of such
-    IndexMap,   ///< object whose values are such
+    IndexList,  ///< array of indices
+    IndexMap,   ///< object whose values are indices
     Size,       ///< integer 0 .. 2^32 - 1
     Number,
     Numbers,  ///< array of `length` numbers
@@ -22,7 +24,8 @@ enum class GltfKind {
 
 enum class GltfNeed { Optional, Required };
 
-/// A rule for one property of all elements of a section. `path` steps through objects by '/'.
+/// A rule for one property of all elements of a section. `path` separates the keys of nested
+/// objects by '/'.
 struct GltfRule {
     const char* path;
     GltfKind kind;
@@ -31,18 +34,22 @@ struct GltfRule {
     GltfNeed need = GltfNeed::Optional;
 };
 
-/// An array of elements in a glTF document: where it lies and what messages call an element.
+/// An array of elements in a glTF document.
 struct GltfSection {
     /// Name of the array; rules name their targets by it.
     const char* name;
-    /// Where the array lies in the document.
+    /// The keys that lead to the array, separated by '/'.
     const char* path;
+    /// What messages call an element.
     const char* element;
     std::span<const GltfRule> rules;
 };
 
 /// All sections that read_gltf() uses.
 [[nodiscard]] std::span<const GltfSection> gltf_sections();
+
+/// A path of keys as errors write it: `extras/sky` becomes `extras.sky`.
+[[nodiscard]] std::string member_path(std::string_view path);
 
 /// Rules for the elements of a mesh's `primitives`.
 [[nodiscard]] std::span<const GltfRule> gltf_primitive_rules();

@@ -4,6 +4,7 @@
 #include <span>
 
 #include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
@@ -24,37 +25,46 @@ Result<TextureWrap> wrap_from(uint32_t code, const char* name) {
         case kClampToEdge:
             return TextureWrap::ClampToEdge;
         default:
-            return Error{str_cat(name, " ", code, " is not a wrap mode")};
+            return Error{ErrorCode::Corrupt, str_cat(".", name), str_cat(code),
+                         str_cat(name, " ", code, " is not a wrap mode")};
     }
 }
 
 Status set_wrap_modes(const GltfDocument& document, uint32_t sampler_index, Texture& texture) {
     if (sampler_index == kNoIndex) return Ok{};
     const GltfSampler& sampler = document.samplers[sampler_index];
-    const std::string place = str_cat("sampler ", sampler_index);
     const auto wrap_u = wrap_from(sampler.wrap_s, "wrapS");
-    if (!wrap_u) return wrap_u.error().in(place);
+    if (!wrap_u) return in_element(wrap_u.error(), "samplers", sampler_index, "");
     const auto wrap_v = wrap_from(sampler.wrap_t, "wrapT");
-    if (!wrap_v) return wrap_v.error().in(place);
+    if (!wrap_v) return in_element(wrap_v.error(), "samplers", sampler_index, "");
     texture.wrap_u = *wrap_u;
     texture.wrap_v = *wrap_v;
     return Ok{};
 }
 
+/// Decodes the image file; `place` is what messages call the image.
 Result<Image8> decode_file(const GltfDocument& document, const GltfImage& image,
                            const std::string& place) {
-    if (is_data_uri(image.uri)) return Error{place + ": kind of data URI is not supported"};
+    if (is_data_uri(image.uri)) {
+        return Error{ErrorCode::Unsupported, ".uri", quoted_value(image.uri),
+                     place + ": kind of data URI is not supported"};
+    }
     const auto relative = relative_path_from_uri(image.uri);
     if (!relative) return relative.error().in(place);
     const std::string path = folder_of(document.path) + *relative;
     const auto bytes = read_file(path);
-    if (!bytes) return bytes.error().in(place);
-    return decode_image8(*bytes, str_cat(place, ": ", path));
+    if (!bytes) {
+        Error error = in_member(bytes.error().in(place), ".uri");
+        if (error.value.empty()) error.value = quoted_value(image.uri);
+        return error;
+    }
+    auto pixels = decode_image8(*bytes, str_cat(place, ": ", path));
+    if (!pixels) return in_member(pixels.error(), ".uri");
+    return pixels;
 }
 
-Result<Image8> decode(const GltfDocument& document, uint32_t image_index) {
-    const GltfImage& image = document.images[image_index];
-    const std::string place = gltf_place("image", image_index, image.name);
+Result<Image8> decode_image(const GltfDocument& document, const GltfImage& image,
+                            const std::string& place) {
     if (image.buffer_view != kNoIndex) {
         const GltfBufferView& view = document.buffer_views[image.buffer_view];
         const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
@@ -62,6 +72,13 @@ Result<Image8> decode(const GltfDocument& document, uint32_t image_index) {
     }
     if (!image.encoded.empty()) return decode_image8(image.encoded, place);
     return decode_file(document, image, place);
+}
+
+Result<Image8> decode(const GltfDocument& document, uint32_t image_index) {
+    const GltfImage& image = document.images[image_index];
+    auto pixels = decode_image(document, image, gltf_place("image", image_index, image.name));
+    if (!pixels) return in_member(pixels.error(), str_cat("images[", image_index, "]"));
+    return pixels;
 }
 
 std::string name_of(const GltfTexture& texture, const GltfImage& image) {
@@ -79,7 +96,9 @@ Result<uint32_t> GltfTextureReader::read(uint32_t gltf_texture) {
         return kNoIndex;
     }
     auto texture = find_or_decode(source);
-    if (!texture) return texture.error().in(place);
+    if (!texture) {
+        return in_member(texture.error().in(place), str_cat("textures[", gltf_texture, "]"));
+    }
     return texture;
 }
 

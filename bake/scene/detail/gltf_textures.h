@@ -11,12 +11,12 @@
 
 namespace tetralight::detail {
 
-/// Decodes the textures that materials ask for, each image with each pair of wrap modes once.
+/// Decodes the textures that materials use: each image once for each pair of wrap modes.
 class GltfTextureReader {
   public:
     explicit GltfTextureReader(const GltfDocument& document) : document_(document) {}
 
-    /// Index in `textures` of what a glTF texture shows; kNoIndex, with a warning, where only an
+    /// Index in `textures` of a glTF texture. Returns kNoIndex and adds a warning if only an
     /// extension names its image.
     [[nodiscard]] Result<uint32_t> read(uint32_t gltf_texture);
 

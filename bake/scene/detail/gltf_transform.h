@@ -11,11 +11,11 @@ namespace tetralight::detail {
 [[nodiscard]] glm::dmat4 compose_transform(const glm::dvec3& translation,
                                            const glm::dquat& rotation, const glm::dvec3& scale);
 
-/// All sixteen numbers are finite and the last row is (0, 0, 0, 1).
+/// True if all sixteen numbers are finite and the last row is (0, 0, 0, 1).
 [[nodiscard]] bool is_finite_affine(const glm::dmat4& transform);
 
-/// No axis is lost: the volume that the transform's axes span is more than rounding of what they
-/// could span.
+/// True if the volume that the transform's axes span is greater than the rounding of the largest
+/// volume that axes of their lengths can span.
 [[nodiscard]] bool is_invertible(const glm::dmat4& transform);
 
 }  // namespace tetralight::detail

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -45,7 +46,8 @@ Result<std::string> relative_path_from_uri(std::string_view uri) {
     const bool is_plain = path.find_first_of(std::string_view(":\\\0", 3)) == std::string::npos;
     if (path.empty() || path.front() == '/' || !is_plain || has_parent_step(path)) {
         return Error{
-            str_cat("uri \"", uri.substr(0, 80), "\" is not a path below the scene's folder")};
+            ErrorCode::Unsupported, ".uri", quoted_value(uri),
+            str_cat("uri \"", quoted_value(uri), "\" is not a path below the scene's folder")};
     }
     return path;
 }

@@ -9,11 +9,14 @@
 
 namespace tetralight::detail {
 
-/// How messages name a group: `group "hall"`, or `group 3` where the name is not known.
+/// How messages name a group: `group "hall"`, or `group 3` if the name is not known.
 [[nodiscard]] std::string group_place(size_t group_index, const std::string& name);
 
-/// What every list of probe groups obeys: unique non-empty names, finite positions, finite
-/// affine transforms.
+/// Returns corrupt, with the field `groups[1].positions[7]`, unless the names are unique and not
+/// empty, positions are finite, and transforms are finite and affine.
 [[nodiscard]] Status check_probe_groups(std::span<const ProbeGroup> groups);
+
+/// The same, and returns invalid_argument if there are no groups or a name is not UTF-8.
+[[nodiscard]] Status check_writable_groups(std::span<const ProbeGroup> groups);
 
 }  // namespace tetralight::detail

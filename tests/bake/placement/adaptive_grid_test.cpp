@@ -35,7 +35,7 @@ Scene two_rooms() {
 ProbeGridSettings adaptive(uint64_t max_count, double target_error) {
     ProbeGridSettings settings;
     settings.mode = PlacementMode::Adaptive;
-    settings.max_probe_count = max_count;
+    settings.max_probes = max_count;
     settings.adaptive.target_error = target_error;
     settings.adaptive.bake.bounces = 1;
     return settings;
@@ -46,7 +46,7 @@ TEST(AdaptiveGrid, StaysBelowTheMostProbesAndGetsBetterWithMore) {
     const ProbeGrid many = grid_of(two_rooms(), adaptive(480, 1e-4));
     EXPECT_LE(few.probe_count(), 60u);
     EXPECT_LE(many.probe_count(), 480u);
-    EXPECT_EQ(many.adaptive->end, AdaptiveEnd::MostProbes);
+    EXPECT_EQ(many.adaptive->end, AdaptiveEnd::MaxProbes);
     EXPECT_LT(many.adaptive->error, 0.8 * few.adaptive->error);
     EXPECT_GT(many.adaptive->error, 0.0);
 }
@@ -61,7 +61,7 @@ TEST(AdaptiveGrid, StopsAtTheTargetWithNoMoreProbesThanItTakes) {
     EXPECT_EQ(grid.adaptive->end, AdaptiveEnd::TargetReached);
     EXPECT_LE(grid.adaptive->error, 0.3);
     EXPECT_LT(grid.probe_count(), 500u);
-    EXPECT_EQ(grid.probe_count() + grid.count(Fate::Spared) + grid.count(Fate::Inside),
+    EXPECT_EQ(grid.probe_count() + grid.count(Fate::Redundant) + grid.count(Fate::Inside),
               grid.candidate_count);
 }
 
@@ -166,12 +166,12 @@ std::vector<glm::dvec3> in_hidden_room(const ProbeGrid& grid) {
 
 TEST(AdaptiveGrid, FillsSpacesThatItsLatticeMisses) {
     ProbeGridSettings settings = coarse_in_the_air();
-    settings.other_spaces = OtherSpaces::Keep;
+    settings.unreachable = UnreachableSpaces::Keep;
     const ProbeGrid both = grid_of(hidden_room(), settings);
     EXPECT_EQ(affine_dimension(in_hidden_room(both)), 3);
     EXPECT_GT(positions_of(both).size(), in_hidden_room(both).size());
-    settings.seeds = {{0.3, 0.2, 0.1}};
-    settings.other_spaces = OtherSpaces::Drop;
+    settings.from = {{0.3, 0.2, 0.1}};
+    settings.unreachable = UnreachableSpaces::Drop;
     const ProbeGrid room = grid_of(hidden_room(), settings);
     EXPECT_EQ(affine_dimension(in_hidden_room(room)), 3);
     EXPECT_EQ(positions_of(room).size(), in_hidden_room(room).size());
@@ -191,8 +191,8 @@ TEST(AdaptiveGrid, FewerProbesThanItsSpacesNeedAreRefused) {
     add_box(scene, test::grey(), Facing::Inward, {-1, -1, 3}, {1, 1, 5});
     add_box(scene, test::grey(), Facing::Outward, {-1.2f, -1.2f, 2.8f}, {1.2f, 1.2f, 5.2f});
     ProbeGridSettings settings = coarse_in_the_air();
-    settings.other_spaces = OtherSpaces::Keep;
-    settings.max_probe_count = 11;
+    settings.unreachable = UnreachableSpaces::Keep;
+    settings.max_probes = 11;
     EXPECT_EQ(error_of(scene, settings),
               "3 spaces need 12 probes at least, more than the limit of 11");
 }
@@ -224,7 +224,7 @@ TEST(AdaptiveGrid, WithoutAPlaceToMeasureItReportsNoError) {
     const auto report = refine_grid(input, {}, probes, {}, {});
     ASSERT_FALSE(report);
     EXPECT_EQ(error_text(report.error()),
-              "the bounds have no free place off surfaces to measure light at");
+              "the bounds have no free position off surfaces to measure light at");
 }
 
 TEST(AdaptiveGrid, SaysWithWhichSpacingItBegan) {

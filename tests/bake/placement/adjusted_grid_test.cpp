@@ -81,7 +81,7 @@ TEST(AdjustedGrid, TheAdaptiveModeKeepsWhatAVolumeAsksFor) {
     scene.probe_adjustments[0].spacing = 0.5;
     ProbeGridSettings settings = settings_for(kEight, 1.0);
     settings.mode = PlacementMode::Adaptive;
-    settings.max_probe_count = 500;
+    settings.max_probes = 500;
     const ProbeGrid grid = grid_of(scene, settings);
     // The light is even: all others could go.
     EXPECT_EQ(count_in(grid, scene.probe_adjustments[0]), 64u);

@@ -35,9 +35,9 @@ TEST(PlacementModes, LayersAreCountedByTheirColumns) {
     ProbeGridSettings settings = settings_for({{-4, 0, -4}, {4, 40, 4}}, 1.0);
     settings.mode = PlacementMode::Layers;
     settings.heights = {1.0};
-    settings.max_probe_count = 64;
+    settings.max_probes = 64;
     EXPECT_EQ(grid_of(scene, settings).probe_count(), 64u);
-    settings.max_probe_count = 63;
+    settings.max_probes = 63;
     EXPECT_EQ(error_of(scene, settings), "a grid of 64 probes is more than the limit of 63");
 }
 
@@ -102,7 +102,7 @@ TEST(PlacementModes, NoneLeavesTheGivenBox) {
     for (const PlacementMode mode : {Regular, Layers, Surface, Adaptive}) {
         ProbeGridSettings settings = settings_for(box, 0.5);
         settings.mode = mode;
-        settings.max_probe_count = mode == Adaptive ? 100 : 100'000;
+        settings.max_probes = mode == Adaptive ? 100 : 100'000;
         settings.heights = {0.3, 1.7};
         const ProbeGrid grid = grid_of(furnished_room(), settings);
         for (const glm::dvec3& p : positions_of(grid)) {

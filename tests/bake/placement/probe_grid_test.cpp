@@ -114,7 +114,7 @@ TEST(ProbeGrid, OrderOfMeshesAndThreadsDoNotMatter) {
 
 TEST(ProbeGrid, GroupHasTheNameAndWorldSpace) {
     ProbeGridSettings settings = settings_for(kFour, 1.0);
-    settings.group_name = "hall";
+    settings.name = "hall";
     const ProbeGroup group = grid_of(Scene{}, settings).groups.at(0);
     EXPECT_EQ(group.name, "hall");
     EXPECT_EQ(group.world_from_group, glm::dmat4(1.0));

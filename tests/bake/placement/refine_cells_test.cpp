@@ -74,12 +74,13 @@ TEST(PairAtWall, IsAloneBeforeAThickWallAndNothingInTheOpen) {
     EXPECT_TRUE(pair_through(Scene{}, 0.1).empty());
 }
 
-TEST(SensorPlaces, AreFreeHalfOfThemOffSurfaces) {
+TEST(SensorSequence, AreFreeHalfOfThemOffSurfaces) {
     Scene scene;
     add_box(scene, test::grey(), Facing::Outward, {-1, -1, -1}, {1, 1, 1});
     const auto traced = TraceScene::make_static(scene);
-    SensorPlaces places(*traced, {{-2, -2, -2}, {2, 2, 2}}, 0.05,
-                        [&](const glm::dvec3& p) { return is_surely_free(*traced, p, 0.025); });
+    SensorSequence places(*traced, {{-2, -2, -2}, {2, 2, 2}}, 0.05, [&](const glm::dvec3& p) {
+        return is_free_with_clearance(*traced, p, 0.025);
+    });
     const auto found = places.next(1000, 0);
     ASSERT_EQ(found.size(), 1000u);
     size_t near = 0;
@@ -110,11 +111,11 @@ TEST(ProbeRemover, RemovesWhatInterpolationMakesGoodAlready) {
     is_protected[21] = true;
     ProbeRemover remover(pool);
     RemoveRule rule;
-    rule.fewest = 8;
-    rule.largest_sum = 1.0;  // noise: of 128 directions
-    for (int pass = 0; pass < 40 && probes.size() > rule.fewest; ++pass) {
+    rule.min_probe_count = 8;
+    rule.max_square_sum = 1.0;  // noise: of 128 directions
+    for (int pass = 0; pass < 40 && probes.size() > rule.min_probe_count; ++pass) {
         const ProbeVolume volume = volume_of(pool, probes);
-        const auto errors = survey_light(volume, pool, sensors, nullptr, 1);
+        const auto errors = sensor_errors(volume, pool, sensors, nullptr, 1);
         const std::vector<uint32_t> spaces(probes.size(), 0);  // all in one
         probes = remover.pass({probes, spaces, volume, sensors, errors, is_protected}, rule);
     }

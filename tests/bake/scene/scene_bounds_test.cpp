@@ -57,13 +57,13 @@ TEST(SceneMiddle, IsTheCenterOfTheBounds) {
     Scene scene = one_box();
     test::add_floor(scene, Material{}, 200.0f);
     test::add_floor(scene, Material{}, 1e9f).contributes_gi = false;
-    EXPECT_EQ(scene_middle(scene, is_static), glm::dvec3(0.0, 1.0, 0.0));
+    EXPECT_EQ(scene_center(scene, is_static), glm::dvec3(0.0, 1.0, 0.0));
 }
 
 TEST(SceneMiddle, StaysWhereMostVerticesAre) {
     Scene scene = one_box();
     test::add_quad(scene, Material{}, {1e9f, 1e9f, 1e9f}, {1, 0, 0}, {0, 1, 0});
-    EXPECT_LE(glm::length(scene_middle(scene, is_static)), 4.0);
+    EXPECT_LE(glm::length(scene_center(scene, is_static)), 4.0);
 }
 
 TEST(SceneMiddle, OfManyVerticesIsThatOfSome) {
@@ -78,11 +78,11 @@ TEST(SceneMiddle, OfManyVerticesIsThatOfSome) {
         instance.world_from_mesh = glm::translate(glm::dmat4(1.0), {x, 0, 0});
         scene.instances.push_back(instance);
     }
-    EXPECT_EQ(scene_middle(scene, is_static), glm::dvec3(1e6 + 0.25, 0.25, 0.25));
+    EXPECT_EQ(scene_center(scene, is_static), glm::dvec3(1e6 + 0.25, 0.25, 0.25));
 }
 
 TEST(SceneMiddle, OfNothingIsTheOrigin) {
-    EXPECT_EQ(scene_middle(Scene{}, is_static), glm::dvec3(0.0));
+    EXPECT_EQ(scene_center(Scene{}, is_static), glm::dvec3(0.0));
 }
 
 TEST(SceneBounds, BoxHasACenterAndASize) {

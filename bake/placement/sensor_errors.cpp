@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/placement/light_survey.h>
+#include <tetralight/bake/placement/sensor_errors.h>
 
 #include <cmath>
 
@@ -25,7 +25,7 @@ double relative(double square_sum, double light_sum, size_t count) {
     return std::sqrt(square_sum / n) / (light_sum / n);
 }
 
-/// Light of the corners that see the position, and the largest one that does not.
+/// Sets the hidden corner; returns the mean square for light from visible corners only.
 float visible_part(const ProbeVolume& volume, const TraceScene& traced, const glm::dvec3& position,
                    const IrradianceSh& light, const CellLocation& location, SensorError& error) {
     const Cell& cell = volume.cells[location.cell];
@@ -37,7 +37,7 @@ float visible_part(const ProbeVolume& volume, const TraceScene& traced, const gl
         constexpr float kNothing = 1e-3f;
         if (probe == kNoIndex || location.weights[i] < kNothing) continue;
         const glm::vec3 there = traced.render_from_world(volume.exact_positions[probe]);
-        if (there == here || sees(traced, here, there)) {
+        if (there == here || is_visible(traced, here, there)) {
             seen += location.weights[i] * volume.irradiance[probe];
             weight += location.weights[i];
         } else if (location.weights[i] > hidden) {
@@ -59,9 +59,9 @@ ProbeVolume volume_of(const LightPool& pool, std::span<const uint32_t> probes) {
     return volume;
 }
 
-std::vector<SensorError> survey_light(const ProbeVolume& volume, const LightPool& pool,
-                                      std::span<const uint32_t> sensors, const TraceScene* traced,
-                                      uint32_t thread_count) {
+std::vector<SensorError> sensor_errors(const ProbeVolume& volume, const LightPool& pool,
+                                       std::span<const uint32_t> sensors, const TraceScene* traced,
+                                       uint32_t thread_count) {
     std::vector<glm::vec3> positions;
     for (const uint32_t sensor : sensors) positions.emplace_back(pool.position(sensor));
     const ProbeVolumeView view = volume.view();
@@ -78,7 +78,7 @@ std::vector<SensorError> survey_light(const ProbeVolume& volume, const LightPool
         error.visible_square =
             visible_part(volume, *traced, pool.position(sensors[i]), light, location, error);
     };
-    // Small sets are surveyed by the thousand, each on a thread of its own.
+    // The caller computes many small sets in parallel, so that each runs on one thread.
     if (traced == nullptr && sensors.size() < 4096) {
         for (size_t i = 0; i < sensors.size(); ++i) look(i);
     } else {
@@ -97,8 +97,8 @@ double relative_error(std::span<const SensorError> errors, const LightPool& pool
 double relative_noise(const LightPool& pool, std::span<const uint32_t> sensors) {
     double sum = 0.0;
     for (const uint32_t sensor : sensors) {
-        const auto share = static_cast<double>(pool.standard_error(sensor));
-        sum += share * share * mean_square(pool.light(sensor));
+        const auto noise = static_cast<double>(pool.standard_error(sensor));
+        sum += noise * noise * mean_square(pool.light(sensor));
     }
     return relative(sum, total_light(pool, sensors), sensors.size());
 }

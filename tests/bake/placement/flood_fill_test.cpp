@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be reached: `SpaceMap`, and what the grid makes of it.
+// What can be reached: `FreeSpaceMap`, and what the grid makes of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include <tetralight/bake/placement/space_map.h>
+#include <tetralight/bake/placement/free_space_map.h>
 #include "tests/bake/placement/grid_support.h"
 
 namespace tetralight {
@@ -38,55 +38,55 @@ size_t count_inside(const ProbeGrid& grid) {
         std::ranges::count_if(positions, [](const auto& p) { return is_in_box(p, 1.8); }));
 }
 
-TEST(Reach, OfASealedBoxTheLargerSideStaysUnlessAskedOtherwise) {
+TEST(FloodFill, OfASealedBoxTheLargerSideStaysUnlessAskedOtherwise) {
     const ProbeGrid grid = grid_of(sealed_box(), settings_for(kTen, 1.0));
     EXPECT_EQ(count_inside(grid), 0u);
     // Of 4 candidates along an axis in the box, at ±0.5 and ±1.5.
     EXPECT_EQ(grid.count(Fate::Unreachable), 64u);
-    ASSERT_EQ(grid.pockets.size(), 1u);
-    EXPECT_EQ(grid.pockets[0].probe_count, 64u);
-    EXPECT_TRUE(is_in_box(grid.pockets[0].position, 1.8));
+    ASSERT_EQ(grid.dropped_spaces.size(), 1u);
+    EXPECT_EQ(grid.dropped_spaces[0].probe_count, 64u);
+    EXPECT_TRUE(is_in_box(grid.dropped_spaces[0].position, 1.8));
 }
 
-TEST(Reach, ASeedInTheBoxKeepsItsInsideAlone) {
+TEST(FloodFill, ASeedInTheBoxKeepsItsInsideAlone) {
     ProbeGridSettings settings = settings_for(kTen, 1.0);
-    settings.seeds = {{0.1, 0.2, 0.3}};
+    settings.from = {{0.1, 0.2, 0.3}};
     const ProbeGrid grid = grid_of(sealed_box(), settings);
     EXPECT_EQ(grid.probe_count(), 64u);
     EXPECT_EQ(count_inside(grid), 64u);
     EXPECT_EQ(grid.groups.size(), 1u);
 }
 
-TEST(Reach, SeedsOnBothSidesKeepBothAsGroupsOfTheirOwn) {
+TEST(FloodFill, SeedsOnBothSidesKeepBothAsGroupsOfTheirOwn) {
     ProbeGridSettings settings = settings_for(kTen, 1.0);
-    settings.seeds = {{0, 0, 0}, {4, 4, 4}};
+    settings.from = {{0, 0, 0}, {4, 4, 4}};
     const ProbeGrid grid = grid_of(sealed_box(), settings);
     ASSERT_EQ(grid.groups.size(), 2u);
     EXPECT_EQ(grid.groups[0].name, "grid space 1");
     EXPECT_GT(grid.groups[0].positions.size(), 500u);
     EXPECT_EQ(grid.groups[1].positions.size(), 64u);
     EXPECT_EQ(grid.count(Fate::Unreachable), 0u);
-    settings.seeds.clear();
-    settings.other_spaces = OtherSpaces::Keep;
+    settings.from.clear();
+    settings.unreachable = UnreachableSpaces::Keep;
     EXPECT_EQ(grid_of(sealed_box(), settings).groups, grid.groups);
 }
 
-TEST(Reach, RefusesSeedsThatLieInAWallOrOutside) {
+TEST(FloodFill, RefusesSeedsThatLieInAWallOrOutside) {
     ProbeGridSettings settings = settings_for(kTen, 1.0);
-    settings.seeds = {{1.9, 0, 0}};
-    EXPECT_EQ(error_of(sealed_box(), settings), "seed 1.9,0,0 lies inside geometry");
-    settings.seeds = {{99, 0, 0}};
-    EXPECT_EQ(error_of(sealed_box(), settings), "seed 99,0,0 lies outside of the bounds");
+    settings.from = {{1.9, 0, 0}};
+    EXPECT_EQ(error_of(sealed_box(), settings), "seed 1.9,0,0 is inside geometry");
+    settings.from = {{99, 0, 0}};
+    EXPECT_EQ(error_of(sealed_box(), settings), "seed 99,0,0 is outside of the bounds");
 }
 
-TEST(Reach, ASpaceBetweenTheProbesIsToldOf) {
+TEST(FloodFill, ASpaceBetweenTheProbesIsToldOf) {
     // Layers at ±2.5 are none of the box.
     ProbeGridSettings settings = settings_for(kTen, 5.0);
     ProbeGrid grid = grid_of(sealed_box(), settings);
     ASSERT_EQ(grid.empty_spaces.size(), 1u);
     EXPECT_TRUE(is_in_box(grid.empty_spaces[0].position, 1.8));
     EXPECT_FALSE(grid.empty_spaces[0].is_wanted);
-    settings.other_spaces = OtherSpaces::Keep;
+    settings.unreachable = UnreachableSpaces::Keep;
     EXPECT_TRUE(grid_of(sealed_box(), settings).empty_spaces.at(0).is_wanted);
     EXPECT_TRUE(grid_of(sealed_box(), settings_for(kTen, 1.0)).empty_spaces.empty());
 }
@@ -103,24 +103,24 @@ Scene wall_with_door() {
     return scene;
 }
 
-TEST(Reach, ADoorJoinsRoomsEvenWhenTheLatticeIsCoarser) {
+TEST(FloodFill, ADoorJoinsRoomsEvenWhenTheLatticeIsCoarser) {
     const ProbeGrid grid = grid_of(wall_with_door(), settings_for(kTen, 2.5));
     EXPECT_EQ(grid.groups.size(), 1u);
     EXPECT_EQ(grid.count(Fate::Unreachable), 0u);
     EXPECT_EQ(grid.probe_count(), 64u);
 }
 
-TEST(Reach, PostsOnASurfaceDoNotJoinItsSides) {
+TEST(FloodFill, PostsOnASurfaceDoNotJoinItsSides) {
     // The plane of the wall holds a layer of posts.
     Scene scene;
     test::add_floor(scene, test::two_sided(), 20.0f);
     const auto traced = TraceScene::make_static(scene);
-    SpaceMap map(*traced, kTen, glm::dvec3(1.0));
+    FreeSpaceMap map(*traced, kTen, glm::dvec3(1.0));
     EXPECT_NE(map.space_of({0.3, 1.2, 0.3}), map.space_of({0.3, -1.2, 0.3}));
     EXPECT_EQ(map.space_of({0.3, 1.2, 0.3}), map.space_of({4.3, 4.2, -4.3}));
 }
 
-TEST(Reach, AProbeInAnOpeningJoinsWhatItSees) {
+TEST(FloodFill, AProbeInAnOpeningJoinsWhatItSees) {
     // A hole of 20 cm that no line between two posts leads through.
     Scene scene;
     const auto wall = [&](glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
@@ -131,14 +131,14 @@ TEST(Reach, AProbeInAnOpeningJoinsWhatItSees) {
     wall({0.15f, -20, 0.02f}, {0.2f, 0, 0}, {0, 20.15f, 0});
     wall({0.15f, 0.35f, 0.02f}, {0.2f, 0, 0}, {0, 20, 0});
     const auto traced = TraceScene::make_static(scene);
-    SpaceMap map(*traced, kTen, glm::dvec3(1.0));
+    FreeSpaceMap map(*traced, kTen, glm::dvec3(1.0));
     const glm::dvec3 front(2, 2, 2), back(2, 2, -2), hole(0.25, 0.25, 0.02);
     EXPECT_NE(map.space_of(front), map.space_of(back));
     map.join(std::span(&hole, 1));
     EXPECT_EQ(map.space_of(front), map.space_of(back));
 }
 
-TEST(Reach, WithoutAFloorAllAirIsOneSpace) {
+TEST(FloodFill, WithoutAFloorAllAirIsOneSpace) {
     Scene scene;
     add_box(scene, test::grey(), Facing::Outward, {-1, -1, -1}, {1, 1, 1});
     const ProbeGrid grid = grid_of(scene, settings_for(kTen, 1.0));
