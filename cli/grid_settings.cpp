@@ -65,14 +65,14 @@ ProbeGridSettings grid_settings(const Values& values) {
     settings.bounds_of = values.texts("bounds_of");
     settings.heights = values.numbers("heights");
     if (values.is_given("clearance")) settings.clearance = values.number("clearance");
-    settings.seeds = seeds_in(values);
-    settings.other_spaces = choice<OtherSpaces>(values, "unreachable");
+    settings.from = seeds_in(values);
+    settings.unreachable = choice<UnreachableSpaces>(values, "unreachable");
     settings.region_size = values.number("region_size");
-    settings.group_name = values.text("name");
-    if (auto status = check_characters(settings.group_name); !status) {
+    settings.name = values.text("name");
+    if (auto status = check_characters(settings.name); !status) {
         refuse_because(values, "name", status.error());
     }
-    if (values.is_given("max_probes")) settings.max_probe_count = values.integer("max_probes");
+    if (values.is_given("max_probes")) settings.max_probes = values.integer("max_probes");
     settings.adaptive = adaptive_settings(values);
     settings.thread_count = values.integer32("threads");
     return settings;
