@@ -35,8 +35,9 @@ static_assert(sizeof(PackedSh) == sizeof(tetralight_light::packed));
 
 using OpenFile = Result<ProbeFile> (*)(const std::string& path);
 
-/// A path that is too long or leads to a folder is not a wrong number: there is no such file.
-CallError open_error(const Error& error) {
+/// The error of opening or verifying a file. An unusable path (too long, or a folder) means that
+/// there is no such file.
+CallError file_error(const Error& error) {
     CallError failed(error);
     if (failed.status == TETRALIGHT_BAD_VALUE) failed.status = TETRALIGHT_BAD_FILE;
     return failed;
@@ -48,7 +49,7 @@ tetralight_status open_with(OpenFile open, const char* path, tetralight_volume**
     if (!wrong) wrong = check_pointer("volume", volume);
     if (wrong) return finish(wrong, error);
     auto file = open(path);
-    if (!file) return finish(open_error(file.error()), error);
+    if (!file) return finish(file_error(file.error()), error);
     auto* opened = new (std::nothrow) tetralight_volume(std::move(*file));
     if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for a volume"}, error);
     *volume = opened;
@@ -227,7 +228,7 @@ tetralight_status tetralight_verify(const tetralight_volume* volume,
                                     tetralight_error* error) noexcept {
     if (auto wrong = check_pointer("volume", volume)) return finish(wrong, error);
     const auto status = verify(volume->file);
-    if (!status) return finish(status.error(), error);
+    if (!status) return finish(file_error(status.error()), error);
     return succeed(error);
 }
 

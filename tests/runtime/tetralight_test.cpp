@@ -88,9 +88,9 @@ TEST_F(CApi, FilesThatAreNotThereOrBrokenAreErrors) {
     auto bytes = probe_file_bytes(data.view());
     bytes[bytes.size() - 5] ^= std::byte{1};
     const std::string broken = folder.write("broken.probes", bytes);
-    EXPECT_EQ(tetralight_open(broken.c_str(), &other, &error), TETRALIGHT_BAD_FILE);
+    EXPECT_EQ(tetralight_open(broken.c_str(), &other, &error), TETRALIGHT_CORRUPT);
     ASSERT_EQ(tetralight_open_lazy(broken.c_str(), &other, &error), TETRALIGHT_OK);
-    EXPECT_EQ(tetralight_verify(other, &error), TETRALIGHT_BAD_FILE);
+    EXPECT_EQ(tetralight_verify(other, &error), TETRALIGHT_CORRUPT);
     EXPECT_GT(std::strlen(error.message), 10u);
     tetralight_close(other);
     EXPECT_EQ(tetralight_verify(volume, &error), TETRALIGHT_OK);
@@ -213,12 +213,13 @@ const BadBatch kBadBatches[] = {
      "sh is 1120 bytes long, too short for 10 elements of 112 bytes, 18446744073709551612 bytes "
      "apart",
      [](tetralight_batch& b) { b.sh.stride = kHuge - 3; }},
-    {"Format", TETRALIGHT_BAD_VALUE, "sh_format is 3",
+    {"Format", TETRALIGHT_BAD_VALUE, "sh_format is out of range: 3",
      [](tetralight_batch& b) { b.sh_format = 3; }},
-    {"Outside", TETRALIGHT_BAD_VALUE, "outside is 77", [](tetralight_batch& b) { b.outside = 77; }},
-    {"Fade", TETRALIGHT_BAD_VALUE, "fade_distance is 0, not a length",
+    {"Outside", TETRALIGHT_BAD_VALUE, "outside is out of range: 77",
+     [](tetralight_batch& b) { b.outside = 77; }},
+    {"Fade", TETRALIGHT_BAD_VALUE, "fade_distance is not positive and finite: 0",
      [](tetralight_batch& b) { b.outside = TETRALIGHT_AMBIENT; }},
-    {"FadeNan", TETRALIGHT_BAD_VALUE, "fade_distance is nan, not a length",
+    {"FadeNan", TETRALIGHT_BAD_VALUE, "fade_distance is not positive and finite: nan",
      [](tetralight_batch& b) {
          b.outside = TETRALIGHT_AMBIENT;
          b.fade_distance = NAN;
