@@ -7,7 +7,7 @@
 
 namespace tetralight::detail {
 
-/// A stream into memory that can seek, and that copies nothing but what it grows.
+/// A seekable stream buffer that writes to memory.
 class MemoryStream : public std::streambuf {
   public:
     [[nodiscard]] std::span<char> bytes() { return bytes_; }

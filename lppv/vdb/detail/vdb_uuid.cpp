@@ -11,8 +11,8 @@
 namespace tetralight::detail {
 namespace {
 
-// io/Archive.h: magic number (8 bytes), file version (4), library version (2 × 4), whether grids
-// have offsets (1), UUID as text.
+// The header of io/Archive.h: magic number (8 bytes), file version (4), library version (2 × 4),
+// flag for grid offsets (1), UUID as text (36).
 constexpr size_t kMagicSize = 8;
 constexpr size_t kUuidOffset = 21;
 constexpr size_t kUuidSize = 36;

@@ -5,8 +5,10 @@
 
 namespace tetralight::detail {
 
-/// Replaces the random number in the header of an OpenVDB file by one that its contents give, so
-/// that the same values give the same bytes. Leaves other files alone.
+/// Replaces the UUID in the header of an OpenVDB file by a hash of the file's contents, so that the
+/// same values give the same bytes. OpenVDB writes a random UUID and offers no way to set it:
+/// openvdb::io::Archive keeps it in a private member that writeHeader() redefines. Does nothing to
+/// files that are not OpenVDB files.
 void set_vdb_uuid(std::span<char> file);
 
 }  // namespace tetralight::detail
