@@ -58,7 +58,11 @@ struct Relight {
                          volume_path + ": is a part of a bake; merge its parts first"};
         }
         ProbeVolume volume = copy_volume(file->view());
-        if (auto status = change(volume); !status) return status.error().in(volume_path);
+        if (auto status = change(volume); !status) {
+            Error error = status.error().in(volume_path);
+            if (error.field.empty()) error.field = "volume";
+            return error;
+        }
         if (!blend_path.empty()) {
             if (auto status = blend_with(volume); !status) return status;
         }
@@ -138,7 +142,8 @@ struct Relight {
     [[nodiscard]] Status blend_with(ProbeVolume& volume) const {
         const auto file = open_probe_file(blend_path);
         if (!file) return file.error();
-        auto blended = blend_volumes(volume.view(), file->view(), static_cast<float>(blend_fraction));
+        auto blended =
+            blend_volumes(volume.view(), file->view(), static_cast<float>(blend_fraction));
         if (!blended) return blended.error().in(blend_path);
         volume = std::move(*blended);
         return Ok{};

@@ -91,7 +91,7 @@ settings::Values check_order(const Table& table, const Json& order, std::string_
         }
     });
     auto values = settings::values_from_json(table, settings, settings::Access::Command);
-    if (!values) throw setting_problem(values.error());
+    if (!values) throw setting_problem(values.error(), order);
     return std::move(*values);
 }
 

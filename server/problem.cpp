@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/problem.h>
 
+#include <algorithm>
+#include <optional>
+
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
@@ -33,16 +36,42 @@ Problem problem_for(const Error& error, Answer otherwise) {
     return {status, code, error_text(error), error.field, error.value};
 }
 
+/// A part of an order: "weights.sun", and its value.
+struct Member {
+    std::string name;
+    Json value;
+};
+
+/// The member or element of an order that is this word, or has it as its name.
+std::optional<Member> find_word(const Json& order, const std::string& word) {
+    if (word.empty()) return std::nullopt;
+    for (const auto& [name, value] : order.items()) {
+        if (value == word) return Member{name, value};
+        if (!value.is_structured()) continue;
+        for (const auto& [key, element] : value.items()) {
+            if (element != word && (value.is_array() || key != word)) continue;
+            return Member{value.is_array() ? str_cat(name, "[", key, "]") : name + "." + key,
+                          element};
+        }
+    }
+    return std::nullopt;
+}
+
+/// The member of an order that an error is about: the one that it names, else the one whose value
+/// it has.
+std::optional<Member> find_member(const Json& order, const Error& error) {
+    if (!order.is_object()) return std::nullopt;
+    const auto found = order.find(error.field.substr(0, error.field.find_first_of(".[")));
+    if (found == order.end()) return find_word(order, error.value);
+    if (const auto part = find_word(Json{{found.key(), *found}}, error.value)) return part;
+    return Member{error.field, error.value.empty() ? *found : Json(error.value)};
+}
+
 /// Names the member of the request that is wrong, if an error is about one.
 void name_member(const Error& error, const Json& order, Problem& problem) {
-    const std::string root = error.field.substr(0, error.field.find_first_of(".["));
-    const auto found = order.is_object() ? order.find(root) : order.end();
-    if (found != order.end()) {
-        if (problem.value.empty()) problem.value = shown(*found);
-        return;
-    }
-    problem.field = order.is_null() ? "body" : "";
-    problem.value.clear();
+    const auto member = find_member(order, error);
+    problem.field = member ? member->name : order.is_null() ? "body" : "";
+    problem.value = member ? shown(member->value) : "";
 }
 
 }  // namespace
@@ -51,12 +80,10 @@ Problem storage_problem(const Error& error) {
     return problem_for(error, {500, "storage"});
 }
 
-Problem setting_problem(const Error& error) {
-    return problem_for(error, {400, "invalid_value"});
-}
-
-Problem data_problem(const Error& error) {
-    return problem_for(error, {422, "bad_data"});
+Problem setting_problem(const Error& error, const Json& order) {
+    Problem problem = problem_for(error, {400, "invalid_value"});
+    name_member(error, order, problem);
+    return problem;
 }
 
 Problem job_problem(const Settings& settings, const JobResult& result, const Request& request,
@@ -74,8 +101,8 @@ Problem job_problem(const Settings& settings, const JobResult& result, const Req
         case End::Crashed:
             return problem_for(result.error, {500, "tool_failed"});
     }
-    Problem problem =
-        result.is_wrong_usage ? setting_problem(result.error) : data_problem(result.error);
+    if (result.is_wrong_usage) return setting_problem(result.error, order);
+    Problem problem = problem_for(result.error, {422, "bad_data"});
     name_member(result.error, order, problem);
     return problem;
 }

@@ -32,11 +32,8 @@ struct Problem {
 /// The folder of the server could not be read or written: otherwise 500 "storage".
 [[nodiscard]] Problem storage_problem(const Error& error);
 
-/// A setting of a request is wrong: otherwise 400 "invalid_value".
-[[nodiscard]] Problem setting_problem(const Error& error);
-
-/// A request's data cannot be used: otherwise 422 "bad_data".
-[[nodiscard]] Problem data_problem(const Error& error);
+/// A setting of an order is wrong: otherwise 400 "invalid_value".
+[[nodiscard]] Problem setting_problem(const Error& error, const Json& order);
 
 /// A job for a request did not do what `order` asks: with the member of the order that is wrong, or
 /// "body" if the order is null, because the request is an uploaded file. Precondition: its end is
