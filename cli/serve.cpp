@@ -11,8 +11,8 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/paths.h>
-#include <tetralight/server/job.h>
 #include <tetralight/server/find_viewer.h>
+#include <tetralight/server/job.h>
 #include <tetralight/server/serve.h>
 
 namespace tetralight::cli {
