@@ -102,11 +102,11 @@ INSTANTIATE_TEST_SUITE_P(
                               {{"baseColorTexture", {{"index", 0}}}},
                               NotFound,
                               "images[0].uri",
-                              ""},
+                              "missing.png"},
                     GltfFault{"BufferFileThatIsMissing", "/buffers",
                               Json::array({{{"uri", "missing.bin"}, {"byteLength", 36}}}), NotFound,
                               "buffers[0].uri", ""}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& fault) { return fault.param.name; });
 
 TEST(ErrorField, OfAProbeGroupFileNamesTheGroupAndTheProbe) {
     const TempFolder folder;
