@@ -10,7 +10,7 @@ constexpr Setting kFiles[] = {
      .type = Type::Path,
      .help = "Probe volume to write, or a part of it (- = stdout)",
      .extensions = ".probes .part",
-     .without = "required, except with --explain",
+     .without = "none; required except with --explain",
      .short_name = 'o',
      .access = Access::Command},
     {.name = "groups",
