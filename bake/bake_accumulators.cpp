@@ -117,8 +117,8 @@ class AccumulatorBaker {
 
     /// Probes per batch: a few seconds of work, and a few megabytes of estimates.
     [[nodiscard]] size_t probes_at_once(uint64_t round) const {
-        constexpr uint64_t kSamples = 1u << 20;
-        return std::clamp<size_t>(kSamples / plan_.samples_in_round(round), 16, 4096);
+        return std::clamp<size_t>(hooks_.samples_between_saves / plan_.samples_in_round(round), 16,
+                                  4096);
     }
 
     void bake_round(std::span<const uint32_t> probes, uint64_t round) {

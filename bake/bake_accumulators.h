@@ -21,6 +21,8 @@ struct BakeHooks {
     /// that the accumulators can be written to a checkpoint.
     std::function<void()> save{};
     double save_seconds = 30.0;
+    /// Samples of all probes together between two points at which `save` can be called.
+    uint64_t samples_between_saves = 1u << 20;
 };
 
 /// Where a bake accumulates its light groups; empty if `LightPlan::has_light_groups` is false and

@@ -70,7 +70,7 @@ struct Bake {
 
     Status run_bake() {
         if (auto status = check_output(output, inputs()); !status) return status;
-        if (auto status = storing.check(inputs(), common); !status) return status;
+        if (auto status = storing.open(); !status) return status;
         auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
@@ -89,16 +89,16 @@ struct Bake {
         const auto baked = bake_with_progress(scene, prepared);
         if (!baked) return baked.error();
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        if (!baked->warning.empty()) common.warn({baked->warning});
+        storing.warn(*baked, common);
         const Status status = storing.probes
                                   ? write_range(prepared, *baked, seconds.count())
                                   : write_whole(std::move(prepared), *baked, seconds.count());
-        if (status) storing.remove_kept(*baked);
+        if (status) storing.finish(*baked);
         return status;
     }
 
     [[nodiscard]] Result<RangeBake> bake_with_progress(const Scene& scene,
-                                                       const PreparedBake& prepared) const {
+                                                       const PreparedBake& prepared) {
         BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds,
                                     storing.progress_file);
         return storing.bake(scene, prepared,

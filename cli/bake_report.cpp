@@ -29,7 +29,8 @@ std::string work_text(uint64_t ray_count, const BakeRun& run) {
 /// What became of probes in geometry, if there are any, and how many were not baked.
 std::string health_text(const BakeReport& report) {
     std::string parts;
-    if (report.moved_count > 0) parts += ", " + grouped(report.moved_count) + " moved";
+    if (report.virtual_offset_count > 0)
+        parts += ", " + grouped(report.virtual_offset_count) + " moved";
     if (report.left_out_count > 0) parts += ", " + grouped(report.left_out_count) + " left out";
     if (report.dilated_count > 0) parts += ", " + grouped(report.dilated_count) + " dilated";
     if (report.reused_count > 0) parts += ", " + grouped(report.reused_count) + " re-used";
@@ -61,7 +62,7 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
     json.update(counts(volume));
     json.update(
         {{"lattice_groups", report.lattice_group_names}, {"largest_snap", report.largest_snap}});
-    json.update({{"moved", report.moved_count},
+    json.update({{"moved", report.virtual_offset_count},
                  {"left_out", report.left_out_count},
                  {"dilated", report.dilated_count},
                  {"reused", report.reused_count}});

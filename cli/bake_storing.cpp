@@ -5,13 +5,14 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/failure.h>
-#include <tetralight/cli/paths.h>
-#include <tetralight/pipeline/bake_chunks.h>
 #include <tetralight/pipeline/reuse_probes.h>
 #include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
 namespace {
+
+/// Seconds between two saves with `chunks`; more if saving takes long.
+constexpr double kFrequentSaves = 0.1;
 
 ProbeRange range_of(const std::optional<IndexRange>& probes, const PreparedBake& prepared) {
     const auto count = static_cast<uint32_t>(prepared.capture_positions.size());
@@ -19,89 +20,108 @@ ProbeRange range_of(const std::optional<IndexRange>& probes, const PreparedBake&
     return {probes->begin, probes->end == IndexRange{}.end ? count : probes->end};
 }
 
-Error interrupted(const std::string& what) {
-    note_checkpoint();
-    return {ErrorCode::Cancelled, "interrupted; " + what};
-}
-
 }  // namespace
 
 BakeStoring::BakeStoring(const Values& values)
-    : output(values.text("output")),
-      probes(index_range(values, "probes")),
-      is_resumed(values.flag("resume")),
-      chunk_folder(values.text("chunks")),
-      reuse_path(values.text("reuse")),
-      progress_file(values.text("progress_file")) {
-    if (is_resumed && output == "-") refuse(values, "resume", "nothing is kept beside stdout");
-    const std::string extension = std::filesystem::path(output).extension().string();
+    : probes(index_range(values, "probes")),
+      progress_file(values.text("progress_file")),
+      output_(values.text("output")),
+      is_resumed_(values.flag("resume")),
+      chunk_folder_(values.text("chunks")),
+      store_folder_(values.text("store")),
+      store_limit_(values.number("store_limit")),
+      reuse_path_(values.text("reuse")) {
+    if (is_resumed_ && output_ == "-") refuse(values, "resume", "nothing is kept beside stdout");
+    const std::string extension = std::filesystem::path(output_).extension().string();
     if (extension == (probes ? ".probes" : ".part")) {
         refuse(values, "output",
                str_cat("with ", values.shown("probes"),
-                       " a .part is written, without it .probes, not \"", output, "\""));
+                       " a .part is written, without it .probes, not \"", output_, "\""));
     }
 }
 
-/// Beside the output, if that is a file; empty: an interrupted bake is not kept.
-std::string BakeStoring::kept_path() const {
+/// Empty if the output is not a regular file: an interrupted bake is not kept.
+std::string BakeStoring::path_beside() const {
     std::error_code error;
-    if (!chunk_folder.empty() || !reuse_path.empty()) return "";
-    const auto type = std::filesystem::status(output, error).type();
+    const auto type = std::filesystem::status(output_, error).type();
     const bool is_file = type == std::filesystem::file_type::regular ||
                          type == std::filesystem::file_type::not_found;
-    return output == "-" || !is_file ? "" : output + ".part";
+    return output_ == "-" || !is_file ? "" : output_ + ".store";
 }
 
-Status BakeStoring::check(const std::vector<std::string>& inputs,
-                          const CommonOptions& common) const {
-    const std::string path = kept_path();
-    if (path.empty()) return Ok{};
-    if (auto status = check_output(path, inputs); !status) {
-        return status.error().in("an interrupted bake would be kept there");
+Status BakeStoring::open() {
+    const std::string shared = chunk_folder_.empty() ? store_folder_ : chunk_folder_;
+    if (!shared.empty()) {
+        auto store = BakeStore::open(shared);
+        if (!store) return store.error();
+        shared_ = std::move(*store);
     }
-    std::error_code error;
-    if (is_resumed || !std::filesystem::exists(path, error)) return Ok{};
-    const auto file = open_probe_file_lazy(path);
-    if (!file || !is_part(*file)) {
-        return Error{ErrorCode::InvalidArgument, "output", output,
-                     path +
-                         ": is no interrupted bake and would be replaced by one; move it away, "
-                         "or write elsewhere"};
-    }
-    common.warn({path +
-                 ": this interrupted bake, which --resume can continue, is lost if this bake "
-                 "is interrupted too"});
+    const std::string beside = path_beside();
+    if (beside.empty() || (shared_ && !is_resumed_)) return Ok{};
+    auto store = BakeStore::open(beside);
+    if (!store) return store.error();
+    has_old_entries_ = !store->is_empty();
+    beside_ = std::move(*store);
     return Ok{};
 }
 
 Status BakeStoring::reuse(PreparedBake& prepared, const CommonOptions& common) const {
-    if (reuse_path.empty()) return Ok{};
-    const auto old = open_probe_file(reuse_path);
+    if (reuse_path_.empty()) return Ok{};
+    const auto old = open_probe_file(reuse_path_);
     if (!old) return old.error();
     if (const Status status = reuse_probes(old->view(), prepared); !status) {
-        common.warn(reuse_path + ": nothing is re-used: ", status.error(), "");
+        common.warn(reuse_path_ + ": nothing is re-used: ", status.error(), "");
     }
     return Ok{};
 }
 
-Result<RangeBake> BakeStoring::bake(const Scene& scene, const PreparedBake& prepared,
-                                    const BakeCallback& show) const {
-    const BakeKeeping kept{kept_path(), is_resumed};
-    const auto bake_all = [&](const PreparedBake& some) {
-        return chunk_folder.empty() ? bake_range(scene, some, range_of(probes, some), kept, show)
-                                    : bake_in_chunks(scene, some, chunk_folder, show);
-    };
-    auto baked = reuse_path.empty() ? bake_all(prepared) : bake_all(bake_of_others(prepared));
-    if (baked && !reuse_path.empty()) baked->partial = spread_others(prepared, baked->partial);
-    if (baked || baked.error().code != ErrorCode::Cancelled) return baked;
-    if (!chunk_folder.empty()) return interrupted(chunk_folder + " keeps what is done");
-    if (kept.path.empty()) return Error{ErrorCode::Cancelled, "interrupted"};
-    return interrupted(kept.path + " keeps what is done, --resume goes on with it");
+BakeStorage BakeStoring::storage() {
+    BakeStorage storage;
+    if (shared_) storage.sources.push_back(&*shared_);
+    if (beside_ && is_resumed_) storage.sources.push_back(&*beside_);
+    storage.target = shared_ ? &*shared_ : beside_ ? &*beside_ : nullptr;
+    storage.is_saved_at_end = shared_.has_value();
+    storage.is_required = !chunk_folder_.empty();
+    if (storage.is_required) storage.save_seconds = kFrequentSaves;
+    return storage;
 }
 
-void BakeStoring::remove_kept(const RangeBake& baked) const {
-    std::error_code error;
-    if (baked.is_kept) std::filesystem::remove(kept_path(), error);
+Result<RangeBake> BakeStoring::bake(const Scene& scene, const PreparedBake& prepared,
+                                    const BakeCallback& show) {
+    const BakeStorage used = storage();
+    auto baked = bake_range(scene, prepared, range_of(probes, prepared), used, show);
+    if (baked || baked.error().code != ErrorCode::Cancelled) return baked;
+    if (used.target != nullptr) note_checkpoint();
+    if (used.target == nullptr || used.target->is_empty()) {
+        return Error{ErrorCode::Cancelled, "interrupted"};
+    }
+    return Error{ErrorCode::Cancelled,
+                 str_cat("interrupted; ", used.target->folder(), " keeps what is done",
+                         shared_ ? "" : ", --resume goes on with it")};
+}
+
+void BakeStoring::warn(const RangeBake& baked, const CommonOptions& common) const {
+    std::vector<std::string> lines;
+    for (const auto* store : {&shared_, &beside_}) {
+        if (!*store || (*store)->damaged_count() == 0) continue;
+        lines.push_back(str_cat((*store)->folder(), ": ",
+                                counted((*store)->damaged_count(), "damaged record"),
+                                "; their probes are baked again"));
+    }
+    if (has_old_entries_ && !is_resumed_) {
+        lines.push_back(beside_->folder() + ": holds an interrupted bake; --resume continues it");
+    } else if (has_old_entries_ && baked.earlier_ray_count == 0) {
+        lines.push_back(beside_->folder() +
+                        ": holds no probe of this bake (scene, probes, settings or program version "
+                        "differ)");
+    }
+    common.warn(lines);
+    if (baked.save_failure) common.warn("", *baked.save_failure, "");
+}
+
+void BakeStoring::finish(const RangeBake& baked) {
+    if (beside_ && (is_resumed_ || baked.is_saved)) BakeStore::remove(beside_->folder());
+    if (shared_ && store_limit_ > 0.0) shared_->prune(static_cast<uint64_t>(store_limit_ * 1e9));
 }
 
 }  // namespace tetralight::cli

@@ -3,31 +3,27 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <tetralight/cli/amounts.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/pipeline/bake_range.h>
 #include <tetralight/pipeline/bake_volume.h>
-#include <tetralight/pipeline/resumable_bake.h>
 
 namespace tetralight::cli {
 
 /// Which probes `bake` bakes, and where light that is known already is kept: `probes`, `resume`,
-/// `chunks`, `reuse`, `progress_file`.
-struct BakeStoring {
-    std::string output;
+/// `chunks`, `store`, `store_limit`, `reuse`, `progress_file`.
+class BakeStoring {
+  public:
     std::optional<IndexRange> probes;
-    bool is_resumed = false;
-    std::string chunk_folder;
-    std::string reuse_path;
     std::string progress_file;
 
     /// Throws a `UsageError` if settings do not go together.
     explicit BakeStoring(const Values& values);
 
-    /// Checks before the bake that an interrupted one can be kept, and would replace nothing else.
-    [[nodiscard]] Status check(const std::vector<std::string>& inputs,
-                               const CommonOptions& common) const;
+    /// Opens the stores before the bake: that of `chunks` or `store`, else `OUTPUT.store`. Returns
+    /// invalid_argument if other files lie there.
+    [[nodiscard]] Status open();
 
     /// Takes light from the volume of `reuse`, if there is one; warns if nothing can be reused.
     Status reuse(PreparedBake& prepared, const CommonOptions& common) const;
@@ -35,13 +31,28 @@ struct BakeStoring {
     /// Bakes what is not known yet. Returns cancelled after a signal; the message says what is
     /// kept.
     [[nodiscard]] Result<RangeBake> bake(const Scene& scene, const PreparedBake& prepared,
-                                         const BakeCallback& show) const;
+                                         const BakeCallback& show);
 
-    /// Removes what an interrupted bake kept.
-    void remove_kept(const RangeBake& baked) const;
+    /// Warns of damaged entries, of entries that were not used, and of saves that failed.
+    void warn(const RangeBake& baked, const CommonOptions& common) const;
+
+    /// After the output is written: removes the store beside it, and prunes that of `store`.
+    void finish(const RangeBake& baked);
 
   private:
-    [[nodiscard]] std::string kept_path() const;
+    [[nodiscard]] std::string path_beside() const;
+    [[nodiscard]] BakeStorage storage();
+
+    std::string output_;
+    bool is_resumed_ = false;
+    std::string chunk_folder_;
+    std::string store_folder_;
+    double store_limit_ = 0.0;  ///< gigabytes; 0: none
+    std::string reuse_path_;
+
+    std::optional<BakeStore> shared_;  ///< of `chunks` or `store`
+    std::optional<BakeStore> beside_;  ///< beside the output
+    bool has_old_entries_ = false;     ///< `beside_` had some when it was opened
 };
 
 }  // namespace tetralight::cli

@@ -72,18 +72,12 @@ struct Info {
     }
 
     static Json part_json(const PartialBake& part) {
-        return {{"range", {part.range.begin, part.range.end}},
-                {"is_finished", part.is_finished},
-                {"begun", part.begun_count()}};
+        return {{"range", {part.range.begin, part.range.end}}, {"is_finished", true}};
     }
 
     static std::string part_text(const PartialBake& part, uint32_t probe_count) {
         return str_cat("part of a bake: probes ", part.range.begin, "..", part.range.end, " of ",
-                       grouped(probe_count),
-                       part.is_finished
-                           ? ", finished"
-                           : str_cat(", not finished: ", grouped(part.begun_count()), " of ",
-                                     counted(part.range.count(), "probe"), " begun"));
+                       grouped(probe_count), ", finished");
     }
 
     [[nodiscard]] Status write_wireframe(const ProbeVolumeView& volume) const {

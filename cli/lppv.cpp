@@ -131,7 +131,7 @@ struct LppvCommand {
         common.warn(grid.warnings(*points));
         std::vector<float> validity;
         if (!scene_path.empty()) {
-            auto surveyed = survey_grid(scene, *points, common.thread_count);
+            auto surveyed = lppv_grid_validity(scene, *points, common.thread_count);
             if (!surveyed) return surveyed.error().in(scene_path);
             validity = std::move(*surveyed);
             fill.validity = validity;

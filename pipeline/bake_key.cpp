@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/pipeline/bake_key.h>
 
+#include <span>
+#include <string_view>
+#include <type_traits>
+
 #include <tetralight/probes/content_hash.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -10,14 +14,42 @@
 namespace tetralight {
 namespace {
 
-void add(ContentHash& hash, const TextureUse& use) {
+/// SHA-256 with the calls of `ContentHash`.
+class KeyHash {
+  public:
+    template <class T>
+    void add(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        hash_.add(std::as_bytes(std::span(&value, 1)));
+    }
+
+    template <class T>
+    void add(const std::vector<T>& values) {
+        add(static_cast<uint64_t>(values.size()));
+        hash_.add(std::as_bytes(std::span(values)));
+    }
+
+    void add(std::string_view text) {
+        add(static_cast<uint64_t>(text.size()));
+        hash_.add(text);
+    }
+
+    [[nodiscard]] Sha256Digest digest() const { return hash_.digest(); }
+
+  private:
+    Sha256 hash_;
+};
+
+template <class Hash>
+void add(Hash& hash, const TextureUse& use) {
     const auto& [texture, uv_set, image_from_mesh] = use;
     hash.add(texture);
     hash.add(uv_set);
     hash.add(image_from_mesh);
 }
 
-void add(ContentHash& hash, const Material& material) {
+template <class Hash>
+void add(Hash& hash, const Material& material) {
     const auto& [name, base_color, base_color_texture, metallic, roughness,
                  metallic_roughness_texture, emission, emission_texture, alpha_mode, alpha_cutoff,
                  is_double_sided, is_unlit, bakes_emission] = material;
@@ -35,7 +67,8 @@ void add(ContentHash& hash, const Material& material) {
     hash.add(bakes_emission);
 }
 
-void add(ContentHash& hash, const Texture& texture) {
+template <class Hash>
+void add(Hash& hash, const Texture& texture) {
     const auto& [name, image, wrap_u, wrap_v] = texture;
     hash.add(image.width);
     hash.add(image.height);
@@ -44,7 +77,8 @@ void add(ContentHash& hash, const Texture& texture) {
     hash.add(wrap_v);
 }
 
-void add(ContentHash& hash, const Mesh& mesh) {
+template <class Hash>
+void add(Hash& hash, const Mesh& mesh) {
     const auto& [positions, normals, uvs, colors, indices, material] = mesh;
     hash.add(positions);
     hash.add(normals);
@@ -54,14 +88,16 @@ void add(ContentHash& hash, const Mesh& mesh) {
     hash.add(material);
 }
 
-void add(ContentHash& hash, const MeshInstance& instance) {
+template <class Hash>
+void add(Hash& hash, const MeshInstance& instance) {
     const auto& [mesh, world_from_mesh, name, contributes_gi, node] = instance;
     hash.add(mesh);
     hash.add(world_from_mesh);
     hash.add(contributes_gi);
 }
 
-void add(ContentHash& hash, const Environment& environment) {
+template <class Hash>
+void add(Hash& hash, const Environment& environment) {
     const auto& [radiance, image, rotation_radians] = environment;
     hash.add(radiance);
     hash.add(image.width);
@@ -70,8 +106,9 @@ void add(ContentHash& hash, const Environment& environment) {
     hash.add(rotation_radians);
 }
 
-/// The name decides between volumes of one size.
-void add(ContentHash& hash, const ProbeAdjustment& adjustment) {
+/// The name decides between volumes of the same size.
+template <class Hash>
+void add(Hash& hash, const ProbeAdjustment& adjustment) {
     const auto& [name, shape, world_from_volume, forbids_probes, spacing, validity, intensity] =
         adjustment;
     hash.add(std::vector<char>(name.begin(), name.end()));
@@ -81,13 +118,14 @@ void add(ContentHash& hash, const ProbeAdjustment& adjustment) {
     hash.add(intensity.value_or(-1.0f));
 }
 
-template <class T>
-void add_each(ContentHash& hash, const std::vector<T>& elements) {
+template <class Hash, class T>
+void add_each(Hash& hash, const std::vector<T>& elements) {
     hash.add(static_cast<uint64_t>(elements.size()));
     for (const T& element : elements) add(hash, element);
 }
 
-void add(ContentHash& hash, const Scene& scene) {
+template <class Hash>
+void add(Hash& hash, const Scene& scene) {
     const auto& [textures, materials, meshes, instances, nodes, lights, light_names, environment,
                  cameras, probe_groups, probe_adjustments, warnings] = scene;
     add_each(hash, textures);
@@ -98,7 +136,8 @@ void add(ContentHash& hash, const Scene& scene) {
     add(hash, environment);
 }
 
-void add(ContentHash& hash, const LightPlan& plan) {
+template <class Hash>
+void add(Hash& hash, const LightPlan& plan) {
     const auto& [light_modes, layer_of_light, layer_of_material, layer_of_sky, layer_count,
                  has_transfer, has_occlusion] = plan;
     hash.add(light_modes);
@@ -110,7 +149,8 @@ void add(ContentHash& hash, const LightPlan& plan) {
     hash.add(has_occlusion);
 }
 
-void add(ContentHash& hash, const BakeSettings& settings) {
+template <class Hash>
+void add(Hash& hash, const BakeSettings& settings) {
     const auto& [sample_count, target_error, max_sample_count, time_budget_seconds, clamp, bounces,
                  surfaces, plan, seed, thread_count] = settings;
     hash.add(sample_count);
@@ -125,8 +165,9 @@ void add(ContentHash& hash, const BakeSettings& settings) {
     hash.add(seed);
 }
 
-/// How probes are merged and surveyed is seen in the volume; lighting is in it and in the plan.
-void add(ContentHash& hash, const BakeVolumeSettings& settings) {
+/// Merge and health settings show in the volume, lighting in the volume and in the plan.
+template <class Hash>
+void add(Hash& hash, const BakeVolumeSettings& settings) {
     const auto& [merge, bake, health, dering, lighting] = settings;
     add(hash, bake);
     hash.add(health.invalid);
@@ -146,6 +187,14 @@ uint64_t adjustments_key(const std::vector<ProbeAdjustment>& adjustments) {
     ContentHash hash;
     add_each(hash, adjustments);
     return hash.value();
+}
+
+Sha256Digest light_key(const Scene& scene, const BakeSettings& settings) {
+    KeyHash hash;
+    hash.add(std::string_view("light of probes 1, tetralight " TETRALIGHT_VERSION));
+    add(hash, scene);
+    add(hash, settings);
+    return hash.digest();
 }
 
 uint64_t bake_key(const PreparedBake& prepared) {

@@ -4,19 +4,24 @@
 #include <cstdint>
 
 #include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/hash/sha256.h>
 #include <tetralight/pipeline/bake_volume.h>
 
 namespace tetralight {
 
-/// Hash of what the light of a probe depends on in a scene: all that a bake sees of it.
+/// Hash of all that a bake reads of a scene.
 [[nodiscard]] uint64_t scene_key(const Scene& scene);
 
-/// Hash of what adjustment volumes say about baked probes.
+/// Hash of what adjustment volumes change of baked probes.
 [[nodiscard]] uint64_t adjustments_key(const std::vector<ProbeAdjustment>& adjustments);
 
-/// Hash of all that the bytes of a baked volume depend on: the volume that waits for its light (and
-/// with it groups, and metadata with the scene's key and the program's version), capture positions
-/// and settings but for the number of threads. `prepared.key` is no part of it.
+/// SHA-256 of all that the light of a probe depends on beside its position: all that a bake reads
+/// of the scene, the settings but for the number of threads, and the program's version.
+[[nodiscard]] Sha256Digest light_key(const Scene& scene, const BakeSettings& settings);
+
+/// Hash of all that the bytes of a baked volume depend on: the volume without light (with groups,
+/// and metadata with the scene's key and the program's version), capture positions, and settings
+/// but for the number of threads. `prepared.key` is not hashed.
 [[nodiscard]] uint64_t bake_key(const PreparedBake& prepared);
 
 }  // namespace tetralight

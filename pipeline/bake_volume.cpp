@@ -9,54 +9,19 @@
 #include <tetralight/bake/rays/memory_estimate.h>
 #include <tetralight/bake/round_plan.h>
 #include <tetralight/base/contract.h>
-#include <tetralight/base/hex.h>
 #include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_key.h>
+#include <tetralight/pipeline/bake_metadata.h>
 #include <tetralight/pipeline/dilate_probes.h>
 #include <tetralight/pipeline/probe_warnings.h>
 #include <tetralight/pipeline/split_light.h>
-#include <tetralight/pipeline/take_reused.h>
 #include <tetralight/probes/build/make_probe_volume.h>
 #include <tetralight/probes/build/merge_warnings.h>
 #include <tetralight/probes/compact_probes.h>
 
 namespace tetralight {
 namespace {
-
-/// What is left at its default that changes no byte is left out.
-std::string metadata(const Scene& scene, const PreparedBake& prepared, bool has_dering) {
-    const BakeVolumeSettings& settings = prepared.settings;
-    const BakeSettings& bake = settings.bake;
-    const HealthSettings& health = settings.health;
-    std::string json = str_cat("{\"generator\":\"tetralight ", TETRALIGHT_VERSION,
-                               "\",\"scene\":\"", hex(scene_key(scene)),
-                               "\",\"samples\":", bake.sample_count, ",\"bounces\":", bake.bounces,
-                               ",\"seed\":", bake.seed, ",\"min_validity\":", health.min_validity,
-                               ",\"virtual_offset\":", health.virtual_offset,
-                               ",\"invalid_probes\":\"", name_of(health.invalid), "\"");
-    const auto add = [&](const char* name, auto value) {
-        if (value != 0) json += str_cat(",\"", name, "\":", value);
-    };
-    add("target_error", bake.target_error);
-    add("max_samples", bake.max_sample_count);
-    add("time_budget_seconds", bake.time_budget_seconds);
-    add("clamp", bake.clamp);
-    if (bake.surfaces != SurfaceSettings{}) {
-        add("albedo_boost", bake.surfaces.albedo_boost);
-        add("max_albedo", bake.surfaces.max_albedo);
-    }
-    if (settings.lighting.mixed_lighting != MixedLighting::Indirect) {
-        json += str_cat(",\"mixed_lighting\":\"", name_of(settings.lighting.mixed_lighting), "\"");
-    }
-    if (!prepared.overrides.empty()) {
-        json += str_cat(",\"adjustments\":\"", hex(adjustments_key(scene.probe_adjustments)), "\"");
-    }
-    if (has_dering) {
-        json += str_cat(",\"dering\":\"", name_of(settings.dering.window), "\"");
-    }
-    return json + "}";
-}
 
 /// The layers that the bake will fill.
 void store_layers(const Scene& scene, const LightingPlan& plan, uint32_t thread_count,
@@ -71,7 +36,7 @@ void store_layers(const Scene& scene, const LightingPlan& plan, uint32_t thread_
     if (plan.bake.has_transfer) volume.sky = {project_sky(scene.environment, thread_count)};
 }
 
-/// Whose visibility each probe will keep.
+/// The lights whose visibility each probe stores.
 void store_occlusion_lights(const LightingPlan& plan, ProbeVolume& volume) {
     if (!plan.bake.has_occlusion) return;
     std::vector<uint32_t> channels;
@@ -81,7 +46,7 @@ void store_occlusion_lights(const LightingPlan& plan, ProbeVolume& volume) {
     }
 }
 
-/// What every part of the volume is lit by, known before the bake.
+/// Stores what is known of the light before the bake: ambient light, lights, layers, metadata.
 void store_lights(const Scene& scene, const LightingPlan& plan, PreparedBake& prepared) {
     TETRALIGHT_ASSERT(scene.light_names.size() == scene.lights.size(), "one name for each light");
     const BakeVolumeSettings& settings = prepared.settings;
@@ -94,10 +59,10 @@ void store_lights(const Scene& scene, const LightingPlan& plan, PreparedBake& pr
     store_layers(scene, plan, settings.bake.thread_count, volume);
     store_occlusion_lights(plan, volume);
     for (const std::string& name : scene.light_names) volume.light_names += name + "\n";
-    const auto& asks = prepared.merged.group_dering;
+    const auto& group_dering = prepared.merged.group_dering;
     const bool has_dering = settings.dering.is_for_all_groups ||
-                            std::find(asks.begin(), asks.end(), true) != asks.end();
-    volume.metadata = metadata(scene, prepared, has_dering);
+                            std::ranges::find(group_dering, true) != group_dering.end();
+    volume.metadata = bake_metadata(scene, settings, !prepared.overrides.empty(), has_dering);
 }
 
 void store_light(const BakedProbes& baked, ProbeVolume& volume) {
@@ -110,7 +75,7 @@ void store_light(const BakedProbes& baked, ProbeVolume& volume) {
     }
 }
 
-/// Probes that took all samples that they may, or all the time, and have not the error asked for.
+/// Warns of probes whose standard error is above the target after all samples or all the time.
 void add_target_warning(const BakeStatistics& statistics, double target_error, size_t probe_count,
                         std::vector<std::string>& warnings) {
     if (statistics.over_target_count == 0) return;
@@ -131,7 +96,7 @@ void remove_ringing(const MergedProbes& merged, const DeringSettings& settings,
     if (is_any || !volume.transfer.empty()) volume.dering = std::move(marks);
 }
 
-/// What is done to baked light, before it is rounded to halves.
+/// Changes baked light as settings and adjustment volumes ask, then rounds it to halves.
 void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport& report) {
     const BakeVolumeSettings& settings = prepared.settings;
     if (settings.health.invalid == InvalidProbes::Dilate) {
@@ -142,7 +107,7 @@ void finish_light(const PreparedBake& prepared, ProbeVolume& volume, BakeReport&
                       report.warnings);
     override_probes(prepared.overrides, volume);
     remove_ringing(prepared.merged, settings.dering, volume);
-    take_reused(prepared.reused, volume);
+    copy_reused(prepared.reused, volume);
     make_compact_probes(volume);
     sum_layers(volume);
 }
@@ -176,7 +141,7 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     auto probes =
         prepare_probes(scene, std::move(*merged), settings.health, settings.bake.thread_count);
     if (!probes) return probes.error();
-    report.moved_count = probes->moved_count;
+    report.virtual_offset_count = probes->virtual_offset_count;
     report.left_out_count = probes->left_out_count;
     report.warnings = std::move(probes->warnings);
     report.warnings.insert(report.warnings.end(), plan->warnings.begin(), plan->warnings.end());
@@ -200,16 +165,16 @@ BakedVolume finish_bake(PreparedBake prepared, std::span<const ProbeAccumulator>
     TETRALIGHT_ASSERT(accumulators.size() == prepared.volume.positions.size(),
                       "one for each probe");
     BakedProbes baked = make_baked_probes(accumulators);
-    take_reused(prepared.reused, baked);
+    copy_reused(prepared.reused, baked);
     ProbeVolume volume = std::move(prepared.volume);
     BakeReport report = std::move(prepared.report);
     store_light(baked, volume);
     store_split(accumulators, split_rows, volume);
-    take_reused(prepared.reused, volume);
+    copy_reused(prepared.reused, volume);
 
     const double target_error = prepared.settings.bake.target_error;
     report.ray_count = baked.ray_count;
-    report.reused_count = prepared.reused.count();
+    report.reused_count = prepared.reused.probes.size();
     report.statistics = bake_statistics(baked, target_error);
     const auto merge_lines = merge_warnings(prepared.merged, volume.info.dimension);
     report.warnings.insert(report.warnings.begin(), merge_lines.begin(), merge_lines.end());

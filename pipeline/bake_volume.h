@@ -14,7 +14,7 @@
 #include <tetralight/pipeline/lighting_plan.h>
 #include <tetralight/pipeline/override_probes.h>
 #include <tetralight/pipeline/prepare_probes.h>
-#include <tetralight/pipeline/reused_probes.h>
+#include <tetralight/pipeline/reused_light.h>
 #include <tetralight/probes/build/merge.h>
 #include <tetralight/probes/probe_group.h>
 #include <tetralight/probes/probe_volume.h>
@@ -24,7 +24,7 @@
 //     groups → merge → prepare_probes → bake_probes → dilate, dering ┐
 //                             └→ make_probe_volume ──────────────────┴→ ProbeVolume
 //
-// and in its three steps, for bakes that are put aside, or shared by several machines:
+// and in its three steps, for bakes that are interrupted and resumed, or split between machines:
 //
 //     prepare_bake → bake_accumulators → finish_bake
 
@@ -40,27 +40,27 @@ struct BakeVolumeSettings {
     bool operator==(const BakeVolumeSettings&) const = default;
 };
 
-/// What a bake did, for the user.
+/// Counts, times and warnings of a bake, for people.
 struct BakeReport {
     size_t welded_count = 0;
-    /// Groups whose probes were moved exactly onto a lattice, and the longest move, metres.
+    /// Groups whose probes were snapped to a lattice, and the largest distance of a snap, metres.
     std::vector<std::string> lattice_group_names;
     double largest_snap = 0.0;
-    /// Probes that lie in geometry: those that look from a place outside of it, those that are not
-    /// in the volume, and those that have the light of others.
-    size_t moved_count = 0;
+    /// Probes inside geometry: those with a virtual offset, those left out of the volume, and those
+    /// dilated, which have the light of other probes.
+    size_t virtual_offset_count = 0;
     size_t left_out_count = 0;
     size_t dilated_count = 0;
-    /// Probes that took the light of an earlier bake.
+    /// Probes with the light of an earlier bake (`reuse_probes`).
     size_t reused_count = 0;
-    /// Of all runs, when the bake was put aside in between.
+    /// Of all runs of the bake.
     uint64_t ray_count = 0;
     BakeStatistics statistics;
     double merge_seconds = 0.0;
     double prepare_seconds = 0.0;
     double tetrahedralize_seconds = 0.0;
     double bake_seconds = 0.0;
-    /// Groups with probes in geometry or in the dark, one line each.
+    /// One line for each group with probes inside geometry or without light.
     std::vector<std::string> warnings;
 };
 
@@ -69,24 +69,24 @@ struct BakedVolume {
     BakeReport report;
 };
 
-/// A bake before its light: the same for every part of it.
+/// A bake before its light is sampled: the same for each part of the bake.
 struct PreparedBake {
-    /// Whole but for the light of its probes; ambient light, lights and metadata are there.
+    /// Complete but for the light of its probes: it has ambient light, lights and metadata.
     ProbeVolume volume;
     MergedProbes merged;
-    /// Where the light of each probe is gathered, world space.
+    /// One a probe, world space: its position plus its virtual offset. Light is sampled there.
     std::vector<glm::dvec3> capture_positions;
-    /// One a probe: it looks from inside geometry.
+    /// One a probe: true if its capture position is inside geometry.
     std::vector<bool> is_invalid;
-    /// What the scene's adjustment volumes say, one a probe; empty: they say nothing.
+    /// One a probe, from the scene's adjustment volumes; empty if they change no probe.
     std::vector<ProbeOverride> overrides;
-    /// With the plan of `settings.bake` made for the scene.
+    /// `settings.bake.plan` is the plan for this scene.
     BakeVolumeSettings settings;
-    /// Hash of all that the light depends on, and of the volume: what has another key is no part of
-    /// the same bake.
+    /// Hash of the volume and of all that its light depends on (`bake_key`). Parts of one bake have
+    /// the same key.
     uint64_t key = 0;
-    /// None, unless `reuse_probes` found some.
-    ReusedProbes reused{};
+    /// Empty, or set by `reuse_probes`.
+    ReusedLight reused{};
     BakeReport report;
 };
 
@@ -103,8 +103,8 @@ struct PreparedBake {
                                       std::span<const double> split_rows = {});
 
 /// Bakes a scene's light at the probes of all `groups` and joins them in one volume. The scene's
-/// own groups count only if they are among `groups`. No group at all gives a volume that answers
-/// with its ambient light. Same input, same bytes.
+/// own groups count only if they are among `groups`. Without groups the volume answers with its
+/// ambient light. The same input gives the same bytes.
 [[nodiscard]] Result<BakedVolume> bake_volume(const Scene& scene,
                                               std::span<const ProbeGroup> groups,
                                               const BakeVolumeSettings& settings,

@@ -13,8 +13,8 @@ const char* name_of(DeringWindow window) {
 std::vector<bool> dering_asked_for(const MergedProbes& merged, const DeringSettings& settings) {
     std::vector<bool> is_asked_for(merged.positions.size(), settings.is_for_all_groups);
     for (const ProbeSource& source : merged.sources) {
-        const bool is_there = source.probe != kNoIndex;
-        if (is_there && merged.group_dering[source.group]) is_asked_for[source.probe] = true;
+        if (source.probe == kNoIndex) continue;
+        if (merged.group_dering[source.group]) is_asked_for[source.probe] = true;
     }
     return is_asked_for;
 }

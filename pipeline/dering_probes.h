@@ -13,7 +13,7 @@ namespace tetralight {
 
 struct DeringSettings {
     DeringWindow window = DeringWindow::Mildest;
-    /// Whether groups that did not ask for it have their ringing removed too.
+    /// True: the ringing of all groups is removed, not only of those with `ProbeGroup::dering`.
     bool is_for_all_groups = false;
 
     bool operator==(const DeringSettings&) const = default;
@@ -22,16 +22,16 @@ struct DeringSettings {
 /// "mildest", "hann", "lanczos".
 [[nodiscard]] const char* name_of(DeringWindow window);
 
-/// One a probe: whether its group asks for less ringing. A probe of several groups counts as asked
-/// for when one of them asks.
+/// One a probe: true if the ringing of the probe is removed. For a probe of several groups one
+/// group with `dering` is enough.
 [[nodiscard]] std::vector<bool> dering_asked_for(const MergedProbes& merged,
                                                  const DeringSettings& settings);
 
-/// What volumes record of it, one a probe: 0, or 1 + the window.
+/// The `dering` section of a volume, one a probe: 0 = none, else 1 + the window.
 [[nodiscard]] std::vector<uint8_t> dering_marks(const MergedProbes& merged,
                                                 const DeringSettings& settings);
 
-/// Removes ringing from the probes of all groups that ask for it, and returns how many these are.
+/// Removes the ringing of all probes of `dering_asked_for`. Returns their number.
 /// Precondition: one irradiance a probe.
 size_t dering_probes(const MergedProbes& merged, const DeringSettings& settings,
                      std::span<IrradianceSh> irradiance);

@@ -30,14 +30,14 @@ std::vector<Edge> edges_of(const std::vector<bool>& probes, const ProbeVolume& v
     return edges;
 }
 
-/// A probe and the lit ends of its edges, by weights whose sum is `total`.
+/// A probe and its lit neighbors with their weights; `total` is the sum of the weights.
 struct Blend {
     uint32_t probe = 0;
     std::vector<std::pair<uint32_t, float>> parts;
     float total = 0.0f;
 };
 
-/// None when there is no lit end.
+/// Nothing if the probe has no lit neighbor.
 std::optional<Blend> blend_around(std::span<const Edge> edges, const ProbeVolume& volume,
                                   const std::vector<bool>& is_lit) {
     Blend blend{edges[0].first, {}, 0.0f};
@@ -72,7 +72,7 @@ void apply(const Blend& blend, std::vector<ProbeTransfer>& transfer) {
     transfer[blend.probe] = sum;
 }
 
-/// Of each channel the neighbors that keep the same light in it count.
+/// Only neighbors that store the same light in a channel count there.
 void apply_to_occlusion(const Blend& blend, ProbeVolume& volume) {
     const OcclusionLights& own = volume.occlusion_lights[blend.probe];
     for (int channel = 0; channel < 4; ++channel) {
@@ -100,8 +100,8 @@ void apply(const Blend& blend, ProbeVolume& volume) {
     volume.health[blend.probe].is_dilated = 1;
 }
 
-/// Lights all probes that are next to lit ones, from what was lit before, and returns how many.
-size_t spread(std::span<const Edge> edges, std::vector<bool>& is_lit, ProbeVolume& volume) {
+/// Dilates all unlit probes with a neighbor that was lit before this call. Returns their number.
+size_t dilate_once(std::span<const Edge> edges, std::vector<bool>& is_lit, ProbeVolume& volume) {
     std::vector<Blend> found;
     for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         const uint32_t probe = edges[begin].first;
@@ -126,7 +126,7 @@ size_t dilate_probes(const std::vector<bool>& is_invalid, ProbeVolume& volume) {
     std::vector<bool> is_lit(is_invalid);
     is_lit.flip();
     size_t count = 0;
-    while (const size_t more = spread(edges, is_lit, volume)) count += more;
+    while (const size_t more = dilate_once(edges, is_lit, volume)) count += more;
     return count;
 }
 

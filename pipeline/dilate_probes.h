@@ -8,12 +8,14 @@
 
 namespace tetralight {
 
-/// Gives invalid probes the light of the valid ones that they share a cell with, by weights
-/// 1 / distance²; then those that had no such neighbor the light of these, and so on. Marks them in
-/// `volume.health` and returns how many they are; probes that no valid one reaches keep their own.
-/// Weights are positive, so that what is nowhere negative stays so. Layers, transfer and occlusion
-/// take the same weights, the latter of probes that keep the same light in a channel.
-/// Preconditions: the volume has irradiance and health, and one flag a probe.
+/// Replaces the light of each invalid probe by the mean light of the valid probes that share a cell
+/// with it, weighted by 1 / distance². Repeats with the probes lit so far until no invalid probe
+/// has a lit neighbor; those that remain keep their own light. Sets `is_dilated` in `volume.health`
+/// and returns the number of dilated probes.
+///
+/// Weights are positive, so that light that is nowhere negative stays so. Layers, transfer and
+/// occlusion take the same weights; occlusion only from probes that store the same light in the
+/// channel. Preconditions: the volume has irradiance and health, and there is one flag a probe.
 size_t dilate_probes(const std::vector<bool>& is_invalid, ProbeVolume& volume);
 
 }  // namespace tetralight

@@ -23,11 +23,11 @@ bool bakes_light_of(const Material& material) {
     return material.bakes_emission && is_lit(emission_source(material).factor);
 }
 
-bool is_shining(const LightPlan& plan, const Scene& scene, size_t light) {
+bool is_baked(const LightPlan& plan, const Scene& scene, size_t light) {
     return plan.mode_of(scene, light) != LightMode::Realtime;
 }
 
-/// "a", "b" and what else there is, each once.
+/// The names in order, each once: `"a", "b"`.
 std::string listed(std::vector<std::string> names) {
     std::ranges::sort(names);
     names.erase(std::ranges::unique(names).begin(), names.end());
@@ -50,7 +50,7 @@ class Planner {
         for (size_t i = 0; i < scene_.lights.size(); ++i) {
             plan_.light_states[i].layer = plan_.bake.layer_of(plan_.bake.layer_of_light, i);
         }
-        if (plan_.bake.layer_count > 0 && is_anything_left()) add_rest();
+        if (plan_.bake.layer_count > 0 && has_light_in_no_layer()) add_rest();
         return std::move(plan_);
     }
 
@@ -86,12 +86,14 @@ class Planner {
             if (std::ranges::find(words, "sky") == words.end()) words.push_back("sky");
         }
         if (words.size() > kMaxLayers) {
-            return Error{str_cat(words.size(), " layers are more than ", kMaxLayers)};
+            return Error{ErrorCode::InvalidArgument, "layers", str_cat(words.size()),
+                         str_cat(words.size(), " layers are more than ", kMaxLayers)};
         }
         plan_.bake.layer_count = static_cast<uint32_t>(words.size());
         for (uint32_t i = 0; i < words.size(); ++i) {
             if (std::ranges::count(words, words[i]) > 1) {
-                return Error{str_cat("layer \"", words[i], "\" is there twice")};
+                return Error{ErrorCode::InvalidArgument, "layers", words[i],
+                             str_cat("layer \"", words[i], "\" is listed twice")};
             }
             if (auto status = add_named(words[i], i); !status) return status;
         }
@@ -105,7 +107,9 @@ class Planner {
     Status add_named(const std::string& word, uint32_t layer) {
         if (word == "sun" || word == "sky" || word == "emission") return Ok{};
         if (const auto status = check_characters(word); !status) {
-            return status.error().in(str_cat("layer \"", word, "\""));
+            Error error = status.error().in(str_cat("layer \"", word, "\""));
+            error.field = "layers";
+            return error;
         }
         const size_t colon = word.find(':');
         const std::string kind = word.substr(0, colon);
@@ -113,6 +117,7 @@ class Planner {
         if (!name.empty() && kind == "light") return add_lights(name, layer);
         if (!name.empty() && kind == "material") return add_materials(name, layer);
         return Error{
+            ErrorCode::InvalidArgument, "layers", word,
             str_cat("layer \"", word,
                     "\" is none of sun, sky, emission, transfer, light:NAME, material:NAME")};
     }
@@ -122,43 +127,44 @@ class Planner {
         for (size_t i = 0; i < scene_.lights.size(); ++i) {
             if (scene_.light_names[i] != name) continue;
             ++count;
-            if (!is_shining(plan_.bake, scene_, i)) {
-                return Error{str_cat("layer \"light:", name,
-                                     "\": the light is realtime, and nothing "
-                                     "of it is baked")};
+            if (!is_baked(plan_.bake, scene_, i)) {
+                return Error{
+                    ErrorCode::InvalidArgument, "layers", "light:" + name,
+                    str_cat("layer \"light:", name, "\": the light is realtime and is not baked")};
             }
             plan_.bake.layer_of_light[i] = layer;
         }
         if (count > 0) return Ok{};
-        return Error{str_cat("layer \"light:", name, "\": the scene has no such light; there is ",
+        return Error{ErrorCode::NotFound, "layers", "light:" + name,
+                     str_cat("layer \"light:", name, "\": the scene has no such light; it has ",
                              listed(scene_.light_names))};
     }
 
     Status add_materials(const std::string& name, uint32_t layer) {
         size_t count = 0;
-        std::vector<std::string> shining;
+        std::vector<std::string> emissive;
         for (size_t i = 0; i < scene_.materials.size(); ++i) {
             const Material& material = scene_.materials[i];
-            if (bakes_light_of(material)) shining.push_back(material.name);
+            if (bakes_light_of(material)) emissive.push_back(material.name);
             if (material.name != name) continue;
             ++count;
             plan_.bake.layer_of_material[i] = layer;
         }
         if (count > 0) return Ok{};
-        return Error{str_cat("layer \"material:", name,
-                             "\": the scene has no such material; those "
-                             "that shine are ",
-                             listed(shining))};
+        return Error{ErrorCode::NotFound, "layers", "material:" + name,
+                     str_cat("layer \"material:", name,
+                             "\": the scene has no such material; emissive materials are ",
+                             listed(emissive))};
     }
 
-    /// "sun", "sky" and "emission": what no name has taken.
+    /// "sun", "sky" and "emission": lights and materials in no layer yet.
     void add_kind(const std::string& word, uint32_t layer) {
         if (word == "sky") plan_.bake.layer_of_sky = layer;
         if (word == "sun") {
             for (size_t i = 0; i < scene_.lights.size(); ++i) {
                 uint32_t& of_light = plan_.bake.layer_of_light[i];
                 const bool is_sun = scene_.lights[i].type == LightType::Directional;
-                if (is_sun && of_light == kNoIndex && is_shining(plan_.bake, scene_, i)) {
+                if (is_sun && of_light == kNoIndex && is_baked(plan_.bake, scene_, i)) {
                     of_light = layer;
                 }
             }
@@ -170,12 +176,12 @@ class Planner {
         }
     }
 
-    /// Calls `visit(layer)` for all that sheds light into the bake.
+    /// Calls `visit(layer)` for each light, emissive material and sky that is baked.
     template <class Visit>
     void for_each_source(Visit visit) const {
         for (size_t i = 0; i < scene_.lights.size(); ++i) {
             const bool is_dark = !is_lit(scene_.lights[i].intensity);
-            if (!is_dark && is_shining(plan_.bake, scene_, i)) visit(plan_.bake.layer_of_light[i]);
+            if (!is_dark && is_baked(plan_.bake, scene_, i)) visit(plan_.bake.layer_of_light[i]);
         }
         for (size_t i = 0; i < scene_.materials.size(); ++i) {
             if (bakes_light_of(scene_.materials[i])) visit(plan_.bake.layer_of_material[i]);
@@ -183,10 +189,10 @@ class Planner {
         if (is_lit(scene_.environment.radiance)) visit(plan_.bake.layer_of_sky);
     }
 
-    [[nodiscard]] bool is_anything_left() const {
-        bool is_left = false;
-        for_each_source([&](uint32_t layer) { is_left |= layer == kNoIndex; });
-        return is_left;
+    [[nodiscard]] bool has_light_in_no_layer() const {
+        bool is_found = false;
+        for_each_source([&](uint32_t layer) { is_found |= layer == kNoIndex; });
+        return is_found;
     }
 
     void add_dark_warnings() {
@@ -196,8 +202,8 @@ class Planner {
         });
         for (size_t i = 0; i < has_light.size(); ++i) {
             const std::string& name = plan_.layer_names[i];
-            const bool waits_for_sky = name == "sky" && plan_.bake.has_transfer;
-            if (has_light[i] || waits_for_sky) continue;
+            const bool is_lit_later = name == "sky" && plan_.bake.has_transfer;
+            if (has_light[i] || is_lit_later) continue;
             plan_.warnings.push_back(str_cat("layer \"", name,
                                              "\" is dark: nothing in the scene lights "
                                              "it"));
@@ -209,7 +215,7 @@ class Planner {
         plan_.layer_names.push_back("rest");
         for (size_t i = 0; i < scene_.lights.size(); ++i) {
             uint32_t& layer = plan_.light_states[i].layer;
-            if (layer == kNoIndex && is_shining(plan_.bake, scene_, i)) layer = rest;
+            if (layer == kNoIndex && is_baked(plan_.bake, scene_, i)) layer = rest;
         }
     }
 

@@ -11,34 +11,35 @@
 
 namespace tetralight {
 
-/// How light is shared between the bake and the runtime, and which parts of it can change later.
+/// Which light is baked and which is left to the runtime, and which parts can change after the
+/// bake.
 struct LightingSettings {
     MixedLighting mixed_lighting = MixedLighting::Indirect;
-    /// "sun" (all directional lights), "sky", "emission", "light:NAME", "material:NAME", each a
-    /// layer of its own; the last two win over the first three. "transfer": how probes answer to
-    /// distant light, for layer "sky", which it brings along.
+    /// Each makes one layer: "sun" (all directional lights), "sky", "emission", "light:NAME",
+    /// "material:NAME"; the last two take precedence over the first three. "transfer" bakes how
+    /// probes respond to distant light; it implies "sky".
     std::vector<std::string> layers;
 
     bool operator==(const LightingSettings&) const = default;
 };
 
-/// What follows from them for one scene.
+/// The lighting settings applied to one scene.
 struct LightingPlan {
     LightPlan bake;
-    /// Of the baked layers; "rest" is the last one when anything else shines in the scene.
+    /// Names of the baked layers. The last is "rest" if the scene has light in no other layer.
     std::vector<std::string> layer_names;
-    /// One a light: `Mixed` ones that found no occlusion channel are `Baked` here.
+    /// One a light; mixed lights without an occlusion channel are `Baked` here.
     std::vector<Light> lights;
     std::vector<LightState> light_states;
-    /// Lights that fell back, layers that nothing lights.
+    /// One line for each light without an occlusion channel and for each layer without light.
     std::vector<std::string> warnings;
 
     [[nodiscard]] bool has_rest() const { return layer_names.size() > bake.layer_count; }
 };
 
-/// Errors: a layer that is not one of the words, holds a control character, stands twice, names no
-/// light or material of the scene (the message lists what there is) or a light of which nothing is
-/// baked; more than 32.
+/// Returns invalid_argument (field "layers") for a layer that is unknown, contains a control
+/// character, is listed twice, or names a realtime light, and for more than 32 layers; not_found
+/// for a light or material that the scene does not have (the message lists those that it has).
 [[nodiscard]] Result<LightingPlan> plan_lighting(const Scene& scene,
                                                  const LightingSettings& settings);
 

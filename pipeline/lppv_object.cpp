@@ -28,7 +28,8 @@ void add_instance(const Scene& scene, uint32_t index, SceneObject& object) {
     object.instances.push_back(index);
 }
 
-/// Whether a node is `top`, or below it with nothing but nodes that ask for a volume between.
+/// True if the node is `top`, or a descendant of it and all nodes from it up to `top` ask for a
+/// volume.
 bool shares_volume(const Scene& scene, uint32_t node, uint32_t top) {
     while (node != top) {
         if (!asks_for_volume(scene, node)) return false;
@@ -59,10 +60,15 @@ Result<SceneObject> find_object(const Scene& scene, const std::string& name) {
     uint32_t found = kNoIndex;
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].name != name) continue;
-        if (found != kNoIndex) return Error{"there are several nodes \"" + name + "\""};
+        if (found != kNoIndex) {
+            return Error{ErrorCode::InvalidArgument, "object", name,
+                         "there are several nodes \"" + name + "\""};
+        }
         found = node;
     }
-    if (found == kNoIndex) return Error{"there is no node \"" + name + "\""};
+    if (found == kNoIndex) {
+        return Error{ErrorCode::NotFound, "object", name, "there is no node \"" + name + "\""};
+    }
     return object_at(scene, found);
 }
 

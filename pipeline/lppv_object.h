@@ -11,9 +11,9 @@
 
 namespace tetralight {
 
-/// What a proxy volume wraps in a scene.
+/// An object of a scene that a proxy volume wraps.
 struct SceneObject {
-    /// For messages: `node "ship"`.
+    /// The name in messages: `node "ship"`.
     std::string place;
     glm::dmat4 world_from_object{1.0};
     /// Boxes of `instances`.
@@ -23,16 +23,17 @@ struct SceneObject {
     [[nodiscard]] LppvObject view() const { return {world_from_object, parts}; }
 };
 
-/// The grid that wraps an object. Errors as `make_lppv_grid`; they begin with the object's place.
+/// The grid that wraps an object. Errors of `make_lppv_grid`, with the object's place before them.
 [[nodiscard]] Result<LppvGrid> make_object_grid(const SceneObject& object,
                                                 const LppvSettings& settings);
 
 /// The node of that name with its meshes, and those of its children whose `light_probes` is
-/// `proxy_volume`. Errors: there is no such node, or several of that name.
+/// `proxy_volume`. Returns not_found if there is no node of that name, invalid_argument if there
+/// are several.
 [[nodiscard]] Result<SceneObject> find_object(const Scene& scene, const std::string& name);
 
-/// All things that move and ask for a proxy volume, each with the children that share it: the
-/// topmost node of those that ask is the object.
+/// All moving objects with `light_probes` = `proxy_volume`: the topmost such node, with those of
+/// its children that share the volume.
 [[nodiscard]] std::vector<SceneObject> find_proxy_objects(const Scene& scene);
 
 }  // namespace tetralight

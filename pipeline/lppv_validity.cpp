@@ -5,8 +5,8 @@
 
 namespace tetralight {
 
-Result<std::vector<float>> survey_grid(const Scene& scene, const LppvGrid& grid,
-                                       uint32_t thread_count) {
+Result<std::vector<float>> lppv_grid_validity(const Scene& scene, const LppvGrid& grid,
+                                              uint32_t thread_count) {
     std::vector<glm::dvec3> positions;
     positions.reserve(grid.point_count());
     for (uint32_t z = 0; z < grid.resolution.z; ++z) {
@@ -16,12 +16,12 @@ Result<std::vector<float>> survey_grid(const Scene& scene, const LppvGrid& grid,
             }
         }
     }
-    const auto surveyed = probe_visibilities(scene, positions, thread_count);
-    if (!surveyed) return surveyed.error();
+    const auto visibility = probe_visibilities(scene, positions, thread_count);
+    if (!visibility) return visibility.error();
     std::vector<float> validity;
-    validity.reserve(surveyed->size());
-    for (const ProbeVisibility& around : *surveyed) {
-        validity.push_back(around.is_inside() ? 0.0f : 1.0f - around.back_face_fraction);
+    validity.reserve(visibility->size());
+    for (const ProbeVisibility& at_point : *visibility) {
+        validity.push_back(at_point.is_inside() ? 0.0f : 1.0f - at_point.back_face_fraction);
     }
     return validity;
 }

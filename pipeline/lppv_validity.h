@@ -10,10 +10,11 @@
 
 namespace tetralight {
 
-/// What `LppvFill::validity` takes, for the scene's static geometry: 0 for grid points inside of
-/// it, as `ProbeVisibility::is_inside` judges, else the share of directions without back faces.
-/// Error: not enough memory.
-[[nodiscard]] Result<std::vector<float>> survey_grid(const Scene& scene, const LppvGrid& grid,
-                                                     uint32_t thread_count);
+/// Values of `LppvFill::validity`, one for each grid point: 0 inside the scene's static geometry
+/// (`ProbeVisibility::is_inside`), else the fraction of rays that hit no back face.
+/// Returns out_of_resources if the memory is not enough.
+[[nodiscard]] Result<std::vector<float>> lppv_grid_validity(const Scene& scene,
+                                                            const LppvGrid& grid,
+                                                            uint32_t thread_count);
 
 }  // namespace tetralight

@@ -12,7 +12,7 @@
 namespace tetralight {
 namespace {
 
-/// A part without the volume, which is the same in all.
+/// A part without its volume, which is the same in all parts.
 struct Piece {
     std::string path;
     PartialBake partial;
@@ -22,39 +22,39 @@ std::string name(const ProbeRange& range) {
     return str_cat(range.begin, "..", range.end);
 }
 
-/// Tells of the first probes that are in no part or in two. `pieces` are sorted.
+/// Returns invalid_argument for the first probes in no part or in two. `pieces` are sorted.
 Status check_cover(const std::vector<Piece>& pieces, uint32_t probe_count) {
     uint32_t end = 0;
     for (size_t i = 0; i < pieces.size(); ++i) {
         const ProbeRange& range = pieces[i].partial.range;
         if (range.begin < end) {
             const Piece& before = pieces[i - 1];
-            return Error{str_cat(pieces[i].path, ": probes ", name(range), " overlap probes ",
+            return Error{ErrorCode::InvalidArgument,
+                         str_cat(pieces[i].path, ": probes ", name(range), " overlap probes ",
                                  name(before.partial.range), " of ", before.path)};
         }
         if (range.begin > end) {
-            return Error{str_cat("probes ", name({end, range.begin}), " of ", probe_count,
-                                 " are in none of the parts; the next, ", name(range), ", are in ",
-                                 pieces[i].path)};
+            return Error{
+                ErrorCode::InvalidArgument,
+                str_cat("probes ", name({end, range.begin}), " of ", probe_count,
+                        " are in no part; the next, ", name(range), ", are in ", pieces[i].path)};
         }
         end = range.end;
     }
     if (end < probe_count) {
-        return Error{str_cat("probes ", name({end, probe_count}), " of ", probe_count,
-                             " are in none of the parts; the last, ",
-                             name(pieces.back().partial.range), ", are in ", pieces.back().path)};
+        return Error{ErrorCode::InvalidArgument,
+                     str_cat("probes ", name({end, probe_count}), " of ", probe_count,
+                             " are in no part; the last, ", name(pieces.back().partial.range),
+                             ", are in ", pieces.back().path)};
     }
     return Ok{};
 }
 
 Status check_part(const PartFile& part, const PreparedBake& bake, const std::string& first_path) {
     if (part.prepared.key != bake.key) {
-        return Error{str_cat(part.path, ": is of another bake than ", first_path,
+        return Error{ErrorCode::InvalidArgument,
+                     str_cat(part.path, ": is of another bake than ", first_path,
                              " (scene, groups, settings or program version differ)")};
-    }
-    if (!part.partial.is_finished) {
-        return Error{str_cat(part.path, ": is not finished (", part.partial.begun_count(), " of ",
-                             part.partial.range.count(), " probes have light); --resume its bake")};
     }
     return Ok{};
 }
@@ -86,6 +86,7 @@ Result<BakedVolume> merge_parts(const std::vector<std::string>& paths) {
         accumulators.insert(accumulators.end(), some.begin(), some.end());
         const auto& some_rows = piece.partial.split_rows;
         rows.insert(rows.end(), some_rows.begin(), some_rows.end());
+        bake->reused.append(piece.partial.reused);
     }
     return finish_bake(std::move(*bake), accumulators, rows);
 }

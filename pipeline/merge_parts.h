@@ -9,10 +9,10 @@
 
 namespace tetralight {
 
-/// Joins parts of one bake, in any order, to the volume that one bake of all probes gives, byte for
-/// byte. Each probe has to be in one part. Errors name the files and the ranges: a file that cannot
-/// be read or is no part, parts of different bakes, unfinished ones, overlaps, gaps.
-/// Precondition: at least one path.
+/// Joins parts of one bake, in any order. The volume has the bytes of one bake of all probes. Each
+/// probe has to be in exactly one part. Returns invalid_argument, with the names of files and
+/// ranges, for a file that is not a part, parts of different bakes, overlaps and
+/// gaps. Precondition: at least one path.
 [[nodiscard]] Result<BakedVolume> merge_parts(const std::vector<std::string>& paths);
 
 }  // namespace tetralight

@@ -13,9 +13,8 @@ std::vector<ProbeOverride> find_overrides(std::span<const ProbeAdjustment> adjus
         const AdjustmentAt at = adjustment_at(adjustments, position);
         overrides.push_back({at.intensity, at.validity.value_or(-1.0f)});
     }
-    const bool is_nothing =
-        std::ranges::all_of(overrides, [](const ProbeOverride& o) { return o == ProbeOverride{}; });
-    if (is_nothing) overrides.clear();
+    const auto is_default = [](const ProbeOverride& o) { return o == ProbeOverride{}; };
+    if (std::ranges::all_of(overrides, is_default)) overrides.clear();
     return overrides;
 }
 
@@ -30,7 +29,7 @@ void scale(ProbeTransfer& transfer, float factor) {
     }
 }
 
-/// The probe's light, and all that it can be made of later.
+/// Scales the irradiance, the layers and the transfer of one probe.
 void scale_light(size_t probe, float factor, ProbeVolume& volume) {
     const size_t probe_count = volume.positions.size();
     volume.irradiance[probe] *= factor;

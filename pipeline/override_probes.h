@@ -9,14 +9,14 @@
 #include <tetralight/bake/scene/probe_adjustment.h>
 #include <tetralight/probes/probe_volume.h>
 
-// What adjustment volumes change of baked probes.
+// Changes that adjustment volumes make to baked probes.
 
 namespace tetralight {
 
 struct ProbeOverride {
     /// Factor on the probe's light.
     float intensity = 1.0f;
-    /// The probe's validity; negative: what it sees.
+    /// The probe's validity; negative: as it was baked.
     float validity = -1.0f;
 
     bool operator==(const ProbeOverride&) const = default;
@@ -24,12 +24,12 @@ struct ProbeOverride {
 
 static_assert(sizeof(ProbeOverride) == 8 && std::is_trivially_copyable_v<ProbeOverride>);
 
-/// What volumes say about probes at some positions, one each; empty where they say nothing.
+/// One for each position; empty if the adjustment volumes change none of them.
 [[nodiscard]] std::vector<ProbeOverride> find_overrides(
     std::span<const ProbeAdjustment> adjustments, std::span<const glm::dvec3> positions);
 
-/// Changes light (layers and transfer too) and validity of a baked volume. Precondition: one
-/// override for each probe, or none.
+/// Changes the light (with layers and transfer) and the validity of a baked volume. Precondition:
+/// one override for each probe, or none.
 void override_probes(std::span<const ProbeOverride> overrides, ProbeVolume& volume);
 
 }  // namespace tetralight

@@ -8,10 +8,11 @@
 #include <tetralight/bake/probe_accumulator.h>
 #include <tetralight/base/result.h>
 #include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/pipeline/reused_light.h>
 #include <tetralight/probes/probe_file.h>
 
-// Bakes that are put aside, and ranges of bakes: a `.probes` file whose probes have no light yet,
-// with what their rounds found so far beside it (docs/file_format.md).
+// Parts: ranges of one bake, for `merge_parts`. A part is a `.probes` file whose probes have no
+// light yet, with the accumulators of a range in sections of their own (docs/file_format.md).
 
 namespace tetralight {
 
@@ -25,40 +26,37 @@ struct ProbeRange {
     bool operator==(const ProbeRange&) const = default;
 };
 
-/// How far a bake of a range is.
+/// The finished bake of a range.
 struct PartialBake {
     ProbeRange range;
-    /// One for each probe of the range.
+    /// One for each probe of the range; empty ones where light is reused.
     std::vector<ProbeAccumulator> accumulators;
-    /// Nothing is left to do; with a time budget the accumulators alone do not tell.
-    bool is_finished = false;
-    /// A row for each accumulator, when light is split (`LightGroupRows`).
+    /// A row for each accumulator, if the plan has light groups (`LightGroupRows`).
     std::vector<double> split_rows{};
-
-    /// Probes that have had a round.
-    [[nodiscard]] size_t begun_count() const;
+    /// Light of probes of the range.
+    ReusedLight reused{};
 
     bool operator==(const PartialBake&) const = default;
 };
 
-/// A file of it.
+/// A part that was read from a file.
 struct PartFile {
     std::string path;
     PartialBake partial;
-    /// What finishing needs of the bake: the report and the capture positions are left out, and of
-    /// the settings what changes no round, which the key holds.
+    /// The members that `finish_bake` needs: without the report, the capture positions, and
+    /// settings that only `key` depends on.
     PreparedBake prepared;
 };
 
-/// Whether an open file claims to be a part.
+/// True if an open file has the sections of a part.
 [[nodiscard]] bool is_part(const ProbeFile& file) noexcept;
 
 /// Writes a part; the old file stays whole on failure.
 [[nodiscard]] Status write_part(const std::string& path, const PreparedBake& prepared,
                                 const PartialBake& partial);
 
-/// Reads a part and verifies all of it: what every `.probes` file has to hold, and that
-/// accumulators are what rounds can leave. Errors name the path.
+/// Reads a part and verifies all of it, as `open_probe_file` does, and that rounds can give these
+/// accumulators. Errors name the path.
 [[nodiscard]] Result<PartFile> read_part(const std::string& path);
 
 }  // namespace tetralight

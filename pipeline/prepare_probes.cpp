@@ -18,8 +18,9 @@
 namespace tetralight {
 namespace {
 
-/// How far beyond a surface a probe looks from, as a share of the distance to its neighbor.
-constexpr double kMarginShare = 0.02;
+/// Distance of a capture position behind the surface, as a fraction of the distance to the nearest
+/// probe.
+constexpr double kMarginFraction = 0.02;
 
 double scene_size(const Scene& scene) {
     const auto bounds =
@@ -27,18 +28,18 @@ double scene_size(const Scene& scene) {
     return bounds ? glm::length(bounds->size()) : 0.0;
 }
 
-/// The state of preparation, one element a probe.
-struct Survey {
+/// Finds probes inside geometry and their virtual offsets. Arrays have one element a probe.
+struct HealthSearch {
     const TraceScene& traced;
     const MergedProbes& merged;
     const HealthSettings& settings;
     uint32_t thread_count = 0;
     std::vector<ProbeHealth> health{merged.positions.size()};
     std::vector<uint8_t> is_inside = std::vector<uint8_t>(merged.positions.size(), 0);
-    /// By a volume: no other place to look from helps.
-    std::vector<uint8_t> is_told_inside = std::vector<uint8_t>(merged.positions.size(), 0);
+    /// By an adjustment volume: no virtual offset is searched.
+    std::vector<uint8_t> is_adjusted_inside = std::vector<uint8_t>(merged.positions.size(), 0);
 
-    void look() {
+    void find_inside() {
         parallel_for(health.size(), thread_count, [&](size_t i) {
             const auto found =
                 probe_visibility(traced, traced.render_from_world(merged.positions[i]));
@@ -47,30 +48,30 @@ struct Survey {
         });
     }
 
-    /// Takes what adjustment volumes say for what was seen.
-    void obey(const std::vector<ProbeAdjustment>& adjustments) {
+    /// The validity of an adjustment volume replaces the visibility that was found.
+    void apply(const std::vector<ProbeAdjustment>& adjustments) {
         for (size_t i = 0; i < is_inside.size() && !adjustments.empty(); ++i) {
             const auto validity = adjustment_at(adjustments, merged.positions[i]).validity;
             if (validity) is_inside[i] = *validity < settings.min_validity;
-            is_told_inside[i] = validity && is_inside[i] != 0;
+            is_adjusted_inside[i] = validity && is_inside[i] != 0;
         }
     }
 
-    /// Moves the places to look from out of geometry; a probe that is alone in its group may look
-    /// from anywhere within `lone_reach`.
-    void move_out(double lone_reach) {
+    /// Searches virtual offsets for probes inside geometry. `max_spacing` is the spacing of a probe
+    /// that is alone in its group, and the maximum for others.
+    void find_virtual_offsets(double max_spacing) {
         std::vector<uint32_t> inside;
         for (uint32_t i = 0; i < is_inside.size(); ++i) {
-            if (is_inside[i] != 0 && is_told_inside[i] == 0) inside.push_back(i);
+            if (is_inside[i] != 0 && is_adjusted_inside[i] == 0) inside.push_back(i);
         }
         const std::vector<double> spacing = group_spacing(merged, inside);
         parallel_for(inside.size(), thread_count, [&](size_t i) {
-            const double room = std::min(spacing[i], lone_reach);
-            const VirtualOffsetSettings search{static_cast<float>(settings.virtual_offset * room),
-                                               static_cast<float>(kMarginShare * room),
-                                               settings.min_validity};
+            const double distance = std::min(spacing[i], max_spacing);
+            const VirtualOffsetSettings offset_search{
+                static_cast<float>(settings.virtual_offset * distance),
+                static_cast<float>(kMarginFraction * distance), settings.min_validity};
             const glm::vec3 position = traced.render_from_world(merged.positions[inside[i]]);
-            const auto offset = find_virtual_offset(traced, position, search);
+            const auto offset = find_virtual_offset(traced, position, offset_search);
             if (!offset) return;
             health[inside[i]].virtual_offset = *offset;
             is_inside[inside[i]] = 0;
@@ -78,7 +79,7 @@ struct Survey {
     }
 };
 
-const char* fate(InvalidProbes policy) {
+const char* outcome(InvalidProbes policy) {
     switch (policy) {
         case InvalidProbes::LeaveOut:
             return "and were left out";
@@ -103,7 +104,7 @@ std::vector<std::string> group_warnings(const MergedProbes& merged,
     for (size_t g = 0; g < total.size(); ++g) {
         if (inside[g] == 0) continue;
         warnings.push_back(str_cat("group \"", merged.group_names[g], "\": ", inside[g], " of ",
-                                   total[g], " probes lie inside geometry ", fate(policy)));
+                                   total[g], " probes lie inside geometry ", outcome(policy)));
     }
     return warnings;
 }
@@ -128,25 +129,25 @@ Result<PreparedProbes> prepare_probes(const Scene& scene, MergedProbes merged,
                                       const HealthSettings& settings, uint32_t thread_count) {
     const auto traced = TraceScene::make_static(scene);
     if (!traced) return traced.error();
-    Survey probe_visibility{*traced, merged, settings, thread_count};
-    probe_visibility.look();
-    probe_visibility.obey(scene.probe_adjustments);
-    if (settings.virtual_offset > 0.0) probe_visibility.move_out(scene_size(scene));
+    HealthSearch search{*traced, merged, settings, thread_count};
+    search.find_inside();
+    search.apply(scene.probe_adjustments);
+    if (settings.virtual_offset > 0.0) search.find_virtual_offsets(scene_size(scene));
 
     PreparedProbes prepared;
-    prepared.warnings = group_warnings(merged, probe_visibility.is_inside, settings.invalid);
+    prepared.warnings = group_warnings(merged, search.is_inside, settings.invalid);
     std::vector<bool> is_left_out(merged.positions.size(), false);
     if (settings.invalid == InvalidProbes::LeaveOut) {
-        is_left_out.assign(probe_visibility.is_inside.begin(), probe_visibility.is_inside.end());
+        is_left_out.assign(search.is_inside.begin(), search.is_inside.end());
     }
-    prepared.health = kept(probe_visibility.health, is_left_out);
-    const std::vector<uint8_t> invalid = kept(probe_visibility.is_inside, is_left_out);
+    prepared.health = kept(search.health, is_left_out);
+    const std::vector<uint8_t> invalid = kept(search.is_inside, is_left_out);
     prepared.is_invalid.assign(invalid.begin(), invalid.end());
     prepared.left_out_count = merged.positions.size() - prepared.health.size();
     prepared.merged = remove_probes(std::move(merged), is_left_out);
     for (size_t i = 0; i < prepared.health.size(); ++i) {
         const glm::vec3 offset = prepared.health[i].virtual_offset;
-        prepared.moved_count += offset != glm::vec3(0.0f);
+        prepared.virtual_offset_count += offset != glm::vec3(0.0f);
         prepared.capture_positions.push_back(prepared.merged.positions[i] + glm::dvec3(offset));
     }
     return prepared;

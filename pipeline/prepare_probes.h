@@ -10,26 +10,26 @@
 #include <tetralight/probes/build/merge.h>
 #include <tetralight/probes/probe_volume.h>
 
-// Before any light is baked: which probes lie in geometry, and what becomes of them.
+// Before light is baked: finds probes inside geometry, and virtual offsets out of it.
 //
-//     merged → survey, adjustment volumes → in geometry? → find_virtual_offset → out: baked there
-//                                            → still in: InvalidProbes
+//     merged → probe visibility, adjustment volumes → inside? → virtual offset found: baked there
+//                                                             → none found: InvalidProbes
 
 namespace tetralight {
 
-/// What becomes of probes that lie in geometry and have no way out.
+/// What to do with probes inside geometry for which no virtual offset is found.
 enum class InvalidProbes : uint8_t {
-    LeaveOut,  ///< the volume does without them; its sources say so
-    Dilate,    ///< they stay, and take the light of the healthy probes around them
-    Keep,      ///< they stay, mostly dark
+    LeaveOut,  ///< the volume does not have them; its sources say so
+    Dilate,    ///< they stay, and get the light of the valid probes around them
+    Keep,      ///< they stay as they are, mostly dark
 };
 
 struct HealthSettings {
-    /// A probe lies in geometry when it sees more back faces than this leaves.
+    /// A probe is inside geometry if the fraction of rays that hit no back face is below this.
     float min_validity = 0.75f;
-    /// The farthest that a probe in geometry may gather its light from, as a share of the distance
-    /// to its group's nearest other probe. Below one half a probe looks from no place that is
-    /// nearer to another one. 0: from its own position only.
+    /// Maximum length of the virtual offset of a probe inside geometry, as a fraction of the
+    /// distance to the nearest other probe of its group. Below 0.5 no capture position is nearer
+    /// to another probe of the group. 0 = no virtual offsets.
     double virtual_offset = 0.45;
     InvalidProbes invalid = InvalidProbes::LeaveOut;
 
@@ -43,21 +43,22 @@ struct HealthSettings {
 struct PreparedProbes {
     /// Without those that were left out.
     MergedProbes merged;
-    /// World positions to gather light at.
+    /// World positions to sample light at: positions plus virtual offsets.
     std::vector<glm::dvec3> capture_positions;
-    /// Distances and offsets; no errors yet.
+    /// With distances and virtual offsets; standard errors are set by the bake.
     std::vector<ProbeHealth> health;
-    /// They look from inside geometry.
+    /// True if the capture position is inside geometry.
     std::vector<bool> is_invalid;
-    /// Probes that look from elsewhere, and that were left out.
-    size_t moved_count = 0;
+    /// Probes with a virtual offset, and probes that were left out.
+    size_t virtual_offset_count = 0;
     size_t left_out_count = 0;
-    /// One line for each group that has probes in geometry without a way out.
+    /// One line for each group with probes inside geometry and no virtual offset.
     std::vector<std::string> warnings;
 };
 
-/// Surveys merged probes in a scene. A pure function; for each probe, of itself and its groups
-/// alone. Error: not enough memory.
+/// Finds which merged probes are inside geometry, and their virtual offsets. A pure function; the
+/// result of a probe depends on the probe and its groups alone. Returns out_of_resources if the
+/// memory is not enough.
 [[nodiscard]] Result<PreparedProbes> prepare_probes(const Scene& scene, MergedProbes merged,
                                                     const HealthSettings& settings,
                                                     uint32_t thread_count = 0);

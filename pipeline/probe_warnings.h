@@ -10,9 +10,9 @@
 
 namespace tetralight {
 
-/// Adds a line for each group with probes that no light reaches at all, as in hollow walls, or one
-/// for all when none has any. None after so few directions that they may have missed an opening.
-/// Precondition: one irradiance a probe.
+/// Adds a line for each group with probes that no light reaches, as inside hollow walls, or one
+/// line if no probe of the volume has light. Adds nothing below 64 samples a probe, which may miss
+/// an opening. Precondition: one irradiance a probe.
 void add_dark_warnings(const MergedProbes& merged, std::span<const IrradianceSh> irradiance,
                        uint32_t sample_count, std::vector<std::string>& warnings);
 

@@ -3,28 +3,16 @@
 
 #include <tetralight/base/result.h>
 #include <tetralight/pipeline/bake_volume.h>
-#include <tetralight/pipeline/partial_bake.h>
-
-// Bakes only what changed: probes that stayed where they were take the light that an earlier bake
-// found for them. The volume has the bytes of a bake of all probes.
-//
-//     prepare_bake → reuse_probes → bake_of_others → bake_range → spread_others → finish_bake
 
 namespace tetralight {
 
-/// Finds the probes whose light is in `old` as this bake would leave it: those at the same place,
-/// that gather light at the same place. Not taken are probes that are dilated or that others are
-/// dilated from, and those whose ringing is removed by another rule than it was.
+/// Sets `prepared.reused` to the light of probes that did not change since `old` was baked: those
+/// with the same position and the same capture position, bit for bit. `bake_range` does not bake
+/// them, and the volume has the bytes of a bake of all probes. Excluded are dilated probes, probes
+/// that light is dilated from, and probes with another dering setting.
 ///
-/// `prepared.reused` keeps the view. Error: the scene, a setting or the program's version is
-/// another one (it says which), or `old` was relit or has no light.
+/// Returns invalid_argument, with the member of the metadata as field, if the scene, a setting or
+/// the program's version differs, or if `old` was relit or has no light.
 [[nodiscard]] Status reuse_probes(const ProbeVolumeView& old, PreparedBake& prepared);
-
-/// A bake of the probes that take no light, for `bake_range` that keeps no file and for
-/// `bake_in_chunks`. It cannot be finished.
-[[nodiscard]] PreparedBake bake_of_others(const PreparedBake& prepared);
-
-/// What that bake found, as a part of all probes; those that take their light are empty.
-[[nodiscard]] PartialBake spread_others(const PreparedBake& prepared, const PartialBake& others);
 
 }  // namespace tetralight

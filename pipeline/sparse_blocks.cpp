@@ -14,19 +14,19 @@ namespace {
 
 using Triangle = std::array<glm::dvec3, 3>;
 
-/// Cuts a triangle in half until its pieces are no larger than a block, and adds the boxes of
-/// those: the box of a large triangle in one piece could hold the whole world.
+/// Splits a triangle until each piece is no larger than a block, and adds the boxes of the pieces:
+/// the box of a large slanted triangle would add blocks far from it.
 Status add_triangle(const Triangle& whole, double reach, SparseBlocks& blocks) {
     const double largest = kSparseBlockSide * blocks.spacing();
     std::vector<Triangle> pending{whole};
     while (!pending.empty()) {
         const Triangle triangle = pending.back();
         pending.pop_back();
-        const glm::dvec3 low = glm::min(glm::min(triangle[0], triangle[1]), triangle[2]);
-        const glm::dvec3 high = glm::max(glm::max(triangle[0], triangle[1]), triangle[2]);
-        const glm::dvec3 size = high - low;
+        const glm::dvec3 min = glm::min(glm::min(triangle[0], triangle[1]), triangle[2]);
+        const glm::dvec3 max = glm::max(glm::max(triangle[0], triangle[1]), triangle[2]);
+        const glm::dvec3 size = max - min;
         if (!(std::max({size.x, size.y, size.z}) > largest)) {
-            if (auto status = blocks.add_box(low - reach, high + reach); !status) return status;
+            if (auto status = blocks.add_box(min - reach, max + reach); !status) return status;
             continue;
         }
         std::array<double, 3> lengths{};
@@ -34,10 +34,10 @@ Status add_triangle(const Triangle& whole, double reach, SparseBlocks& blocks) {
             lengths[i] = glm::distance(triangle[i], triangle[(i + 1) % 3]);
         }
         const auto edge = static_cast<size_t>(std::ranges::max_element(lengths) - lengths.begin());
-        const glm::dvec3 middle = 0.5 * (triangle[edge] + triangle[(edge + 1) % 3]);
+        const glm::dvec3 center = 0.5 * (triangle[edge] + triangle[(edge + 1) % 3]);
         const glm::dvec3& opposite = triangle[(edge + 2) % 3];
-        pending.push_back({triangle[edge], middle, opposite});
-        pending.push_back({middle, triangle[(edge + 1) % 3], opposite});
+        pending.push_back({triangle[edge], center, opposite});
+        pending.push_back({center, triangle[(edge + 1) % 3], opposite});
     }
     return Ok{};
 }

@@ -8,12 +8,12 @@
 
 namespace tetralight {
 
-/// Adds the blocks that come within `reach` metres of a probe (along each axis). Errors as
+/// Adds the blocks within `reach` metres of a probe, along each axis. Errors of
 /// `SparseBlocks::add_box`.
 [[nodiscard]] Status add_blocks_near_probes(const ProbeVolumeView& volume, double reach,
                                             SparseBlocks& blocks);
 
-/// The same for the scene's triangles, static ones and others.
+/// Adds the blocks within `reach` metres of the scene's triangles, static or not.
 [[nodiscard]] Status add_blocks_near_surfaces(const Scene& scene, double reach,
                                               SparseBlocks& blocks);
 

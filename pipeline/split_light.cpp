@@ -77,7 +77,7 @@ void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const
     if (layout.has_occlusion) volume.occlusion.resize(accumulators.size());
     for (size_t i = 0; i < accumulators.size(); ++i) {
         const auto row = rows.subspan(i * layout.size(), layout.size());
-        // A probe without directions has no light, and zeros for it.
+        // A probe without samples (its light is reused) keeps zeros here.
         const auto directions =
             static_cast<double>(std::max<uint64_t>(accumulators[i].sample_count, 1));
         for (uint32_t layer = 0; layer < layout.layer_count; ++layer) {

@@ -9,29 +9,29 @@
 #include <tetralight/probes/build/merge.h>
 #include <tetralight/probes/probe_volume.h>
 
-// From what a bake split light into to the layers, transfer and occlusion of a volume.
+// Layers, transfer and occlusion of a volume from the light groups of a bake.
 
 namespace tetralight {
 
-/// The parts that a volume without light asks for: its layers but for "rest", a transfer where it
-/// has a sky, occlusion where it has lights of it.
+/// The light groups of a prepared volume: its layers but for "rest", transfer if it has a sky,
+/// occlusion if it has occlusion lights.
 [[nodiscard]] LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept;
 
-/// Fills layers (but for "rest"), transfer and occlusion from `rows`, one a accumulator.
+/// Fills layers (but for "rest"), transfer and occlusion from `rows`, one an accumulator.
 /// Precondition: rows of `split_layout(volume)`.
 void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const double> rows,
                  ProbeVolume& volume);
 
-/// Fills "rest", where there is one, with what the other layers leave of the light: their sum with
-/// it last then has the bits of the whole, or differs by the rounding of one addition.
+/// Fills layer "rest", if there is one, with the total minus all other layers: the sum of all
+/// layers in order then has the bits of the total, or differs by the rounding of one addition.
 void store_rest(ProbeVolume& volume);
 
-/// Removes ringing from each layer of the probes that ask for it, so that every sum with weights
-/// that are not negative has none.
+/// Removes ringing from each layer of the given probes, so that no sum of layers with weights ≥ 0
+/// rings.
 void dering_layers(const std::vector<bool>& is_dering_asked_for, DeringWindow window,
                    ProbeVolume& volume);
 
-/// Makes the light of the volume the sum of its layers, where it has some.
+/// Sets the light of the volume to the sum of its layers, if it has layers.
 void sum_layers(ProbeVolume& volume);
 
 }  // namespace tetralight

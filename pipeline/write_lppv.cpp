@@ -84,7 +84,8 @@ Status write_voxels(const std::string& path, [[maybe_unused]] const Lppv& lppv,
     return write_vdb(path, lppv, is_half ? VdbPrecision::Half : VdbPrecision::Float,
                      settings.thread_count);
 #else
-    return Error{path + ": cannot write (this program was built without OpenVDB)"};
+    return Error{ErrorCode::Unsupported,
+                 path + ": cannot write (this program was built without OpenVDB)"};
 #endif
 }
 

@@ -19,34 +19,34 @@ enum class LppvFileKind : uint8_t {
     Ktx2,     ///< .ktx2: the same, with the shader's constants as JSON
 };
 
-/// Whether a kind is a texture, which has a layout.
+/// True for textures, which have a layout.
 [[nodiscard]] constexpr bool is_texture(LppvFileKind kind) noexcept {
     return kind == LppvFileKind::Dds || kind == LppvFileKind::Ktx2;
 }
 
-/// By its extension; a path without one: OpenVdb. None: it has another.
+/// The kind by the extension of a path; OpenVdb without an extension; nothing if it is unknown.
 [[nodiscard]] std::optional<LppvFileKind> lppv_file_kind(const std::string& path);
 
 struct LppvFileSettings {
     LppvFileKind kind = LppvFileKind::OpenVdb;
-    /// Not for NanoVdb, which has floats.
+    /// Ignored for NanoVdb, which stores floats.
     LppvTexelFormat precision = LppvTexelFormat::Half;
-    /// Of textures.
+    /// For textures only.
     LppvLayout layout = LppvLayout::SevenSlabs;
     /// 0 = all.
     uint32_t thread_count = 0;
 };
 
 /// Writes a proxy volume; halves saturate at ±kLargestHalf in every kind of file. The old file
-/// stays whole on failure. Error also: a kind that this program was built without.
+/// stays whole on failure. Returns unsupported for a kind that this program was built without.
 [[nodiscard]] Status write_lppv(const std::string& path, const Lppv& lppv,
                                 const LppvFileSettings& settings);
 
-/// The largest magnitude of what such a file holds of the light, before it is cut to the largest
+/// The largest magnitude of the values that such a file stores, before they saturate at the largest
 /// half.
 [[nodiscard]] float largest_value(const Lppv& lppv, const LppvFileSettings& settings);
 
-/// The constants of a texture's shader as JSON, what `LppvConstants` has.
+/// The members of `LppvConstants` as JSON, for the shader that reads the texture.
 [[nodiscard]] std::string lppv_constants_json(const Lppv& lppv, LppvLayout layout);
 
 }  // namespace tetralight

@@ -30,26 +30,6 @@ std::string random_id() {
     return digits.data();
 }
 
-struct ChunkCounts {
-    uint64_t done = 0;
-    uint64_t all = 0;
-};
-
-/// Counts probes by the names of the finished chunks: "BEGIN-END-of-COUNT.chunk".
-ChunkCounts count_chunks(const std::string& folder) {
-    ChunkCounts counts;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        if (entry.path().extension() != ".chunk") continue;
-        unsigned long begin = 0, end = 0, all = 0;
-        const std::string name = entry.path().filename().string();
-        if (std::sscanf(name.c_str(), "%lu-%lu-of-%lu", &begin, &end, &all) != 3) continue;
-        counts.done += end - begin;
-        counts.all = all;
-    }
-    return counts;
-}
-
 /// The progress file of the running command; an empty object if there is none.
 Json read_pace(const std::string& path) {
     const auto bytes = read_file(path);
@@ -345,14 +325,13 @@ bool Bakes::is_cancelled(const std::string& id) {
 
 void Bakes::update_progress(const std::string& id) {
     const std::string folder = store_.bake_folder(id) + "/";
-    const ChunkCounts counts = count_chunks(folder + kChunks);
     const Json pace = read_pace(folder + kProgress);
     const std::lock_guard lock(mutex_);
     const auto found = bakes_.find(id);
     if (found == bakes_.end()) return;
     Bake& bake = found->second;
-    bake.probes_done = counts.done;
-    bake.probe_count = pace.value("probe_count", counts.all);
+    bake.probes_done = pace.value("probes_done", bake.probes_done);
+    bake.probe_count = pace.value("probe_count", bake.probe_count);
     bake.rays_per_second = pace.value("rays_per_second", Json());
     bake.seconds_left = pace.value("seconds_left", Json());
 }

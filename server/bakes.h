@@ -64,7 +64,7 @@ class Bakes {
         Json report;
         double created = 0.0;
         double ended = 0.0;
-        /// Probes of the chunks on the disk.
+        /// Of the progress file of the running command.
         uint64_t probes_done = 0;
         uint64_t probe_count = 0;
         /// Of the current run; null: not known.

@@ -51,7 +51,7 @@ TEST_F(Merge, RefusesPartsThatDoNotCoverAllProbesOnce) {
     bake("a.part", {"--probes", "0..100"});
     bake("b.part", {"--probes", "99.."});
     EXPECT_TRUE(contains(fail_and_keep("v.probes", {"merge", "a.part", "-o", "v.probes"}),
-                         "probes 100..255 of 255 are in none of the parts"));
+                         "probes 100..255 of 255 are in no part"));
     EXPECT_TRUE(contains(fail_and_keep("v.probes", {"merge", "a.part", "b.part", "-o", "v.probes"}),
                          "b.part: probes 99..255 overlap probes 0..100 of a.part"));
 }
@@ -70,7 +70,7 @@ TEST_F(Merge, RefusesBadFilesAndKeepsTheOldVolume) {
     });
     bake("whole.probes", {});
     EXPECT_TRUE(
-        contains(fail({"merge", "whole.probes", "-o", "v.probes"}), "is no part of a bake"));
+        contains(fail({"merge", "whole.probes", "-o", "v.probes"}), "is not a part of a bake"));
 }
 
 TEST_F(Merge, RefusesRangesBeyondTheProbes) {

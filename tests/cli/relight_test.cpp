@@ -203,7 +203,7 @@ TEST_F(Relight, BakeNeedsAnOutputUnlessItExplains) {
 TEST_F(Relight, LayersOfASceneThatHasNoSuchLightAreAnError) {
     EXPECT_EQ(
         fail({"bake", "empty.gltf", "-g", "five.json", "-o", "v.probes", "--layers", "light:lamp"}),
-        "tetralight: layer \"light:lamp\": the scene has no such light; there is none\n");
+        "tetralight: layer \"light:lamp\": the scene has no such light; it has none\n");
 }
 
 TEST_F(Relight, ShadowmaskVolumesAnswerOcclusion) {

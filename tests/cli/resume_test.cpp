@@ -9,18 +9,26 @@
 namespace tetralight::test {
 namespace {
 
-const std::string kPart = "v.probes.part";
+const std::string kStore = "v.probes.store";
 
 class Resume : public CommandFixture {
   protected:
     /// A bake that is not over before a signal comes.
-    const Arguments kLong{"bake", kCourtyard, "-o", "v.probes", "-s", "262144", "-j", "1", "-q"};
+    const Arguments kLong{"bake", kCourtyard, "-o", "v.probes",        "-s",           "65536",
+                          "-j",   "1",        "-q", "--progress-file", "progress.json"};
 
+    /// Interrupts a bake after its first probes.
     [[nodiscard]] CommandResult interrupted(const Arguments& arguments, int signal = SIGINT) const {
         RunningCommand bake(folder(), arguments, "");
-        while (!bake.handles(signal)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        const auto has_probes = [&] {
+            if (!std::filesystem::exists(path("progress.json"))) return false;
+            return Json::parse(read("progress.json"))["probes_done"] > 0;
+        };
+        while (!has_probes()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
         bake.send(signal);
-        return bake.wait();
+        const CommandResult result = bake.wait();
+        std::filesystem::remove(path("progress.json"));
+        return result;
     }
 
     /// Interrupts a bake when it has got somewhere, and resumes it. Returns its number of samples,
@@ -47,14 +55,14 @@ TEST_F(Resume, CtrlCKeepsThePartAndTheOldVolume) {
     EXPECT_EQ(result.exit_code, 130);
     EXPECT_EQ(
         result.err,
-        "tetralight: interrupted; v.probes.part keeps what is done, --resume goes on with it\n");
+        "tetralight: interrupted; v.probes.store keeps what is done, --resume goes on with it\n");
     EXPECT_EQ(read("v.probes"), "old");
-    EXPECT_EQ(file_names(), (std::vector<std::string>{"v.probes", kPart}));
+    EXPECT_EQ(file_names(), (std::vector<std::string>{"v.probes", kStore}));
 }
 
 TEST_F(Resume, SigtermDoesTheSameAndAsksToTryAgain) {
     EXPECT_EQ(interrupted(kLong, SIGTERM).exit_code, 75);
-    EXPECT_EQ(file_names(), std::vector<std::string>{kPart});
+    EXPECT_EQ(file_names(), std::vector<std::string>{kStore});
 }
 
 TEST_F(Resume, BakesToStdoutKeepNothing) {
@@ -85,71 +93,69 @@ TEST_F(Resume, OfNothingBeginsAnew) {
     EXPECT_EQ(file_names(), std::vector<std::string>{"v.probes"});
 }
 
-TEST_F(Resume, RefusesAPartOfAnotherBake) {
+TEST_F(Resume, TakesNothingOfAnotherBake) {
     static_cast<void>(interrupted(kLong));
-    const std::string part = read(kPart);
-    for (const Arguments& other :
-         {Arguments{"--seed", "1"}, Arguments{"--sky", "1"}, Arguments{"--clamp", "1"}}) {
-        Arguments arguments = kLong;
-        arguments.insert(arguments.end(), other.begin(), other.end());
-        arguments.emplace_back("--resume");
-        EXPECT_TRUE(contains(fail(arguments), kPart + ": is of another bake"));
-        EXPECT_TRUE(read(kPart) == part);
-    }
+    const Arguments other{"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--seed", "1"};
+    Arguments resumed = other;
+    resumed.emplace_back("--resume");
+    const CommandResult result = succeed(resumed);
+    EXPECT_TRUE(contains(result.err, kStore + ": holds no probe of this bake")) << result.err;
+    const std::string bytes = read("v.probes");
+    succeed(other);
+    EXPECT_TRUE(read("v.probes") == bytes);
+    EXPECT_EQ(file_names(), std::vector<std::string>{"v.probes"});
 }
 
-TEST_F(Resume, RefusesABadPartAndKeepsTheOldVolume) {
-    succeed({"bake", kCourtyard, "-o", "sound.part", "-s", "16", "--probes", "0.."});
-    for (const BadFile& bad : bad_volumes(read("sound.part"))) {
-        write(kPart, bad.bytes);
-        const std::string message = fail_and_keep(
-            "v.probes", {"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--resume"});
-        EXPECT_TRUE(contains(message, kPart + ": ")) << message;
+TEST_F(Resume, BakesDamagedEntriesAgain) {
+    static_cast<void>(interrupted(kLong));
+    for (const auto& file : std::filesystem::directory_iterator(path(kStore))) {
+        if (file.path().extension() == ".pack") std::filesystem::resize_file(file.path(), 30);
     }
+    const CommandResult result =
+        succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--resume"});
+    EXPECT_EQ(file_names(), std::vector<std::string>{"v.probes"});
 }
 
-TEST_F(Resume, KeepsNoPartInThePlaceOfAnotherFile) {
-    write(kPart, "precious");
+TEST_F(Resume, MakesNoStoreOfAnotherFile) {
+    write(kStore, "precious");
     const std::string message = fail({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
-    EXPECT_TRUE(contains(message, kPart + ": is no interrupted bake")) << message;
-    EXPECT_EQ(read(kPart), "precious");
-    EXPECT_EQ(file_names(), std::vector<std::string>{kPart});
+    EXPECT_TRUE(contains(message, kStore + ": is not a bake store")) << message;
+    EXPECT_EQ(read(kStore), "precious");
+    EXPECT_EQ(file_names(), std::vector<std::string>{kStore});
 }
 
-TEST_F(Resume, KeepsNoPartInThePlaceOfAnInput) {
-    std::filesystem::copy_file(kCourtyard, path("scene.part"));
-    const std::string scene = read("scene.part");
-    EXPECT_TRUE(contains(fail({"bake", "scene.part", "-o", "scene", "-s", "16"}),
-                         "scene.part: is an input of this command"));
-    write("g.probes.part", kFiveProbes);
-    for (const Arguments& more : {Arguments{}, Arguments{"--resume"}}) {
-        Arguments arguments{"bake", kCourtyard, "-g", "g.probes.part", "-o", "g.probes"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        EXPECT_TRUE(contains(fail(arguments), "g.probes.part: is an input of this command"));
-    }
-    EXPECT_EQ(read("g.probes.part"), kFiveProbes);
-    EXPECT_TRUE(read("scene.part") == scene);
-}
-
-TEST_F(Resume, InfoSaysHowFarAPartIs) {
-    static_cast<void>(interrupted(kLong));
-    const Json part = run_json({"info", kPart})["part"];
-    EXPECT_EQ(part["range"], (Json{0, 255}));
-    EXPECT_EQ(part["is_finished"], false);
-    EXPECT_LT(part["begun"].get<int>(), 255);
-    EXPECT_TRUE(
-        contains(succeed({"info", kPart}).out, "part of a bake: probes 0..255 of 255, not "));
-
+TEST_F(Resume, InfoSaysTheRangeOfAPart) {
     succeed({"bake", kCourtyard, "-o", "few.part", "-s", "16", "--probes", "3..5"});
+    const Json part = run_json({"info", "few.part"})["part"];
+    EXPECT_EQ(part, (Json{{"range", {3, 5}}, {"is_finished", true}}));
     EXPECT_TRUE(contains(succeed({"info", "few.part"}).out,
                          "part of a bake: probes 3..5 of 255, finished"));
 }
 
-TEST_F(Resume, SaysThatAPartIsLeftAloneWithoutIt) {
+TEST_F(Resume, SaysThatAStoreIsLeftAloneWithoutIt) {
     static_cast<void>(interrupted(kLong));
     const CommandResult result = succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
-    EXPECT_TRUE(contains(result.err, "warning: " + kPart + ": ")) << result.err;
-    EXPECT_EQ(file_names(), (std::vector<std::string>{"v.probes", kPart}));
+    EXPECT_TRUE(contains(result.err, "warning: " + kStore + ": ")) << result.err;
+    EXPECT_EQ(file_names(), (std::vector<std::string>{"v.probes", kStore}));
+}
+
+TEST_F(Resume, StoresAreSharedAndHaveALimit) {
+    const auto bake = [](const std::string& output, const Arguments& more) {
+        Arguments arguments{"bake", kCourtyard, "-o", output, "-s", "16", "--store", "store"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    };
+    const Json first = run_json(bake("a.probes", {}));
+    const Json again = run_json(bake("b.probes", {}));
+    EXPECT_TRUE(read("a.probes") == read("b.probes"));
+    EXPECT_GT(first["rays"].get<double>(), 0.0);
+    EXPECT_EQ(file_names(), (std::vector<std::string>{"a.probes", "b.probes", "store"}));
+    succeed(bake("c.part", {"--probes", "3..5", "--resume"}));
+    succeed(bake("b.probes", {"--store-limit", "1e-9"}));
+    for (const auto& file : std::filesystem::directory_iterator(path("store"))) {
+        EXPECT_NE(file.path().extension(), ".pack");
+    }
+    EXPECT_TRUE(contains(misuse(bake("b.probes", {"--chunks", "c"})), "--chunks"));
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ TEST_F(Reuse, SaysWhyItBakesAllWhereSomethingElseIsDifferent) {
     succeed({"tetrahedralize", "old.json", "-o", "dark.probes"});
     const std::vector<std::tuple<std::string, Arguments, std::string>> cases{
         {"old.probes", {"--seed", "3"}, "its seed is 0, that of this bake is 3"},
-        {"old.probes", {"--sky", "1"}, "it is of another scene, sky or sun"},
+        {"old.probes", {"--sky", "1"}, "its scene, sky or sun is different"},
         {"dark.probes", {}, "it has no light"}};
     for (const auto& [old, change, reason] : cases) {
         succeed(bake("old.json", "full.probes", change));
@@ -93,12 +93,21 @@ TEST_F(Reuse, RefusesAFileThatIsNoVolume) {
     refuse_each(bad_volumes(read("old.probes")), "", arguments);
 }
 
-TEST_F(Reuse, IsOfWholeBakes) {
-    for (const Arguments& other : {Arguments{"--resume"}, Arguments{"--probes", "0..9"}}) {
-        Arguments more{"--reuse", "old.probes"};
-        more.insert(more.end(), other.begin(), other.end());
-        EXPECT_TRUE(contains(misuse(bake("old.json", "new.probes", more)), "--reuse"));
-    }
+TEST_F(Reuse, ComposesWithRangesAndStores) {
+    edit_groups();
+    succeed(bake("new.json", "full.probes"));
+    const Arguments reuse{"--reuse", "old.probes"};
+    const auto with = [&](const Arguments& more) {
+        Arguments arguments = reuse;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    };
+    succeed(bake("new.json", "a.part", with({"--probes", "0..9", "--resume"})));
+    succeed(bake("new.json", "b.part", with({"--probes", "9..", "--chunks", "chunks"})));
+    succeed({"merge", "a.part", "b.part", "-o", "merged.probes"});
+    EXPECT_TRUE(read("merged.probes") == read("full.probes"));
+    succeed(bake("new.json", "resumed.probes", with({"--resume", "--store", "chunks"})));
+    EXPECT_TRUE(read("resumed.probes") == read("full.probes"));
 }
 
 }  // namespace

@@ -90,14 +90,14 @@ TEST(LightingPlan, RefusesWhatTheSceneDoesNotHave) {
               "layer \"light:\" is none of sun, sky, emission, transfer, light:NAME, "
               "material:NAME");
     EXPECT_EQ(error_of({"light:lantern"}),
-              "layer \"light:lantern\": the scene has no such light; there is \"lamp\", \"sun\", "
+              "layer \"light:lantern\": the scene has no such light; it has \"lamp\", \"sun\", "
               "\"torch\"");
     EXPECT_EQ(error_of({"material:gold"}),
-              "layer \"material:gold\": the scene has no such material; those that shine are "
+              "layer \"material:gold\": the scene has no such material; emissive materials are "
               "\"lava\", \"neon\"");
     EXPECT_EQ(error_of({"light:torch"}),
-              "layer \"light:torch\": the light is realtime, and nothing of it is baked");
-    EXPECT_EQ(error_of({"sky", "sun", "sky"}), "layer \"sky\" is there twice");
+              "layer \"light:torch\": the light is realtime and is not baked");
+    EXPECT_EQ(error_of({"sky", "sun", "sky"}), "layer \"sky\" is listed twice");
 }
 
 TEST(LightingPlan, ShadowmaskGivesChannelsToMixedLights) {

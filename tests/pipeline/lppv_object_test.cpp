@@ -83,7 +83,7 @@ TEST(LppvValidity, PointsInSolidsAreInvalid) {
     settings.resolution_mode = LppvResolution::Custom;
     settings.resolution = {5, 1, 1};
     const auto grid = make_lppv_grid({glm::dmat4(1.0), std::span(&box, 1)}, settings);
-    const auto validity = survey_grid(scene, *grid, 1);
+    const auto validity = lppv_grid_validity(scene, *grid, 1);
     ASSERT_TRUE(validity);
     EXPECT_EQ(*validity, (std::vector<float>{1, 1, 0, 1, 1}));
 }

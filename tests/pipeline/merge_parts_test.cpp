@@ -53,11 +53,9 @@ TEST_F(MergeParts, NamesWhatOverlaps) {
 TEST_F(MergeParts, NamesWhatIsMissing) {
     const std::string a = bake_part("a", {0, 12}), b = bake_part("b", {20, 30});
     EXPECT_EQ(error_of({a, b}),
-              "probes 12..20 of 35 are in none of the parts; the next, 20..30, are in " + b);
-    EXPECT_EQ(error_of({b}),
-              "probes 0..20 of 35 are in none of the parts; the next, 20..30, are in " + b);
-    EXPECT_EQ(error_of({a}),
-              "probes 12..35 of 35 are in none of the parts; the last, 0..12, are in " + a);
+              "probes 12..20 of 35 are in no part; the next, 20..30, are in " + b);
+    EXPECT_EQ(error_of({b}), "probes 0..20 of 35 are in no part; the next, 20..30, are in " + b);
+    EXPECT_EQ(error_of({a}), "probes 12..35 of 35 are in no part; the last, 0..12, are in " + a);
 }
 
 TEST_F(MergeParts, RefusesPartsOfOtherScenesGroupsAndSettings) {
@@ -77,21 +75,11 @@ TEST_F(MergeParts, RefusesPartsOfOtherScenesGroupsAndSettings) {
     refuse();
 }
 
-TEST_F(MergeParts, RefusesUnfinishedParts) {
-    const PreparedBake prepared = prepare();
-    PartialBake partial = bake(prepared, {0, kProbeCount});
-    partial.is_finished = false;
-    partial.accumulators[7] = {};
-    ASSERT_TRUE(write_part(path("a"), prepared, partial));
-    EXPECT_EQ(error_of({path("a")}),
-              path("a") + ": is not finished (34 of 35 probes have light); --resume its bake");
-}
-
 TEST_F(MergeParts, NamesFilesThatAreNoParts) {
     EXPECT_EQ(error_of({path("none")}).find(path("none") + ": cannot open"), 0u);
     const auto baked = bake_volume(scene, groups, {{}, settings, {}, {}});
     ASSERT_TRUE(baked && write_probe_file(path("whole"), baked->volume.view()));
-    EXPECT_EQ(error_of({path("whole")}).find(path("whole") + ": is no part of a bake"), 0u);
+    EXPECT_EQ(error_of({path("whole")}).find(path("whole") + ": is not a part of a bake"), 0u);
 }
 
 }  // namespace

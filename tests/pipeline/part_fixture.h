@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <tetralight/bake/bake_accumulators.h>
 #include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_range.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/probe_file.h>
 #include "tests/support/random_probes.h"
@@ -45,20 +45,9 @@ class PartFixture : public testing::Test {
 
     /// Bakes a range to its end.
     [[nodiscard]] PartialBake bake(const PreparedBake& prepared, ProbeRange range) const {
-        PartialBake partial{range, std::vector<ProbeAccumulator>(range.count()), true};
-        const auto positions =
-            std::span(prepared.capture_positions).subspan(range.begin, range.count());
-        const BakeSettings& with_plan = prepared.settings.bake;
-        const LightGroupLayout layout(with_plan.plan);
-        partial.split_rows.resize(layout.size() * range.count());
-        LightGroupRows split{partial.split_rows, prepared.volume.occlusion_lights};
-        if (layout.has_occlusion) {
-            split.occlusion_lights = split.occlusion_lights.subspan(range.begin, range.count());
-        }
-        const Status status =
-            bake_accumulators(scene, positions, with_plan, partial.accumulators, {}, split);
-        EXPECT_TRUE(status) << error_text(status.error());
-        return partial;
+        auto baked = bake_range(scene, prepared, range);
+        EXPECT_TRUE(baked) << error_text(baked.error());
+        return std::move(baked->partial);
     }
 
     /// Bakes a range into a file of the folder and returns its path.

@@ -2,7 +2,6 @@
 #include <tetralight/base/error_text.h>
 #include <tetralight/pipeline/partial_bake.h>
 
-#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -28,35 +27,36 @@ class PartialBakes : public test::PartFixture {
 
 TEST_F(PartialBakes, ReadsBackWhatWasWritten) {
     const PreparedBake prepared = prepare();
-    PartialBake partial = bake(prepared, {3, 9});
-    partial.accumulators[2] = {};
-    partial.is_finished = false;
+    const PartialBake partial = bake(prepared, {3, 9});
     ASSERT_TRUE(write_part(path("part"), prepared, partial));
     const auto part = read_part(path("part"));
     ASSERT_TRUE(part) << error_text(part.error());
     EXPECT_EQ(part->partial, partial);
-    EXPECT_EQ(part->partial.begun_count(), 5u);
     EXPECT_EQ(part->prepared.key, prepared.key);
     EXPECT_EQ(part->prepared.volume, prepared.volume);
     EXPECT_EQ(part->prepared.merged.group_dering, prepared.merged.group_dering);
 }
 
-TEST_F(PartialBakes, InterruptedAndResumedGivesTheBytesOfOneBake) {
-    PreparedBake prepared = prepare();
-    PartialBake partial{{0, kProbeCount}, std::vector<ProbeAccumulator>(kProbeCount), false};
-    std::atomic<int> reports = 0;
-    const BakeHooks hooks{.progress = [&](const BakeProgress&) { return ++reports < 2; }};
-    settings.thread_count = 1;
-    static_cast<void>(bake_accumulators(scene, prepared.capture_positions, settings,
-                                        partial.accumulators, hooks));
-    ASSERT_TRUE(write_part(path("part"), prepared, partial));
-
-    auto part = read_part(path("part"));
-    ASSERT_TRUE(part) << error_text(part.error());
-    auto& accumulators = part->partial.accumulators;
-    ASSERT_TRUE(bake_accumulators(scene, prepared.capture_positions, settings, accumulators));
-    const BakedVolume baked = finish_bake(std::move(prepared), accumulators);
-    EXPECT_EQ(probe_file_bytes(baked.volume.view()), whole());
+TEST_F(PartialBakes, RefusesReusedLightThatDoesNotFit) {
+    const auto reuse = [](uint32_t probe, float light) {
+        return [=](PartialBake& p) {
+            p.accumulators[1] = {};
+            p.reused.probes = {probe};
+            p.reused.standard_error = {0.5f};
+            p.reused.validity = {1.0f};
+            p.reused.irradiance.resize(1);
+            p.reused.irradiance[0].coefficients[8].z = light;
+        };
+    };
+    const std::string where = path("bad") + ": section ";
+    EXPECT_EQ(refusal(reuse(9, 1.0f)), where + "\"reused_probes\": element 0 is out of range");
+    EXPECT_EQ(refusal(reuse(5, 1.0f)), where + "\"tallies\": element of probe 4 is out of range");
+    EXPECT_EQ(refusal(reuse(4, NAN)), where + "\"reused_irradiance\": a number is not finite");
+    EXPECT_EQ(refusal([&](auto& p) {
+                  reuse(4, 1.0f)(p);
+                  p.reused.validity.clear();
+              }),
+              where + "\"reused_validity\": 0 elements for 1 probes");
 }
 
 TEST_F(PartialBakes, IsAProbeFileWithoutLight) {
@@ -67,7 +67,8 @@ TEST_F(PartialBakes, IsAProbeFileWithoutLight) {
 }
 
 TEST_F(PartialBakes, RefusesTalliesThatNoRoundsLeave) {
-    const std::string where = path("bad") + ": the tally of probe 4 is not in range";
+    const std::string where =
+        path("bad") + ": section \"tallies\": element of probe 4 is out of range";
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].radiance_sum[8].z = NAN; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].variance_sum = -1.0; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].variance_sum = INFINITY; }), where);
@@ -75,7 +76,7 @@ TEST_F(PartialBakes, RefusesTalliesThatNoRoundsLeave) {
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].back_face_count = 129; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].round_count = 2; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].round_count = ~uint64_t{0}; }), where);
-    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1] = {}; }), where);  // of a finished part
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1] = {}; }), where);
 }
 
 TEST_F(PartialBakes, RefusesRangesThatAreNone) {

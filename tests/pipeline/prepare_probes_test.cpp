@@ -89,7 +89,7 @@ TEST(PrepareProbes, GathersLightOutsideForProbesThatAreJustInside) {
     EXPECT_LT(glm::distance(offset, {0, 0.1 + 0.02 * spacing, 0}), 1e-4);
     EXPECT_EQ(volume.validity[probe], 1.0f);
     EXPECT_GT(volume.irradiance[probe].coefficients[0].r, 1.0f);
-    EXPECT_EQ(baked.report.moved_count, 1u);
+    EXPECT_EQ(baked.report.virtual_offset_count, 1u);
 }
 
 TEST(PrepareProbes, MovesNoProbeFartherThanItsShareOfTheSpacing) {
@@ -104,7 +104,7 @@ TEST(PrepareProbes, MovesNoProbeFartherThanItsShareOfTheSpacing) {
 
 TEST(PrepareProbes, LetsAProbeThatIsAloneGoAsFarAsTheSceneIsLarge) {
     const BakedVolume baked = bake({}, {make_group("alone", {kDeep})});
-    EXPECT_EQ(baked.report.moved_count, 1u);
+    EXPECT_EQ(baked.report.virtual_offset_count, 1u);
     EXPECT_GT(baked.volume.health[0].virtual_offset.y, 0.9f);
 }
 

@@ -5,7 +5,6 @@
 #include <random>
 
 #include <tetralight/base/error_text.h>
-#include <tetralight/pipeline/bake_chunks.h>
 #include <tetralight/probes/recombine.h>
 #include "tests/pipeline/part_fixture.h"
 
@@ -57,18 +56,16 @@ class ReuseProbes : public test::PartFixture {
         groups[below(2)].dering = below(2) == 0;
     }
 
-    /// Bakes what `old` has not, with or without a folder of chunks.
-    [[nodiscard]] BakedVolume bake_rest(const ProbeVolume& old, const std::string& chunks = "") {
+    /// Bakes the probes whose light `old` does not have.
+    [[nodiscard]] BakedVolume bake_rest(const ProbeVolume& old) {
         PreparedBake prepared = prepare_all();
         const Status status = reuse_probes(old.view(), prepared);
         EXPECT_TRUE(status) << error_text(status.error());
-        const PreparedBake others = bake_of_others(prepared);
-        const auto count = static_cast<uint32_t>(others.capture_positions.size());
-        EXPECT_EQ(count + prepared.reused.count(), prepared.capture_positions.size());
-        const auto baked = chunks.empty() ? bake_range(scene, others, {0, count}, {})
-                                          : bake_in_chunks(scene, others, chunks);
+        const auto count = static_cast<uint32_t>(prepared.capture_positions.size());
+        const auto baked = bake_range(scene, prepared, {0, count});
         EXPECT_TRUE(baked) << error_text(baked.error());
-        const PartialBake part = spread_others(prepared, baked->partial);
+        const PartialBake& part = baked->partial;
+        EXPECT_EQ(part.reused, prepared.reused);
         return finish_bake(std::move(prepared), part.accumulators, part.split_rows);
     }
 
@@ -142,35 +139,6 @@ TEST_F(ReuseProbes, TakesAllWhenNothingChanged) {
     EXPECT_EQ(again.volume, old);
 }
 
-TEST_F(ReuseProbes, GoesOnWithFinishedChunks) {
-    const ProbeVolume old = bake_all();
-    groups[0].positions.push_back({0.7, 0.6, -0.5});
-    const std::vector<std::byte> expected = probe_file_bytes(bake_all().view());
-    for (int run = 0; run < 2; ++run) {
-        EXPECT_EQ(probe_file_bytes(bake_rest(old, path("chunks")).volume.view()), expected);
-    }
-    PreparedBake prepared = prepare_all();
-    ASSERT_TRUE(reuse_probes(old.view(), prepared));
-    const auto again =
-        bake_in_chunks(scene, bake_of_others(prepared), path("chunks"), [](const BakeProgress&) {
-            ADD_FAILURE() << "nothing is left to do";
-            return true;
-        });
-    ASSERT_TRUE(again);
-    EXPECT_GT(again->earlier_ray_count, 0u);
-}
-
-TEST_F(ReuseProbes, DoesNotTakeChunksOfOtherProbes) {
-    const std::vector<std::byte> expected = probe_file_bytes(bake_all().view());
-    const std::vector<glm::dvec3> positions = groups[0].positions;
-    for (const ptrdiff_t missing : {3, 30}) {  // the one probe that is left to bake
-        groups[0].positions.erase(groups[0].positions.begin() + missing);
-        const ProbeVolume old = bake_all();
-        groups[0].positions = positions;
-        EXPECT_EQ(probe_file_bytes(bake_rest(old, path("chunks")).volume.view()), expected);
-    }
-}
-
 TEST_F(ReuseProbes, IsOfOneSceneAndOneSetOfSettings) {
     const ProbeVolume old = bake_all();
     EXPECT_EQ(refusal(old), "");
@@ -184,9 +152,9 @@ TEST_F(ReuseProbes, IsOfOneSceneAndOneSetOfSettings) {
         return reason;
     };
     EXPECT_EQ(after([](auto& t) { t.scene.environment.radiance.x = 1.5f; }),
-              "it is of another scene, sky or sun");
+              "its scene, sky or sun is different");
     EXPECT_EQ(after([](auto& t) { t.scene.probe_adjustments[0].intensity = 0.6f; }),
-              "its adjustment volumes are others");
+              "its adjustment volumes are different");
     EXPECT_EQ(after([](auto& t) { t.all.bake.seed = 7; }), "its seed is 0, that of this bake is 7");
     EXPECT_EQ(after([](auto& t) { t.all.bake.target_error = 0.5; }),
               "its target_error is not set, that of this bake is 0.5");
@@ -202,7 +170,7 @@ TEST_F(ReuseProbes, IsOfAVolumeThatWasBakedAndLeftAsItWas) {
     old.metadata.insert(1, "\"relit\":\"--sky 2\",");
     EXPECT_EQ(refusal(old), "it was relit with \"--sky 2\"");
     old.metadata = "{}";
-    EXPECT_EQ(refusal(old), "it does not say what scene it is of");
+    EXPECT_EQ(refusal(old), "its metadata has no hash of its scene");
     old.metadata = metadata;
     old.exact_positions.clear();
     EXPECT_EQ(refusal(old), "a section is missing");

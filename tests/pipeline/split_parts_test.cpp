@@ -4,7 +4,6 @@
 
 #include <tetralight/base/error_text.h>
 #include <tetralight/pipeline/merge_parts.h>
-#include <tetralight/pipeline/resumable_bake.h>
 #include "tests/pipeline/part_fixture.h"
 
 namespace tetralight {
@@ -36,23 +35,6 @@ TEST_F(SplitParts, GiveTheBytesOfOneBakeInAnyOrderAndOnAnyThreads) {
     EXPECT_EQ(probe_file_bytes(merged->volume.view()), expected);
 }
 
-TEST_F(SplitParts, GoOnWithWhatWasKept) {
-    const PreparedBake prepared = prepare();
-    const BakeKeeping keeping{path("kept"), true};
-    size_t calls = 0;
-    auto baked = bake_range(
-        scene, prepared, {0, kProbeCount}, keeping,
-        [&](const BakeProgress& progress) { return progress.probes_done < 10 || ++calls > 1000; });
-    if (!baked) {  // cancelled on its way, and kept
-        EXPECT_EQ(baked.error().code, ErrorCode::Cancelled);
-        baked = bake_range(scene, prepared, {0, kProbeCount}, keeping);
-    }
-    ASSERT_TRUE(baked) << error_text(baked.error());
-    const auto finished =
-        finish_bake(prepare(), baked->partial.accumulators, baked->partial.split_rows);
-    EXPECT_EQ(probe_file_bytes(finished.volume.view()), whole());
-}
-
 TEST_F(SplitParts, ReadBackWhatWasWritten) {
     const PreparedBake prepared = prepare();
     const PartialBake partial = bake(prepared, {3, 9});
@@ -75,7 +57,7 @@ TEST_F(SplitParts, RefuseRowsThatAreMissingOrNotFinite) {
         return part ? "" : error_text(part.error());
     };
     partial.split_rows[partial.split_rows.size() / 6 + 3] = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(error_of(), path("part") + ": what the light of probe 4 is split into is not finite");
+    EXPECT_EQ(error_of(), path("part") + ": section \"split_rows\": row of probe 4 is not finite");
     partial.split_rows.pop_back();
     EXPECT_EQ(error_of().find(path("part") + ": section \"split_rows\": "), 0u);
 }

@@ -12,7 +12,7 @@ from service import COURTYARD, ServiceTest, lattice, write_groups, read
 # How often the server is killed: a few times, or as often as one likes.
 KILLS = int(os.environ.get("TETRALIGHT_KILLS", "5"))
 
-# Some seconds of work, in 16 chunks.
+# Some seconds of work, saved about 16 times.
 SLOW = {"samples": 8192, "bounces": 4}
 QUICK = {"samples": 16, "bounces": 1}
 
@@ -46,7 +46,7 @@ class BakeTest(ServiceTest):
     def wait_for_chunks(self, bake, count):
         for _ in range(1200):
             if os.path.isdir(self.chunk_folder(bake)):
-                chunks = [c for c in os.listdir(self.chunk_folder(bake)) if c.endswith(".chunk")]
+                chunks = [c for c in os.listdir(self.chunk_folder(bake)) if c.endswith(".pack")]
                 if len(chunks) >= count:
                     return chunks
             time.sleep(0.02)
@@ -173,7 +173,7 @@ class Bakes(BakeTest):
         with open(paths[1], "r+b") as file:
             file.seek(500)
             file.write(b"\xff")
-        with open(os.path.join(self.chunk_folder(bake), "0-99-of-99.chunk"), "w") as file:
+        with open(os.path.join(self.chunk_folder(bake), "0000000000000099-0000000000000099.pack"), "w") as file:
             file.write("mine")
         server = self.start()
         self.assertEqual(self.file_of(server, bake), expected)

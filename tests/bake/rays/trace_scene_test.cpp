@@ -345,8 +345,9 @@ TEST(TraceScene, NamesAnInstanceThatIsTooFarAway) {
     scene.instances[1].name = "lost";
     const auto trace = TraceScene::make_static(scene);
     ASSERT_FALSE(trace);
-    EXPECT_TRUE(error_text(trace.error())
-                    .starts_with("instance 1 \"lost\": vertex 0 is 9999999999998 m away"))
+    EXPECT_TRUE(
+        error_text(trace.error())
+            .starts_with("instance 1 \"lost\": vertex 0 is 9999999999998 m from the center"))
         << error_text(trace.error());
 }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/pipeline/check_accumulator.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <tetralight/probes/is_finite.h>
+
+namespace tetralight {
+
+bool is_possible(const ProbeAccumulator& accumulator, const RoundPlan& plan) {
+    const auto is_sound = [](const glm::dvec3& c) { return is_finite(c); };
+    const uint64_t rounds = accumulator.round_count;
+    return std::ranges::all_of(accumulator.radiance_sum, is_sound) &&
+           std::isfinite(accumulator.variance_sum) && accumulator.variance_sum >= 0.0 &&
+           (rounds == 0 || plan.samples_in_round(rounds - 1) > 0) &&
+           accumulator.sample_count == plan.samples_before(rounds) &&
+           accumulator.back_face_count <= accumulator.sample_count;
+}
+
+}  // namespace tetralight

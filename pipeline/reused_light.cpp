@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/pipeline/reused_light.h>
+
+#include <algorithm>
+
+#include <tetralight/probes/no_index.h>
+
+namespace tetralight {
+namespace {
+
+/// Values of some probes of a volume; nothing if the volume does not have the array.
+template <class T>
+std::vector<T> gather(std::span<const T> values, std::span<const uint32_t> probes) {
+    std::vector<T> gathered;
+    if (values.empty()) return gathered;
+    for (const uint32_t probe : probes) gathered.push_back(values[probe]);
+    return gathered;
+}
+
+template <class T>
+void scatter(const std::vector<T>& values, std::span<const uint32_t> probes, std::span<T> to) {
+    for (size_t i = 0; i < values.size(); ++i) to[probes[i]] = values[i];
+}
+
+}  // namespace
+
+std::vector<bool> ReusedLight::flags(size_t probe_count) const {
+    std::vector<bool> flags(probe_count, false);
+    for (const uint32_t probe : probes) flags[probe] = true;
+    return flags;
+}
+
+void ReusedLight::append(const ReusedLight& other) {
+    const auto add = [](auto& to, const auto& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    add(probes, other.probes);
+    add(standard_error, other.standard_error);
+    add(validity, other.validity);
+    add(irradiance, other.irradiance);
+    add(occlusion, other.occlusion);
+    add(transfer, other.transfer);
+    add(layer_irradiance, other.layer_irradiance);
+}
+
+ReusedLight reused_light(const ProbeVolumeView& old, std::span<const uint32_t> old_probes) {
+    ReusedLight light;
+    std::vector<uint32_t> from;
+    for (uint32_t i = 0; i < old_probes.size(); ++i) {
+        if (old_probes[i] == kNoIndex) continue;
+        light.probes.push_back(i);
+        from.push_back(old_probes[i]);
+    }
+    for (const uint32_t probe : from) {
+        light.standard_error.push_back(old.health[probe].standard_error);
+        for (size_t layer = 0; layer < old.layers.size(); ++layer) {
+            light.layer_irradiance.push_back(
+                old.layer_irradiance[layer * old.positions.size() + probe]);
+        }
+    }
+    light.validity = gather(old.validity, from);
+    light.irradiance = gather(old.irradiance, from);
+    light.occlusion = gather(old.occlusion, from);
+    light.transfer = gather(old.transfer, from);
+    return light;
+}
+
+ReusedLight slice(const ReusedLight& light, uint32_t begin, uint32_t end) {
+    const auto first = std::ranges::lower_bound(light.probes, begin) - light.probes.begin();
+    const auto last = std::ranges::lower_bound(light.probes, end) - light.probes.begin();
+    ReusedLight part;
+    const auto cut = [&](const auto& from, auto& to) {
+        const auto each =
+            light.probes.empty() ? 0 : static_cast<ptrdiff_t>(from.size() / light.probes.size());
+        to.assign(from.begin() + first * each, from.begin() + last * each);
+    };
+    cut(light.probes, part.probes);
+    cut(light.standard_error, part.standard_error);
+    cut(light.validity, part.validity);
+    cut(light.irradiance, part.irradiance);
+    cut(light.occlusion, part.occlusion);
+    cut(light.transfer, part.transfer);
+    cut(light.layer_irradiance, part.layer_irradiance);
+    return part;
+}
+
+void copy_reused(const ReusedLight& light, ProbeVolume& volume) {
+    scatter(light.validity, light.probes, std::span(volume.validity));
+    scatter(light.irradiance, light.probes, std::span(volume.irradiance));
+    scatter(light.occlusion, light.probes, std::span(volume.occlusion));
+    scatter(light.transfer, light.probes, std::span(volume.transfer));
+    if (light.probes.empty()) return;
+    const size_t layer_count = light.layer_irradiance.size() / light.probes.size();
+    const size_t probe_count = volume.positions.size();
+    for (size_t i = 0; i < light.layer_irradiance.size(); ++i) {
+        const size_t layer = i % layer_count;
+        volume.layer_irradiance[layer * probe_count + light.probes[i / layer_count]] =
+            light.layer_irradiance[i];
+    }
+}
+
+void copy_reused(const ReusedLight& light, BakedProbes& baked) {
+    scatter(light.standard_error, light.probes, std::span(baked.standard_error));
+}
+
+}  // namespace tetralight
