@@ -21,8 +21,8 @@ struct PackedSh4 {
 
 static_assert(sizeof(PackedSh4) == 48 && std::is_trivially_copyable_v<PackedSh4>);
 
-/// The first two bands of packed light. sha.w of `PackedSh` includes the constant part of 3z² − 1 of
-/// the third band; this function removes it.
+/// The first two bands of packed light. sha.w of `PackedSh` includes the constant part of 3z² − 1
+/// of the third band; this function removes it.
 [[nodiscard]] PackedSh4 first_bands(const PackedSh& sh) noexcept;
 
 /// Irradiance / π of two bands at a unit normal.

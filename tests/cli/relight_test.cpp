@@ -133,7 +133,8 @@ TEST_F(Relight, RefusesWeightsThatAreNegativeOrNoNumbers) {
         return fail({"relight", "v.probes", "--weights", weight, "-o", "out.probes"});
     };
     EXPECT_EQ(error("sun=-1"), "tetralight: v.probes: layer \"sun\": weight -1 is negative\n");
-    EXPECT_EQ(error("sun=nan"), "tetralight: v.probes: layer \"sun\": weight nan is not a number\n");
+    EXPECT_EQ(error("sun=nan"),
+              "tetralight: v.probes: layer \"sun\": weight nan is not a number\n");
     EXPECT_EQ(error("sun=inf"), "tetralight: v.probes: layer \"sun\": weight inf is not finite\n");
     EXPECT_EQ(error("sun=1e39"), "tetralight: v.probes: layer \"sun\": weight inf is not finite\n");
     EXPECT_TRUE(
