@@ -80,7 +80,10 @@ struct Relight {
             relit += str_cat(relit.empty() ? "" : " ", option, " ", value);
         };
         const auto vector = [](const glm::dvec3& v) { return str_cat(v.x, ",", v.y, ",", v.z); };
-        if (sky.constant) add("--sky", vector(*sky.constant));
+        const auto color = [&](const glm::dvec3& c) {
+            return c == glm::dvec3(c.x) ? str_cat(c.x) : vector(c);
+        };
+        if (sky.constant) add("--sky", color(*sky.constant));
         if (!sky.path.empty()) add("--sky", sky.path);
         if (sky.intensity != 1.0) add("--sky-intensity", str_cat(sky.intensity));
         if (sky.rotation_degrees != 0.0) add("--sky-rotation", str_cat(sky.rotation_degrees));

@@ -47,10 +47,11 @@ Json CommandFixture::run_json(Arguments arguments) const {
     return json;
 }
 
-std::string CommandFixture::fail(const Arguments& arguments, const std::string& input) const {
+std::string CommandFixture::fail(const Arguments& arguments, const std::string& input,
+                                 int exit_code) const {
     SCOPED_TRACE(joined(arguments));
     const CommandResult result = run(arguments, input);
-    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.exit_code, exit_code);
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err.find("tetralight: "), 0u) << result.err;
     EXPECT_EQ(result.err.find('\n') + 1, result.err.size()) << "not one line: " << result.err;

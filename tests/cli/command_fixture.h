@@ -43,9 +43,10 @@ class CommandFixture : public testing::Test {
     /// The one JSON object on stdout of a command that has to succeed.
     [[nodiscard]] Json run_json(Arguments arguments) const;
 
-    /// Runs a command that has to fail on data: exit code 1, nothing on stdout, one line on stderr.
+    /// Runs a command that has to fail with an exit code, nothing on stdout and one line on stderr.
     /// Returns that line.
-    std::string fail(const Arguments& arguments, const std::string& input = "") const;
+    std::string fail(const Arguments& arguments, const std::string& input = "",
+                     int exit_code = 1) const;
 
     /// The same, and what the folder held before, an old `output` among it, stays as it was.
     std::string fail_and_keep(const std::string& output, const Arguments& arguments) const;

@@ -94,7 +94,7 @@ TEST_F(Grid, StdoutTakesOneFile) {
 TEST_F(Grid, SaysThatProbeGroupsAreNoScene) {
     write("groups.json", kFiveProbes);
     EXPECT_EQ(fail({"grid", "groups.json", "-o", "g.json", "--spacing", "4"}),
-              "tetralight: groups.json: holds probe groups, no scene\n");
+              "tetralight: groups.json: contains probe groups, not a scene\n");
 }
 
 TEST_F(Grid, SaysThatThereIsNoNodeOfThatName) {

@@ -104,7 +104,7 @@ TEST_F(LppvCommand, SaysWhatIsWrongWithABoxAndNamesTheOption) {
            "--bounds: floats cannot tell grid points 0.1111");
     expect({"--bounds", "0,0,0,1,1,1", "--orientation", "0,0,0,0"}, "--orientation: ");
     expect({"--resolution", "10000,1000,1000"},
-           "--resolution: a grid of 10000 x 1000 x 1000 points (1e+10 in all) is too large");
+           "--resolution: a grid of 10000 x 1000 x 1000 points (1e+10 in total) is too large");
     expect({"--resolution", "10000000000,1,1"}, "--resolution: \"10000000000\" is not a whole");
     expect({"--resolution", "-1,1,1"}, "--resolution: \"-1\" is not a whole");
     expect({"--resolution", "0,1,1"}, "--resolution: a grid of 0 x 1 x 1 points is empty");

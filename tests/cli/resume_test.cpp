@@ -66,8 +66,8 @@ TEST_F(Resume, SigtermDoesTheSameAndAsksToTryAgain) {
 }
 
 TEST_F(Resume, BakesToStdoutKeepNothing) {
-    const CommandResult result =
-        interrupted({"bake", kCourtyard, "-o", "-", "-s", "262144", "-j", "1", "-q"});
+    const CommandResult result = interrupted({"bake", kCourtyard, "-o", "-", "-s", "262144", "-j",
+                                              "1", "-q", "--progress-file", "progress.json"});
     EXPECT_EQ(result.exit_code, 130);
     EXPECT_EQ(result.err, "tetralight: interrupted\n");
     EXPECT_EQ(file_names(), std::vector<std::string>{});

@@ -51,7 +51,8 @@ TEST_P(EveryWriter, NamesAnOutputThatCannotBeWritten) {
     write("file", "");
     for (const std::string output :
          {"none/out", "folder", "file/out", "/proc/tetralight", "/dev/full"}) {
-        EXPECT_TRUE(contains(fail(arguments(output)), output + ": cannot write"));
+        const int exit_code = output == "/dev/full" ? 75 : 1;  // a full disk: try again
+        EXPECT_TRUE(contains(fail(arguments(output), "", exit_code), output + ": cannot write"));
     }
 }
 
@@ -72,7 +73,7 @@ TEST_P(EveryWriter, FollowsSymbolicLinksThatEndSomewhere) {
     EXPECT_EQ(read("target"), read("link"));
     EXPECT_FALSE(read("target").empty());
     EXPECT_TRUE(
-        contains(fail(arguments("loop")), "loop: cannot write (its symbolic links lead in"));
+        contains(fail(arguments("loop")), "loop: cannot write (its symbolic links form a cycle"));
     EXPECT_TRUE(contains(fail(arguments("lost")), "lost: cannot write (there is no folder none)"));
 }
 
