@@ -98,7 +98,7 @@ class Bakes(BakeTest):
                 ({"scene": self.scene, "samples": 1.5}, "invalid_value", "samples"),
                 ({"scene": self.scene, "sky": [1, 2]}, "invalid_value", "sky"),
                 ({"scene": self.scene, "sky": -1}, "invalid_value", "sky"),
-                ({"scene": self.scene, "layers": ["a,b"]}, "invalid_value", "layers"),
+                ({"scene": self.scene, "layers": ["a,b"]}, "invalid_value", "layers[0]"),
                 ({"scene": self.scene, "priority": 1e9}, "invalid_value", "priority"),
                 ({"scene": self.scene, "output": "/etc/passwd"}, "unknown_member", "output")):
             with self.subTest(members=members):
@@ -157,7 +157,7 @@ class Bakes(BakeTest):
         volume = server.wait_for(self.begin(server, **QUICK))["volume"]
         answer = server.wait_for(self.begin(server, **QUICK, reuse=volume, seed=5))
         self.assertEqual((answer["state"], answer["report"]["reused"]), ("done", 0))
-        self.assertIn("reuse.probes: nothing is re-used: its seed is 0, that of this bake is 5",
+        self.assertIn("reuse: nothing is re-used: its seed is 0, that of this bake is 5",
                       answer["report"]["warnings"])
         self.assert_problem(server.post("/v1/bakes", {"scene": self.scene, "reuse": "none"}), 404,
                             "not_found")
