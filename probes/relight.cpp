@@ -15,9 +15,10 @@ namespace {
 
 Status check_transfer(const ProbeVolumeView& volume, const char* layer) {
     if (volume.transfer.size() != volume.positions.size() || volume.sky.size() != 1) {
-        return Error{ErrorCode::InvalidArgument,
-                     "the volume holds no transfer of distant light (bake it with --layers sky,"
-                     "transfer)"};
+        return Error{
+            ErrorCode::InvalidArgument,
+            "the volume holds no transfer of distant light (bake it with the layers sky and "
+            "transfer)"};
     }
     if (find_layer(volume, layer) != kNoIndex) return Ok{};
     return Error{ErrorCode::NotFound, "layer", layer,

@@ -64,7 +64,8 @@ std::optional<Member> find_member(const Json& order, const Error& error) {
     const auto found = order.find(error.field.substr(0, error.field.find_first_of(".[")));
     if (found == order.end()) return find_word(order, error.value);
     if (const auto part = find_word(Json{{found.key(), *found}}, error.value)) return part;
-    return Member{error.field, error.value.empty() ? *found : Json(error.value)};
+    const bool is_whole = error.field == found.key() || error.value.empty();
+    return Member{error.field, is_whole ? *found : Json(error.value)};
 }
 
 /// Names the member of the request that is wrong, if an error is about one.
@@ -83,6 +84,7 @@ Problem storage_problem(const Error& error) {
 Problem setting_problem(const Error& error, const Json& order) {
     Problem problem = problem_for(error, {400, "invalid_value"});
     name_member(error, order, problem);
+    if (problem.field.empty()) problem.field = error.field;  // a setting that is missing
     return problem;
 }
 

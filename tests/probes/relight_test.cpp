@@ -132,8 +132,9 @@ TEST(Relight, SaysWhatIsMissing) {
     volume.layer_names = "sun\nclouds\nrest\n";
     EXPECT_EQ(sky_error(), "the volume holds no layer \"sky\" to relight");
     volume.transfer.clear();
-    EXPECT_EQ(sky_error(),
-              "the volume holds no transfer of distant light (bake it with --layers sky,transfer)");
+    EXPECT_EQ(
+        sky_error(),
+        "the volume holds no transfer of distant light (bake it with the layers sky and transfer)");
 }
 
 }  // namespace

@@ -349,7 +349,7 @@ class Access(ServiceTest):
         self.assertTrue(answer.startswith(b"HTTP/1.1 401"))
 
     def test_other_addresses_need_a_token(self):
-        with self.assertRaisesRegex(RuntimeError, "give a token"):
+        with self.assertRaisesRegex(RuntimeError, "needs a token"):
             self.start("--listen", "0.0.0.0:0")
 
     def test_a_token_file_is_read(self):
