@@ -30,7 +30,7 @@ void append_text(std::string& out, const glm::vec3& position, const CellLocation
                  const RawAnswer& answer, const ProbeVolumeView& volume);
 
 /// Appends a line with a JSON object. Its numbers are exactly those of raw output when they are
-/// read as doubles; null stands for those of a position that are not finite.
+/// read as doubles; null for coordinates that are not finite.
 void append_json(std::string& out, const glm::vec3& position, const CellLocation& location,
                  const RawAnswer& answer, const ProbeVolumeView& volume);
 

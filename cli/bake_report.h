@@ -17,18 +17,18 @@ struct BakeRun {
     BakeSettings settings;
     /// Of sampling, in this run.
     double seconds = 0.0;
-    /// Rays of the runs that this one went on with.
+    /// Rays of the earlier runs that this one continued.
     uint64_t earlier_ray_count = 0;
 };
 
-/// Says what a bake of all probes made.
+/// Reports a bake of all probes.
 void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked);
 
-/// Says what a bake of a range made; `probe_count` is that of the volume.
+/// Reports a bake of a range; `probe_count` is that of the volume.
 void report_range(const CommonOptions& common, const BakeRun& run, const PartialBake& part,
                   size_t probe_count);
 
-/// Directions a probe and standard errors, as fields of a bake's JSON.
+/// Samples per probe and standard errors, as fields of a bake's JSON.
 [[nodiscard]] Json to_json(const BakeStatistics& statistics);
 
 /// The same as one line for people.

@@ -24,8 +24,8 @@ BallOptions::BallOptions(const Values& values)
     if (values.flag("specular")) specular = Specular::On;
 }
 
-/// Where the ball may stand: in the middle of the probes, or at one of those that are nearest to
-/// it, because probes stand where there is room.
+/// Candidates for the center of the ball: the center of the probes, and the probes that are nearest
+/// to it, because probes have room around them.
 std::vector<glm::dvec3> BallOptions::centers(const ProbeVolumeView& volume,
                                              const Box<glm::vec3>& bounds) const {
     constexpr size_t kMostProbes = 64;
@@ -42,7 +42,7 @@ std::vector<glm::dvec3> BallOptions::centers(const ProbeVolumeView& volume,
     return centers;
 }
 
-/// From the probes' bounds, and smaller ones for where there is little room.
+/// Candidates for the radius: from the bounds of the probes, and smaller ones for narrow places.
 std::vector<double> BallOptions::radii(const ProbeVolumeView& volume,
                                        const Box<glm::vec3>& bounds) const {
     if (has_radius_ || volume.positions.empty()) return {settings.radius};
@@ -51,7 +51,7 @@ std::vector<double> BallOptions::radii(const ProbeVolumeView& volume,
     return {largest, 0.5 * largest, 0.25 * largest};
 }
 
-/// Floats hold the spheres' places: they have to be finer than the smallest sphere.
+/// Positions of spheres are floats: their spacing has to be smaller than the smallest sphere.
 void BallOptions::check_center() const {
     const glm::dvec3 distance = glm::abs(settings.center);
     const double farthest = std::max({distance.x, distance.y, distance.z});

@@ -10,7 +10,7 @@
 
 namespace tetralight::cli {
 
-/// The ball, its light, and where it and the camera stand.
+/// The ball, its light, and its position.
 struct BallOptions {
     MeshBallSettings settings;
     BallLight light = BallLight::Probes;
@@ -19,8 +19,8 @@ struct BallOptions {
     /// Keeps a reference.
     explicit BallOptions(const Values& values);
 
-    /// The ball fills the middle of the probes unless the user placed it, and the camera sees it
-    /// unless the user placed that. `scene` may be null.
+    /// Puts the ball at the center of the probes unless the user placed it, and returns a camera
+    /// that sees the ball unless the user placed the camera. `scene` may be null.
     [[nodiscard]] Camera place(const ProbeVolumeView& volume, const SceneShader* scene,
                                const ViewOptions& view);
 

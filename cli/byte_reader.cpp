@@ -16,7 +16,7 @@ Result<ByteReader> ByteReader::open(const std::string& path) {
     return reader;
 }
 
-/// Also true at the end of the file and for errors, which read() then tells.
+/// Also true at the end of the file and for errors, which read() then returns.
 bool ByteReader::has_input(int timeout_milliseconds) const {
     pollfd query{file_.value(), POLLIN, 0};
     return ::poll(&query, 1, timeout_milliseconds) != 0;

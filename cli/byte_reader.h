@@ -23,8 +23,8 @@ class ByteReader {
     /// for an answer before going on.
     void before_wait(Action action) { before_wait_ = std::move(action); }
 
-    /// Reads what is there, at least a byte; 0 at the end. Errors: those of the system and of the
-    /// action.
+    /// Reads the available bytes, at least one; 0 at the end. Returns the errors of the system and
+    /// of the action.
     [[nodiscard]] Result<size_t> read(std::span<char> memory);
 
     /// As messages say it.

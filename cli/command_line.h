@@ -29,7 +29,7 @@ struct CommandLine {
 
 /// Splits the words of the command line; the values of settings are not checked yet. The only
 /// place that knows CLI11. Returns invalid_argument if an option or a command is unknown, or an
-/// option has no value; `command` of the result of `command_in` says whose.
+/// option has no value; `command_in` finds the command for the message.
 [[nodiscard]] Result<CommandLine> parse_command_line(int argc, const char* const* argv);
 
 /// The command that the words name; null: none. For messages about words that cannot be parsed.

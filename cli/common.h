@@ -32,7 +32,7 @@ struct CommonOptions {
     void warn(const std::vector<std::string>& warnings) const;
     /// "BEFORE: reasonAFTER".
     void warn(const std::string& before, const Error& reason, const std::string& after) const;
-    /// Says that a volume was never baked, so that nobody wonders at black answers.
+    /// Warns that a volume was never baked, which explains black answers.
     void warn_if_unlit(const std::string& path, const ProbeVolumeView& volume) const;
 };
 

@@ -26,7 +26,7 @@ std::string options_of(const Table& table) {
     return names;
 }
 
-/// "--output|-o": what stands before a value.
+/// "--output|-o": the words before a value.
 std::string option_pattern(const Setting& setting) {
     const std::string name = shown_name(setting, Form::Options);
     return setting.short_name == 0 ? name : str_cat(name, "|-", setting.short_name);

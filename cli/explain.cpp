@@ -13,7 +13,7 @@
 namespace tetralight::cli {
 namespace {
 
-/// Who adds what of a light while the scene is shown.
+/// What the runtime adds of a light.
 std::string runtime_part(const std::vector<RuntimeLight>& lights, size_t index) {
     const auto light =
         std::ranges::find(lights, static_cast<uint32_t>(index), &RuntimeLight::index);
@@ -47,7 +47,7 @@ Json light_json(const Scene& scene, const LightingPlan& plan, size_t i) {
     return json;
 }
 
-/// Sky and materials, which count whatever the mode is.
+/// Sky and materials, which are baked in every mode.
 Json constant_json(const LightingPlan& plan, const std::string& name, const std::string& type,
                    uint32_t layer) {
     Json json = source_json(name, type, "baked", {.has_direct = true, .has_bounces = true});

@@ -21,7 +21,7 @@ glm::dvec3 read_selection(const Values& values, std::string_view text) {
     return {v[0], v[1], v[2]};
 }
 
-/// Cuts off what stands before the `count`th comma.
+/// Removes and returns the text before the `count`th comma.
 std::string_view take(std::string_view& text, int count) {
     size_t end = text.find(',');
     for (int i = 1; i < count && end != text.npos; ++i) end = text.find(',', end + 1);

@@ -77,8 +77,9 @@ struct Grid {
         if (grid->adaptive && grid->adaptive->end == AdaptiveEnd::Interrupted) return keep(*grid);
         if (auto status = write_groups(output, grid->groups); !status) return status;
         if (!preview.path.empty()) {
-            const GridInterrupt interrupt("interrupted; " + output + " is written, " +
-                                          preview.path + " is as it was");
+            const GridInterrupt interrupt(
+                "interrupted; " + output + " is written, " + preview.path + " is as it was",
+                common.is_json && output != "-");
             auto status = preview.write(*scene, *grid, common.thread_count);
             if (!status) return status;
         }
@@ -97,7 +98,7 @@ struct Grid {
 
     [[nodiscard]] Result<ProbeGrid> make_grid(const Scene& scene) const {
         if (settings.mode != PlacementMode::Adaptive) {
-            const GridInterrupt interrupt(interrupted());
+            const GridInterrupt interrupt(interrupted(), common.is_json);
             return make_probe_grid(scene, settings);
         }
         GridProgressDisplay display(common.is_quiet);

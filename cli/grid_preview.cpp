@@ -16,10 +16,10 @@
 namespace tetralight::cli {
 namespace {
 
-/// As many as the eye needs.
+/// Enough for a picture.
 constexpr uint32_t kSampleCount = 128;
 
-/// Metres from each probe to the nearest other one: these share a cell.
+/// Metres from each probe to the nearest other one: both belong to one cell.
 std::vector<float> nearest_distances(const ProbeVolumeView& volume) {
     std::vector<float> nearest(volume.probe_count(), std::numeric_limits<float>::infinity());
     for (const Cell& cell : volume.cells) {
@@ -34,10 +34,10 @@ std::vector<float> nearest_distances(const ProbeVolumeView& volume) {
     return nearest;
 }
 
-/// Balls that do not touch, but for those that would be too small to be seen.
+/// Balls that do not touch, except those that would be too small to be visible.
 std::vector<LightBall> probe_balls(const ProbeVolumeView& volume, const Camera& camera) {
     constexpr float kOfSpacing = 0.35f;
-    // Radii, as shares of the picture's height.
+    // Radii, as fractions of the picture's height.
     constexpr double kLargest = 0.008, kSmallest = 0.0015;
     const std::vector<float> nearest = nearest_distances(volume);
     std::vector<LightBall> balls;
@@ -53,7 +53,7 @@ std::vector<LightBall> probe_balls(const ProbeVolumeView& volume, const Camera& 
     return balls;
 }
 
-/// What a ray sees: the scene, and the first ball, dimmed where it is hidden.
+/// Radiance along a ray: of the scene and the first ball, which is dimmed if it is hidden.
 glm::vec3 radiance_along(const SceneShader& shader, const LightBalls& balls,
                          const ProbeVolumeView& volume, const glm::dvec3& origin,
                          glm::vec3 direction) {

@@ -11,14 +11,14 @@
 namespace tetralight::cli {
 
 /// `--preview`: a picture of the scene with the probes of a grid as balls, lit by a quick bake.
-/// What hides a ball is seen through.
+/// Balls behind walls show through.
 struct GridPreview {
     std::string path;
     ViewOptions view;
 
     explicit GridPreview(const Values& values) : path(values.text("preview")), view(values) {}
 
-    /// To be called before `write`, and before long work. Error: no such camera.
+    /// Call before `write` and before long work. Returns not_found if there is no such camera.
     Status choose_camera(const Scene& scene, const std::string& scene_path);
 
     [[nodiscard]] Status write(const Scene& scene, const ProbeGrid& grid, uint32_t thread_count);

@@ -9,8 +9,8 @@
 
 namespace tetralight::cli {
 
-/// Shows how an adaptive grid goes on, on stderr: one line a round, which on a terminal takes the
-/// place of the one before; nothing when quiet. Ctrl-C and SIGTERM end the grid.
+/// Shows the progress of an adaptive grid on stderr: one line a round, which on a terminal replaces
+/// the previous line; nothing when quiet. Ctrl-C and SIGTERM end the grid.
 class GridProgressDisplay {
   public:
     explicit GridProgressDisplay(bool is_quiet);
@@ -18,11 +18,11 @@ class GridProgressDisplay {
     GridProgressDisplay(const GridProgressDisplay&) = delete;
     GridProgressDisplay& operator=(const GridProgressDisplay&) = delete;
 
-    /// To be called by the generator; false after a signal.
+    /// Called by the generator; false after a signal.
     bool show(const AdaptiveProgress& progress);
 
   private:
-    BakeProgressDisplay signals_{true, 0.0};  // says nothing; it catches signals
+    BakeProgressDisplay signals_{true, 0.0};  // quiet; it catches signals
     bool is_quiet_;
     bool is_terminal_;
     bool is_line_open_ = false;

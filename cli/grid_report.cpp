@@ -81,11 +81,11 @@ std::string adaptive_text(const AdaptiveReport& report) {
                    magnitude(static_cast<double>(report.ray_count)), "rays\n");
 }
 
-std::string share_text(uint64_t count, uint64_t all) {
+std::string fraction_text(uint64_t count, uint64_t all) {
     return all == 0 ? "" : percent(static_cast<double>(count) / static_cast<double>(all));
 }
 
-/// With as few digits as tell it.
+/// With as few digits as needed.
 std::string place_text(const glm::dvec3& position) {
     const glm::vec3 p(position);
     return str_cat(p.x, ",", p.y, ",", p.z);
@@ -157,7 +157,7 @@ Json grid_json(const std::string& output, const ProbeGrid& grid) {
 std::string grid_text(const std::string& output, const ProbeGrid& grid) {
     std::vector<std::vector<std::string>> rows;
     const auto add = [&](const std::string& words, uint64_t count) {
-        rows.push_back({words, grouped(count), share_text(count, grid.candidate_count)});
+        rows.push_back({words, grouped(count), fraction_text(count, grid.candidate_count)});
     };
     add("kept where it stood", grid.count(Fate::Kept));
     add("pushed", grid.count(Fate::Pushed));

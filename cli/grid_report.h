@@ -16,8 +16,8 @@ namespace tetralight::cli {
 /// The same as a table.
 [[nodiscard]] std::string grid_text(const std::string& output, const ProbeGrid& grid);
 
-/// Spaces that were left out, one line each for the largest, and what else went otherwise than the
-/// settings ask for.
+/// One line for each of the largest spaces without probes, and for other deviations from the
+/// settings.
 [[nodiscard]] std::vector<std::string> grid_warnings(const ProbeGrid& grid,
                                                      const ProbeGridSettings& settings);
 

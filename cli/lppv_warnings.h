@@ -8,8 +8,8 @@
 
 namespace tetralight::cli {
 
-/// What a file does not hold of a proxy volume that it was written from, one line each: light
-/// beyond the largest half, occlusion, band 2.
+/// One line for each part of a proxy volume that its file cannot hold: light above the largest
+/// half, occlusion, band 2.
 [[nodiscard]] std::vector<std::string> lppv_warnings(const Lppv& lppv,
                                                      const LppvFileSettings& file);
 

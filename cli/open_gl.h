@@ -9,8 +9,8 @@
 
 namespace tetralight::cli {
 
-/// OpenGL for pictures of such a size. None where it is not there or too small for them: a warning
-/// says why, and that the CPU renders. Warns of drivers that draw on the CPU, too.
+/// OpenGL for pictures of such a size. None if it is missing or too small for them: a warning
+/// gives the reason, and the CPU renders. Also warns of drivers that draw on the CPU.
 [[nodiscard]] std::optional<OffscreenContext> open_gl(const RenderSettings& settings,
                                                       const CommonOptions& common);
 

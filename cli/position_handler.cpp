@@ -54,7 +54,7 @@ bool PositionHandler::coordinate(float number) {
     return true;
 }
 
-/// A value that is wrong unless nobody asked for it.
+/// A value that is wrong unless it belongs to an ignored member.
 bool PositionHandler::value(std::string_view shown_value) {
     if (is_ignored()) return true;
     const std::string what = str_cat(" (", shown(shown_value), ")");
@@ -105,7 +105,7 @@ bool PositionHandler::start_object(size_t /*size*/) {
 bool PositionHandler::key(std::string& name) {
     if (ignored_depth_ > 0) return true;
     is_position_next_ = name == "position";
-    if (is_position_next_ && has_position_) return fail("key \"position\" stands twice");
+    if (is_position_next_ && has_position_) return fail("key \"position\" is given twice");
     return true;
 }
 

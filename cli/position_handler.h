@@ -12,7 +12,8 @@
 
 namespace tetralight::cli {
 
-/// Takes positions out of JSON while it is parsed (nlohmann's SAX interface): none of it is kept.
+/// Takes positions out of JSON while it is parsed (nlohmann's SAX interface): the document is not
+/// kept.
 class PositionHandler {
   public:
     enum class Document : uint8_t { Array, Position };
@@ -61,7 +62,7 @@ class PositionHandler {
     Error error_;
     Place place_ = Place::Document;
     uint64_t index_ = 0;  ///< of the position
-    /// Arrays and objects that are open inside a value that nobody asked for.
+    /// Open arrays and objects inside an ignored value.
     uint64_t ignored_depth_ = 0;
     bool is_in_array_ = false;
     bool is_in_object_ = false;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr size_t kLongestLine = size_t{1} << 18;
 
-/// A line's position, or none: it is blank.
+/// The position on a line; none if the line is blank.
 using ParsedLine = Result<std::optional<glm::vec3>>;
 
 bool is_blank(std::string_view line) {
@@ -39,7 +39,7 @@ ParsedLine parse_csv_line(std::string_view line) {
     return parse_text_line(line.substr(0, end));
 }
 
-/// Whether a line of text names the columns that follow, as the header of our own CSV does.
+/// True if a line of text is a CSV header, as that of our own CSV.
 bool is_csv_header(std::string_view line) {
     constexpr std::string_view kNames = "x,y,z";
     if (!line.starts_with(kNames)) return false;

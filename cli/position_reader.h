@@ -9,7 +9,7 @@
 namespace tetralight::cli {
 
 /// Reads positions to the end, in constant memory. Those before an error are answered; the error
-/// names the input, the line, element or record, and what stands there.
+/// names the input, the line, element or record, and its value.
 [[nodiscard]] Status read_positions(ByteReader& reader, PositionFormat format,
                                     PositionChunks& chunks);
 

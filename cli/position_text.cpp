@@ -34,7 +34,7 @@ Result<float> parse_coordinate(std::string_view digits, char axis, size_t& lengt
 
 namespace {
 
-/// A '+' that a number follows says nothing.
+/// A '+' before a number is ignored.
 std::string_view without_plus(std::string_view digits) {
     const bool has_plus = digits.starts_with('+') && !digits.substr(1).starts_with('-');
     return has_plus ? digits.substr(1) : digits;

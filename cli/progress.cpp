@@ -49,9 +49,9 @@ int BakeProgressDisplay::interrupting_signal() {
     return g_signal;
 }
 
-double BakeProgressDisplay::share_done(const BakeProgress& progress, double seconds) const {
+double BakeProgressDisplay::fraction_done(const BakeProgress& progress, double seconds) const {
     if (progress.probe_count == 0) return 1.0;
-    // The first round is done whatever the budget.
+    // The first round always ends.
     const bool is_over_budget = seconds >= time_budget_seconds_;
     if (time_budget_seconds_ == 0.0 || is_over_budget) return progress.fraction_done;
     return std::max(progress.fraction_done, seconds / time_budget_seconds_);
@@ -59,9 +59,9 @@ double BakeProgressDisplay::share_done(const BakeProgress& progress, double seco
 
 std::optional<double> BakeProgressDisplay::seconds_left(const BakeProgress& progress,
                                                         double seconds) const {
-    const double share = share_done(progress, seconds);
-    if (share <= first_share_) return std::nullopt;
-    return seconds * (1.0 - share) / (share - first_share_);
+    const double fraction = fraction_done(progress, seconds);
+    if (fraction <= first_fraction_) return std::nullopt;
+    return seconds * (1.0 - fraction) / (fraction - first_fraction_);
 }
 
 std::string BakeProgressDisplay::summary(const BakeProgress& progress, double seconds) const {
@@ -74,7 +74,7 @@ std::string BakeProgressDisplay::summary(const BakeProgress& progress, double se
 }
 
 bool BakeProgressDisplay::show(const BakeProgress& progress) {
-    if (first_share_ < 0.0) first_share_ = progress.fraction_done;
+    if (first_fraction_ < 0.0) first_fraction_ = progress.fraction_done;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
     if (!file_.empty()) write_file(progress, elapsed.count());
     if (!is_quiet_) {
@@ -90,13 +90,13 @@ bool BakeProgressDisplay::show(const BakeProgress& progress) {
 void BakeProgressDisplay::draw_bar(const BakeProgress& progress, double seconds) {
     if (seconds < 1.0 && !is_bar_drawn_) return;
     is_bar_drawn_ = true;
-    const int filled = static_cast<int>(share_done(progress, seconds) * kBarWidth);
+    const int filled = static_cast<int>(fraction_done(progress, seconds) * kBarWidth);
     std::cerr << "\r[" << std::string(filled, '#') << std::string(kBarWidth - filled, '.') << "] "
               << summary(progress, seconds) << "\x1b[K" << std::flush;
 }
 
 void BakeProgressDisplay::print_line(const BakeProgress& progress, double seconds) {
-    const int tenth = static_cast<int>(share_done(progress, seconds) * 10.0);
+    const int tenth = static_cast<int>(fraction_done(progress, seconds) * 10.0);
     if (seconds < 1.0 || tenth == last_tenth_) return;
     last_tenth_ = tenth;
     std::cerr << "Progress: " << tenth * 10 << "%, " << summary(progress, seconds) << '\n';

@@ -9,8 +9,8 @@
 
 namespace tetralight::cli {
 
-/// Shows how a bake goes on, on stderr: a bar on a terminal once it takes longer than a second, a
-/// plain line for each tenth elsewhere, nothing when quiet; and in a file for other programs.
+/// Shows the progress of a bake on stderr: a bar on a terminal once it takes longer than a second,
+/// a plain line for each tenth elsewhere, nothing when quiet; and in a file for other programs.
 /// Ctrl-C and SIGTERM cancel the bake.
 class BakeProgressDisplay {
   public:
@@ -20,17 +20,17 @@ class BakeProgressDisplay {
     BakeProgressDisplay(const BakeProgressDisplay&) = delete;
     BakeProgressDisplay& operator=(const BakeProgressDisplay&) = delete;
 
-    /// To be called by the bake; false after a signal.
+    /// Called by the bake; false after a signal.
     bool show(const BakeProgress& progress);
 
     /// SIGINT or SIGTERM if one of them came since the program began, or else 0.
     [[nodiscard]] static int interrupting_signal();
 
   private:
-    /// How far a bake is, in [0, 1], `seconds` after it began.
-    [[nodiscard]] double share_done(const BakeProgress& progress, double seconds) const;
-    /// As long as the rest takes at the pace of this run, whatever earlier ones left done; nothing
-    /// while that is not known.
+    /// The finished fraction of a bake `seconds` after it began.
+    [[nodiscard]] double fraction_done(const BakeProgress& progress, double seconds) const;
+    /// Time left at the pace of this run, without what earlier runs did; none while it is
+    /// unknown.
     [[nodiscard]] std::optional<double> seconds_left(const BakeProgress& progress,
                                                      double seconds) const;
     [[nodiscard]] std::string summary(const BakeProgress& progress, double seconds) const;
@@ -43,7 +43,7 @@ class BakeProgressDisplay {
     std::string file_;
     double next_write_seconds_ = 0.0;
     bool has_told_time_left_ = false;
-    double first_share_ = -1.0;  ///< what an earlier run left done; negative: not known yet
+    double first_fraction_ = -1.0;  ///< finished by earlier runs; negative: unknown
     bool is_terminal_;
     bool is_bar_drawn_ = false;
     int last_tenth_ = 0;

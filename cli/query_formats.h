@@ -25,10 +25,10 @@ enum class AnswerFormat : uint8_t {
     Raw,        ///< `RawAnswer`, 128 bytes each
 };
 
-/// What the extension of a file says; files of any other are text.
+/// By the extension of a file; text if it is unknown.
 [[nodiscard]] PositionFormat position_format_of_file(const std::string& path);
 
-/// What the extension of a file says. None: it has no extension, or one of another format.
+/// By the extension of a file; none if it has no extension or an unknown one.
 [[nodiscard]] std::optional<AnswerFormat> answer_format_of_file(const std::string& path);
 
 }  // namespace tetralight::cli

@@ -72,7 +72,7 @@ struct Relight {
         return Ok{};
     }
 
-    /// With what was changed, in words that repeat it; weights are recorded with their layers.
+    /// With the options that repeat the change; weights are recorded with their layers.
     [[nodiscard]] std::string metadata(Json recipe) const {
         if (recipe.is_null()) recipe = Json::object();
         std::string relit = recipe.value("relit", "");
@@ -115,7 +115,7 @@ struct Relight {
         return all ? recombine(volume, *all) : Status(all.error());
     }
 
-    /// Another one, or the volume's own, turned and dimmed.
+    /// Replaces the sky, or rotates and scales that of the volume.
     [[nodiscard]] Status change_sky(ProbeVolume& volume) const {
         if (sky.replaces_sky()) {
             Environment environment;
@@ -124,14 +124,14 @@ struct Relight {
             common.warn(warnings);
             return relight_sky(volume, project_sky(environment, common.thread_count));
         }
-        DistantLight turned;
+        DistantLight rotated;
         if (!volume.sky.empty()) {
             const auto angle = glm::radians(static_cast<float>(sky.rotation_degrees));
-            turned = rotate(volume.sky[0],
-                            glm::mat3(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0))));
-            turned *= static_cast<float>(sky.intensity);
+            rotated = rotate(volume.sky[0],
+                             glm::mat3(glm::rotate(glm::mat4(1.0f), angle, glm::vec3(0, 1, 0))));
+            rotated *= static_cast<float>(sky.intensity);
         }
-        return relight_sky(volume, turned);
+        return relight_sky(volume, rotated);
     }
 
     [[nodiscard]] Status move_sun(ProbeVolume& volume) const {

@@ -50,7 +50,7 @@ bool is_origin(std::string_view text) {
            std::ranges::none_of(text, is_upper);
 }
 
-/// "light.example.com": what `Host` says before its port.
+/// "light.example.com": the `Host` header without its port.
 bool is_host(std::string_view text) {
     return !text.empty() && is_visible(text) &&
            text.find_first_of(":/?#@,*") == std::string_view::npos;

@@ -55,7 +55,7 @@ Status SkyOptions::apply(const std::string& scene_path, Environment& environment
         if (image->mended_pixel_count > 0) {
             warnings.push_back(
                 str_cat(path, ": ", counted(image->mended_pixel_count, "pixel"),
-                        " mended (NaN and negative become 0, infinite 65504, and nothing is "
+                        " repaired (NaN and negative become 0, infinite 65504, and nothing is "
                         "above 1e30)"));
         }
     }

@@ -9,7 +9,7 @@ namespace tetralight::cli {
 inline constexpr const char* kTetgenVariable = "TETRALIGHT_TETGEN";
 
 /// The program of `--backend tetgen`: what the environment names, else `tetralight-tetgen` beside
-/// the running command, else whatever PATH has of that name.
+/// the running command, else the one that PATH finds.
 [[nodiscard]] TetgenProgram find_tetgen_program();
 
 }  // namespace tetralight::cli

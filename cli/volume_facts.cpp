@@ -91,7 +91,7 @@ std::vector<SectionFacts> section_facts(const ProbeFile& file) {
     return sections;
 }
 
-/// NaN, which JSON writes as null, when there is nothing to share among.
+/// NaN, which JSON writes as null, if the whole is 0.
 double per(uint64_t bytes, uint64_t probes) {
     return static_cast<double>(bytes) / static_cast<double>(probes);
 }

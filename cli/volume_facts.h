@@ -26,7 +26,7 @@ struct SectionFacts {
     bool is_resident = false;
 };
 
-/// What `info` says of a volume beside the counts that every command gives.
+/// What `info` reports of a volume in addition to the counts of every command.
 struct VolumeFacts {
     std::string path;
     Json counts;

@@ -19,8 +19,8 @@ using Rows = std::vector<std::vector<std::string>>;
 std::string percent(uint64_t part, uint64_t whole) {
     if (whole == 0) return "-";
     char buffer[32];
-    const double share = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
-    std::snprintf(buffer, sizeof buffer, "%.1f %%", share);
+    const double fraction = 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+    std::snprintf(buffer, sizeof buffer, "%.1f %%", fraction);
     return buffer;
 }
 

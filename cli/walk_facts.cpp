@@ -28,7 +28,7 @@ class Positions {
         double weight_sum = 0.0;
         for (const uint32_t probe : cell.vertices) {
             if (probe == kNoIndex) continue;
-            const double weight = -std::log1p(-share());  // even in the cell once normalized
+            const double weight = -std::log1p(-uniform());  // even in the cell once normalized
             sum += weight * glm::dvec3(volume_.positions[probe]);
             weight_sum += weight;
         }
@@ -36,9 +36,9 @@ class Positions {
     }
 
     glm::vec3 around() {
-        const double x = share(), y = share(), z = share();
-        const glm::dvec3 shares = 1.1 * glm::dvec3(x, y, z) - 0.05;
-        return in_world(glm::mix(glm::dvec3(bounds_.min), glm::dvec3(bounds_.max), shares));
+        const double x = uniform(), y = uniform(), z = uniform();
+        const glm::dvec3 fractions = 1.1 * glm::dvec3(x, y, z) - 0.05;
+        return in_world(glm::mix(glm::dvec3(bounds_.min), glm::dvec3(bounds_.max), fractions));
     }
 
   private:
@@ -46,7 +46,7 @@ class Positions {
         return glm::vec3(local + volume_.info.world_origin);
     }
 
-    double share() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+    double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
     const ProbeVolumeView& volume_;
     Box<glm::vec3> bounds_;

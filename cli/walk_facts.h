@@ -14,7 +14,7 @@ struct WalkFacts {
     uint32_t position_count = 0;
 
     // Positions in inner cells, each cell as likely as any other: they are as dense as the probes.
-    double seed_hit_rate = 0.0;    ///< share whose seed is the cell that holds them
+    double seed_hit_rate = 0.0;    ///< fraction of positions whose seed is their own cell
     double steps_from_seed = 0.0;  ///< mean number of cells tested
 
     // Positions evenly in the box around the probes, 10 % longer on each axis.

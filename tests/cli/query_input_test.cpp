@@ -139,7 +139,7 @@ TEST_F(QueryInput, IsRefusedByLineAndValueWhenJsonLinesAreMalformed) {
         {R"({"pos": [1, 2, 3]})", R"(has no "position")"},
         {R"({"position": 1.5})", R"("position" is not [x, y, z] (1.5))"},
         {R"({"position": {"x": 1}})", R"("position" is not [x, y, z] (an object))"},
-        {R"({"position": [1, 2, 3], "position": [1, 2, 3]})", R"(key "position" stands twice)"},
+        {R"({"position": [1, 2, 3], "position": [1, 2, 3]})", R"(key "position" is given twice)"},
     };
     for (const auto& [line, reason] : kMalformed) {
         EXPECT_EQ(message_of("p.jsonl", std::string("\n") + line + "\n"),

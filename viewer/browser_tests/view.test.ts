@@ -110,11 +110,11 @@ test('without a weight left, scene and sky are black', () => visit(server.url, a
     expect(await brightest()).toBeLessThan(1e-3);
 }));
 
-test('light that is kept is what the page names', () => visit(server.url, async page => {
+test('light that is stored is what the page names', () => visit(server.url, async page => {
     await ready(page);
     await page.getByLabel('sun', {exact: true}).fill('0.5');
     await page.getByRole('button', {name: 'Keep as a volume'}).click();
-    await page.locator('#status', {hasText: 'The light is kept'}).waitFor();
+    await page.locator('#status', {hasText: 'The light is stored'}).waitFor();
     const {volumes} = await server.request<{volumes: {id: string}[]}>('GET', '/v1/volumes');
     const made = volumes.find(({id}) => id !== volume)!.id;
     expect(await page.getByLabel('Probe volume').inputValue()).toBe(made);
