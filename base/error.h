@@ -74,8 +74,6 @@ struct Error {
           value(std::move(field_value)),
           message(std::move(error_message)) {}
 
-    Error(std::string error_message) : message(std::move(error_message)) {}
-
     /// The same error with a place before the message: `b` in `a` reads `a: b`.
     [[nodiscard]] Error in(std::string_view place) const {
         Error error = *this;

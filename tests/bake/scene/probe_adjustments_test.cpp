@@ -18,7 +18,7 @@ Result<std::vector<ProbeAdjustment>> read(const std::string& text) {
     auto result = read_probe_adjustments(folder.write("a.json", std::as_bytes(std::span(text))));
     if (result) return result;
     const std::string& message = error_text(result.error());
-    return Error{message.substr(message.find("a.json: ") + 8)};
+    return Error{result.error().code, message.substr(message.find("a.json: ") + 8)};
 }
 
 std::string error_of(const std::string& text) {
