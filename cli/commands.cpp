@@ -7,11 +7,17 @@ namespace tetralight::cli {
 namespace {
 
 constexpr Command kCommands[] = {
-    {&settings::kGrid, run_grid},         {&settings::kBake, run_bake},
-    {&settings::kMerge, run_merge},       {&settings::kTetrahedralize, run_tetrahedralize},
-    {&settings::kQuery, run_query},       {&settings::kRelight, run_relight},
-    {&settings::kLppv, run_lppv},         {&settings::kRender, run_render},
-    {&settings::kMeshball, run_meshball}, {&settings::kInfo, run_info},
+    {&settings::kGrid, run_grid},
+    {&settings::kBake, run_bake},
+    {&settings::kMerge, run_merge},
+    {&settings::kPrune, run_prune},
+    {&settings::kTetrahedralize, run_tetrahedralize},
+    {&settings::kQuery, run_query},
+    {&settings::kRelight, run_relight},
+    {&settings::kLppv, run_lppv},
+    {&settings::kRender, run_render},
+    {&settings::kMeshball, run_meshball},
+    {&settings::kInfo, run_info},
     {&settings::kValidate, run_validate},
 #ifdef TETRALIGHT_HAS_SERVER
     {&settings::kServe, run_serve},

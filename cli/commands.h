@@ -16,6 +16,7 @@ Status run_info(const Values& values);
 Status run_lppv(const Values& values);
 Status run_merge(const Values& values);
 Status run_meshball(const Values& values);
+Status run_prune(const Values& values);
 Status run_query(const Values& values);
 Status run_relight(const Values& values);
 Status run_render(const Values& values);

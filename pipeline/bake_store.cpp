@@ -244,7 +244,7 @@ Status BakeStore::merge_own_packs() {
     return Ok{};
 }
 
-void BakeStore::prune(uint64_t max_bytes) {
+StoreSize BakeStore::prune(uint64_t max_bytes) {
     struct File {
         fs::file_time_type used;
         std::string path;
@@ -252,26 +252,29 @@ void BakeStore::prune(uint64_t max_bytes) {
     };
 
     std::vector<File> files;
-    uint64_t total = 0;
+    StoreSize size;
     std::error_code error;
     for (const std::string& path : pack_paths(folder_)) {
-        const uint64_t size = fs::file_size(path, error);
+        const uint64_t pack_size = fs::file_size(path, error);
         if (error) continue;
-        files.push_back({fs::last_write_time(path, error), path, size});
-        total += size;
+        files.push_back({fs::last_write_time(path, error), path, pack_size});
+        size.kept += pack_size;
     }
     std::ranges::sort(files, [](const File& a, const File& b) {
         return std::tie(a.used, a.path) < std::tie(b.used, b.path);
     });
     for (const File& file : files) {
-        if (total <= max_bytes) break;
+        if (size.kept <= max_bytes) break;
         fs::remove(file.path, error);
-        total -= file.size;
+        if (error) continue;
+        size.kept -= file.size;
+        size.deleted += file.size;
     }
     packs_.clear();
     locations_.clear();
     own_packs_.clear();
     add_packs();
+    return size;
 }
 
 }  // namespace tetralight

@@ -22,6 +22,12 @@ struct StoreEntry {
     std::span<const std::byte> value;
 };
 
+/// Sizes of a store's packs in bytes, after the least recently used ones were deleted.
+struct StoreSize {
+    uint64_t kept = 0;
+    uint64_t deleted = 0;
+};
+
 /// A folder of results that are expensive to compute: key → bytes. Entries are kept in pack files.
 /// Each `put` writes one new pack, syncs it and renames it into place; packs never change after
 /// that, so several processes can use one folder at the same time. Each entry has a checksum.
@@ -49,7 +55,8 @@ class BakeStore {
     [[nodiscard]] Status put(std::span<const StoreEntry> entries);
 
     /// Deletes the least recently used packs until all packs together have at most `max_bytes`.
-    void prune(uint64_t max_bytes);
+    /// Packs that cannot be deleted stay.
+    StoreSize prune(uint64_t max_bytes);
 
     /// Damaged packs and entries met so far.
     [[nodiscard]] size_t damaged_count() const { return damaged_count_; }

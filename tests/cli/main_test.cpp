@@ -13,8 +13,8 @@ TEST_F(Main, SaysItsVersion) {
 
 TEST_F(Main, HelpListsTheSubcommands) {
     const std::string out = succeed({"--help"}).out;
-    for (const char* name : {"bake", "grid", "info", "merge", "meshball", "query", "render",
-                             "tetrahedralize", "validate"}) {
+    for (const char* name : {"bake", "grid", "info", "merge", "meshball", "prune", "query",
+                             "render", "tetrahedralize", "validate"}) {
         EXPECT_TRUE(contains(out, std::string("\n  ") + name)) << name;
     }
 }
@@ -30,8 +30,8 @@ TEST_F(Main, NamesAnUnknownSubcommand) {
 class EverySubcommand : public CommandFixture, public testing::WithParamInterface<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Main, EverySubcommand,
-                         testing::Values("bake", "grid", "info", "merge", "meshball", "query",
-                                         "render", "tetrahedralize", "validate"),
+                         testing::Values("bake", "grid", "info", "merge", "meshball", "prune",
+                                         "query", "render", "tetrahedralize", "validate"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST_P(EverySubcommand, HelpHasAnExample) {
