@@ -3,6 +3,7 @@
 
 #include <glm/vec3.hpp>
 #include <string_view>
+#include <type_traits>
 
 #include <tetralight/settings/values.h>
 
@@ -30,6 +31,18 @@ struct UsageError {
 template <class Enum>
 [[nodiscard]] Enum choice(const Values& values, std::string_view name) {
     return static_cast<Enum>(values.choice(name));
+}
+
+/// Sets `member` to the setting's value, if it was given or has a default.
+template <class T>
+void read_if_any(const Values& values, std::string_view name, T& member) {
+    const settings::Json* value = values.find(name);
+    if (value == nullptr) return;
+    if constexpr (std::is_enum_v<T>) {
+        member = choice<T>(values, name);
+    } else {
+        member = value->get<T>();
+    }
 }
 
 [[nodiscard]] inline glm::dvec3 vec3(const Values& values, std::string_view name) {

@@ -18,13 +18,11 @@ constexpr Setting kFiles[] = {
      .help = "Probe groups in addition to the scene's own: a .json file or a glTF scene",
      .without = "the scene's own",
      .short_name = 'g',
-     .is_list = true,
-     .changes_light = true},
+     .is_list = true},
     {.name = "only_given_groups",
      .type = Type::Flag,
      .help = "Ignore the scene's own probe groups",
-     .needs = "groups",
-     .changes_light = true}};
+     .needs = "groups"}};
 
 constexpr Setting kSampling[] = {
     {.name = "samples",
@@ -33,30 +31,26 @@ constexpr Setting kSampling[] = {
      .unit = "samples",
      .range = {1, 1 << 24},
      .without = "1024 in the first round",
-     .short_name = 's',
-     .changes_light = true},
+     .short_name = 's'},
     {.name = "target_error",
      .type = Type::Fraction,
      .help = "Double the samples of a probe until its relative standard error is below this",
      .unit = "fraction",
      .range = {0, 1, true},
-     .without = "0.5% with at most 131072 samples, unless --samples or --time-budget is given",
-     .changes_light = true},
+     .without = "0.5% with at most 131072 samples, unless --samples or --time-budget is given"},
     {.name = "max_samples",
      .type = Type::Integer,
      .help = "Most samples per probe with --target-error or --time-budget",
      .unit = "samples",
      .range = {1, 0x1p32},
-     .without = "64 times --samples",
-     .changes_light = true},
+     .without = "64 times --samples"},
     {.name = "time_budget",
      .type = Type::Seconds,
      .help = "Start no further round of samples after this time; the result is not reproducible",
      .unit = "seconds",
      .range = {0, 1e9, true},
      .without = "no limit",
-     .access = Access::Command,
-     .changes_light = true},
+     .access = Access::Command},
     seed_setting("Seed of the random numbers")};
 
 constexpr Setting kTransport[] = {
@@ -66,38 +60,33 @@ constexpr Setting kTransport[] = {
      .help = "Largest radiance of one path, for less noise and less light; 0 = not clamped",
      .unit = "radiance",
      .range = kRadiance,
-     .default_text = "0",
-     .changes_light = true},
+     .default_text = "0"},
     {.name = "albedo_boost",
      .type = Type::Number,
      .help = "Raise albedo to the power of 1 / B, so that more light bounces; 1 = unchanged",
      .unit = "exponent",
      .range = {1, 10},
      .default_text = "1",
-     .value_name = "B",
-     .changes_light = true},
+     .value_name = "B"},
     {.name = "max_albedo",
      .type = Type::Number,
      .help = "Largest albedo of any surface",
      .unit = "fraction",
      .range = {0, 1},
-     .default_text = "1",
-     .changes_light = true},
+     .default_text = "1"},
     {.name = "mixed_lighting",
      .type = Type::Choice,
      .help = "Shadows of mixed lights: indirect = all in real time; shadowmask, subtractive = "
              "probes also hold the occlusion of up to four lights",
      .choices = "indirect shadowmask subtractive",
-     .default_text = "indirect",
-     .changes_light = true},
+     .default_text = "indirect"},
     {.name = "layers",
      .type = Type::Words,
      .help = "Keep this light in separate layers, which `tetralight relight` can scale later: sun, "
              "sky, emission, light:NAME, material:NAME; transfer = response to another sky or a "
              "moved sun",
      .without = "one layer",
-     .value_name = "LIST",
-     .changes_light = true}};
+     .value_name = "LIST"}};
 
 constexpr Setting kProbes[] = {
     kWeld,
@@ -106,8 +95,7 @@ constexpr Setting kProbes[] = {
      .help = "Smallest fraction of rays that hit no back face; a probe below it is inside geometry",
      .unit = "fraction",
      .range = {0, 1},
-     .default_text = "0.75",
-     .changes_light = true},
+     .default_text = "0.75"},
     {.name = "virtual_offset",
      .type = Type::Number,
      .help = "Longest distance by which a probe inside geometry may gather its light from outside "
@@ -115,28 +103,24 @@ constexpr Setting kProbes[] = {
              "never",
      .unit = "fraction of the spacing",
      .range = {0, 10},
-     .default_text = "0.45",
-     .changes_light = true},
+     .default_text = "0.45"},
     {.name = "invalid_probes",
      .type = Type::Choice,
      .help = "Probes inside geometry that find no virtual offset: leave-out = omit them from the "
              "volume; dilate = give them the light of their neighbors; keep = keep their dark "
              "light",
      .choices = "leave-out dilate keep",
-     .default_text = "leave-out",
-     .changes_light = true},
+     .default_text = "leave-out"},
     {.name = "dering",
      .type = Type::Flag,
      .help = "Remove ringing (negative irradiance) from the probes of all groups, not only of "
-             "those that ask for it",
-     .changes_light = true},
+             "those that ask for it"},
     {.name = "dering_window",
      .type = Type::Choice,
      .help = "mildest = the weakest window for each probe that removes its negative irradiance; "
              "hann, lanczos = one window for all probes",
      .choices = "mildest hann lanczos",
-     .default_text = "mildest",
-     .changes_light = true}};
+     .default_text = "mildest"}};
 
 constexpr Setting kStoring[] = {
     {.name = "probes",

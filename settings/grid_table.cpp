@@ -118,7 +118,13 @@ constexpr Setting kPreviewFile[] = {
      .without = "no picture",
      .access = Access::Command}};
 
-constexpr ViewSettings kPreviewView = view_settings("preview", "target preview", "eye preview");
+constexpr ViewSettings preview_view() {
+    ViewSettings view = view_settings("preview", "target preview", "eye preview");
+    for (Setting& row : view.rows) row.access = Access::Command;
+    return view;
+}
+
+constexpr ViewSettings kPreviewView = preview_view();
 
 constexpr Group kGroups[] = {{"Files", kFiles},
                              {"Placement", kPlacement},

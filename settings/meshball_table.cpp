@@ -17,12 +17,6 @@ constexpr Setting kFiles[] = {input_file("volume", "Probe volume (.probes)"),
                                .help = "glTF 2.0 scene to show around the ball",
                                .without = "the sky only"}};
 
-constexpr Setting seed() {
-    Setting setting = seed_setting("Seed of the positions and colors");
-    setting.changes_light = false;
-    return setting;
-}
-
 constexpr Setting kBall[] = {
     {.name = "count",
      .type = Type::Integer,
@@ -42,7 +36,7 @@ constexpr Setting kBall[] = {
      .unit = "metres",
      .range = kLengths,
      .without = "from the probes"},
-    seed(),
+    seed_setting("Seed of the positions and colors"),
     {.name = "plain", .type = Type::Flag, .help = "White, rough spheres, which show light alone"},
     {.name = "lppv",
      .type = Type::Flag,

@@ -13,8 +13,7 @@ constexpr Setting kSettings[] = {
      .help = "New weights of layers, 1 = as baked; other layers are unchanged",
      .unit = "factor",
      .without = "the weights stay",
-     .value_name = "LAYER=W,...",
-     .changes_light = true},
+     .value_name = "LAYER=W,..."},
     sky_setting("Radiance of the sky: R,G,B or one number for a constant sky, or an "
                 "equirectangular .hdr or .exr file; replaces the sky of the bake (needs layer "
                 "\"transfer\")"),
@@ -26,8 +25,7 @@ constexpr Setting kSettings[] = {
              "\"transfer\")",
      .unit = "direction",
      .range = kPositions,
-     .without = "as baked",
-     .changes_light = true},
+     .without = "as baked"},
     {.name = "sun_irradiance",
      .type = Type::Vector,
      .help = "Irradiance of the sun on a surface that faces it",
@@ -35,21 +33,18 @@ constexpr Setting kSettings[] = {
      .range = kRadiance,
      .without = "as baked",
      .value_name = "R,G,B",
-     .needs = "sun_direction",
-     .changes_light = true},
+     .needs = "sun_direction"},
     {.name = "blend",
      .type = Type::Path,
      .help = "Blend with this volume, which has the same probes",
-     .without = "no blending",
-     .changes_light = true},
+     .without = "no blending"},
     {.name = "blend_share",
      .type = Type::Number,
      .help = "Fraction of the light that comes from the volume of --blend",
      .unit = "fraction",
      .range = {0, 1},
      .default_text = "0.5",
-     .needs = "blend",
-     .changes_light = true}};
+     .needs = "blend"}};
 
 constexpr Group kGroups[] = {
     {"Files", kFiles}, {"Light", kSettings}, {"Common options", kCommonSettings}};

@@ -9,7 +9,7 @@
 #include <string_view>
 
 // The settings of a command, each described once. Options, JSON jobs, openapi.json, help, shell
-// completion, man pages, metadata and bake keys all follow from these tables:
+// completion and man pages all follow from these tables:
 //
 //     table (one file a command) ─┬─ read_values: options or JSON → Values
 //                                 ├─ json_schema → openapi.json
@@ -87,8 +87,6 @@ struct Setting {
     std::string_view needs = {};
     std::string_view excludes = {};
     Access access = Access::Service;
-    /// Baked light depends on it: it belongs to the bake key.
-    bool changes_light = false;
 };
 
 /// Settings below one heading of the help.
@@ -117,8 +115,8 @@ struct Table {
     }
 };
 
-extern const Table kBake, kGrid, kInfo, kLppv, kMerge, kMeshball, kQuery, kRelight, kRender, kServe,
-    kTetrahedralize, kValidate;
+extern const Table kBake, kGrid, kInfo, kLppv, kMerge, kMeshball, kPrune, kQuery, kRelight, kRender,
+    kServe, kTetrahedralize, kValidate;
 
 /// All of them, in the order in which a user meets them.
 [[nodiscard]] std::span<const Table* const> all_tables();

@@ -45,9 +45,7 @@ constexpr Setting input_file(std::string_view name, std::string_view help) {
 }
 
 constexpr Setting scene_file(std::string_view help) {
-    Setting setting = input_file("scene", help);
-    setting.changes_light = true;
-    return setting;
+    return input_file("scene", help);
 }
 
 constexpr Setting seed_setting(std::string_view help) {
@@ -56,8 +54,7 @@ constexpr Setting seed_setting(std::string_view help) {
             .help = help,
             .unit = "seed",
             .range = kAnyInteger,
-            .default_text = "0",
-            .changes_light = true};
+            .default_text = "0"};
 }
 
 inline constexpr Setting kBounces{.name = "bounces",
@@ -66,8 +63,7 @@ inline constexpr Setting kBounces{.name = "bounces",
                                   .unit = "reflections",
                                   .range = {0, 1000},
                                   .default_text = "4",
-                                  .short_name = 'b',
-                                  .changes_light = true};
+                                  .short_name = 'b'};
 
 inline constexpr Setting kWeld{
     .name = "weld",
@@ -77,8 +73,7 @@ inline constexpr Setting kWeld{
         "the distance to the seventh nearest probe, at most 10 m",
     .unit = "fraction of the spacing",
     .range = {0, 0.1},
-    .default_text = "0.0001",
-    .changes_light = true};
+    .default_text = "0.0001"};
 
 constexpr Setting sky_setting(std::string_view help) {
     return {.name = "sky",
@@ -86,8 +81,7 @@ constexpr Setting sky_setting(std::string_view help) {
             .help = help,
             .unit = "radiance",
             .range = kRadiance,
-            .without = "the sky stays",
-            .changes_light = true};
+            .without = "the sky stays"};
 }
 
 inline constexpr Setting kSkyIntensity{.name = "sky_intensity",
@@ -95,8 +89,7 @@ inline constexpr Setting kSkyIntensity{.name = "sky_intensity",
                                        .help = "Factor on the radiance of the sky",
                                        .unit = "factor",
                                        .range = kRadiance,
-                                       .default_text = "1",
-                                       .changes_light = true};
+                                       .default_text = "1"};
 
 inline constexpr Setting kSkyRotation{
     .name = "sky_rotation",
@@ -104,8 +97,7 @@ inline constexpr Setting kSkyRotation{
     .help = "Rotate the sky about +Y, counter-clockwise seen from above",
     .unit = "degrees",
     .range = {-360, 360},
-    .default_text = "0",
-    .changes_light = true};
+    .default_text = "0"};
 
 /// Light that a command adds to a scene.
 inline constexpr Setting kAddedLight[] = {
@@ -114,8 +106,7 @@ inline constexpr Setting kAddedLight[] = {
      .help = "File of adjustment volumes (.json) in addition to the scene's own: where probes are "
              "forbidden, denser, valid, or scaled",
      .without = "the scene's own only",
-     .access = Access::Command,
-     .changes_light = true},
+     .access = Access::Command},
     sky_setting("Radiance of the sky: R,G,B or one number for a constant sky, or an "
                 "equirectangular .hdr or .exr file; replaces the scene's own"),
     kSkyIntensity,
@@ -126,8 +117,7 @@ inline constexpr Setting kAddedLight[] = {
      .unit = "direction",
      .range = kPositions,
      .without = "no sun is added",
-     .needs = "sun_irradiance",
-     .changes_light = true},
+     .needs = "sun_irradiance"},
     {.name = "sun_irradiance",
      .type = Type::Vector,
      .help = "Irradiance of the added sun on a surface that faces it",
@@ -135,24 +125,21 @@ inline constexpr Setting kAddedLight[] = {
      .range = kRadiance,
      .without = "no sun is added",
      .value_name = "R,G,B",
-     .needs = "sun_direction",
-     .changes_light = true},
+     .needs = "sun_direction"},
     {.name = "sun_angle",
      .type = Type::Number,
      .help = "Angular diameter of the added sun, for soft shadows (the real sun's is 0.53)",
      .unit = "degrees",
      .range = {0, 180},
      .default_text = "0",
-     .needs = "sun_direction",
-     .changes_light = true},
+     .needs = "sun_direction"},
     {.name = "sun_mode",
      .type = Type::Choice,
      .help = "What probes hold of the added sun: its bounces (mixed), or its direct light too "
              "(baked)",
      .choices = "mixed baked",
      .default_text = "mixed",
-     .needs = "sun_direction",
-     .changes_light = true}};
+     .needs = "sun_direction"}};
 
 /// The camera and the size of a picture. `needed`: a setting that all of them need.
 struct ViewSettings {

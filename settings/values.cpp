@@ -109,13 +109,4 @@ Json json_from_values(const Values& values) {
     return json;
 }
 
-std::string key_of(const Values& values) {
-    Json json = Json::object();
-    values.table().for_each([&](const Setting& setting) {
-        const Json* value = values.find(setting.name);
-        if (setting.changes_light && value != nullptr) json[std::string(setting.name)] = *value;
-    });
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 }  // namespace tetralight::settings

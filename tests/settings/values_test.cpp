@@ -36,13 +36,6 @@ TEST(Values, JsonHasThemInTheOrderOfTheTable) {
     EXPECT_EQ(json["bounces"], 2);
 }
 
-TEST(Values, TheKeyHasWhatChangesLightAndNothingElse) {
-    const std::string key = key_of(bake_values());
-    EXPECT_EQ(key, key_of(bake_values({{"threads", 3}, {"bounces", 4}})));
-    EXPECT_NE(key, key_of(bake_values({{"bounces", 5}})));
-    EXPECT_NE(key, key_of(bake_values({{"seed", 1}})));
-}
-
 TEST(Values, ErrorsNameTheSettingInTheFormThatWasUsed) {
     const Error error = bake_values({{"max_samples", 5}}).error("max_samples", "needs more");
     EXPECT_EQ(error.field, "max_samples");
