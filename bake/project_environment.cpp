@@ -14,7 +14,7 @@ namespace tetralight {
 namespace {
 
 template <size_t kCount>
-using Coefficients = std::array<glm::dvec3, kCount>;
+using Projected = std::array<glm::dvec3, kCount>;
 
 /// Projects the environment onto the kCount functions of `basis_of(direction)`.
 template <size_t kCount, class BasisOf>
@@ -28,10 +28,10 @@ class Projection {
         rows_ = image.height * subdivision;
     }
 
-    [[nodiscard]] Coefficients<kCount> all(uint32_t thread_count) const {
-        std::vector<Coefficients<kCount>> row_sums(rows_);
+    [[nodiscard]] Projected<kCount> all(uint32_t thread_count) const {
+        std::vector<Projected<kCount>> row_sums(rows_);
         parallel_for(rows_, thread_count, [&](size_t i) { row_sums[i] = row(i); });
-        Coefficients<kCount> sum{};
+        Projected<kCount> sum{};
         const double row_angle = std::numbers::pi / rows_;
         for (uint32_t i = 0; i < rows_; ++i) {
             const double height = std::cos(i * row_angle) - std::cos((i + 1) * row_angle);
@@ -43,8 +43,8 @@ class Projection {
 
   private:
     /// Sum over one row of the image, whose samples all have the same solid angle.
-    [[nodiscard]] Coefficients<kCount> row(size_t index) const {
-        Coefficients<kCount> sum{};
+    [[nodiscard]] Projected<kCount> row(size_t index) const {
+        Projected<kCount> sum{};
         const double polar_angle = (static_cast<double>(index) + 0.5) * (std::numbers::pi / rows_);
         const double y = std::cos(polar_angle), radius = std::sin(polar_angle);
         for (uint32_t column = 0; column < columns_; ++column) {

@@ -140,7 +140,7 @@ Status read_raw(ByteReader& reader, PositionChunks& chunks) {
 
 Status read_all(ByteReader& reader, PositionFormat format, PositionChunks& chunks) {
     switch (format) {
-        case PositionFormat::Json:
+        case PositionFormat::JsonArray:
             return read_json(reader, chunks);
         case PositionFormat::JsonLines:
             return read_lines(reader, chunks, parse_json_line);

@@ -14,7 +14,7 @@ struct Name {
     Format format;
 };
 
-constexpr Name<PositionFormat> kPositionExtensions[] = {{".json", PositionFormat::Json},
+constexpr Name<PositionFormat> kPositionExtensions[] = {{".json", PositionFormat::JsonArray},
                                                         {".jsonl", PositionFormat::JsonLines},
                                                         {".f32", PositionFormat::Raw},
                                                         {".raw", PositionFormat::Raw},

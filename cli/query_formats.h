@@ -12,7 +12,7 @@ namespace tetralight::cli {
 /// In the order of the choices of `from`.
 enum class PositionFormat : uint8_t {
     Text,       ///< x y z a line, # begins a comment
-    Json,       ///< an array of [x, y, z] or {"position": [x, y, z]}
+    JsonArray,  ///< an array of [x, y, z] or {"position": [x, y, z]}
     JsonLines,  ///< one of these a line
     Raw,        ///< three little-endian float32 each
 };

@@ -13,7 +13,7 @@
 namespace tetralight::cli {
 namespace {
 
-Json to_json(const ValidationReport& report) {
+Json report_json(const ValidationReport& report) {
     return {{"inverted_cells", report.inverted_cells},
             {"non_delaunay_faces", report.non_delaunay_faces},
             {"concave_hull_edges", report.concave_hull_edges},
@@ -41,7 +41,7 @@ struct Validate {
         const std::vector<std::string> problems = report.problems();
         Json json = verdict(problems);
         json.update(counts(file->view()));
-        json.update(to_json(report));
+        json.update(report_json(report));
         const std::string line =
             str_cat(printable(path), problems.empty() ? ": valid, " : ": not valid, ",
                     counted(file->view().probe_count(), "probe"), ", ",

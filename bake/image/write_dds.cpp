@@ -23,7 +23,7 @@ constexpr uint32_t kCaps = 0x8 | 0x1000;  // DDSCAPS_COMPLEX, TEXTURE
 constexpr uint32_t kCaps2Volume = 0x200000;
 constexpr uint32_t kDimensionTexture3d = 4;
 
-struct Header {
+struct DdsHeader {
     uint32_t magic = four_characters("DDS ");
     uint32_t size = 124;
     uint32_t flags = kFlags;
@@ -47,7 +47,7 @@ struct Header {
     uint32_t misc_flags2 = 0;
 };
 
-static_assert(sizeof(Header) == 4 + 124 + 20);
+static_assert(sizeof(DdsHeader) == 4 + 124 + 20);
 
 constexpr uint32_t dxgi_format(TexelFormat format) {
     return format == TexelFormat::Rgba16Float ? 10 : 2;  // R16G16B16A16_FLOAT, R32G32B32A32_FLOAT
@@ -57,7 +57,7 @@ constexpr uint32_t dxgi_format(TexelFormat format) {
 
 Status write_dds(const std::string& path, const Texture3dView& texture) {
     if (auto status = detail::check_texture(path, texture); !status) return status;
-    Header header;
+    DdsHeader header;
     header.width = texture.width;
     header.height = texture.height;
     header.depth = texture.depth;

@@ -31,8 +31,8 @@ std::string encode(const ImageF& image) {
 }  // namespace
 
 Status write_exr(const std::string& path, const ImageF& image) {
-    const uint64_t pixel_count = uint64_t{image.width} * image.height;
-    TETRALIGHT_ASSERT(image.pixels.size() == pixel_count, "an image has width * height pixels");
+    TETRALIGHT_ASSERT(image.pixels.size() == uint64_t{image.width} * image.height,
+                      "an image has width * height pixels");
     if (auto status = detail::check_writable_size(path, image.width, image.height); !status) {
         return status;
     }

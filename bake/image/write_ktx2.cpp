@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<uint8_t, 12> kIdentifier{0xAB, 'K',  'T',  'X',  ' ',  '2',
                                               '0',  0xBB, '\r', '\n', 0x1A, '\n'};
 
-struct Header {
+struct Ktx2Header {
     std::array<uint8_t, 12> identifier = kIdentifier;
     uint32_t vk_format = 0;
     uint32_t type_size = 0;
@@ -35,7 +35,7 @@ struct Header {
     std::array<uint32_t, 4> global_data{};
 };
 
-static_assert(sizeof(Header) == 80);
+static_assert(sizeof(Ktx2Header) == 80);
 
 struct Level {
     uint64_t offset = 0;
@@ -114,13 +114,13 @@ Status write_ktx2(const std::string& path, const Texture3dView& texture,
     const Descriptor descriptor = make_descriptor(texture.format);
     std::string pairs = encode_metadata(metadata);
 
-    Header header;
+    Ktx2Header header;
     header.vk_format = vk_format(texture.format);
     header.type_size = bytes / 4;
     header.width = texture.width;
     header.height = texture.height;
     header.depth = texture.depth;
-    header.descriptor_offset = sizeof(Header) + sizeof(Level);
+    header.descriptor_offset = sizeof(Ktx2Header) + sizeof(Level);
     header.descriptor_size = sizeof descriptor;
     header.metadata_offset = header.descriptor_offset + header.descriptor_size;
     header.metadata_size = static_cast<uint32_t>(pairs.size());

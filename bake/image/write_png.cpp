@@ -24,8 +24,8 @@ void append_bytes(void* target, void* data, int size) {
 }  // namespace
 
 Status write_png(const std::string& path, const Image8& image) {
-    const uint64_t pixel_count = uint64_t{image.width} * image.height;
-    TETRALIGHT_ASSERT(image.pixels.size() == pixel_count, "an image has width * height pixels");
+    TETRALIGHT_ASSERT(image.pixels.size() == uint64_t{image.width} * image.height,
+                      "an image has width * height pixels");
     if (auto status = detail::check_writable_size(path, image.width, image.height); !status) {
         return status;
     }

@@ -10,8 +10,6 @@
 namespace tetralight {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 /// The minimum weight of a texel, as a fraction of its own light.
 constexpr double kMinWeight = 1.0 / 16.0;
 
@@ -128,8 +126,8 @@ glm::vec3 EnvironmentSampler::sample(glm::vec2 u) const noexcept {
 float EnvironmentSampler::pdf(glm::vec3 direction) const noexcept {
     if (is_empty()) return 0.0f;
     const glm::vec3 d = rotated_about_y(direction, -rotation_radians_);
-    const float u = 0.5f + std::atan2(d.z, d.x) / (2.0f * kPi);
-    const float v = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi;
+    const float u = 0.5f + std::atan2(d.z, d.x) / (2.0f * std::numbers::pi_v<float>);
+    const float v = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / std::numbers::pi_v<float>;
     const auto column = static_cast<uint32_t>(u * static_cast<float>(width_));
     const auto row = static_cast<uint32_t>(v * static_cast<float>(height_));
     return texel_pdf(std::min(column, width_ - 1), std::min(row, height_ - 1));

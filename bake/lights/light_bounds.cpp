@@ -10,8 +10,6 @@
 namespace tetralight {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 float angle_of(float cosine) {
     return std::acos(std::clamp(cosine, -1.0f, 1.0f));
 }
@@ -28,11 +26,11 @@ void unite_cones(LightBounds& a, const LightBounds& b) {
     a.cos_theta_e = std::min(a.cos_theta_e, b.cos_theta_e);
     a.axis = wide_axis;
     a.cos_theta_o = std::cos(wide);
-    if (std::min(between + narrow, kPi) <= wide) return;
+    if (std::min(between + narrow, std::numbers::pi_v<float>) <= wide) return;
     const float half = 0.5f * (wide + between + narrow);
     const glm::vec3 side = narrow_axis - wide_axis * glm::dot(wide_axis, narrow_axis);
     const float length = glm::length(side);
-    if (half >= kPi || length < 1e-6f) {
+    if (half >= std::numbers::pi_v<float> || length < 1e-6f) {
         a.cos_theta_o = -1.0f;
         return;
     }
@@ -65,11 +63,11 @@ LightBounds union_of(LightBounds a, LightBounds b) noexcept {
 
 float split_cost(const LightBounds& bounds) noexcept {
     const float o = angle_of(bounds.cos_theta_o);
-    const float w = std::min(o + angle_of(bounds.cos_theta_e), kPi);
-    const float directions =
-        2.0f * kPi * (1.0f - std::cos(o)) + 0.5f * kPi *
-                                                (2.0f * w * std::sin(o) - std::cos(o - 2.0f * w) -
-                                                 2.0f * o * std::sin(o) + std::cos(o));
+    const float w = std::min(o + angle_of(bounds.cos_theta_e), std::numbers::pi_v<float>);
+    const float directions = 2.0f * std::numbers::pi_v<float> * (1.0f - std::cos(o)) +
+                             0.5f * std::numbers::pi_v<float> *
+                                 (2.0f * w * std::sin(o) - std::cos(o - 2.0f * w) -
+                                  2.0f * o * std::sin(o) + std::cos(o));
     const glm::vec3 d = bounds.max - bounds.min;
     return bounds.power * directions * (d.x * d.y + d.y * d.z + d.z * d.x);
 }

@@ -12,8 +12,6 @@
 namespace tetralight {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-
 /// Below this solid angle, in steradians, a rectangle is sampled by area: the density is nearly the
 /// same, and the angles between its edges lose precision.
 constexpr double kTinySolidAngle = 1e-4;
@@ -36,7 +34,7 @@ LightSample sample_directional(const Light& light, glm::vec2 u) {
     LightSample sample{light.intensity, -light.direction};
     sample.is_distant = true;
     if (light.radius <= 0.0f) return sample;
-    const float cosine = std::cos(std::min(light.radius, 0.5f * kPi));
+    const float cosine = std::cos(std::min(light.radius, 0.5f * std::numbers::pi_v<float>));
     sample.to_light = sample_cone(-light.direction, cosine, u);
     sample.irradiance *= cone_weight(cosine);
     return sample;

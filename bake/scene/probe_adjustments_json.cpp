@@ -46,7 +46,7 @@ Status read_vec3(const json& object, const char* key, glm::dvec3& v) {
 
 /// An error of `check_adjustment`, whose field names a key of the volume.
 Error relative(Error error) {
-    if (!error.field.empty()) error.field.insert(0, ".");
+    if (!error.field.empty()) error.field = str_cat(".", error.field);
     return error;
 }
 
@@ -110,7 +110,7 @@ Result<ProbeAdjustment> read_adjustment(const json& object, size_t index) {
     return adjustment;
 }
 
-Result<std::vector<ProbeAdjustment>> read_document(const json& document) {
+Result<std::vector<ProbeAdjustment>> read_adjustments(const json& document) {
     if (!document.is_object()) return Error{ErrorCode::Corrupt, "is not a JSON object"};
     if (auto status = check_keys(document, {"adjustments"}); !status) return status.error();
     const auto values = document.find("adjustments");
@@ -137,7 +137,7 @@ Result<std::vector<ProbeAdjustment>> parse(std::span<const std::byte> bytes) {
     const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (auto status = check_json_depth(characters); !status) return status.error();
     try {
-        return read_document(json::parse(characters));
+        return read_adjustments(json::parse(characters));
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {

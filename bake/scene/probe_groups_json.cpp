@@ -187,7 +187,7 @@ Result<ProbeGroup> read_group(const json& value, size_t group_index) {
     return group;
 }
 
-Result<std::vector<ProbeGroup>> read_document(const json& document) {
+Result<std::vector<ProbeGroup>> read_groups(const json& document) {
     if (!document.is_object()) return Error{ErrorCode::Corrupt, "is not a JSON object"};
     const auto keys = detail::check_keys(document, {"groups"});
     if (!keys) return keys.error();
@@ -226,7 +226,7 @@ Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
     try {
         const json document = json::parse(characters, std::ref(place));
         if (place.duplicate_key()) return *place.duplicate_key();
-        return read_document(document);
+        return read_groups(document);
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const json::out_of_range& exception) {

@@ -59,13 +59,13 @@ class Document {
         if (!binary_.empty()) {
             json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
         }
-        std::string json = json_.dump();
-        json.resize((json.size() + 3) / 4 * 4, ' ');
-        const std::span json_bytes = std::as_bytes(std::span(json));
+        std::string json_text = json_.dump();
+        json_text.resize((json_text.size() + 3) / 4 * 4, ' ');
+        const std::span json_bytes = std::as_bytes(std::span(json_text));
         std::vector<std::byte> out;
         const size_t binary_size = binary_.empty() ? 0 : 8 + binary_.size();
-        append(out, {kGlbMagic, 2, static_cast<uint32_t>(20 + json.size() + binary_size)});
-        append(out, {static_cast<uint32_t>(json.size()), kJsonChunk});
+        append(out, {kGlbMagic, 2, static_cast<uint32_t>(20 + json_text.size() + binary_size)});
+        append(out, {static_cast<uint32_t>(json_text.size()), kJsonChunk});
         out.insert(out.end(), json_bytes.begin(), json_bytes.end());
         if (binary_.empty()) return out;
         append(out, {static_cast<uint32_t>(binary_.size()), kBinaryChunk});

@@ -9,13 +9,16 @@ check_package.py components PREFIX
 check_package.py debian PREFIX SHIP_BUILD
 check_package.py folders PREFIX
 check_package.py subproject SOURCES
+check_package.py unity SOURCES
 """
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 
@@ -161,6 +164,23 @@ def check_subproject(sources):
             assert warning not in " ".join(printed.split()), printed
 
 
+def check_unity(sources):
+    """The sources of the release preset, which compiles several as one."""
+    def check(entry):
+        command = re.sub(r" -o \S+", "", entry["command"]) + " -fsyntax-only -Werror"
+        run(command, entry["directory"], "")
+
+    with tempfile.TemporaryDirectory() as folder:
+        run(["cmake", "--preset", "release", "-B", folder, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"],
+            sources, "")
+        entries = json.loads(Path(folder, "compile_commands.json").read_text())
+        combined = [entry for entry in entries if "/Unity/" in entry["file"]]
+        assert len(combined) > 20, combined
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            list(pool.map(check, combined))
+        print(f"{len(combined)} of {len(entries)} compilations combine sources")
+
+
 def listing(folder):
     return sorted(str(p.relative_to(folder)) for p in Path(folder).rglob("*") if p.is_file())
 
@@ -186,5 +206,5 @@ if __name__ == "__main__":
     checks = {"headers": check_headers, "consumer": check_consumer, "guide": check_guide,
               "example": check_example,
               "components": check_components, "debian": check_debian,
-              "folders": check_folders, "subproject": check_subproject}
+              "folders": check_folders, "subproject": check_subproject, "unity": check_unity}
     checks[sys.argv[1]](*sys.argv[2:])

@@ -91,9 +91,9 @@ Result<GltfDocument> parse_document(Bytes bytes, const std::string& path) {
                      str_cat(bytes.size(), " bytes are too many for a glTF file")};
     }
     const auto container = is_glb(bytes) ? GltfContainer::Glb : GltfContainer::Gltf;
-    const auto json = container == GltfContainer::Glb ? glb_json(bytes) : Result<Bytes>(bytes);
-    if (!json) return json.error();
-    const std::string_view json_text(reinterpret_cast<const char*>(json->data()), json->size());
+    const auto chunk = container == GltfContainer::Glb ? glb_json(bytes) : Result<Bytes>(bytes);
+    if (!chunk) return chunk.error();
+    const std::string_view json_text(reinterpret_cast<const char*>(chunk->data()), chunk->size());
     const auto status = check_gltf_json(json_text, container);
     if (!status) return status.error();
     auto model = parse_model(bytes, folder_of(path));
