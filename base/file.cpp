@@ -22,8 +22,10 @@ Result<size_t> regular_file_size(const Descriptor& file, const std::string& path
     if (!file) return system_error(path, "open");
     struct stat status = {};
     if (::fstat(file.value(), &status) != 0) return system_error(path, "read");
-    if (!S_ISREG(status.st_mode))
-        return Error{ErrorCode::InvalidArgument, shown_path(path) + ": is not a regular file"};
+    if (!S_ISREG(status.st_mode)) {
+        const char* what = S_ISDIR(status.st_mode) ? ": is a folder" : ": is not a regular file";
+        return Error{ErrorCode::InvalidArgument, "", path, shown_path(path) + what};
+    }
     return static_cast<size_t>(status.st_size);
 }
 

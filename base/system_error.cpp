@@ -25,6 +25,7 @@ ErrorCode error_code_of_errno(int number) noexcept {
         case EISDIR:
         case ELOOP:
         case ENAMETOOLONG:
+        case EBADF:
         case EINVAL:
         case EFBIG:
             return ErrorCode::InvalidArgument;
@@ -34,7 +35,9 @@ ErrorCode error_code_of_errno(int number) noexcept {
 }
 
 Error system_error(const std::string& path, const char* what) {
-    return system_error(std::string(what)).in(shown_path(path));
+    Error error = system_error(std::string(what)).in(shown_path(path));
+    error.value = path;
+    return error;
 }
 
 Error system_error(const std::string& action) {

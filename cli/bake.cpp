@@ -70,6 +70,7 @@ struct Bake {
 
     Status run_bake() {
         if (auto status = check_output(output, inputs()); !status) return status;
+        if (auto status = storing.check_progress_file(inputs()); !status) return status;
         if (auto status = storing.open(); !status) return status;
         auto scene = scene_options.read();
         if (!scene) return scene.error();

@@ -33,7 +33,7 @@ std::string health_text(const BakeReport& report) {
         parts += ", " + grouped(report.virtual_offset_count) + " moved";
     if (report.left_out_count > 0) parts += ", " + grouped(report.left_out_count) + " left out";
     if (report.dilated_count > 0) parts += ", " + grouped(report.dilated_count) + " dilated";
-    if (report.reused_count > 0) parts += ", " + grouped(report.reused_count) + " re-used";
+    if (report.reused_count > 0) parts += ", " + grouped(report.reused_count) + " reused";
     return parts;
 }
 

@@ -5,6 +5,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/failure.h>
+#include <tetralight/cli/paths.h>
 #include <tetralight/pipeline/reuse_probes.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -49,6 +50,12 @@ std::string BakeStoring::path_beside() const {
     return output_ == "-" || !is_file ? "" : output_ + ".store";
 }
 
+Status BakeStoring::check_progress_file(std::vector<std::string> inputs) const {
+    if (progress_file.empty()) return Ok{};
+    for (const std::string& other : {output_, path_beside(), reuse_path_}) inputs.push_back(other);
+    return check_side_file(progress_file, inputs, "progress_file");
+}
+
 Status BakeStoring::open() {
     const std::string shared = chunk_folder_.empty() ? store_folder_ : chunk_folder_;
     if (!shared.empty()) {
@@ -70,7 +77,7 @@ Status BakeStoring::reuse(PreparedBake& prepared, const CommonOptions& common) c
     const auto old = open_probe_file(reuse_path_);
     if (!old) return old.error();
     if (const Status status = reuse_probes(old->view(), prepared); !status) {
-        common.warn(reuse_path_ + ": nothing is re-used: ", status.error(), "");
+        common.warn(reuse_path_ + ": nothing is reused: ", status.error(), "");
     }
     return Ok{};
 }
@@ -91,10 +98,10 @@ Result<RangeBake> BakeStoring::bake(const Scene& scene, const PreparedBake& prep
     const BakeStorage used = storage();
     auto baked = bake_range(scene, prepared, range_of(probes, prepared), used, show);
     if (baked || baked.error().code != ErrorCode::Cancelled) return baked;
-    if (used.target != nullptr) note_checkpoint();
     if (used.target == nullptr || used.target->is_empty()) {
-        return Error{ErrorCode::Cancelled, "interrupted"};
+        return Error{ErrorCode::Cancelled, "interrupted; nothing was kept"};
     }
+    note_checkpoint();
     return Error{ErrorCode::Cancelled,
                  str_cat("interrupted; ", used.target->folder(), " keeps what is done",
                          shared_ ? "" : ", --resume goes on with it")};
@@ -113,14 +120,15 @@ void BakeStoring::warn(const RangeBake& baked, const CommonOptions& common) cons
     } else if (has_old_entries_ && baked.earlier_ray_count == 0) {
         lines.push_back(beside_->folder() +
                         ": holds no probe of this bake (scene, probes, settings or program version "
-                        "differ)");
+                        "differ) and stays as it is");
     }
     common.warn(lines);
     if (baked.save_failure) common.warn("", *baked.save_failure, "");
 }
 
 void BakeStoring::finish(const RangeBake& baked) {
-    if (beside_ && (is_resumed_ || baked.is_saved)) BakeStore::remove(beside_->folder());
+    const bool has_other_work = has_old_entries_ && baked.earlier_ray_count == 0;
+    if (beside_ && !has_other_work) BakeStore::remove(beside_->folder());
     if (shared_ && store_limit_ > 0.0) shared_->prune(static_cast<uint64_t>(store_limit_ * 1e9));
 }
 

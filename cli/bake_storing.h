@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <tetralight/cli/amounts.h>
 #include <tetralight/cli/common.h>
@@ -21,6 +22,9 @@ class BakeStoring {
     /// Throws a `UsageError` if settings do not go together.
     explicit BakeStoring(const Values& values);
 
+    /// Returns an error if `progress_file` cannot be written, or is another file of the bake.
+    [[nodiscard]] Status check_progress_file(std::vector<std::string> inputs) const;
+
     /// Opens the stores before the bake: that of `chunks` or `store`, else `OUTPUT.store`. Returns
     /// invalid_argument if other files lie there.
     [[nodiscard]] Status open();
@@ -36,7 +40,8 @@ class BakeStoring {
     /// Warns of damaged entries, of entries that were not used, and of saves that failed.
     void warn(const RangeBake& baked, const CommonOptions& common) const;
 
-    /// After the output is written: removes the store beside it, and prunes that of `store`.
+    /// After the output is written: removes the store beside it, unless it holds work of another
+    /// bake, and prunes that of `store`.
     void finish(const RangeBake& baked);
 
   private:

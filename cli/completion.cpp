@@ -32,6 +32,10 @@ std::string option_pattern(const Setting& setting) {
     return setting.short_name == 0 ? name : str_cat(name, "|-", setting.short_name);
 }
 
+bool is_folder(const Setting& setting) {
+    return setting.value_name == "FOLDER" || setting.value_name == "DIR";
+}
+
 /// One branch of a `case` over "COMMAND OPTION" for each option whose values are known, and one for
 /// options whose value is something else.
 std::string bash_values(const Table& table) {
@@ -42,8 +46,10 @@ std::string bash_values(const Table& table) {
         if (setting.type == Type::Choice) {
             action =
                 str_cat("COMPREPLY=($(compgen -W '", setting.choices, "' -- \"$word\")); return");
+        } else if (is_folder(setting)) {
+            action = "mapfile -t COMPREPLY < <(compgen -d -- \"$word\"); return";
         } else if (setting.type == Type::Path || setting.type == Type::Sky) {
-            action = "COMPREPLY=($(compgen -f -- \"$word\")); return";
+            action = "mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); return";
         }
         text += str_cat("            ", option_pattern(setting), ") ", action, " ;;\n");
     });
@@ -56,6 +62,9 @@ std::string bash_script() {
         "_tetralight() {\n"
         "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}\n"
         "    COMPREPLY=()\n"
+        "    # --option=value is three words here\n"
+        "    if [ \"$word\" = = ]; then word=''\n"
+        "    elif [ \"$before\" = = ]; then before=${COMP_WORDS[COMP_CWORD-2]}; fi\n"
         "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
         "        COMPREPLY=($(compgen -W '",
         names_of_commands(),
@@ -75,7 +84,7 @@ std::string bash_script() {
                 "' -- \"$word\")); return ;;\n    esac\n",
                 "    case $word in\n"
                 "    -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;;\n"
-                "    *) COMPREPLY=($(compgen -f -- \"$word\")) ;;\n"
+                "    *) mapfile -t COMPREPLY < <(compgen -f -- \"$word\") ;;\n"
                 "    esac\n"
                 "}\n"
                 "complete -o filenames -F _tetralight tetralight\n");
@@ -105,7 +114,7 @@ std::string zsh_action(const Setting& setting) {
             return str_cat(":value:(", setting.choices, ")");
         case Type::Path:
         case Type::Sky:
-            return ":file:_files";
+            return is_folder(setting) ? ":folder:_files -/" : ":file:_files";
         default:
             return str_cat(":", zsh_text(value_name(setting)), ":");
     }
@@ -116,7 +125,8 @@ std::string zsh_arguments(const Table& table) {
     table.for_each([&](const Setting& setting) {
         if (setting.is_positional) return;
         const std::string many = setting.is_list ? "*" : "";
-        text += str_cat(" \\\n            '", many, shown_name(setting, Form::Options), "[",
+        const std::string equals = setting.type == Type::Flag ? "" : "=";
+        text += str_cat(" \\\n            '", many, shown_name(setting, Form::Options), equals, "[",
                         zsh_text(setting.help), "]", zsh_action(setting), "'");
     });
     return text + " \\\n            '*:file:_files'";
@@ -137,6 +147,11 @@ std::string zsh_script() {
         "        'completion:Print the completion script of a shell'\n"
         "        'man:Print a manual page'\n"
         "    )\n"
+        "    if [[ $words[2] == -* ]]; then\n"
+        "        _arguments '--help[Print the help]' '--version[Print the version]' \\\n"
+        "            '--job=[Run the command that a JSON object describes]:file:_files'\n"
+        "        return\n"
+        "    fi\n"
         "    if (( CURRENT == 2 )); then\n"
         "        _describe command commands\n"
         "        return\n"

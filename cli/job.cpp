@@ -6,6 +6,7 @@
 #include <span>
 
 #include <tetralight/base/file.h>
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/settings/read_values.h>
@@ -27,8 +28,10 @@ Result<const Command*> command_of(const Json& json) {
         return Error{ErrorCode::InvalidArgument, "command", "", "command is required"};
     }
     const auto word = name->get<std::string>();
-    const Command* command = find_command(word);
-    if (command != nullptr && word != "serve") return command;
+    if (word == "serve") {
+        return Error{ErrorCode::InvalidArgument, "command", word, "command: serve cannot be a job"};
+    }
+    if (const Command* command = find_command(word)) return command;
     std::vector<std::string> names;
     for (const Command& known : commands()) names.emplace_back(known.table->command);
     return Error{ErrorCode::InvalidArgument, "command", word,
@@ -36,20 +39,31 @@ Result<const Command*> command_of(const Json& json) {
                          settings::did_you_mean(word, names))};
 }
 
+/// The job was read from stdin, so that positions cannot come from there.
+Status check_stdin_is_free(const Values& values) {
+    if (&values.table() != &settings::kQuery) return Ok{};
+    const std::string path = values.text("positions");
+    if (!path.empty() && path != "-") return Ok{};
+    return values.error("positions", "stdin holds the job; name a file");
+}
+
 }  // namespace
 
 Result<Job> read_job(const std::string& path) {
     const auto text = read_text(path);
     if (!text) return text.error();
-    const Json json = Json::parse(*text, nullptr, false);
-    if (!json.is_object()) {
-        return Error{ErrorCode::InvalidArgument, path + ": is not a JSON object"};
+    if (const auto status = check_json_object(*text); !status) {
+        return status.error().in(path == "-" ? "stdin" : path);
     }
+    const Json json = Json::parse(*text);
     const auto command = command_of(json);
     if (!command) return command.error();
     const settings::Table& table = *(*command)->table;
     auto values = settings::values_from_json(table, json, settings::Access::Command, "command");
     if (!values) return values.error();
+    if (path == "-") {
+        if (const auto status = check_stdin_is_free(*values); !status) return status.error();
+    }
     for (const char* name : {"json", "quiet"}) values->set(*table.find(name), true);
     return Job{*command, std::move(*values)};
 }

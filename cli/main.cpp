@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The `tetralight` command. Its exit codes: docs/command.md.
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <iostream>
 #include <new>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/system_error.h>
 #include <tetralight/cli/command_line.h>
 #include <tetralight/cli/completion.h>
 #include <tetralight/cli/failure.h>
@@ -25,6 +28,30 @@ bool takes_stdout(const Values& values) {
     return found;
 }
 
+/// Names the setting in an error about a file that a setting names.
+Error with_setting(Error error, const Values& values) {
+    if (!error.field.empty() || error.value.empty()) return error;
+    values.table().for_each([&](const settings::Setting& setting) {
+        if (setting.type != settings::Type::Path && setting.type != settings::Type::Sky) return;
+        const settings::Json* value = values.find(setting.name);
+        if (value == nullptr) return;
+        const bool is_in_list =
+            value->is_array() && std::ranges::find(*value, Json(error.value)) != value->end();
+        if (is_in_list || *value == Json(error.value)) error.field = setting.name;
+    });
+    return error;
+}
+
+/// The system's reason is that of the last call, if it was kept.
+Error stdout_error() {
+    const int number = errno;
+    if (number == 0) return {ErrorCode::Unavailable, "output", "-", "cannot write to stdout"};
+    Error error = system_error("stdout", "write");
+    error.field = "output";
+    error.value = "-";
+    return error;
+}
+
 int run(const Command& command, const Values& values) {
     const FailureStyle style{
         .is_json = command.table->find("json") != nullptr && values.flag("json"),
@@ -32,11 +59,11 @@ int run(const Command& command, const Values& values) {
         .command = command.table->command};
     try {
         const Status status = command.run(values);
-        if (!status) return print_failure(status.error(), style);
+        if (!status) return print_failure(with_setting(status.error(), values), style);
+        errno = 0;
         std::cout.flush();
         if (std::cout) return kExitFine;
-        return print_failure({ErrorCode::Unavailable, "cannot write to stdout"},
-                             {.is_json = style.is_json, .is_stdout_taken = true});
+        return print_failure(stdout_error(), {.is_json = style.is_json, .is_stdout_taken = true});
     } catch (const UsageError& usage) {
         return print_usage_error(usage.error, style);
     } catch (const std::bad_alloc&) {
@@ -55,8 +82,9 @@ int run_job(const std::string& path) {
 
 int print_text(const Result<std::string>& text, const FailureStyle& style) {
     if (!text) return print_usage_error(text.error(), style);
+    errno = 0;
     std::cout << *text << std::flush;
-    return std::cout ? kExitFine : kExitBadData;
+    return std::cout ? kExitFine : print_failure(stdout_error(), {.is_stdout_taken = true});
 }
 
 int run_line(const CommandLine& line, const FailureStyle& style) {

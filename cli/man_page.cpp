@@ -90,7 +90,7 @@ Result<std::string> man_page(const std::string& command) {
     const Command* found = find_command(command);
     if (found != nullptr) return command_page(*found->table);
     return Error{ErrorCode::InvalidArgument, "command", command,
-                 "there is no subcommand \"" + command + "\""};
+                 "there is no command \"" + command + "\""};
 }
 
 }  // namespace tetralight::cli

@@ -14,9 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error cannot_write(const std::string& path, const std::string& why) {
-    return {ErrorCode::InvalidArgument, "output", path, path + ": cannot write (" + why + ")"};
-}
+/// Why a file cannot be written, once it is known for which setting.
+struct WhyNot {
+    const std::string& path;
+    const std::string& setting;
+
+    [[nodiscard]] Error operator()(ErrorCode code, const std::string& why) const {
+        return {code, setting, path, path + ": cannot write (" + why + ")"};
+    }
+};
 
 /// True if a path is another name of an open file, as /dev/stdout is: a new file renamed over it
 /// would replace what the shell redirected to.
@@ -53,19 +59,22 @@ bool is_same_file(const std::string& a, const std::string& b) {
     return first == fs::weakly_canonical(fs::absolute(b, error), error);
 }
 
-Status check_output(const std::string& path, const std::vector<std::string>& inputs) {
+Status check_output(const std::string& path, const std::vector<std::string>& inputs,
+                    const std::string& setting) {
+    const WhyNot cannot_write{path, setting};
     std::error_code error;
     for (const std::string& input : inputs) {
         if (!fs::is_regular_file(input, error) || !fs::equivalent(input, path, error)) continue;
-        return Error{ErrorCode::InvalidArgument, "output", path,
+        return Error{ErrorCode::InvalidArgument, setting, path,
                      path + ": is an input of this command and would be lost; write elsewhere"};
     }
     if (path == "-") return Ok{};
     if (names_open_file(path)) {
-        return cannot_write(path, "names an open file; write to - for stdout");
+        return cannot_write(ErrorCode::InvalidArgument,
+                            "names an open file; write to - for stdout");
     }
     if (const std::string problem = special_file(path); !problem.empty()) {
-        return cannot_write(path, problem);
+        return cannot_write(ErrorCode::InvalidArgument, problem);
     }
     if (fs::is_character_file(path, error)) return Ok{};  // /dev/null, a terminal
     const auto target = follow_links(path);
@@ -73,12 +82,27 @@ Status check_output(const std::string& path, const std::vector<std::string>& inp
     const fs::path folder =
         fs::path(*target).has_parent_path() ? fs::path(*target).parent_path() : ".";
     if (!fs::is_directory(folder, error)) {
-        return cannot_write(path, "there is no folder " + folder.string());
+        return cannot_write(ErrorCode::NotFound, "there is no folder " + folder.string());
     }
     if (::access(folder.c_str(), W_OK) != 0) {
-        return cannot_write(path, "no permission in " + folder.string());
+        return cannot_write(ErrorCode::Unavailable, "no permission in " + folder.string());
     }
     return Ok{};
+}
+
+Status check_side_file(const std::string& path, const std::vector<std::string>& others,
+                       const std::string& setting) {
+    const WhyNot cannot_write{path, setting};
+    std::error_code error;
+    if (path == "-" || fs::is_character_file(path, error)) {
+        return cannot_write(ErrorCode::InvalidArgument, "is not a regular file");
+    }
+    for (const std::string& other : others) {
+        if (other.empty() || other == "-" || !is_same_file(path, other)) continue;
+        return Error{ErrorCode::InvalidArgument, setting, path,
+                     path + ": is another file of this command and would be lost; write elsewhere"};
+    }
+    return check_output(path, others, setting);
 }
 
 }  // namespace tetralight::cli

@@ -15,10 +15,15 @@ Status run_prune(const Values& values) {
     }
     auto store = BakeStore::open(folder);
     if (!store) return store.error();
-    const StoreSize size = store->prune(static_cast<uint64_t>(values.number("limit") * 1e9));
+    const auto limit = static_cast<uint64_t>(values.number("limit") * 1e9);
+    const StoreSize size = store->prune(limit);
+    if (size.kept > limit) {
+        return Error{ErrorCode::Unavailable, "store", folder,
+                     str_cat(folder, ": files cannot be deleted; ", size.kept, " bytes are left")};
+    }
     common.print({{"store", folder}, {"kept_bytes", size.kept}, {"deleted_bytes", size.deleted}},
                  str_cat(folder, ": deleted ", magnitude(static_cast<double>(size.deleted)),
-                         "B, kept ", magnitude(static_cast<double>(size.kept)), "B\n"));
+                         "B, kept ", magnitude(static_cast<double>(size.kept)), "B"));
     return Ok{};
 }
 

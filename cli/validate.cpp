@@ -33,6 +33,9 @@ struct Validate {
 
     Status run() {
         const auto file = open_volume();
+        if (!file && (can_retry(file.error().code) || file.error().code == ErrorCode::NotFound)) {
+            return file.error();
+        }
         if (!file) {
             const std::string problem = error_json(file.error())["message"];
             return with_report(file.error(), verdict({problem}));

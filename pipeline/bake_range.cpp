@@ -130,6 +130,9 @@ Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, P
     RangeBake bake;
     bake.earlier_ray_count = probes.ray_count();
     const Status status = bake_unknown(scene, settings, storage, probes, keeper, callback);
+    if (!status && keeper.failure()) {
+        return keeper.failure()->in("interrupted; what is done could not be kept");
+    }
     if (!status) return status.error();
     bake.partial = probes.in_range(prepared, range);
     bake.is_saved = keeper.is_saved();

@@ -46,7 +46,8 @@ std::string difference_text(const std::string& member, const Json& old, const Js
     const auto value = [](const Json& json) {
         return json.is_null() ? std::string("not set") : json.dump();
     };
-    return str_cat("its ", member, " is ", value(old), ", that of this bake is ", value(fresh));
+    return str_cat("its setting ", member, " is ", value(old), ", that of this bake is ",
+                   value(fresh));
 }
 
 Error difference(const std::string& member, const Json& old, const Json& fresh) {

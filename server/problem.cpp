@@ -33,7 +33,8 @@ Answer answer_for(ErrorCode code, Answer otherwise) {
 
 Problem problem_for(const Error& error, Answer otherwise) {
     const auto [status, code] = answer_for(error.code, otherwise);
-    return {status, code, error_text(error), error.field, error.value};
+    // Without a field the value is the path of a file of the server.
+    return {status, code, error_text(error), error.field, error.field.empty() ? "" : error.value};
 }
 
 /// A part of an order: "weights.sun", and its value.

@@ -84,7 +84,7 @@ Result<Json> fraction_from_text(std::string_view text) {
     auto number = parse_number(text.substr(0, text.size() - is_percent));
     if (number && is_percent) *number /= 100.0;
     if (number && *number > 0.0 && *number <= 1.0) return Json(*number);
-    return not_a(text, "a fraction above 0, such as 1% or 0.01");
+    return not_a(text, "a fraction above 0, up to 1, such as 1% or 0.01");
 }
 
 Result<Json> seconds_from_text(std::string_view text) {
@@ -102,7 +102,7 @@ Result<Json> seconds_from_text(std::string_view text) {
 
 Result<Json> range_from_text(std::string_view text) {
     constexpr uint64_t kMost = UINT32_MAX;
-    const Error error = not_a(text, "a range that is not empty, such as 0..100 or 100..");
+    const Error error = not_a(text, "a range of one or more, such as 0..100 or 100..");
     const size_t dots = text.find("..");
     if (dots == std::string_view::npos) return error;
     const auto begin = parse_integer(text.substr(0, dots));
@@ -243,15 +243,40 @@ std::optional<std::string> plain_text(const Json& json) {
     return has_control_character(text) ? std::nullopt : std::optional(std::move(text));
 }
 
+/// JSON does not tell 16 from 16.0 (RFC 8259): both are whole.
+std::optional<uint64_t> whole_number(const Json& json) {
+    if (json.is_number_unsigned()) return json.get<uint64_t>();
+    if (json.is_number_integer() && json >= 0) return json.get<uint64_t>();
+    if (!json.is_number_float()) return std::nullopt;
+    const auto number = json.get<double>();
+    const bool is_whole = number >= 0.0 && number < 0x1p64 && std::trunc(number) == number;
+    return is_whole ? std::optional(static_cast<uint64_t>(number)) : std::nullopt;
+}
+
+/// What a text setting takes.
+std::string text_form(const Setting& setting) {
+    switch (setting.type) {
+        case Type::Sky:
+            return "a number, an array of three or the path of a file";
+        case Type::Fraction:
+        case Type::Seconds:
+            return "a number or a text";
+        case Type::Choice: {
+            std::string words;
+            for_each_word(setting.choices, [&](std::string_view word) {
+                words += str_cat(words.empty() ? "one of \"" : ", \"", word, "\"");
+            });
+            return words;
+        }
+        default:
+            return "a text";
+    }
+}
+
 Result<Json> number_from_json(const Setting& setting, const Json& json) {
     const std::string shown = shown_value(json);
     const bool is_whole = setting.type == Type::Integer || setting.type == Type::Integers;
-    if (is_whole) {
-        const bool is_integer =
-            json.is_number_unsigned() || (json.is_number_integer() && json >= 0);
-        return checked_integer(
-            setting, is_integer ? std::optional(json.get<uint64_t>()) : std::nullopt, shown);
-    }
+    if (is_whole) return checked_integer(setting, whole_number(json), shown);
     if (!json.is_number()) return not_a(shown, "a number");
     return checked_number(setting, json.get<double>(), shown);
 }
@@ -385,6 +410,7 @@ Result<Json> value_from_json(const Setting& setting, const Json& json) {
         case Type::Path:
             break;
     }
+    if (!json.is_string()) return not_a(shown_value(json), text_form(setting));
     const auto text = plain_text(json);
     if (!text) return not_a(shown_value(json), "a text without line breaks");
     return value_from_text(setting, *text);

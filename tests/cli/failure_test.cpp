@@ -44,6 +44,15 @@ TEST_F(Failure, BadDataAreOneObject) {
     EXPECT_TRUE(contains(error["message"], "v.probes"));
 }
 
+TEST_F(Failure, AFileThatIsNotThereIsTheValueOfItsSetting) {
+    const Json error = error_of({"bake", "nosuch.glb", "-o", "v.probes", "--json"}, 1);
+    EXPECT_EQ(error["code"], "not_found");
+    EXPECT_EQ(error["field"], "scene");
+    EXPECT_EQ(error["value"], "nosuch.glb");
+    EXPECT_EQ(error_of({"validate", "nosuch.probes", "--json"}, 1)["field"], "volume");
+    EXPECT_EQ(error_of({"bake", "s.glb", "-o", "no/v.probes", "--json"}, 1)["field"], "output");
+}
+
 TEST_F(Failure, ValidateReportsBesideTheError) {
     write("v.probes", "no volume");
     const CommandResult result = run({"validate", "v.probes", "--json"});

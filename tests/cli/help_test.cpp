@@ -40,7 +40,7 @@ TEST_F(Help, BashCompletesCommandsOptionsAndChoices) {
 TEST_F(Help, ZshGetsAScriptOfItsOwn) {
     const std::string out = succeed({"completion", "zsh"}).out;
     EXPECT_EQ(out.find("#compdef tetralight\n"), 0u);
-    EXPECT_TRUE(contains(out, "--samples["));
+    EXPECT_TRUE(contains(out, "--samples=["));
     EXPECT_TRUE(contains(misuse({"completion", "fish"}), "\"fish\""));
 }
 

@@ -189,7 +189,7 @@ TEST_F(Info, RefusesMetadataThatIsNestedTooDeep) {
 
 TEST_F(Info, NamesAVolumeThatIsNotThere) {
     EXPECT_TRUE(contains(fail({"info", "none.probes"}), "none.probes: cannot open"));
-    EXPECT_TRUE(contains(fail({"info", "."}), ".: is not a regular file"));
+    EXPECT_TRUE(contains(fail({"info", "."}), ".: is a folder"));
 }
 
 TEST_F(Info, TakesAPathThatIsNotUtf8) {

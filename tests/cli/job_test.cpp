@@ -57,5 +57,36 @@ TEST_F(Job, NamesTheMemberOfAnError) {
     EXPECT_EQ(error["value"], "-1");
 }
 
+TEST_F(Job, SaysWhereItsTextIsNoJson) {
+    const auto message = [&](const std::string& text) {
+        const CommandResult result = run({"--job", "-"}, text);
+        EXPECT_EQ(result.exit_code, 2) << result.err;
+        return Json::parse(result.out)["error"]["message"].get<std::string>();
+    };
+    EXPECT_TRUE(contains(message(R"({"command": "bake",})"), "stdin: is not a JSON object"));
+    EXPECT_TRUE(contains(message(R"({"command": "bake",})"), "line 1, column 20"));
+    const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
+    EXPECT_EQ(message(R"({"command": "bake", "a": )" + deep + "}"),
+              "stdin: JSON is nested deeper than 64");
+}
+
+TEST_F(Job, WholeNumbersMayHaveADecimalPoint) {
+    write("five.json", kFiveProbes);
+    const Json job{{"command", "bake"},
+                   {"scene", kCourtyard},
+                   {"output", "v.probes"},
+                   {"groups", {"five.json"}},
+                   {"samples", 16.0}};
+    EXPECT_EQ(run_job(job).exit_code, 0);
+    EXPECT_EQ(refusal({{"command", "bake"}, {"scene", "s.glb"}, {"samples", 16.5}})["field"],
+              "samples");
+}
+
+TEST_F(Job, PositionsCannotComeFromTheStdinOfTheJob) {
+    const CommandResult result = run({"--job", "-"}, R"({"command": "query", "volume": "v"})");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(Json::parse(result.out)["error"]["field"], "positions");
+}
+
 }  // namespace
 }  // namespace tetralight::test

@@ -20,7 +20,39 @@ TEST_F(Main, HelpListsTheSubcommands) {
 }
 
 TEST_F(Main, WantsASubcommand) {
-    EXPECT_TRUE(contains(misuse({}), "subcommand is required"));
+    EXPECT_TRUE(contains(misuse({}), "a command is required"));
+}
+
+TEST_F(Main, OnlyTheFirstWordSelectsTheCommand) {
+    EXPECT_TRUE(contains(fail({"validate", "info"}), "info: cannot open"));
+    EXPECT_TRUE(contains(fail({"validate", "man"}), "man: cannot open"));
+    EXPECT_TRUE(contains(fail({"validate", "--", "--volume"}), "--volume: cannot open"));
+    EXPECT_TRUE(contains(fail({"--quiet", "info", "bake"}), "bake: cannot open"));
+    const CommandResult job = run({"--job", "-", "bake"});
+    EXPECT_EQ(job.exit_code, 2);
+    EXPECT_TRUE(contains(job.err, "unexpected argument \"bake\"")) << job.err;
+    EXPECT_TRUE(contains(misuse({"man", "bake", "extra"}), "unexpected argument \"extra\""));
+}
+
+TEST_F(Main, ManPagesAreThoseOfTheirCommands) {
+    EXPECT_TRUE(contains(succeed({"man"}).out, ".TH TETRALIGHT 1"));
+    const std::string page = succeed({"man", "bake"}).out;
+    EXPECT_TRUE(contains(page, ".TH TETRALIGHT\\-BAKE 1")) << page;
+    EXPECT_TRUE(contains(page, "target\\-error")) << page;
+    EXPECT_TRUE(contains(misuse({"man", "nope"}), "there is no command \"nope\""));
+}
+
+TEST_F(Main, HelpWinsOverOtherMistakes) {
+    const std::string help = succeed({"bake", "--help"}).out;
+    EXPECT_EQ(succeed({"help", "bake"}).out, help);
+    EXPECT_EQ(succeed({"bake", "s.glb", "-h", "-o"}).out, help);
+    EXPECT_EQ(succeed({"man", "--help"}).out, succeed({"--help"}).out);
+}
+
+TEST_F(Main, SaysHowLongOptionsAndVectorsAreWritten) {
+    EXPECT_TRUE(contains(misuse({"bake", "s.glb", "-samples", "3"}), "did you mean --samples?"));
+    EXPECT_TRUE(contains(misuse({"bake", "s.glb", "--sun-direction", "0", "-1", "0"}),
+                         "several numbers are written 0,-1,0"));
 }
 
 TEST_F(Main, NamesAnUnknownSubcommand) {
@@ -65,7 +97,9 @@ TEST_P(EverySubcommand, RefusesAnEmptyPath) {
     Arguments arguments{command, ""};
     if (command == "render") arguments.emplace_back("b");
     if (command == "grid") arguments.insert(arguments.end(), {"--spacing", "1"});
-    if (command != "info" && command != "query" && command != "validate") {
+    if (command == "prune") {
+        arguments.insert(arguments.end(), {"--limit", "1"});
+    } else if (command != "info" && command != "query" && command != "validate") {
         arguments.insert(arguments.end(), {"-o", "c"});
     }
     const std::string message = misuse(arguments);
@@ -88,6 +122,7 @@ Arguments least_arguments(const std::string& command) {
     if (command == "render") return {"render", "s.glb", "v.probes", "-o", "r.png"};
     if (command == "meshball") return {"meshball", "v.probes", "-o", "m.png"};
     if (command == "query") return {"query", "v.probes", "-o", "a.csv"};
+    if (command == "prune") return {"prune", "store", "--limit", "1"};
     return {command, "s.glb", "-o", "v.probes"};
 }
 

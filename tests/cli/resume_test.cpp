@@ -69,7 +69,7 @@ TEST_F(Resume, BakesToStdoutKeepNothing) {
     const CommandResult result = interrupted({"bake", kCourtyard, "-o", "-", "-s", "262144", "-j",
                                               "1", "-q", "--progress-file", "progress.json"});
     EXPECT_EQ(result.exit_code, 130);
-    EXPECT_EQ(result.err, "tetralight: interrupted\n");
+    EXPECT_EQ(result.err, "tetralight: interrupted; nothing was kept\n");
     EXPECT_EQ(file_names(), std::vector<std::string>{});
     EXPECT_TRUE(contains(misuse({"bake", kCourtyard, "-o", "-", "--resume"}), "--resume"));
 }
@@ -103,7 +103,7 @@ TEST_F(Resume, TakesNothingOfAnotherBake) {
     const std::string bytes = read("v.probes");
     succeed(other);
     EXPECT_TRUE(read("v.probes") == bytes);
-    EXPECT_EQ(file_names(), std::vector<std::string>{"v.probes"});
+    EXPECT_EQ(file_names(), (std::vector<std::string>{"v.probes", kStore})) << "work of the first";
 }
 
 TEST_F(Resume, BakesDamagedEntriesAgain) {
@@ -122,6 +122,21 @@ TEST_F(Resume, MakesNoStoreOfAnotherFile) {
     EXPECT_TRUE(contains(message, kStore + ": is not a bake store")) << message;
     EXPECT_EQ(read(kStore), "precious");
     EXPECT_EQ(file_names(), std::vector<std::string>{kStore});
+}
+
+TEST_F(Resume, ProgressReplacesNoOtherFileOfTheBake) {
+    succeed({"bake", kCourtyard, "-o", "old.probes", "-s", "16", "-q"});
+    write("groups.json", R"({"groups": [{"name": "a", "positions": [[0, 2, 0]]}]})");
+    for (const std::string name : {"old.probes", "groups.json", "v.probes", "v.probes.store"}) {
+        const std::string message =
+            fail({"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--reuse", "old.probes", "-g",
+                  "groups.json", "--progress-file", name});
+        EXPECT_TRUE(contains(message, name + ": is another file of this command")) << message;
+    }
+    const std::string message =
+        fail({"bake", kCourtyard, "-o", "v.probes", "-s", "16", "--progress-file", "/dev/null"});
+    EXPECT_TRUE(contains(message, "/dev/null: cannot write (is not a regular file)")) << message;
+    EXPECT_EQ(file_names(), (std::vector<std::string>{"groups.json", "old.probes"}));
 }
 
 TEST_F(Resume, InfoSaysTheRangeOfAPart) {

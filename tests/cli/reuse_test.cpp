@@ -71,7 +71,7 @@ TEST_F(Reuse, MayTakeThePlaceOfTheOldVolume) {
 TEST_F(Reuse, SaysWhyItBakesAllWhereSomethingElseIsDifferent) {
     succeed({"tetrahedralize", "old.json", "-o", "dark.probes"});
     const std::vector<std::tuple<std::string, Arguments, std::string>> cases{
-        {"old.probes", {"--seed", "3"}, "its seed is 0, that of this bake is 3"},
+        {"old.probes", {"--seed", "3"}, "its setting seed is 0, that of this bake is 3"},
         {"old.probes", {"--sky", "1"}, "its scene, sky or sun is different"},
         {"dark.probes", {}, "it has no light"}};
     for (const auto& [old, change, reason] : cases) {
@@ -79,7 +79,7 @@ TEST_F(Reuse, SaysWhyItBakesAllWhereSomethingElseIsDifferent) {
         Arguments arguments = bake("old.json", "new.probes", change);
         arguments.insert(arguments.end(), {"--reuse", old});
         const CommandResult result = succeed(arguments);
-        EXPECT_TRUE(contains(result.err, old + ": nothing is re-used: " + reason)) << result.err;
+        EXPECT_TRUE(contains(result.err, old + ": nothing is reused: " + reason)) << result.err;
         EXPECT_EQ(Json::parse(result.out)["reused"], 0);
         EXPECT_TRUE(read("new.probes") == read("full.probes")) << reason;
     }
