@@ -4,9 +4,11 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <climits>
 #include <utility>
 
+#include <tetralight/base/file.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/system_error.h>
 
@@ -31,6 +33,13 @@ mode_t final_mode(const std::string& path) {
 std::string folder_of(const std::string& path) {
     const size_t slash = path.rfind('/');
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+/// Makes names in a folder durable. True also where the file system cannot do that for folders.
+bool sync_folder(const std::string& folder) {
+    const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!descriptor) return errno == EACCES;  // a folder that may be written to, but not listed
+    return ::fsync(descriptor.value()) == 0 || errno == EINVAL || errno == EROFS;
 }
 
 /// The name under which the system shows an open file of this process.
@@ -72,7 +81,7 @@ Result<FileWriter> FileWriter::open(const std::string& path) {
 }
 
 bool FileWriter::open_beside() {
-    file_ = Descriptor(::open(folder_of(target_).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0600));
+    file_ = Descriptor(::open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
     if (file_ && ::access(name_of_open_file(file_).c_str(), F_OK) == 0) return true;
     std::string name = target_ + ".XXXXXX";
     file_ = Descriptor(::mkostemp(name.data(), O_CLOEXEC));
@@ -94,16 +103,45 @@ Status FileWriter::write(std::span<const std::byte> bytes) {
     return Ok{};
 }
 
-Status FileWriter::commit() {
-    const bool is_done = target_.empty() ? file_.close() : move_into_place();
-    if (!is_done) return system_error(path_, "write");
+Status write_file(const std::string& path, std::span<const std::byte> bytes,
+                  const WrittenFileCheck& check) {
+    auto writer = FileWriter::open(path);
+    if (!writer) return writer.error();
+    if (auto status = writer->write(bytes); !status) return status;
+    return writer->commit(check);
+}
+
+Status FileWriter::commit(const WrittenFileCheck& check) {
+    if (target_.empty()) {
+        if (!file_.close()) return system_error(path_, "write");
+        return Ok{};
+    }
+    if (!sync_content()) return system_error(path_, "write");
+    if (check) {
+        if (auto status = read_back(check); !status) return status;
+    }
+    if (!move_into_place()) return system_error(path_, "write");
     temporary_.clear();
+    if (!sync_folder(folder_of(target_))) return system_error(path_, "write");
     return Ok{};
 }
 
+bool FileWriter::sync_content() {
+    return ::fchmod(file_.value(), final_mode(target_)) == 0 && ::fsync(file_.value()) == 0;
+}
+
+Status FileWriter::read_back(const WrittenFileCheck& check) {
+    const auto written =
+        MappedFile::open(temporary_.empty() ? name_of_open_file(file_) : temporary_);
+    if (!written) return written.error().in(shown_path(path_));
+    const Status status = check(written->bytes());
+    if (status) return Ok{};
+    return status.error().in(shown_path(path_) +
+                             ": was not replaced, as what was written is wrong");
+}
+
 bool FileWriter::move_into_place() {
-    return ::fchmod(file_.value(), final_mode(target_)) == 0 && ::fsync(file_.value()) == 0 &&
-           give_name() && file_.close() && ::rename(temporary_.c_str(), target_.c_str()) == 0;
+    return give_name() && file_.close() && ::rename(temporary_.c_str(), target_.c_str()) == 0;
 }
 
 /// A name that no file has: a link, unlike a rename, does not replace one.

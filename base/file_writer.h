@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -9,6 +10,9 @@
 #include <tetralight/base/result.h>
 
 namespace tetralight {
+
+/// Checks the bytes of a file that was written, before it appears under its name.
+using WrittenFileCheck = std::function<Status(std::span<const std::byte> bytes)>;
 
 /// Writes a file piece by piece, and lets it appear at `path` only when it is complete:
 ///
@@ -29,13 +33,17 @@ class FileWriter {
 
     [[nodiscard]] Status write(std::span<const std::byte> bytes);
 
-    /// Syncs the file and renames it to `path`. Call it once, at the end.
-    [[nodiscard]] Status commit();
+    /// Syncs the file, reads it back for `check`, renames it to `path` and syncs the folder, so
+    /// that it survives a power cut. Call it once, at the end. stdout and devices are not read
+    /// back. Returns the error of `check`, too.
+    [[nodiscard]] Status commit(const WrittenFileCheck& check = {});
 
   private:
     explicit FileWriter(const std::string& path) : path_(path == "-" ? "stdout" : path) {}
 
     bool open_beside();
+    bool sync_content();
+    [[nodiscard]] Status read_back(const WrittenFileCheck& check);
     bool move_into_place();
     bool give_name();
 
@@ -44,6 +52,10 @@ class FileWriter {
     std::string temporary_;  ///< beside the target; empty: the file has no name yet
     Descriptor file_;
 };
+
+/// Writes a whole file with a check (`FileWriter::commit`).
+[[nodiscard]] Status write_file(const std::string& path, std::span<const std::byte> bytes,
+                                const WrittenFileCheck& check);
 
 /// The path that a chain of symbolic links ends at, whether it exists or not. Returns an error if
 /// the links form a cycle.

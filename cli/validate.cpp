@@ -17,6 +17,8 @@ Json report_json(const ValidationReport& report) {
     return {{"inverted_cells", report.inverted_cells},
             {"non_delaunay_faces", report.non_delaunay_faces},
             {"concave_hull_edges", report.concave_hull_edges},
+            {"inward_hull_rays", report.inward_hull_rays},
+            {"torn_hull_rays", report.torn_hull_rays},
             {"probes_without_cell", report.probes_without_cell},
             {"probes_without_source", report.probes_without_source},
             {"misplaced_float_probes", report.misplaced_float_probes},

@@ -44,11 +44,16 @@ struct MortonLattice {
     }
 
     [[nodiscard]] uint32_t index(const glm::vec3& position) const {
+        const glm::vec3 point = (position - origin) * scale;
+        return spread_bits(step(point.x)) << 2 | spread_bits(step(point.y)) << 1 |
+               spread_bits(step(point.z));
+    }
+
+  private:
+    /// The lattice point below a coordinate; 0 for NaN, which huge boxes give (infinity times 0).
+    [[nodiscard]] uint32_t step(float coordinate) const {
         const auto last = static_cast<float>((1 << bits) - 1);
-        const glm::vec3 point = glm::min((position - origin) * scale, glm::vec3(last));
-        return spread_bits(static_cast<uint32_t>(point.x)) << 2 |
-               spread_bits(static_cast<uint32_t>(point.y)) << 1 |
-               spread_bits(static_cast<uint32_t>(point.z));
+        return coordinate > 0.0f ? static_cast<uint32_t>(std::min(coordinate, last)) : 0u;
     }
 };
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include <tetralight/base/file_writer.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/detail/probe_file_layout.h>
@@ -97,50 +98,74 @@ Status read_info(const SectionEntry& entry, std::span<const std::byte> bytes, Vo
     return Ok{};
 }
 
-}  // namespace
-
-/// Builds a ProbeFile from its bytes.
-struct ProbeFileReader {
-    ProbeFile file;
+/// The volume in the bytes of a probe file.
+struct VolumeReader {
+    std::span<const std::byte> bytes;
+    ProbeVolumeView view;
+    std::vector<ProbeFile::Section> sections;
     bool has_info = false;
 
     Status read(const SectionEntry& entry) {
         const std::string name = detail::section_name(entry);
-        const auto bytes = file.mapping_.bytes().subspan(entry.offset, entry.size());
-        file.sections_.push_back({name, entry.offset, entry.size(), entry.element_size});
+        const auto section = bytes.subspan(entry.offset, entry.size());
+        sections.push_back({name, entry.offset, entry.size(), entry.element_size});
         Status status = Ok{};
         if (name == "info") {
-            status = read_info(entry, bytes, file.view_.info);
+            status = read_info(entry, section, view.info);
             has_info = true;
         }
-        for_each_volume_member([&](const char* known, MemberUse, auto, auto view) {
-            if (name == known) status = read_section(entry, bytes, file.view_.*view);
+        for_each_volume_member([&](const char* known, MemberUse, auto, auto member) {
+            if (name == known) status = read_section(entry, section, view.*member);
         });
         if (status) return Ok{};
         Error error = status.error().in("section \"" + name + "\"");
         error.field = name;
         return error;
     }
+};
 
+Result<VolumeReader> read_volume(std::span<const std::byte> bytes) {
+    VolumeReader reader{bytes, {}, {}};
+    const auto table = detail::read_section_table(bytes);
+    if (!table) return table.error();
+    for (const SectionEntry& entry : *table) {
+        if (auto status = reader.read(entry); !status) return status.error();
+    }
+    if (!reader.has_info) {
+        return Error{ErrorCode::Corrupt, "info", "", "section \"info\" is missing"};
+    }
+    return reader;
+}
+
+/// Checksums, and the meaning of every number.
+Status verify_bytes(std::span<const std::byte> bytes, const ProbeVolumeView& view) {
+    const auto table = detail::read_section_table(bytes);
+    if (!table) return table.error();
+    if (auto status = detail::verify_checksums(bytes, *table); !status) return status;
+    return verify(view);
+}
+
+Status verify_written(std::span<const std::byte> bytes) {
+    const auto reader = read_volume(bytes);
+    return reader ? verify_bytes(bytes, reader->view) : reader.error();
+}
+
+}  // namespace
+
+/// Builds a ProbeFile.
+struct ProbeFileReader {
     static Result<ProbeFile> open(MappedFile mapping) {
-        ProbeFileReader reader;
-        reader.file.mapping_ = std::move(mapping);
-        const auto table = detail::read_section_table(reader.file.mapping_.bytes());
-        if (!table) return table.error();
-        for (const SectionEntry& entry : *table) {
-            if (auto status = reader.read(entry); !status) return status.error();
-        }
-        if (!reader.has_info)
-            return Error{ErrorCode::Corrupt, "info", "", "section \"info\" is missing"};
-        return std::move(reader.file);
+        auto reader = read_volume(mapping.bytes());
+        if (!reader) return reader.error();
+        ProbeFile file;
+        file.mapping_ = std::move(mapping);
+        file.view_ = reader->view;
+        file.sections_ = std::move(reader->sections);
+        return file;
     }
 
     static Status verify(const ProbeFile& file) {
-        const auto table = detail::read_section_table(file.mapping_.bytes());
-        if (!table) return table.error();
-        const Status status = detail::verify_checksums(file.mapping_.bytes(), *table);
-        if (!status) return status;
-        return tetralight::verify(file.view_);
+        return verify_bytes(file.mapping_.bytes(), file.view_);
     }
 };
 
@@ -194,7 +219,7 @@ std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume,
 
 Status write_probe_file(const std::string& path, const ProbeVolumeView& volume,
                         std::span<const ExtraSection> extra) {
-    return write_file(path, probe_file_bytes(volume, extra));
+    return write_file(path, probe_file_bytes(volume, extra), verify_written);
 }
 
 }  // namespace tetralight

@@ -80,8 +80,8 @@ struct ExtraSection {
     uint64_t element_size = 1;
 };
 
-/// Writes a volume; the old file stays whole on failure. The same volume gives the same bytes.
-/// Precondition: `verify(volume)` holds.
+/// Writes a volume and verifies what was written; the old file stays whole on failure. Returns
+/// corrupt if the volume does not pass `verify`. The same volume gives the same bytes.
 [[nodiscard]] Status write_probe_file(const std::string& path, const ProbeVolumeView& volume,
                                       std::span<const ExtraSection> extra = {});
 

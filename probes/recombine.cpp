@@ -116,18 +116,22 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
     }
     const auto names = split_names(volume.layer_names);
     RecombinedInfo info;
-    double bound = 0.0;
+    double bound = 0.0, ambient_bound = 0.0;
     std::pair<double, size_t> brightest;
     for (size_t k = 0; k < layer_count; ++k) {
         const std::string_view name = k < names.size() ? names[k] : "";
         if (auto status = check_weight(name, weights[k]); !status) return status.error();
         const double largest =
             static_cast<double>(weights[k]) * static_cast<double>(volume.layers[k].largest);
-        brightest = std::max(brightest, {largest, k});
+        const double ambient =
+            static_cast<double>(weights[k]) *
+            static_cast<double>(largest_coefficient(std::span(&volume.layers[k].ambient, 1)));
+        brightest = std::max(brightest, {std::max(largest, ambient), k});
         bound += largest;
+        ambient_bound += ambient;
         info.ambient += weights[k] * volume.layers[k].ambient;
     }
-    if (!(bound < 1e37)) {
+    if (!(bound < 1e37 && ambient_bound < 1e37)) {
         const size_t k = brightest.second;
         return Error{ErrorCode::InvalidArgument, "weights", str_cat(weights[k]),
                      str_cat("layer \"", k < names.size() ? names[k] : "", "\": weight ",

@@ -12,12 +12,11 @@
 #include <tetralight/probes/build/detail/hilbert_order.h>
 #include <tetralight/probes/build/detail/snap_to_lattice.h>
 #include <tetralight/probes/build/detail/weld.h>
+#include <tetralight/probes/farthest_position.h>
 #include <tetralight/probes/is_finite.h>
 
 namespace tetralight {
 namespace {
-
-constexpr double kFarthest = 1e18;
 
 /// Returns invalid_argument for a member of a group. `merge` completes the field.
 Error group_error(const ProbeGroup& group, std::string member, std::string value,
@@ -55,7 +54,7 @@ Result<std::vector<glm::dvec3>> world_positions(const ProbeGroup& group) {
         if (!is_finite(group.positions[i])) {
             return position_error(group, i, "is not finite", group.positions[i]);
         }
-        if (!is_finite(p) || glm::length(p) > kFarthest) {
+        if (!is_finite(p) || glm::length(p) > kFarthestPosition) {
             return position_error(group, i, "in the world is beyond 1e18", p);
         }
         positions.push_back(p + 0.0);  // -0 becomes 0: equal positions have equal bits

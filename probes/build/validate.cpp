@@ -146,6 +146,58 @@ void check_line(const ProbeVolumeView& volume, std::span<const glm::dvec3> posit
     }
 }
 
+/// Rays of hull cells, in volumes of any dimension.
+class HullRayValidator {
+  public:
+    HullRayValidator(const ProbeVolumeView& volume, std::span<const glm::dvec3> positions,
+                     ValidationReport& report)
+        : volume_(volume),
+          positions_(positions),
+          report_(report),
+          ray_of_vertex_(positions.size(), glm::vec3(0.0f)) {}
+
+    void check(uint32_t cell) {
+        if (cell < volume_.info.inner_cell_count) return;
+        const glm::dvec3 normal = outward_normal(cell);
+        const auto& rays = volume_.hull_rays[cell - volume_.info.inner_cell_count].rays;
+        for (int i = 0; i < cell_vertex_count(volume_.info.dimension) - 1; ++i) {
+            report_.inward_hull_rays += is_inward(glm::dvec3(rays[i]), normal);
+            glm::vec3& ray = ray_of_vertex_[volume_.cells[cell].vertices[i]];
+            if (ray == glm::vec3(0.0f)) ray = rays[i];
+            report_.torn_hull_rays += glm::distance(ray, rays[i]) > kRayTolerance;
+        }
+    }
+
+  private:
+    /// What rounding to floats may change of a unit vector.
+    static constexpr float kRayTolerance = 1e-4f;
+
+    [[nodiscard]] glm::dvec3 outward_normal(uint32_t index) const {
+        const Cell& cell = volume_.cells[index];
+        const glm::dvec3& a = positions_[cell.vertices[0]];
+        if (volume_.info.dimension == Dimension::Line) {
+            const auto& inner = volume_.cells[cell.neighbors[3]].vertices;
+            return a - positions_[inner[0] == cell.vertices[0] ? inner[1] : inner[0]];
+        }
+        const glm::dvec3& b = positions_[cell.vertices[1]];
+        if (volume_.info.dimension == Dimension::Plane) {
+            return glm::cross(b - a, volume_.info.axis);
+        }
+        return glm::cross(b - a, positions_[cell.vertices[2]] - a);
+    }
+
+    [[nodiscard]] bool is_inward(const glm::dvec3& ray, const glm::dvec3& normal) const {
+        if (glm::dot(ray, normal) < -kRayTolerance * glm::length(normal)) return true;
+        return volume_.info.dimension == Dimension::Plane &&
+               std::abs(glm::dot(ray, volume_.info.axis)) > kRayTolerance;
+    }
+
+    const ProbeVolumeView& volume_;
+    std::span<const glm::dvec3> positions_;
+    ValidationReport& report_;
+    std::vector<glm::vec3> ray_of_vertex_;
+};
+
 void check_probes(const ProbeVolumeView& volume, std::span<const glm::dvec3> positions,
                   ValidationReport& report) {
     std::vector<bool> has_cell(positions.size(), false);
@@ -194,6 +246,9 @@ std::vector<std::string> ValidationReport::problems() const {
     add(non_delaunay_faces, "face breaks the Delaunay property",
         "faces break the Delaunay property");
     add(concave_hull_edges, "hull edge is concave", "hull edges are concave");
+    add(inward_hull_rays, "ray of a hull cell points inwards", "rays of hull cells point inwards");
+    add(torn_hull_rays, "ray of a hull vertex differs between its cells",
+        "rays of hull vertices differ between their cells");
     add(probes_without_cell, "probe is in no cell", "probes are in no cell");
     add(probes_without_source, "probe is in no group", "probes are in no group");
     add(misplaced_float_probes, "float position differs from the exact one",
@@ -219,6 +274,7 @@ ValidationReport validate(const ProbeVolumeView& volume) {
     } else if (volume.info.dimension == Dimension::Line) {
         check_line(volume, positions, report);
     }
+    check_cells(HullRayValidator(volume, positions, report), volume.cells.size());
     check_probes(volume, positions, report);
     report.wrong_compact_probes = count_wrong_compact_probes(volume);
     return report;

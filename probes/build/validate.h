@@ -14,6 +14,8 @@ struct ValidationReport {
     uint32_t inverted_cells = 0;          ///< not positively oriented
     uint32_t non_delaunay_faces = 0;      ///< a neighbor's vertex strictly inside a circumsphere
     uint32_t concave_hull_edges = 0;      ///< hull triangles that see each other from outside
+    uint32_t inward_hull_rays = 0;        ///< rays that point into the hull or out of a flat set
+    uint32_t torn_hull_rays = 0;          ///< a vertex has another ray in another hull cell
     uint32_t probes_without_cell = 0;     ///< in no inner cell
     uint32_t probes_without_source = 0;   ///< in no group
     uint32_t misplaced_float_probes = 0;  ///< float position is not the rounded exact one
@@ -32,10 +34,10 @@ struct ValidationReport {
 };
 
 /// Checks the geometry of a volume whose structure is sound (see `verify`): the Delaunay property
-/// under exact arithmetic on the stored double positions, orientation, convexity of the hull, every
-/// probe present, sum of the cells = content of the hull. Compact probes have to equal the
-/// rounded floats. Flat volumes are checked in their plane. A volume without exact positions is
-/// checked on its float ones.
+/// under exact arithmetic on the stored double positions, orientation, convexity of the hull, hull
+/// rays that lead away from it, every probe present, sum of the cells = content of the hull.
+/// Compact probes have to equal the rounded floats. Flat volumes are checked in their plane. A
+/// volume without exact positions is checked on its float ones.
 [[nodiscard]] ValidationReport validate(const ProbeVolumeView& volume);
 
 }  // namespace tetralight

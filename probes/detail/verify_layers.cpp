@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/dering.h>
 #include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/detail/verify_text.h>
@@ -71,6 +72,19 @@ Status check_counts(const ProbeVolumeView& v) {
     return Ok{};
 }
 
+/// The bound of each layer holds: combinations of layers are finite because of it.
+Status check_bounds(const ProbeVolumeView& v) {
+    const size_t probes = v.positions.size();
+    for (size_t k = 0; k < v.layers.size() && !v.layer_irradiance.empty(); ++k) {
+        const float largest = largest_coefficient(v.layer_irradiance.subspan(k * probes, probes));
+        if (largest <= v.layers[k].largest) continue;
+        return element_error("layers", k,
+                             str_cat("has coefficients up to ", largest, ", but its bound is ",
+                                     v.layers[k].largest));
+    }
+    return Ok{};
+}
+
 }  // namespace
 
 Status check_layers(const ProbeVolumeView& v) {
@@ -97,7 +111,7 @@ Status check_layers(const ProbeVolumeView& v) {
           check_each("dering", v.dering, is_window)}) {
         if (!status) return status;
     }
-    return Ok{};
+    return check_bounds(v);
 }
 
 }  // namespace tetralight::detail

@@ -10,14 +10,19 @@
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
+
 Status check_names(std::string_view section, std::string_view names) {
     if (!names.empty() && names.back() != '\n') {
         return section_error(section, "the last name has no line break at its end");
     }
     const auto lines = split_names(names);
-    const auto bad = std::ranges::find_if_not(lines, is_utf8);
-    if (bad == lines.end()) return Ok{};
-    return section_error(section, str_cat("name ", bad - lines.begin(), " is not UTF-8"));
+    for (size_t i = 0; i < lines.size(); ++i) {
+        if (!is_utf8(lines[i])) return section_error(section, str_cat("name ", i, " is not UTF-8"));
+        if (has_control_character(lines[i])) {
+            return section_error(section, str_cat("name ", i, " holds a control character"));
+        }
+    }
+    return Ok{};
 }
 
 Status check_sorted_names(std::string_view section, std::string_view names) {

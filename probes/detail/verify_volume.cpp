@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/detail/section_error.h>
+#include <tetralight/probes/detail/verify_info.h>
 #include <tetralight/probes/detail/verify_layers.h>
 #include <tetralight/probes/detail/verify_text.h>
 #include <tetralight/probes/is_finite.h>
@@ -14,10 +17,6 @@ namespace tetralight {
 namespace {
 
 using tetralight::is_finite;
-
-bool is_finite(const IrradianceSh& sh) {
-    return std::ranges::all_of(sh.coefficients, [](const glm::vec3& c) { return is_finite(c); });
-}
 
 bool is_plausible(const Light& light) {
     const float numbers[] = {light.range,  light.cos_inner_cone,      light.cos_outer_cone,
@@ -108,18 +107,6 @@ Status check_numbers(const ProbeVolumeView& v) {
                 return std::abs(ray.x * ray.x + ray.y * ray.y + ray.z * ray.z - 1.0f) < 1e-3f;
             });
     };
-    if (!is_finite(v.info.world_origin) || !is_finite(v.info.axis) || !is_finite(v.info.ambient) ||
-        !std::isfinite(v.info.extent) || !is_finite(v.info.seed_cube.min) ||
-        !std::isfinite(v.info.seed_cube.scale)) {
-        return info_error("a number is not finite");
-    }
-    if (v.info.seed_cube.scale < 0.0) {
-        return info_error(
-            str_cat("the cube of the seeds has ", v.info.seed_cube.scale, " steps a metre"));
-    }
-    if (!v.compact.empty() && !(v.info.compact_scale > 0.0f && v.info.compact_scale < 1e38f)) {
-        return info_error(str_cat("scale ", v.info.compact_scale, " of compact probes"));
-    }
     for (const Status& status :
          {check_each("positions", v.positions, "is not finite", finite),
           check_each("exact_positions", v.exact_positions, "is not finite", finite),
@@ -131,7 +118,7 @@ Status check_numbers(const ProbeVolumeView& v) {
           check_each("hull_rays", v.hull_rays, "is not a unit vector", unit_rays)}) {
         if (!status) return status;
     }
-    return Ok{};
+    return detail::check_info(v);
 }
 
 Error cell_error(size_t cell, const std::string& what) {
@@ -223,7 +210,14 @@ Status check_tables(const ProbeVolumeView& v) {
                (source.probe < v.positions.size() || source.probe == kNoIndex);
     };
     if (auto s = check_each("sources", v.sources, "is out of range", in_range); !s) return s;
-    return check_each("lights", v.lights, "is not a light", is_plausible);
+    const auto is_before = [](const ProbeSource& a, const ProbeSource& b) {
+        return std::pair(a.group, a.index) <= std::pair(b.group, b.index);
+    };
+    if (std::ranges::adjacent_find(v.sources, std::not_fn(is_before)) != v.sources.end()) {
+        return detail::section_error("sources", "is not sorted");
+    }
+    if (auto s = check_each("lights", v.lights, "is not a light", is_plausible); !s) return s;
+    return detail::check_light_numbers(v);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ class StreamWalk {
         : block_(block),
           starts_(&block.start[QueryBlock::start_index(0, stream)]),
           cells_(volume.cells.data()),
-          positions_(&volume.positions.data()->x),
+          positions_(volume.positions.empty() ? nullptr : &volume.positions[0].x),
           probe_count_(static_cast<uint32_t>(volume.positions.size())),
           inner_count_(volume.info.inner_cell_count),
           query_(stream * QueryBlock::kStreamSize),

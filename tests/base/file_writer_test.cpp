@@ -53,6 +53,30 @@ TEST_F(FileWriterTest, ReplacesTheFileAtTheEndOnly) {
     EXPECT_EQ(file_count(), 1);
 }
 
+TEST_F(FileWriterTest, ReplacesTheFileOnlyByBytesThatPassACheck) {
+    std::string seen;
+    const auto refuse = [&](std::span<const std::byte> bytes) -> Status {
+        seen.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        return Error{ErrorCode::Corrupt, "byte", "", "byte 1 is wrong"};
+    };
+    {
+        auto writer = FileWriter::open(target());
+        ASSERT_TRUE(writer && write(*writer, "ne") && write(*writer, "w"));
+        const Status status = writer->commit(refuse);
+        ASSERT_FALSE(status);
+        EXPECT_EQ(status.error().code, ErrorCode::Corrupt);
+        EXPECT_EQ(error_text(status.error()).find(target()), 0u);
+    }
+    EXPECT_EQ(seen, "new");
+    EXPECT_EQ(contents(), "old");
+    EXPECT_EQ(file_count(), 1);
+
+    auto writer = FileWriter::open(target());
+    ASSERT_TRUE(writer && write(*writer, "new"));
+    ASSERT_TRUE(writer->commit([](auto) { return Ok{}; }));
+    EXPECT_EQ(contents(), "new");
+}
+
 TEST_F(FileWriterTest, CreatesWhatALinkLeadsTo) {
     fs::create_directory(folder_ / "b");
     fs::create_symlink("b/second", folder_ / "first");

@@ -13,7 +13,8 @@ class Validate : public CommandFixture {
   protected:
     /// The report on a volume that is not valid.
     [[nodiscard]] Json report_on(const ProbeVolume& volume) const {
-        EXPECT_TRUE(write_probe_file(path("bad.probes"), volume.view()));
+        const auto bytes = probe_file_bytes(volume.view());  // write_probe_file() would refuse it
+        write("bad.probes", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
         const CommandResult result = run({"validate", "bad.probes", "--json"});
         EXPECT_EQ(result.exit_code, 1);
         EXPECT_EQ(result.err.find("tetralight: bad.probes: "), 0u) << result.err;
@@ -49,6 +50,17 @@ const Corruption kCorruptions[] = {
     {"concave_hull_edges",
      [](ProbeVolume& v) {
          for (size_t i = v.info.inner_cell_count; i < v.cells.size(); ++i) turn(v.cells[i]);
+     }},
+    {"inward_hull_rays",
+     [](ProbeVolume& v) {
+         for (HullCellRays& cell : v.hull_rays) {
+             for (glm::vec3& ray : cell.rays) ray = -ray;
+         }
+     }},
+    {"torn_hull_rays",
+     [](ProbeVolume& v) {
+         glm::vec3& ray = v.hull_rays[0].rays[0];
+         ray = glm::normalize(ray + glm::vec3(0.01f, 0.02f, -0.01f));
      }},
     {"probes_without_cell",
      [](ProbeVolume& v) {

@@ -199,6 +199,17 @@ TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {
     EXPECT_TRUE(verify(volume.view()));
 }
 
+TEST_F(ProbeFileTest, AVolumeThatCannotBeReadReplacesNothing) {
+    ASSERT_TRUE(write_probe_file(path, volume.view()));
+    ProbeVolume broken = volume;
+    broken.info.extent = -1.0f;
+    const Status status = write_probe_file(path, broken.view());
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ErrorCode::Corrupt);
+    EXPECT_EQ(status.error().field, "info.extent");
+    EXPECT_TRUE(open_probe_file(path));
+}
+
 TEST_F(ProbeFileTest, KeepsTheOldFileWhenTheNewOneCannotBeWritten) {
     ASSERT_TRUE(write_probe_file(path, volume.view()));
     EXPECT_FALSE(write_probe_file(path + "/inside", volume.view()));

@@ -106,6 +106,9 @@ TEST(Recombine, RefusesBadWeights) {
     EXPECT_EQ(error({1.0f}), "1 weights for 2 layers");
     EXPECT_EQ(error({1e38f, 1.0f}),
               "layer \"sun\": weight 1e+38 makes its light too bright to be finite");
+    volume.layers[1].ambient.coefficients[4].y = -1e37f;
+    EXPECT_EQ(error({1.0f, 3.0f}),
+              "layer \"light:lamp\": weight 3 makes its light too bright to be finite");
 }
 
 TEST(Recombine, OfAVolumeWithoutLayersIsAnErrorThatSaysSo) {
