@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include <tetralight/bake/scene/probe_groups_json.h>
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/build/validate.h>
+#include <tetralight/probes/probe_file.h>
+#include "tests/fuzz/mutator.h"
+#include "tests/fuzz/targets.h"
+#include "tests/support/temp_folder.h"
+
+namespace tetralight::fuzz {
+namespace {
+
+/// The files of tests/fuzz/groups, in the order of their names.
+const std::vector<std::string>& sound_texts() {
+    static const auto texts = [] {
+        std::vector<std::filesystem::path> paths;
+        for (const auto& entry : std::filesystem::directory_iterator(TETRALIGHT_FUZZ_GROUPS)) {
+            paths.push_back(entry.path());
+        }
+        std::ranges::sort(paths);
+        std::vector<std::string> all;
+        for (const auto& path : paths) {
+            std::ifstream file(path, std::ios::binary);
+            all.emplace_back(std::istreambuf_iterator<char>(file),
+                             std::istreambuf_iterator<char>());
+        }
+        return all;
+    }();
+    return texts;
+}
+
+}  // namespace
+
+std::string fuzz_probe_groups(uint64_t seed) {
+    static const TempFolder folder;
+    Mutator mutator(seed);
+    std::string text = sound_texts()[mutator.below(sound_texts().size())];
+    for (size_t change = mutator.below(4); change > 0; --change) mutator.change_text(text);
+    const std::string path = folder.write("a.json", text);
+    const auto groups = read_probe_groups(path);
+    if (!groups) {
+        const std::string message = error_text(groups.error());
+        return message.starts_with(path) ? ""
+                                         : str_cat("the error does not name the file: ", message);
+    }
+    const auto merged = merge(*groups);
+    if (!merged) return {};
+    const ProbeVolume volume = make_probe_volume(*merged);
+    if (const auto status = verify(volume.view()); !status) return error_text(status.error());
+    const auto problems = validate(volume.view()).problems();
+    return problems.empty() ? "" : problems[0];
+}
+
+}  // namespace tetralight::fuzz

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fixed number of cases of each target; `./run fuzz NAME SECONDS` runs more.
+#include <gtest/gtest.h>
+
+#include "tests/fuzz/targets.h"
+
+namespace tetralight::fuzz {
+namespace {
+
+class Fuzz : public testing::TestWithParam<Target> {};
+
+INSTANTIATE_TEST_SUITE_P(All, Fuzz, testing::ValuesIn(targets().begin(), targets().end()),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST_P(Fuzz, FindsNothing) {
+    constexpr uint64_t kCaseCount = 3000;
+    for (uint64_t seed = 1; seed <= kCaseCount; ++seed) {
+        ASSERT_EQ(GetParam().run(seed), "") << "seed " << seed;
+    }
+}
+
+}  // namespace
+}  // namespace tetralight::fuzz
