@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/probe_file.h>
 
 #include <gtest/gtest.h>
@@ -32,6 +33,7 @@ ProbeVolume make_full_volume() {
     volume.layers.resize(2);
     volume.layer_names = "sky\nrest\n";
     volume.layer_irradiance.assign(2 * volume.positions.size(), test::linear_light({0, 0, 1}));
+    for (Layer& layer : volume.layers) layer.largest = largest_coefficient(volume.layer_irradiance);
     volume.sky.resize(1);
     return volume;
 }
