@@ -50,6 +50,10 @@ struct ProcessCommand {
     int niceness = 0;
     /// Bytes of data that it may allocate; 0 = no limit.
     uint64_t memory_limit = 0;
+    /// Bytes of its whole address space, with the files that it maps; 0 = no limit.
+    uint64_t address_space_limit = 0;
+    /// Seconds of processor time of all its threads together; 0 = no limit. A signal ends it then.
+    uint64_t processor_seconds_limit = 0;
     /// Which process the system ends first if memory runs out: 0 = as this one, 1000 = the first.
     int out_of_memory_score = 0;
     /// It is killed after this time; 0 = never.
@@ -92,8 +96,9 @@ struct ProcessResult {
     }
 };
 
-/// Runs a program until it ends. A program that has exited may leave others running: nothing waits
-/// for those. The child dies with the calling thread. Thread-safe.
+/// Runs a program until it ends. It writes no core file and cannot gain privileges
+/// (`no_new_privs`). A program that has exited may leave others running: nothing waits for those.
+/// The child dies with the calling thread. Thread-safe.
 ///
 /// Returns an error, and leaves no process, if the program cannot be started or `check_output`
 /// refuses its output. Every other end is a result.

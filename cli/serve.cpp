@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <iostream>
 
-#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/server/find_viewer.h>
 #include <tetralight/server/job.h>
 #include <tetralight/server/serve.h>
+#include <tetralight/server/tokens.h>
 
 namespace tetralight::cli {
 namespace {
@@ -58,9 +58,10 @@ bool is_host(std::string_view text) {
 
 struct Serve {
     server::Settings settings;
-    std::string token_file;
 
-    explicit Serve(const Values& values) : token_file(values.text("token_file")) {
+    explicit Serve(const Values& values) {
+        settings.token_file = values.text("token_file");
+        settings.read_token_file = values.text("read_token_file");
         settings.data = values.text("data");
         settings.is_read_only = values.flag("read_only");
         settings.cors_origins = values.texts("cors_origin");
@@ -84,6 +85,8 @@ struct Serve {
         settings.max_triangles = values.integer("max_triangles");
         settings.quota_bytes = values.integer("quota");
         settings.tool_memory_bytes = values.integer("tool_memory");
+        settings.tool_address_space_bytes = values.integer("tool_address_space");
+        settings.tool_processor_seconds = values.integer("tool_processor_seconds");
         settings.tool_seconds = values.number("tool_seconds");
         settings.header_seconds = values.number("header_seconds");
         settings.idle_seconds = values.number("idle_seconds");
@@ -114,28 +117,21 @@ struct Serve {
         }
     }
 
-    [[nodiscard]] Status read_token() {
-        if (const char* token = std::getenv(kTokenVariable)) settings.token = token;
-        // Programs that the server runs have no use for it.
+    /// The variable counts where no file is named. Programs that the server runs have no use for
+    /// it.
+    [[nodiscard]] Status read_token_variable() {
+        const char* variable = std::getenv(kTokenVariable);
+        const std::string text = variable == nullptr ? "" : variable;
         ::unsetenv(kTokenVariable);
-        if (!token_file.empty()) {
-            const auto bytes = read_file(token_file);
-            if (!bytes) return bytes.error();
-            settings.token.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-            settings.token.erase(settings.token.find_last_not_of(" \t\r\n") + 1);
-            if (settings.token.empty())
-                return Error{ErrorCode::Corrupt, "token_file", token_file,
-                             token_file + ": is empty"};
-        }
-        if (is_visible(settings.token)) return Ok{};
-        return Error{
-            ErrorCode::InvalidArgument, "token_file", "",
-            (token_file.empty() ? std::string("$") + kTokenVariable : token_file) +
-                ": a token is letters, digits and signs of ASCII, without spaces and line breaks"};
+        if (text.empty() || !settings.token_file.empty()) return Ok{};
+        auto token = server::parse_token(text, "token_file", std::string("$") + kTokenVariable);
+        if (!token) return token.error();
+        settings.token = std::move(*token);
+        return Ok{};
     }
 
     Status run() {
-        if (auto status = read_token(); !status) return status;
+        if (auto status = read_token_variable(); !status) return status;
         if (settings.viewer.empty()) {
             settings.viewer = server::find_viewer(server::program_of(settings));
         }

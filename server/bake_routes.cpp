@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <limits>
+#include <map>
+
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/order.h>
 #include <tetralight/server/problem.h>
@@ -73,6 +76,56 @@ Response events(Service& service, const Request& request) {
     return response;
 }
 
+/// Follows all unfinished bakes and those that are ordered later.
+class BakeWatch {
+  public:
+    explicit BakeWatch(const Bakes& bakes) : bakes_(&bakes) {}
+
+    /// Appends an event for each bake that has changed since the last call.
+    void append_events(std::string& out) {
+        std::map<std::string, std::string> now;
+        for (const Json& bake : bakes_->unfinished_and_newer(number_)) {
+            const auto id = bake["id"].get<std::string>();
+            std::string text = dump(bake);
+            const auto last = last_.find(id);
+            const bool is_new = last == last_.end() || last->second != text;
+            if (is_new) out += "event: progress\ndata: " + text + "\n\n";
+            now[id] = std::move(text);
+        }
+        for (const auto& [id, text] : last_) {
+            if (!now.contains(id)) append_end(id, out);
+        }
+        last_ = std::move(now);
+    }
+
+  private:
+    void append_end(const std::string& id, std::string& out) const {
+        Json bake{{"id", id}, {"state", "deleted"}};
+        try {
+            bake = bakes_->get(id);
+            bake.erase("request");
+        } catch (const Problem&) {
+            // It was deleted.
+        }
+        out += "event: end\ndata: " + dump(bake) + "\n\n";
+    }
+
+    const Bakes* bakes_;
+    int64_t number_ = std::numeric_limits<int64_t>::max();  ///< bakes that have ended do not count
+    std::map<std::string, std::string> last_;               ///< descriptions by id
+};
+
+/// One stream for all bakes: browsers open six connections to a server at most.
+Response all_events(const Service& service) {
+    Response response{.content_type = "text/event-stream",
+                      .headers = {{"Cache-Control", "no-store"}}};
+    response.events = [watch = BakeWatch(service.bakes)](std::string& out) mutable {
+        watch.append_events(out);
+        return true;
+    };
+    return response;
+}
+
 }  // namespace
 
 std::vector<Route> bake_routes(Service& service) {
@@ -90,6 +143,9 @@ std::vector<Route> bake_routes(Service& service) {
              [&](Request&) {
                  return json_response({{"bakes", service.bakes.list()}});
              }},
+        {.method = "GET",
+         .pattern = "/v1/bakes/events",
+         .handle = [&](Request&) { return all_events(service); }},
         {.method = "GET",
          .pattern = "/v1/bakes/{bake}",
          .handle = [&](Request& r) { return json_response(service.bakes.get(r.captures[0])); }},

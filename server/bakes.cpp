@@ -208,10 +208,33 @@ Json Bakes::list() const {
     return json;
 }
 
+Json Bakes::unfinished_and_newer(int64_t& number) const {
+    const std::lock_guard lock(mutex_);
+    Json json = Json::array();
+    int64_t highest = 0;
+    for (const auto& [id, bake] : bakes_) {
+        highest = std::max(highest, bake.number);
+        if (is_final(bake.state) && bake.number <= number) continue;
+        json.push_back(to_json(bake));
+        json.back().erase("request");
+    }
+    number = highest;
+    return json;
+}
+
 size_t Bakes::count(const std::string& state) const {
     const std::lock_guard lock(mutex_);
     return static_cast<size_t>(std::ranges::count_if(
         bakes_, [&](const auto& entry) { return entry.second.state == state; }));
+}
+
+double Bakes::last_done() const {
+    const std::lock_guard lock(mutex_);
+    double last = 0.0;
+    for (const auto& [id, bake] : bakes_) {
+        if (bake.state == "done") last = std::max(last, bake.ended);
+    }
+    return last;
 }
 
 Json Bakes::cancel(const std::string& id) {

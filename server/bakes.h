@@ -47,7 +47,13 @@ class Bakes {
     /// Deletes a finished bake.
     void remove(const std::string& id);
 
+    /// The bakes that have not ended or have a number above this one, without their orders. Sets
+    /// it to the highest number.
+    [[nodiscard]] Json unfinished_and_newer(int64_t& number) const;
+
     [[nodiscard]] bool is_over(const std::string& id) const;
+    /// When a bake last ended well, in seconds since 1970; 0 = never.
+    [[nodiscard]] double last_done() const;
     /// The number of bakes in a state.
     [[nodiscard]] size_t count(const std::string& state) const;
 

@@ -163,10 +163,35 @@ Response list(Service& service, Kind kind, const Request& request) {
     return json_response({{name_of(kind), files}, {"next", next}});
 }
 
+/// The entity tag of a file's description. It changes with the names of the file, the tag of its
+/// bytes does not.
+std::string tag_of(const StoredFile& file) {
+    const std::string text = dump(to_json_with_facts(file));
+    return "\"" + id_of(std::as_bytes(std::span(text))).substr(0, 32) + "\"";
+}
+
+/// Refuses an edit by a client that has seen an earlier state (`If-Match`).
+Store::Condition condition_of(const Request& request) {
+    const std::string known(request.header("if-match"));
+    if (known.empty()) return {};
+    return [known](const StoredFile& file) {
+        if (has_tag(known, tag_of(file), TagComparison::Strong)) return;
+        throw Problem{412, "changed", "the file has changed since this tag was given", "if-match",
+                      known.substr(0, 200)};
+    };
+}
+
 Response describe(Service& service, Kind kind, const Request& request) {
     const auto file = service.store.find(kind, request.captures[0]);
     if (!file) (void)service.store.get(kind, request.captures[0]);  // throws
-    return json_response(to_json_with_facts(*file));
+    const std::string tag = tag_of(*file);
+    Response response = json_response(to_json_with_facts(*file));
+    if (has_tag(request.header("if-none-match"), tag, TagComparison::Weak)) {
+        response.status = 304;
+        response.body = {};
+    }
+    response.headers = {{"ETag", tag}, {"Cache-Control", "private, no-cache"}};
+    return response;
 }
 
 Response rename(Service& service, Kind kind, const Request& request) {
@@ -176,12 +201,16 @@ Response rename(Service& service, Kind kind, const Request& request) {
         throw Problem{400, "missing_value", "name: is not given", "name"};
     const std::string name = fields.text("name");
     fields.finish();
-    return json_response(to_json(service.store.rename(kind, request.captures[0], name)));
+    const StoredFile file =
+        service.store.rename(kind, request.captures[0], name, condition_of(request));
+    Response response = json_response(to_json(file));
+    response.headers.emplace_back("ETag", tag_of(file));
+    return response;
 }
 
 Response remove(Service& service, Kind kind, const Request& request) {
     const auto file = service.store.find(kind, request.captures[0]);
-    service.store.remove(kind, request.captures[0]);
+    service.store.remove(kind, request.captures[0], condition_of(request));
     if (file && kind == Kind::Volumes) service.volumes.forget(file->id);
     return {.status = 204, .content_type = ""};
 }
@@ -267,8 +296,7 @@ Response bytes_response(const Request& request, const Body& body, const std::str
                     {"Cache-Control",
                      is_by_id ? "private, max-age=31536000, immutable" : "private, no-cache"}},
         .body = body};
-    const std::string_view known = request.header("if-none-match");
-    if (known == "*" || known.find(quoted) != std::string_view::npos) {
+    if (has_tag(request.header("if-none-match"), quoted, TagComparison::Weak)) {
         response.status = 304;
         response.body = {};
         return response;

@@ -32,6 +32,14 @@ bool is_own_host(const Settings& settings, std::string_view host) {
            });
 }
 
+/// What the client sent as `Authorization: Bearer`; empty if it sent none.
+std::string_view token_of(const Request& request) {
+    constexpr std::string_view kScheme = "Bearer ";
+    const std::string_view credentials = request.header("authorization");
+    const bool is_bearer = is_same_name(credentials.substr(0, kScheme.size()), kScheme);
+    return is_bearer ? credentials.substr(kScheme.size()) : std::string_view();
+}
+
 }  // namespace
 
 bool is_loopback(const std::string& address) {
@@ -39,16 +47,7 @@ bool is_loopback(const std::string& address) {
     return (address.starts_with("127.") && is_number) || address == "::1" || address == "localhost";
 }
 
-bool is_same_secret(std::string_view a, std::string_view b) noexcept {
-    unsigned char difference = a.size() == b.size() ? 0 : 1;
-    for (size_t i = 0; i < a.size(); ++i) {
-        const char other = b.empty() ? '\0' : b[i % b.size()];
-        difference = static_cast<unsigned char>(difference | (a[i] ^ other));
-    }
-    return difference == 0;
-}
-
-void check_gate(const Settings& settings, const Request& request, Access access) {
+void check_gate(const Settings& settings, Tokens& tokens, const Request& request, Access access) {
     const std::string_view origin = request.header("origin");
     const std::string_view host = request.header("host");
     // A page of another site can send simple requests without a preflight.
@@ -62,17 +61,16 @@ void check_gate(const Settings& settings, const Request& request, Access access)
         throw Problem{403, "read_only", "this server is read-only"};
     }
     if (access == Access::Open) return;
-    if (settings.token.empty()) {
+    if (!tokens.are_needed()) {
         // Without a token, an unknown name may be an attack by DNS rebinding.
         if (is_own_host(settings, host)) return;
         throw Problem{403, "wrong_host", "the host must be localhost or one of --allowed-host",
                       "host", std::string(host.substr(0, 200))};
     }
-    constexpr std::string_view kScheme = "Bearer ";
-    const std::string_view credentials = request.header("authorization");
-    if (is_same_name(credentials.substr(0, kScheme.size()), kScheme) &&
-        is_same_secret(credentials.substr(kScheme.size()), settings.token)) {
-        return;
+    const Right right = tokens.right_of(token_of(request));
+    if (right == Right::Admin || (right == Right::Read && access == Access::Reads)) return;
+    if (right == Right::Read) {
+        throw Problem{403, "read_only_token", "this token may only read", "authorization"};
     }
     throw Problem{401, "unauthorized", "the bearer token is missing or wrong", "authorization"};
 }
@@ -92,12 +90,13 @@ bool is_preflight(const Request& request) {
 }
 
 Response preflight_response() {
-    return {.status = 204,
-            .content_type = "",
-            .headers = {{"Access-Control-Allow-Methods", "GET, POST, PATCH, DELETE"},
-                        {"Access-Control-Allow-Headers",
-                         "Authorization, Content-Type, If-None-Match, Range, X-Request-Id"},
-                        {"Access-Control-Max-Age", "600"}}};
+    return {
+        .status = 204,
+        .content_type = "",
+        .headers = {{"Access-Control-Allow-Methods", "GET, POST, PATCH, DELETE"},
+                    {"Access-Control-Allow-Headers",
+                     "Authorization, Content-Type, If-Match, If-None-Match, Range, X-Request-Id"},
+                    {"Access-Control-Max-Age", "600"}}};
 }
 
 }  // namespace tetralight::server

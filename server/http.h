@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,12 +21,22 @@
 
 namespace tetralight::server {
 
+/// A part of a path between slashes. "%6Dy" and "my" are the same name, but only the second one
+/// matches a rule of a proxy about "my".
+struct PathSegment {
+    std::string sent;
+    std::string decoded;
+};
+
 struct Request {
     /// For logs, and for the client: `X-Request-Id`.
     std::string id;
     std::string method;
-    /// Percent-decoded, without the query string.
+    /// Percent-decoded, without the query string. For logs and messages: an encoded slash looks
+    /// like one that separates segments.
     std::string path;
+    /// The path as it was sent, between its slashes.
+    std::vector<PathSegment> segments;
     /// The decoded query string, in its order.
     std::vector<std::pair<std::string, std::string>> parameters;
     /// Names in lower case.
@@ -100,6 +111,8 @@ struct Exchange {
     unsigned status = 0;
     uint64_t sent_bytes = 0;
     double seconds = 0.0;
+    /// Time for which it waited for a worker; nothing if it needed none.
+    std::optional<double> wait_seconds = {};
     /// The client disconnected or was too slow before all was sent.
     bool is_aborted = false;
 };
@@ -109,10 +122,23 @@ struct Exchange {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+enum class TagComparison : uint8_t {
+    Weak,    ///< for `If-None-Match`: W/"a" is "a"
+    Strong,  ///< for `If-Match`: W/"a" is no tag
+};
+
+/// True if a list of entity tags, as `If-None-Match` and `If-Match` have it, holds this one or is
+/// "*" (RFC 9110, section 13.1). `tag` has its quotes.
+[[nodiscard]] bool has_tag(std::string_view list, std::string_view tag, TagComparison comparison);
+
+/// True if the value of `Accept-Encoding` allows gzip.
+[[nodiscard]] bool accepts_gzip(std::string_view accept_encoding);
+
 /// "Not Found" for 404.
 [[nodiscard]] std::string_view reason_phrase(unsigned status);
 
-/// Reads the path and the parameters of a request target. Returns false if it is not an absolute
+/// Reads the path and the parameters of a request target. Splits the path before it decodes the
+/// segments, so that "%2F" is part of a name. Returns false if it is not an absolute
 /// path, or if its escapes are incomplete or decode to control characters or invalid UTF-8.
 [[nodiscard]] bool parse_target(std::string_view target, Request& request);
 

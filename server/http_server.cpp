@@ -88,7 +88,8 @@ class Server final : public HttpServer {
     net::awaitable<void> refuse(std::shared_ptr<Session> session);
     net::awaitable<void> serve(std::shared_ptr<Session> session);
     net::awaitable<bool> serve_one(Session& session);
-    net::awaitable<Response> answer(Session& session, Plan& plan, Request& request);
+    net::awaitable<Response> answer(Session& session, Plan& plan, Request& request,
+                                    std::optional<double>& waited);
     void end_idle_sessions();
 
     [[nodiscard]] SendRule send_rule(bool keeps_open) const {
@@ -182,7 +183,7 @@ net::awaitable<void> Server::refuse(std::shared_ptr<Session> session) {
          std::to_string(settings_.max_connections)},
         request);
     const auto sent = co_await send_response(*session, request, response, send_rule(false));
-    application_.answered({request, "", response.status, sent.bytes, 0.0, !sent.is_whole});
+    application_.answered({request, "", response.status, sent.bytes, 0.0, {}, !sent.is_whole});
     co_await session->linger();
 }
 
@@ -217,10 +218,11 @@ net::awaitable<bool> Server::serve_one(Session& session) {
     Reading reading = co_await read_head(session, parser, settings_, request);
     if (!reading.is_whole && !reading.refused) co_return false;
     Plan plan;
+    std::optional<double> waited;
     const auto finish = [&](unsigned status, const Sent& sent) {
         const std::chrono::duration<double> seconds = Clock::now() - start;
         application_.answered(
-            {request, plan.route, status, sent.bytes, seconds.count(), !sent.is_whole});
+            {request, plan.route, status, sent.bytes, seconds.count(), waited, !sent.is_whole});
     };
     if (reading.is_whole) {
         plan = application_.plan(request);
@@ -235,7 +237,7 @@ net::awaitable<bool> Server::serve_one(Session& session) {
     if (reading.refused) {
         response = application_.refusal(*reading.refused, request);
     } else {
-        response = co_await answer(session, plan, request);
+        response = co_await answer(session, plan, request, waited);
     }
     // The unread part of a body would be taken for the next request.
     const bool keeps_open =
@@ -245,8 +247,9 @@ net::awaitable<bool> Server::serve_one(Session& session) {
     co_return keeps_open&& sent.is_whole;
 }
 
-/// Runs the handler where the plan says.
-net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& request) {
+/// Runs the handler where the plan says. Sets how long the request waited for a worker.
+net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& request,
+                                        std::optional<double>& waited) {
     // Handling such a body would delay other requests on this thread.
     constexpr size_t kLongBody = size_t{1} << 20;
     constexpr auto kLook = std::chrono::milliseconds(200);
@@ -263,8 +266,10 @@ net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& r
     const auto executor = co_await net::this_coro::executor;
     net::steady_timer done(executor);
     std::optional<Response> response;
+    const auto begin = Clock::now();
     net::post(workers_, [&] {
         if (is_over_) return;
+        waited = std::chrono::duration<double>(Clock::now() - begin).count();
         Response made = request.is_abandoned
                             ? application_.refusal(
                                   {kAbandoned, "abandoned", "the client has disconnected"}, request)

@@ -24,10 +24,32 @@ constexpr int kOutOfMemoryScore = 800;
 /// Exit code for wrong usage.
 constexpr int kUsage = 2;
 
-uint64_t memory_limit(const Settings& settings) {
-    if (settings.tool_memory_bytes > 0) return settings.tool_memory_bytes;
+uint64_t machine_memory() {
     const auto pages = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES));
-    return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;
+    return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+uint64_t memory_limit(const Settings& settings) {
+    return settings.tool_memory_bytes > 0 ? settings.tool_memory_bytes : machine_memory() / 4 * 3;
+}
+
+uint64_t address_space_limit(const Settings& settings) {
+    if (settings.tool_address_space_bytes > 0) return settings.tool_address_space_bytes;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return 0;  // sanitizers reserve terabytes
+#else
+    constexpr uint64_t kLeast = uint64_t{64} << 30;
+    return std::max(machine_memory() * 4, kLeast);
+#endif
+}
+
+/// A bake may take days, so only jobs with a time limit have one.
+uint64_t processor_seconds_limit(const Settings& settings, const Job& job) {
+    if (job.limit_seconds <= 0.0) return 0;
+    if (settings.tool_processor_seconds > 0) return settings.tool_processor_seconds;
+    const auto processors = static_cast<uint64_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN)));
+    const uint64_t threads = std::max<uint64_t>(settings.tool_thread_count, processors);
+    return static_cast<uint64_t>(job.limit_seconds + 1.0) * threads;
 }
 
 std::chrono::milliseconds milliseconds(double seconds) {
@@ -104,6 +126,8 @@ JobResult run_job(const Settings& settings, const Job& job) {
                      .group = job.is_background ? ProcessGroup::Session : ProcessGroup::Own,
                      .niceness = job.is_background ? kMostNiceness : kNiceness,
                      .memory_limit = memory_limit(settings),
+                     .address_space_limit = address_space_limit(settings),
+                     .processor_seconds_limit = processor_seconds_limit(settings, job),
                      .out_of_memory_score = kOutOfMemoryScore,
                      .time_limit = milliseconds(job.limit_seconds),
                      .output_limit = kMostOutput,

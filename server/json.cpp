@@ -14,13 +14,70 @@ Response json_response(const Json& json, unsigned status) {
     return {.status = status, .body = dump(json) + "\n"};
 }
 
+namespace {
+
+/// Colons outside of strings. Valid JSON has one for each member of each object.
+size_t count_colons(std::string_view text) {
+    size_t count = 0;
+    bool is_in_string = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') is_in_string = !is_in_string;
+        if (!is_in_string) {
+            count += c == ':';
+        } else if (c == '\\') {
+            ++i;  // an escaped character does not end the string
+        }
+    }
+    return count;
+}
+
+/// Members of an object or array and of all within it.
+size_t count_members(const Json& json) {
+    size_t count = json.is_object() ? json.size() : 0;
+    for (const Json& value : json) {
+        if (value.is_structured()) count += count_members(value);
+    }
+    return count;
+}
+
+/// The first key that an object of a valid text has twice.
+std::string find_duplicate(std::string_view text) {
+    std::vector<std::set<std::string>> keys;
+    std::string duplicate;
+    const auto look = [&](int, Json::parse_event_t event, Json& value) {
+        if (event == Json::parse_event_t::object_start) keys.emplace_back();
+        if (event == Json::parse_event_t::object_end) keys.pop_back();
+        if (event != Json::parse_event_t::key) return true;
+        const std::string key = value.get<std::string>();
+        if (!keys.back().insert(key).second && duplicate.empty()) duplicate = key;
+        return true;
+    };
+    [[maybe_unused]] const Json ignored = Json::parse(text, look);
+    return duplicate;
+}
+
+/// Refuses an object that has a key twice: parsers differ in which of the values they take. The
+/// parsed object kept one member of those with the same key, so their number tells.
+void check_duplicates(std::string_view text, const Json& json) {
+    const size_t count = count_colons(text);
+    if (count == json.size() || count == count_members(json)) return;
+    const std::string key = find_duplicate(text);
+    throw Problem{422, "duplicate_member", "\"" + key + "\" is given twice in one object", key};
+}
+
+}  // namespace
+
 Json parse_object(std::string_view body) {
     if (auto status = check_json_depth(body); !status) {
         throw Problem{400, "invalid_json", detail_of(status.error()), "body"};
     }
     try {
         Json json = Json::parse(body);
-        if (json.is_object()) return json;
+        if (json.is_object()) {
+            check_duplicates(body, json);
+            return json;
+        }
         throw Problem{400, "invalid_json", "the body is not a JSON object", "body"};
     } catch (const Json::exception& exception) {
         throw Problem{400, "invalid_json", json_error_reason(exception), "body"};

@@ -20,7 +20,8 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Response json_response(const Json& json, unsigned status = 200);
 
-/// The JSON object of a body. Throws a `Problem` if it is nested too deep, not JSON or no object.
+/// The JSON object of a body. Throws a `Problem`: 400 if it is nested too deep, not JSON or no
+/// object, 422 "duplicate_member" if an object in it has a key twice.
 [[nodiscard]] Json parse_object(std::string_view body);
 
 /// The JSON object of a text that may be damaged; an empty object if there is none.

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/log.h>
 
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -14,7 +11,8 @@
 namespace tetralight::server {
 namespace {
 
-constexpr size_t kMostPending = 1 << 16;
+/// Lines that wait for the thread; more are dropped.
+constexpr size_t kMostPending = 1 << 20;
 
 /// "2026-01-31T12:00:00.123Z"
 std::string now_text() {
@@ -34,16 +32,6 @@ std::string now_text() {
 const char* name_of(Log::Level level) {
     constexpr const char* kNames[] = {"debug", "info", "warning", "error", ""};
     return kNames[static_cast<size_t>(level)];
-}
-
-/// Errors are ignored: there is no other place to report them.
-void write_all(std::string_view text) {
-    while (!text.empty()) {
-        const ssize_t count = ::write(STDERR_FILENO, text.data(), text.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return;
-        text.remove_prefix(static_cast<size_t>(count));
-    }
 }
 
 }  // namespace
@@ -67,7 +55,7 @@ void Log::write(Level level, std::string_view message, const Json& members) {
 }
 
 void Log::request(const Exchange& exchange) {
-    const auto& [request, route, status, sent_bytes, seconds, is_aborted] = exchange;
+    const auto& [request, route, status, sent_bytes, seconds, waited, is_aborted] = exchange;
     const Level level = status >= 500 ? Level::Warning : Level::Info;
     if (!is_shown(level)) return;
     // Formatted by hand because every request needs it. Only the path may need escaping.
@@ -81,23 +69,51 @@ void Log::request(const Exchange& exchange) {
                 request.remote, '"', is_aborted ? R"(,"aborted":true)" : "", "}\n"));
 }
 
-void Log::append(Level level, std::string line) {
-    std::unique_lock lock(mutex_);
+void Log::append(Level level, const std::string& line) {
+    const std::lock_guard lock(mutex_);
+    if (pending_.size() + line.size() > kMostPending) {
+        ++dropped_count_;
+        return;
+    }
     pending_ += line;
-    if (level >= Level::Warning || pending_.size() > kMostPending) flush_locked(lock);
+    if (level < Level::Warning && pending_.size() < kMostPending / 4) return;
+    is_urgent_ = true;
+    wake_.notify_one();
+}
+
+/// Takes the pending lines if all earlier ones are written, and reports what was dropped since.
+void Log::take_pending_locked() {
+    if (!unwritten_.empty()) return;
+    unwritten_.swap(pending_);
+    const uint64_t dropped = dropped_count_;
+    if (dropped == reported_count_) return;
+    const Json json{{"time", now_text()},
+                    {"level", name_of(Level::Warning)},
+                    {"message", "lines of the log were dropped because stderr was not read"},
+                    {"count", dropped - reported_count_}};
+    unwritten_ += dump(json) + "\n";
+    reported_count_ = dropped;
 }
 
 void Log::run() {
-    std::unique_lock lock(mutex_);
-    while (!is_ending_) {
-        wake_.wait_for(lock, std::chrono::milliseconds(100), [this] { return is_ending_; });
-        flush_locked(lock);
+    constexpr auto kPause = std::chrono::milliseconds(100);
+    bool is_last = false;
+    while (!is_last) {
+        {
+            std::unique_lock lock(mutex_);
+            // While stderr takes nothing, urgent lines must not make this thread spin.
+            wake_.wait_for(lock, kPause,
+                           [this] { return is_ending_ || (is_urgent_ && unwritten_.empty()); });
+            is_urgent_ = false;
+            is_last = is_ending_;
+            take_pending_locked();
+        }
+        unwritten_.erase(0, output_.write(unwritten_));
     }
-}
-
-void Log::flush_locked(std::unique_lock<std::mutex>&) {
-    write_all(pending_);
-    pending_.clear();
+    // What came while earlier lines were written.
+    const std::lock_guard lock(mutex_);
+    take_pending_locked();
+    (void)output_.write(unwritten_);
 }
 
 }  // namespace tetralight::server

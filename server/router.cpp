@@ -20,16 +20,17 @@ std::vector<std::string> split(std::string_view path) {
     }
 }
 
-/// The parts of a path that a pattern captures; nothing if they do not match.
+/// The parts of a path that a pattern captures; nothing if they do not match. The words of a
+/// pattern match only as they are written: an escape in one would evade the rules of a proxy.
 std::optional<std::vector<std::string>> match(const std::vector<std::string>& pattern,
-                                              const std::vector<std::string>& path) {
+                                              const std::vector<PathSegment>& path) {
     if (pattern.size() != path.size()) return std::nullopt;
     std::vector<std::string> captures;
     for (size_t i = 0; i < path.size(); ++i) {
         if (pattern[i].starts_with('{')) {
-            if (path[i].empty()) return std::nullopt;
-            captures.push_back(path[i]);
-        } else if (pattern[i] != path[i]) {
+            if (path[i].decoded.empty()) return std::nullopt;
+            captures.push_back(path[i].decoded);
+        } else if (pattern[i] != path[i].sent) {
             return std::nullopt;
         }
     }
@@ -56,10 +57,9 @@ Router::Router(std::vector<Route> routes) : routes_(std::move(routes)) {
 }
 
 const Route& Router::find(Request& request) const {
-    const std::vector<std::string> path = split(request.path);
     std::string methods;
     for (size_t i = 0; i < routes_.size(); ++i) {
-        auto captures = match(parts_[i], path);
+        auto captures = match(parts_[i], request.segments);
         if (!captures) continue;
         const std::string& method = routes_[i].method;
         if (method == request.method || (method == "GET" && request.method == "HEAD")) {

@@ -7,6 +7,7 @@
 #include <sys/file.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 #include <new>
 #include <thread>
@@ -17,6 +18,7 @@
 #include <tetralight/server/http_server.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/service.h>
+#include <tetralight/server/viewer_files.h>
 
 namespace tetralight::server {
 namespace {
@@ -45,6 +47,13 @@ Result<Descriptor> lock_folder(const std::string& folder) {
                  folder + ": another server writes to this folder; --read-only can serve it too"};
 }
 
+/// True if an encoded slash is part of a segment. Files of the viewer have no such names.
+bool has_encoded_slash(const Request& request) {
+    return std::ranges::any_of(request.segments, [](const PathSegment& segment) {
+        return segment.decoded.find('/') != std::string::npos;
+    });
+}
+
 /// Bodies must not be compressed.
 void check_encoding(const Request& request) {
     const std::string_view encoding = request.header("content-encoding");
@@ -64,7 +73,8 @@ std::vector<Route> all_routes(Service& service) {
 /// Finds the handler of a request and turns problems into responses.
 class Dispatcher {
   public:
-    explicit Dispatcher(Service& service) : service_(service), router_(all_routes(service)) {}
+    explicit Dispatcher(Service& service)
+        : service_(service), router_(all_routes(service)), viewer_(service.settings.viewer) {}
 
     Plan plan(Request& request) const {
         Plan plan;
@@ -91,18 +101,18 @@ class Dispatcher {
     void plan_route(Request& request, Plan& plan) const {
         const bool can_be_page = !service_.settings.viewer.empty() || request.path == "/";
         const bool is_reading = request.method == "GET" || request.method == "HEAD";
-        const bool is_page =
-            can_be_page && is_reading && !request.path.starts_with("/v1/") && !is_known(request);
+        const bool is_page = can_be_page && is_reading && !request.path.starts_with("/v1/") &&
+                             !has_encoded_slash(request) && !is_known(request);
         if (is_page) {
-            check_gate(service_.settings, request, Access::Open);
+            check_gate(service_.settings, service_.tokens, request, Access::Open);
             plan.route = std::string("/");
             plan.handle = [this](Request& r) {
-                return guarded(r, [&] { return viewer_response(service_, r.path); });
+                return guarded(r, [&] { return viewer_.respond(r); });
             };
             return;
         }
         const Route& route = find(request);
-        check_gate(service_.settings, request, route.access);
+        check_gate(service_.settings, service_.tokens, request, route.access);
         check_parameters(route, request);
         check_encoding(request);
         if (route.prepare) route.prepare(request);
@@ -121,7 +131,7 @@ class Dispatcher {
         try {
             return router_.find(request);
         } catch (const Problem&) {
-            check_gate(service_.settings, request, Access::Reads);
+            check_gate(service_.settings, service_.tokens, request, Access::Reads);
             throw;
         }
     }
@@ -159,6 +169,7 @@ class Dispatcher {
 
     Service& service_;
     const Router router_;
+    const ViewerFiles viewer_;
 };
 
 /// Calls a function on SIGTERM and SIGINT, on a thread of its own instead of in a signal handler.
@@ -195,12 +206,17 @@ class SignalWatch {
     std::thread thread_;
 };
 
+bool has_tokens(const Settings& settings) {
+    return !settings.token.empty() || !settings.token_file.empty() ||
+           !settings.read_token_file.empty();
+}
+
 Json start_facts(const Settings& settings, const Store& store, uint16_t port) {
     return {{"version", TETRALIGHT_VERSION},
             {"data", settings.data},
             {"address", settings.address},
             {"port", port},
-            {"token", settings.token.empty() ? "none" : "needed"},
+            {"token", has_tokens(settings) ? "needed" : "none"},
             {"read_only", settings.is_read_only},
             {"viewer", settings.viewer},
             {"findings", store.findings()}};
@@ -209,7 +225,7 @@ Json start_facts(const Settings& settings, const Store& store, uint16_t port) {
 }  // namespace
 
 Status serve(const Settings& settings, const std::function<void(uint16_t port)>& is_listening) {
-    if (!is_loopback(settings.address) && settings.token.empty()) {
+    if (!is_loopback(settings.address) && !has_tokens(settings)) {
         return Error{ErrorCode::InvalidArgument, "listen", settings.address,
                      settings.address + ": can be reached from other machines and needs a token"};
     }
@@ -218,6 +234,8 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
     keep_memory();
     raise_descriptor_limit();
     Log log(settings.log_level);
+    auto tokens = Tokens::open(settings, log);
+    if (!tokens) return tokens.error();
     Metrics metrics;
     Descriptor lock;
     if (!settings.is_read_only) {
@@ -230,7 +248,8 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
     if (!store) return store.error();
     OpenVolumes volumes(**store);
     Bakes bakes(settings, **store, log);
-    Service service{settings, log, metrics, **store, volumes, bakes};
+    const Readiness readiness(settings);
+    Service service{settings, log, metrics, **store, volumes, bakes, readiness, **tokens};
     const Dispatcher dispatcher(service);
     auto http = HttpServer::bind(
         settings,

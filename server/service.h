@@ -8,9 +8,11 @@
 #include <tetralight/server/log.h>
 #include <tetralight/server/metrics.h>
 #include <tetralight/server/open_volumes.h>
+#include <tetralight/server/readiness.h>
 #include <tetralight/server/router.h>
 #include <tetralight/server/settings.h>
 #include <tetralight/server/store.h>
+#include <tetralight/server/tokens.h>
 
 namespace tetralight::server {
 
@@ -22,6 +24,8 @@ struct Service {
     Store& store;
     OpenVolumes& volumes;
     Bakes& bakes;
+    const Readiness& readiness;
+    Tokens& tokens;
     /// True once no more requests are accepted.
     std::atomic<bool> is_ending = false;
     /// True once jobs of requests must end.
@@ -35,9 +39,6 @@ struct Service {
 [[nodiscard]] std::vector<Route> bake_routes(Service& service);
 [[nodiscard]] std::vector<Route> tool_routes(Service& service);
 [[nodiscard]] std::vector<Route> system_routes(Service& service);
-
-/// A file of the viewer's folder. Without that folder, a text that tells how to get it.
-[[nodiscard]] Response viewer_response(const Service& service, const std::string& path);
 
 /// Runs a job for a request, for at most the time that the settings allow; it ends early if the
 /// server ends or the client disconnects. Gives its report. Throws a `Problem`: about a member of

@@ -14,8 +14,13 @@ struct Settings {
     std::string data;
     std::string address = "127.0.0.1";
     uint16_t port = 8080;
-    /// What clients send as `Authorization: Bearer`. Empty: no token is needed.
+    /// What clients send as `Authorization: Bearer` to do everything. Without any token no client
+    /// needs one.
     std::string token;
+    /// Files of such a token, and of one for requests that change nothing. They are read again
+    /// when they change; empty: none.
+    std::string token_file;
+    std::string read_token_file;
     /// Names besides localhost by which a proxy may call a server without a token.
     std::vector<std::string> allowed_hosts;
     /// Answers queries from the folder of another server, and changes nothing.
@@ -45,6 +50,10 @@ struct Settings {
     uint64_t quota_bytes = 0;
     /// Memory of each job; 0 = three quarters of the machine's.
     uint64_t tool_memory_bytes = 0;
+    /// Address space of each job; 0 = four times the machine's memory, at least 64 GiB.
+    uint64_t tool_address_space_bytes = 0;
+    /// Processor time of a job that a request waits for; 0 = its time on all its threads.
+    uint64_t tool_processor_seconds = 0;
     uint32_t max_header_bytes = 16384;
     double header_seconds = 10.0;
     double idle_seconds = 60.0;

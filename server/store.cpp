@@ -151,10 +151,12 @@ Store::Added Store::add(Kind kind, const std::string& from, const std::string& n
     return {file, is_new};
 }
 
-StoredFile Store::rename(Kind kind, const std::string& reference, const std::string& name) {
+StoredFile Store::rename(Kind kind, const std::string& reference, const std::string& name,
+                         const Condition& condition) {
     check_name(name);
     const std::lock_guard change(change_mutex_);
     StoredFile file = get(kind, reference);
+    if (condition) condition(file);
     if (!is_id(reference)) file.names.erase(reference);
     if (is_id(reference) && name.empty()) file.names.clear();
     if (!name.empty()) file.names.insert(name);
@@ -163,10 +165,11 @@ StoredFile Store::rename(Kind kind, const std::string& reference, const std::str
     return file;
 }
 
-void Store::remove(Kind kind, const std::string& reference) {
+void Store::remove(Kind kind, const std::string& reference, const Condition& condition) {
     const std::lock_guard change(change_mutex_);
     auto file = find(kind, reference);
     if (!file) (void)get(kind, reference);  // throws
+    if (condition) condition(*file);
     if (!is_id(reference) && file->names.size() > 1) {
         file->names.erase(reference);
         with_reserve([&] { insert(*file); });

@@ -54,11 +54,15 @@ class Store {
     /// Moves a file on the store's disk into the store. A name moves to it from the file that had
     /// it, in addition to its other names.
     Added add(Kind kind, const std::string& path, const std::string& name, const Json& facts);
+    /// Called with a file before it is changed, while nothing else changes it; throws to refuse.
+    using Condition = std::function<void(const StoredFile&)>;
+
     /// By name: replaces the name. By id: adds the name to the file's names. An empty name removes
     /// the name; by id, all names.
-    StoredFile rename(Kind kind, const std::string& reference, const std::string& name);
+    StoredFile rename(Kind kind, const std::string& reference, const std::string& name,
+                      const Condition& condition = {});
     /// By name: removes the name, and with its last name the file. By id: removes the file.
-    void remove(Kind kind, const std::string& reference);
+    void remove(Kind kind, const std::string& reference, const Condition& condition = {});
 
     /// Moves a damaged file to the quarantine.
     void quarantine(Kind kind, const std::string& id, const std::string& damage);

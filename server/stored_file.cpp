@@ -6,6 +6,7 @@
 #include <tetralight/base/hash/sha256.h>
 #include <tetralight/base/hex.h>
 #include <tetralight/base/utf8.h>
+#include <tetralight/server/name_rules.h>
 #include <tetralight/server/problem.h>
 
 #define XXH_INLINE_ALL
@@ -79,10 +80,11 @@ void check_name(const std::string& name) {
         return static_cast<unsigned char>(c) < ' ' || c == '\x7f' || c == '/' || c == '\\';
     });
     const bool is_dots = name == "." || name == "..";
-    if (is_plain && !is_dots && name.size() <= kLongest && is_utf8(name) && !is_id(name)) return;
+    const bool is_text = is_utf8(name) && !has_outer_space(name) && !has_hidden_character(name);
+    if (is_plain && !is_dots && name.size() <= kLongest && is_text && !is_id(name)) return;
     throw Problem{400, "invalid_value",
-                  "name: a name has at most 200 bytes, no slashes and no control characters, and "
-                  "is not an id",
+                  "name: a name has at most 200 bytes, no slashes, no control characters and no "
+                  "invisible ones, no spaces at its ends, and is not an id",
                   "name", name.substr(0, kLongest)};
 }
 

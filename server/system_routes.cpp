@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <dirent.h>
 #include <sys/resource.h>
+#include <sys/statvfs.h>
 
 #include <filesystem>
 
-#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/openapi.h>
-#include <tetralight/server/problem.h>
 #include <tetralight/server/service.h>
 
 namespace tetralight::server {
@@ -17,12 +16,11 @@ Response plain(unsigned status, const std::string& words) {
     return {.status = status, .content_type = "text/plain; charset=utf-8", .body = words + "\n"};
 }
 
-/// Not ready while the server is stopping, or if its folder is missing.
+/// Not ready while the server is stopping, or if its folder or database is not usable.
 Response ready(const Service& service) {
     if (service.is_ending) return plain(503, "ending");
-    std::error_code error;
-    const bool is_there = std::filesystem::is_directory(service.settings.data, error);
-    return is_there ? plain(200, "ready") : plain(503, "the data folder is gone");
+    const auto fault = service.readiness.fault();
+    return fault ? plain(503, *fault) : plain(200, "ready");
 }
 
 double open_descriptors() {
@@ -46,79 +44,73 @@ double resident_bytes() {
     return resident * 4096.0;
 }
 
-Response metrics(Service& service) {
-    rusage usage = {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
-    };
-    std::map<std::string, double> gauges{
-        {"stored_bytes", static_cast<double>(service.store.total_bytes())},
-        {"open_volumes", static_cast<double>(service.volumes.count())},
-        {"bakes_queued", static_cast<double>(service.bakes.count("queued"))},
-        {"bakes_running", static_cast<double>(service.bakes.count("running"))},
-        {"bakes_done", static_cast<double>(service.bakes.count("done"))},
-        {"bakes_failed", static_cast<double>(service.bakes.count("failed"))},
-        {"connections", static_cast<double>(service.connection_count())},
-        {"process_cpu_seconds", seconds(usage.ru_utime) + seconds(usage.ru_stime)},
-        {"process_resident_bytes", resident_bytes()},
-        {"process_open_descriptors", open_descriptors()}};
-    for (const Kind kind : kKinds) {
-        gauges[name_of(kind)] = static_cast<double>(service.store.list(kind).size());
-    }
-    return {.content_type = "text/plain; version=0.0.4", .body = service.metrics.text(gauges)};
+double seconds_of(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
 }
 
-const char* content_type_of(const std::string& extension) {
-    static const std::map<std::string, const char*> kTypes{
-        {".html", "text/html; charset=utf-8"},
-        {".js", "text/javascript; charset=utf-8"},
-        {".mjs", "text/javascript; charset=utf-8"},
-        {".css", "text/css; charset=utf-8"},
-        {".json", "application/json"},
-        {".svg", "image/svg+xml"},
-        {".png", "image/png"},
-        {".ico", "image/x-icon"},
-        {".wasm", "application/wasm"},
-        {".woff2", "font/woff2"}};
-    const auto found = kTypes.find(extension);
-    return found == kTypes.end() ? "application/octet-stream" : found->second;
+void add_process(std::vector<Figure>& figures) {
+    rusage usage = {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    figures.push_back({"process_cpu_seconds", "Processor time of the server without its programs.",
+                       seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)});
+    figures.push_back({"process_resident_bytes", "Memory in use.", resident_bytes()});
+    figures.push_back({"process_open_descriptors", "Open descriptors.", open_descriptors()});
+}
+
+/// Nothing if the disk does not answer.
+void add_disk(const Service& service, std::vector<Figure>& figures) {
+    struct statvfs disk = {};
+    if (::statvfs(service.settings.data.c_str(), &disk) != 0) return;
+    const auto bytes = [&](auto blocks) {
+        return static_cast<double>(blocks) * static_cast<double>(disk.f_frsize);
+    };
+    figures.push_back({"disk_free_bytes",
+                       "Space of the data folder's disk that the server may use.",
+                       bytes(disk.f_bavail)});
+    figures.push_back({"disk_size_bytes", "Size of the data folder's disk.", bytes(disk.f_blocks)});
+}
+
+void add_store(const Service& service, std::vector<Figure>& figures) {
+    figures.push_back({"stored_bytes", "Size of all stored files.",
+                       static_cast<double>(service.store.total_bytes())});
+    figures.push_back({"open_volumes", "Volumes in memory for queries.",
+                       static_cast<double>(service.volumes.count())});
+    for (const Kind kind : kKinds) {
+        figures.push_back(
+            {name_of(kind), "Stored files.", static_cast<double>(service.store.list(kind).size())});
+    }
+}
+
+void add_bakes(const Service& service, std::vector<Figure>& figures) {
+    const auto count = [&](const char* state) {
+        return static_cast<double>(service.bakes.count(state));
+    };
+    figures.push_back({"bakes_queued", "Bakes that wait.", count("queued")});
+    figures.push_back({"bakes_running", "Bakes that run.", count("running")});
+    figures.push_back({"bakes_done", "Bakes that have ended well.", count("done")});
+    figures.push_back({"bakes_failed", "Bakes that have failed.", count("failed")});
+    figures.push_back({"last_bake_timestamp_seconds",
+                       "When a bake last ended well, in seconds since 1970; 0 = never.",
+                       service.bakes.last_done()});
+}
+
+Response metrics(Service& service) {
+    std::vector<Figure> figures{
+        {"build_info", "Always 1; the labels say what runs.", 1.0, "gauge",
+         "version=\"" TETRALIGHT_VERSION "\",compiler=\"" __VERSION__ "\""},
+        {"ready", "1 if /readyz answers 200.",
+         service.is_ending || service.readiness.fault() ? 0.0 : 1.0},
+        {"connections", "Open connections.", static_cast<double>(service.connection_count())},
+        {"log_dropped_lines_total", "Lines of the log that stderr did not take.",
+         static_cast<double>(service.log.dropped_count()), "counter"}};
+    add_store(service, figures);
+    add_bakes(service, figures);
+    add_disk(service, figures);
+    add_process(figures);
+    return {.content_type = "text/plain; version=0.0.4", .body = service.metrics.text(figures)};
 }
 
 }  // namespace
-
-Response viewer_response(const Service& service, const std::string& path) {
-    namespace fs = std::filesystem;
-    if (service.settings.viewer.empty()) {
-        return plain(
-            200,
-            "This is tetralight serve. It answers requests (/openapi.json has all of them), "
-            "but its viewer was not found:\nbuild it with `./run build viewer` and start the "
-            "server again, or name its folder with --viewer DIR.");
-    }
-    std::error_code error;
-    const fs::path root = fs::canonical(service.settings.viewer, error);
-    const std::string relative = path == "/" ? "index.html" : path.substr(1);
-    const fs::path file = error ? fs::path() : fs::canonical(root / relative, error);
-    // Resolves links and `..`; the result must lie in the folder.
-    const std::string prefix = root.string() + "/";
-    if (error || !file.string().starts_with(prefix) || !fs::is_regular_file(file, error)) {
-        throw Problem{404, "no_such_path", "there is nothing at this path", "path", path};
-    }
-    auto mapping = MappedFile::open(file.string());
-    if (!mapping) throw Problem{404, "no_such_path", "there is nothing at this path"};
-    const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
-    return {
-        .content_type = content_type_of(file.extension().string()),
-        .headers = {{"Content-Security-Policy",
-                     "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob:; "
-                     "style-src 'self'; script-src 'self' 'wasm-unsafe-eval'; "
-                     "worker-src 'self' blob:; object-src 'none'; base-uri 'none'; "
-                     "form-action 'none'; frame-ancestors 'none'"},
-                    {"Referrer-Policy", "no-referrer"},
-                    {"Cache-Control", "no-cache"}},
-        .body = {kept->bytes(), kept}};
-}
 
 std::vector<Route> system_routes(Service& service) {
     return {

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -35,6 +36,8 @@ struct ChildPlan {
     ProcessGroup group = ProcessGroup::Shared;
     int niceness = 0;
     uint64_t memory_limit = 0;
+    uint64_t address_space_limit = 0;
+    uint64_t processor_seconds_limit = 0;
     std::string niceness_text;
     std::string score_text;
 };
@@ -56,12 +59,25 @@ void set_group_and_priority(const ChildPlan& plan) {
     if (plan.niceness != 0) ::setpriority(PRIO_PROCESS, 0, plan.niceness);
 }
 
+/// Lowers a limit. Leaves a lower one, which this process may have itself.
+void lower_limit(int resource, rlim_t soft, rlim_t hard) {
+    rlimit limit = {};
+    ::getrlimit(static_cast<__rlimit_resource>(resource), &limit);
+    limit.rlim_max = std::min(limit.rlim_max, hard);
+    limit.rlim_cur = std::min({limit.rlim_cur, limit.rlim_max, soft});
+    ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
+}
+
 void set_limits(const ChildPlan& plan) {
-    const rlimit no_core{0, 0};
-    ::setrlimit(RLIMIT_CORE, &no_core);
-    if (plan.memory_limit > 0) {
-        const rlimit limit{plan.memory_limit, plan.memory_limit};
-        ::setrlimit(RLIMIT_DATA, &limit);
+    ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    lower_limit(RLIMIT_CORE, 0, 0);
+    if (plan.memory_limit > 0) lower_limit(RLIMIT_DATA, plan.memory_limit, plan.memory_limit);
+    if (plan.address_space_limit > 0) {
+        lower_limit(RLIMIT_AS, plan.address_space_limit, plan.address_space_limit);
+    }
+    if (plan.processor_seconds_limit > 0) {
+        // SIGXCPU at the first limit, SIGKILL at the second one if the program ignores that.
+        lower_limit(RLIMIT_CPU, plan.processor_seconds_limit, plan.processor_seconds_limit + 1);
     }
     if (!plan.score_text.empty()) write_if_possible("/proc/self/oom_score_adj", plan.score_text);
 }
@@ -70,7 +86,9 @@ void restore_signals() {
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
-    for (const int signal : {SIGPIPE, SIGTERM, SIGINT, SIGCHLD}) ::signal(signal, SIG_DFL);
+    for (const int signal : {SIGPIPE, SIGTERM, SIGINT, SIGCHLD, SIGXCPU}) {
+        ::signal(signal, SIG_DFL);
+    }
 }
 
 bool redirect(const ChildStreams& streams) {
@@ -112,6 +130,8 @@ ChildPlan make_plan(const ProcessCommand& command, const ChildStreams& streams, 
     plan.group = command.group;
     plan.niceness = command.niceness;
     plan.memory_limit = command.memory_limit;
+    plan.address_space_limit = command.address_space_limit;
+    plan.processor_seconds_limit = command.processor_seconds_limit;
     plan.niceness_text = std::to_string(command.niceness);
     if (command.out_of_memory_score != 0) {
         plan.score_text = std::to_string(command.out_of_memory_score);

@@ -66,10 +66,27 @@ std::optional<Problem> problem_of_head(const Settings& settings, const Session& 
                    beginning(session.buffer)};
 }
 
+constexpr size_t kLongestValue = 200;
+constexpr unsigned kHttp11 = 11;
+
+/// Refuses transfer codings other than `chunked` alone, and those of HTTP/1.0 or beside a
+/// Content-Length: a proxy may find another end of such a body (RFC 9112, sections 6.1 and 6.3).
+std::optional<Problem> check_framing(const Parser::value_type& message) {
+    const auto count = message.count(http::field::transfer_encoding);
+    if (count == 0) return std::nullopt;
+    const std::string coding(message[http::field::transfer_encoding]);
+    const bool is_chunked = count == 1 && lower(coding) == "chunked";
+    const bool has_length = message.count(http::field::content_length) > 0;
+    if (is_chunked && !has_length && message.version() >= kHttp11) return std::nullopt;
+    return Problem{
+        400, "malformed_request",
+        has_length ? "Transfer-Encoding and Content-Length exclude each other"
+                   : "the only transfer coding is chunked, given once, in a request of HTTP/1.1",
+        "transfer-encoding", coding.substr(0, kLongestValue)};
+}
+
 /// Converts the head to a plain value and checks it.
 std::optional<Problem> take_head(const Parser& parser, Request& request) {
-    constexpr size_t kLongest = 200;
-    constexpr unsigned kHttp11 = 11;
     const auto& message = parser.get();
     request.method = std::string(message.method_string());
     for (const auto& field : message) {
@@ -82,12 +99,13 @@ std::optional<Problem> take_head(const Parser& parser, Request& request) {
     const auto host_count = message.count(http::field::host);
     if (host_count > 1 || (host_count == 0 && message.version() >= kHttp11)) {
         return Problem{400, "malformed_request", "HTTP/1.1 needs one Host header", "host",
-                       std::string(request.header("host").substr(0, kLongest))};
+                       std::string(request.header("host").substr(0, kLongestValue))};
     }
+    if (auto problem = check_framing(message)) return problem;
     const auto target = message.target();
     if (parse_target({target.data(), target.size()}, request)) return std::nullopt;
     return Problem{400, "malformed_request", "the target is no path", "target",
-                   std::string(target.substr(0, kLongest))};
+                   std::string(target.substr(0, kLongestValue))};
 }
 
 Reading refusal(Problem problem) {

@@ -7,6 +7,7 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 #include <cstdio>
+#include <ctime>
 #include <span>
 
 #include <tetralight/base/str_cat.h>
@@ -20,11 +21,32 @@ void append_header(std::string& head, std::string_view name, std::string_view va
     head += "\r\n";
 }
 
+/// The time as `Date` has it: "Sun, 06 Nov 1994 08:49:37 GMT" (RFC 9110, section 5.6.7). Threads
+/// format it once a second.
+std::string_view date_text() {
+    thread_local std::time_t last = 0;
+    thread_local std::array<char, 40> text{};
+    const std::time_t now = std::time(nullptr);
+    if (now != last) {
+        constexpr const char* kDays[] = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+        constexpr const char* kMonths[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                           "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+        std::tm parts = {};
+        ::gmtime_r(&now, &parts);
+        std::snprintf(text.data(), text.size(), "%s, %02d %s %04d %02d:%02d:%02d GMT",
+                      kDays[parts.tm_wday], parts.tm_mday, kMonths[parts.tm_mon],
+                      parts.tm_year + 1900, parts.tm_hour, parts.tm_min, parts.tm_sec);
+        last = now;
+    }
+    return text.data();
+}
+
 /// The text before the body.
 std::string head_of(const Request& request, const Response& response, bool keeps_open) {
     std::string head =
         str_cat("HTTP/1.1 ", response.status, " ", reason_phrase(response.status), "\r\n");
     if (!response.content_type.empty()) append_header(head, "Content-Type", response.content_type);
+    append_header(head, "Date", date_text());
     append_header(head, "X-Request-Id", request.id);
     for (const auto& [name, value] : response.headers) append_header(head, name, value);
     if (response.events) {

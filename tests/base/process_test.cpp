@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -181,6 +182,32 @@ TEST_F(Process, HasTheNicenessAndTheLimitsOfItsCommand) {
     command.out_of_memory_score = 800;
     const ProcessResult result = run("nice; ulimit -d; cat /proc/self/oom_score_adj", "", command);
     EXPECT_EQ(result.output_text(), "19\n65536\n800\n");
+}
+
+TEST_F(Process, LimitsAddressSpaceAndProcessorTime) {
+    ProcessCommand command;
+    command.address_space_limit = uint64_t{8} << 30;
+    command.processor_seconds_limit = 7;
+    const ProcessResult result =
+        run("ulimit -v; ulimit -St; ulimit -Ht; ulimit -c; ulimit -Hc", "", command);
+    EXPECT_EQ(result.output_text(), "8388608\n7\n8\n0\n0\n");
+}
+
+TEST_F(Process, LeavesLowerLimitsOfThisProcess) {
+    rlimit own = {};
+    ASSERT_EQ(::getrlimit(RLIMIT_CPU, &own), 0);
+    rlimit lower = own;
+    lower.rlim_cur = 100'000;
+    ASSERT_EQ(::setrlimit(RLIMIT_CPU, &lower), 0);
+    ProcessCommand command;
+    command.processor_seconds_limit = 200'000;
+    const ProcessResult result = run("ulimit -St", "", command);
+    ASSERT_EQ(::setrlimit(RLIMIT_CPU, &own), 0);
+    EXPECT_EQ(result.output_text(), "100000\n");
+}
+
+TEST_F(Process, GivesProgramsNoNewPrivileges) {
+    EXPECT_EQ(output("grep -c '^NoNewPrivs:.*1$' /proc/self/status"), "1\n");
 }
 
 TEST_F(Process, EndsAProgramWhoseOutputIsRefused) {

@@ -29,14 +29,14 @@ class Answer:
 class Server:
     """`tetralight serve` on a folder; `kill` is what a power cut leaves of it."""
 
-    def __init__(self, data, *options, env=None, program=COMMAND):
+    def __init__(self, data, *options, env=None, program=COMMAND, stderr=None):
         self.data = data
         self.log_path = data + ".log"
         self.log = open(self.log_path, "a")
         listen = () if "--listen" in options else ("--listen", "127.0.0.1:0")
         self.process = subprocess.Popen(
             [program, "serve", "--data", data, *listen, *options],
-            stdout=subprocess.PIPE, stderr=self.log, text=True, env={**os.environ, **(env or {})})
+            stdout=subprocess.PIPE, stderr=stderr or self.log, text=True, env={**os.environ, **(env or {})})
         line = self.process.stdout.readline()
         if not line:
             self.process.wait()

@@ -259,6 +259,45 @@ class Bakes(BakeTest):
             self.assertTrue(any(bake[member] for bake in running), member)
             self.assertNotIn(member, bakes[-1])
 
+    def events_of(self, response):
+        """The kind and the bake of each event of a stream."""
+        kind = None
+        while line := response.readline().decode().rstrip("\n"):
+            if line.startswith("event: "):
+                kind = line.removeprefix("event: ")
+            elif line.startswith("data: "):
+                yield kind, json.loads(line.removeprefix("data: "))
+                response.readline()  # the line that ends the event
+            else:
+                response.readline()  # a comment
+
+    def test_one_stream_follows_all_bakes(self):
+        server = self.start()
+        ended = self.begin(server, **QUICK)
+        server.wait_for(ended)
+        bakes = [self.begin(server, **SLOW) for _ in range(7)]
+        connection = server.connect()
+        connection.request("GET", "/v1/bakes/events")
+        response = connection.getresponse()
+        self.assertEqual(response.headers["Content-Type"], "text/event-stream")
+        events = self.events_of(response)
+        first = {bake["id"] for _, bake in (next(events) for _ in bakes)}
+        self.assertEqual(first, set(bakes))
+        bakes += [self.begin(server, **SLOW) for _ in range(2)]
+        for bake in bakes:  # some of them before the stream looks again
+            server.post(f"/v1/bakes/{bake}/cancel")
+        server.request("DELETE", "/v1/bakes/" + bakes[-1])
+        ends = {}
+        for kind, bake in events:
+            self.assertNotEqual(bake["id"], ended)
+            self.assertNotIn("request", bake)
+            if kind == "end" or bake["state"] == "cancelled":
+                ends[bake["id"]] = bake["state"]
+            if len(set(ends) | {bakes[-1]}) == len(bakes):
+                break
+        self.assertEqual({ends[bake] for bake in bakes[:-1]}, {"cancelled"})
+        connection.close()
+
     def test_the_pace_after_a_restart_is_that_of_the_new_run(self):
         server = self.start()
         bake = self.begin(server, **SLOW)

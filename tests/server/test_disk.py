@@ -53,6 +53,30 @@ class SmallDisk(VolumeTest):
                          len(server.get("/v1/volumes").json()["volumes"]))
 
 
+class LostDisk(SmallDisk):
+    def test_an_unmounted_disk_is_not_ready(self):
+        server = self.start()
+        self.assertEqual(server.get("/readyz").status, 200)
+        subprocess.run(["umount", "--lazy", self.data], check=True)
+        answer = server.get("/readyz")
+        self.assertEqual((answer.status, answer.body),
+                         (503, b"the data folder is not the one that was opened\n"))
+
+    def test_a_disk_that_cannot_be_written_is_not_ready(self):
+        server = self.start()
+        subprocess.run(["mount", "--bind", self.data, self.data], check=True)
+        self.addCleanup(subprocess.run, ["umount", "--lazy", self.data])
+        subprocess.run(["mount", "-o", "remount,bind,ro", self.data], check=True)
+        answer = server.get("/readyz")
+        self.assertEqual(answer.status, 503)
+        self.assertIn(b"cannot be written", answer.body)
+
+    def test_a_full_disk_is_ready_to_answer_queries(self):
+        server = self.start()
+        self.fill()
+        self.assertEqual(server.get("/readyz").status, 200)
+
+
 class FullDisk(SmallDisk):
     def test_deleting_helps(self):
         server = self.start()

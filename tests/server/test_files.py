@@ -166,6 +166,25 @@ class Files(VolumeTest):
                 self.assertIn(answer.status, (200, 201, 400, 422), answer.body)
         self.assertEqual(server.get("/healthz").status, 200)
 
+    def test_edits_may_depend_on_the_state_that_the_client_has_seen(self):
+        server = self.start()
+        path = "/v1/volumes/" + self.upload(server, "volumes", self.volume_file(2), "first")
+        tag = server.get(path).headers["ETag"]
+        self.assertEqual(server.get(path, If_None_Match=tag).status, 304)
+        renamed = server.request("PATCH", path, {"name": "second"}, {"If-Match": tag})
+        self.assertEqual(renamed.status, 200)
+        newer = renamed.headers["ETag"]
+        self.assertEqual(server.get(path).headers["ETag"], newer)
+        for method, body in (("PATCH", {"name": "third"}), ("DELETE", None)):
+            for known in (tag, "W/" + newer, '"other"'):
+                answer = server.request(method, path, body, {"If-Match": known})
+                problem = self.assert_problem(answer, 412, "changed")
+                self.assertEqual((problem["field"], problem["value"]), ("if-match", known))
+        self.assertEqual(server.get(path).json()["names"], ["first", "second"])
+        self.assertEqual(server.get(path, If_None_Match=tag).status, 200)
+        for known, status in (('"other", ' + newer, 204), ("*", 404)):
+            self.assertEqual(server.request("DELETE", path, headers={"If-Match": known}).status, status)
+
     def test_scenes_beyond_a_limit_are_refused(self):
         server = self.start("--max-triangles", "10")
         answer = server.post("/v1/scenes", read(COURTYARD), BINARY)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is not a good request gets the right answer, and the server goes on."""
+import email.utils
+import gzip
 import http.client
 import json
 import os
@@ -11,6 +13,7 @@ import subprocess
 import threading
 import time
 import unittest
+import urllib.parse
 
 from service import COMMAND, ServiceTest, lattice, read, write_groups
 from test_query import binary_query
@@ -46,6 +49,32 @@ class Malformed(ServiceTest):
         self.assertEqual(self.status_of(
             b"POST /v1/grid HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\n"
             b"Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n"), 400)
+
+    def test_other_transfer_codings_are_refused_and_the_connection_is_closed(self):
+        # The rest of the bytes must not be taken for a second request.
+        rest = b"0\r\n\r\nGET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        for fields in (b"Transfer-Encoding: xchunked", b"Transfer-Encoding: identity",
+                       b"Transfer-Encoding: chunked, identity", b"Transfer-Encoding: gzip, chunked",
+                       b"Transfer-Encoding: chunked\r\nTransfer-Encoding: chunked",
+                       b"Transfer-Encoding: gzip\r\nTransfer-Encoding: chunked",
+                       b"Transfer-Encoding: \"chunked\"", b"Transfer-Encoding:",
+                       b"Transfer-Encoding: chunked\r\nContent-Length: 5",
+                       b"Content-Length: 5\r\nTransfer-Encoding: chunked",
+                       b"Transfer-Encoding: xchunked\r\nContent-Length: 5",
+                       b"Content-Length: 5\r\nTransfer-Encoding: identity"):
+            with self.subTest(fields=fields):
+                answer = self.server.raw(b"POST /v1/grid HTTP/1.1\r\nHost: localhost\r\n" + fields +
+                                         b"\r\n\r\n" + rest)
+                self.assertTrue(answer.startswith(b"HTTP/1.1 400"), answer)
+                self.assertEqual(answer.count(b"HTTP/1.1 "), 1)
+                self.assertIn(b"Connection: close", answer)
+
+    def test_the_only_transfer_coding_is_chunked_in_any_case_and_in_http_1_1(self):
+        for version, coding, status in ((b"1.1", b"chunked", 200), (b"1.1", b"Chunked ", 200),
+                                        (b"1.0", b"chunked", 400)):
+            self.assertEqual(self.status_of(
+                b"GET /healthz HTTP/" + version + b"\r\nHost: localhost\r\nConnection: close\r\n"
+                b"Transfer-Encoding: " + coding + b"\r\n\r\n0\r\n\r\n"), status)
 
     def test_a_million_headers_are_refused(self):
         line = b"a: b\r\n" * 1000
@@ -255,6 +284,28 @@ class Protocol(ServiceTest):
         self.assertEqual(answer.headers["Allow"], "POST, GET, HEAD")
         self.assert_problem(server.get("/v1/volumes/none"), 404, "not_found")
 
+    def test_escapes_in_the_words_of_a_path_are_refused(self):
+        server = self.start()
+        for path in ("/metric%73", "/%6detrics", "/v1%2Fscenes", "/v1/scene%73", "/v%31/bakes",
+                     "/%2Fmetrics", "/v1/volumes/x/quer%79", "//metrics", "/./metrics",
+                     "/healthz/../metrics"):
+            with self.subTest(path=path):
+                self.assert_problem(server.get(path), 404, "no_such_path")
+
+    def test_an_encoded_slash_is_part_of_a_name(self):
+        server = self.start()
+        for path in ("/v1/scenes/a%2Ffile", "/v1/scenes/a%2ffile", "/v1/bakes%2Fx/events"):
+            answer = server.get(path)
+            code = "not_found" if "scenes" in path else "no_such_path"
+            self.assert_problem(answer, 404, code)
+        self.assert_problem(server.post("/v1/scenes?name=a%2Fb", b"glTF"), 400, "invalid_value")
+
+    def test_names_may_be_escaped(self):
+        server = self.start()
+        groups = json.dumps({"groups": [{"name": "g", "positions": lattice(2)}]}).encode()
+        self.assertEqual(server.post("/v1/groups?name=m%C3%BC%20x", groups).status, 201)
+        self.assertEqual(server.get("/v1/groups/m%C3%BC%20%78").status, 200)
+
     def test_head_has_the_length_and_no_body(self):
         server = self.start()
         whole = server.get("/openapi.json")
@@ -310,6 +361,55 @@ class Protocol(ServiceTest):
                                     {"Content-Encoding": encoding})
             self.assertEqual(answer.status, status, answer.body)
 
+    def test_duplicate_members_are_refused_by_name(self):
+        server = self.start()
+        for path, body, key in (
+                ("/v1/bakes", '{"scene": "a", "scene": "b"}', "scene"),
+                ("/v1/bakes", '{"scene": "a", "\\u0073cene": "b"}', "scene"),
+                ("/v1/relight", '{"volume": "v", "weights": {"sun": 1, "sky": 1, "sun": 0}}', "sun"),
+                ("/v1/volumes/x/query", '{"positions": [[0, 0, 0]], "positions": []}', "positions"),
+                ("/v1/grid", '{"a": [{"b": 1}, [{"b": 1, "c": ":", "c": 2}]]}', "c")):
+            with self.subTest(body=body):
+                answer = server.post(path, body.encode(), "application/json")
+                if path.endswith("query"):  # the volume is looked up first
+                    self.assert_problem(answer, 404, "not_found")
+                    continue
+                problem = self.assert_problem(answer, 422, "duplicate_member")
+                self.assertEqual(problem["field"], key)
+                self.assertIn(f'"{key}"', problem["detail"])
+
+    def test_equal_keys_of_different_objects_are_no_duplicates(self):
+        server = self.start()
+        body = rb'{"a:\":": {"b": ":"}, "b": [{"b": "\\"}, {"b": {"b": 1}}], "c": "\":\""}'
+        self.assert_problem(server.post("/v1/bakes", body, "application/json"), 400,
+                            "unknown_member")
+
+    def test_names_of_blanks_and_with_hidden_characters_are_refused(self):
+        server = self.start()
+        groups = json.dumps({"groups": [{"name": "g", "positions": lattice(2)}]}).encode()
+        hidden = [0x85, 0x9b, 0xad, 0x61c, 0x200b, 0x200d, 0x200f, 0x2028, 0x202a, 0x202e, 0x2060,
+                  0x2066, 0x2069, 0xfeff, 0xe0041]
+        names = [" ", "   ", " a", "a ", "\u00a0", "a\u3000", "\u2003a", "\u2800"]
+        names += [f"a{chr(code)}b" for code in hidden]
+        for name in names:
+            with self.subTest(name=ascii(name)):
+                path = "/v1/groups?name=" + urllib.parse.quote(name)
+                problem = self.assert_problem(server.post(path, groups), 400, "invalid_value")
+                self.assertEqual((problem["field"], problem["value"]), ("name", name))
+        for name in ("a b", "\u00e9t\u00e9", "\u5149", "\U0001f4a1", "\u05d0\u05d1"):
+            with self.subTest(name=ascii(name)):
+                path = "/v1/groups?name=" + urllib.parse.quote(name)
+                self.assertIn(server.post(path, groups).status, (200, 201))
+
+    def test_each_answer_has_the_date(self):
+        server = self.start("--header-seconds", "1")
+        for answer in (server.get("/healthz"), server.get("/nothing"),
+                       server.request("HEAD", "/openapi.json")):
+            date = email.utils.parsedate_to_datetime(answer.headers["Date"])
+            self.assertRegex(answer.headers["Date"], r"^\w{3}, \d\d \w{3} \d{4} [\d:]{8} GMT$")
+            self.assertLess(abs(time.time() - date.timestamp()), 60)
+        self.assertIn(b"\r\nDate: ", server.raw(b"nonsense\r\n\r\n"))
+
     def test_names_of_dots_are_refused(self):
         server = self.start()
         for name in (".", ".."):
@@ -332,7 +432,9 @@ class Access(ServiceTest):
         server = self.start(env={"TETRALIGHT_TOKEN": "secret-words"})
         self.assertEqual(server.get("/healthz").status, 200)
         for wrong in ({}, {"Authorization": "Bearer wrong"}, {"Authorization": "Bearer secret-word"},
-                      {"Authorization": "Basic secret-words"}, {"Authorization": "Bearer "}):
+                      {"Authorization": "Basic secret-words"}, {"Authorization": "Bearer "},
+                      {"Authorization": "Bearer secret-wordssecret-words"},
+                      {"Authorization": "Bearer secret-words2"}):
             for path in ("/v1/scenes", "/metrics", "/v1/nothing"):
                 answer = server.request("GET", path, headers=wrong)
                 self.assert_problem(answer, 401, "unauthorized")
@@ -358,6 +460,56 @@ class Access(ServiceTest):
             file.write("from-a-file\n")
         server = self.start("--token-file", path, "--listen", "0.0.0.0:0")
         self.assertEqual(server.get("/v1/scenes", Authorization="Bearer from-a-file").status, 200)
+
+    def write_token(self, name, token):
+        """A file with a token, replaced as a whole."""
+        path = os.path.join(self.folder, name)
+        with open(path + ".new", "w") as file:
+            file.write(token + "\n")
+        os.replace(path + ".new", path)
+        return path
+
+    def status_with(self, server, method, path, token):
+        return server.request(method, path, headers={"Authorization": "Bearer " + token}).status
+
+    def test_a_token_for_reading_changes_nothing(self):
+        server = self.start("--token-file", self.write_token("admin", "all-of-it"),
+                            "--read-token-file", self.write_token("reader", "a-part"))
+        for method, path, admin, reader in (
+                ("GET", "/v1/scenes", 200, 200), ("GET", "/metrics", 200, 200),
+                ("POST", "/v1/volumes/x/query", 404, 404), ("DELETE", "/v1/scenes/x", 404, 403),
+                ("POST", "/v1/scenes", 400, 403), ("POST", "/v1/bakes", 400, 403)):
+            with self.subTest(method=method, path=path):
+                self.assertEqual(self.status_with(server, method, path, "all-of-it"), admin)
+                self.assertEqual(self.status_with(server, method, path, "a-part"), reader)
+                self.assertEqual(self.status_with(server, method, path, "neither"), 401)
+        answer = server.request("DELETE", "/v1/scenes/x", headers={"Authorization": "Bearer a-part"})
+        self.assert_problem(answer, 403, "read_only_token")
+
+    def test_tokens_are_replaced_while_the_server_runs(self):
+        files = {"admin": self.write_token("admin", "admin-1"),
+                 "reader": self.write_token("reader", "reader-1")}
+        server = self.start("--token-file", files["admin"], "--read-token-file", files["reader"])
+        for name in files:
+            self.assertEqual(self.status_with(server, "GET", "/v1/scenes", name + "-1"), 200)
+            self.write_token(name, name + "-2")
+            self.assertTrue(self.eventually(
+                lambda: self.status_with(server, "GET", "/v1/scenes", name + "-2") == 200))
+            self.assertEqual(self.status_with(server, "GET", "/v1/scenes", name + "-1"), 401)
+        for count, token in enumerate(("", "two words")):  # mistakes lock nobody out
+            self.write_token("admin", token)
+            self.assertTrue(self.eventually(lambda: self.failed_reads(server) > count))
+            self.assertEqual(self.status_with(server, "GET", "/v1/scenes", "admin-2"), 200)
+        os.remove(files["admin"])
+        self.assertTrue(self.eventually(lambda: self.failed_reads(server) > 2))
+        self.assertEqual(self.status_with(server, "GET", "/v1/scenes", "admin-2"), 200)
+        server.stop()
+        self.assertNotRegex(read(server.log_path).decode(), "admin-[12]|reader-[12]|two words")
+
+    def failed_reads(self, server):
+        """How often a token could not be read so far; asks, as files are read for requests."""
+        server.get("/v1/scenes")
+        return sum("could not be read" in line["message"] for line in server.logged())
 
     def test_names_that_lead_here_by_dns_alone_are_refused(self):
         server = self.start()
@@ -440,9 +592,66 @@ class Paths(ServiceTest):
         self.assertIn("default-src 'self'", answer.headers["Content-Security-Policy"])
         head = server.request("HEAD", "/index.html")
         self.assertEqual((head.status, head.headers["Content-Length"], head.body), (200, "8", b""))
-        for path in ("/link", "/../secret", "/%2e%2e/secret", "/missing.js"):
+        os.mkdir(os.path.join(viewer, "assets"))
+        open(os.path.join(viewer, "assets", "a.js"), "w").write("a")
+        self.assertEqual(server.get("/assets/a.js").body, b"a")
+        for path in ("/link", "/../secret", "/%2e%2e/secret", "/missing.js", "/assets%2Fa.js"):
             self.assert_problem(server.get(path), 404, "no_such_path")
         self.assert_problem(server.get("/v1/nothing"), 404, "no_such_path")
+
+    def viewer_server(self, files):
+        """A server of a page with these files: bytes by their names."""
+        viewer = os.path.join(self.folder, "viewer")
+        os.makedirs(os.path.join(viewer, "assets"))
+        for name, content in files.items():
+            with open(os.path.join(viewer, name), "wb") as file:
+                file.write(content)
+        return self.start("--viewer", viewer)
+
+    def test_files_of_the_viewer_are_sent_again_only_if_they_changed(self):
+        server = self.viewer_server({"index.html": b"<p>one"})
+        tag = server.get("/").headers["ETag"]
+        for known in (tag, "W/" + tag, '"other", ' + tag, "*"):
+            answer = server.get("/", If_None_Match=known)
+            self.assertEqual((answer.status, answer.body), (304, b""), known)
+            self.assertEqual(answer.headers["ETag"], tag)
+        self.assertEqual(server.get("/", If_None_Match='"other"').status, 200)
+        self.assertEqual(server.get("/", If_None_Match=tag.strip('"')).status, 200)
+        with open(os.path.join(self.folder, "viewer", "index.html"), "wb") as file:
+            file.write(b"<p>and two")
+        answer = server.get("/", If_None_Match=tag)
+        self.assertEqual((answer.status, answer.body), (200, b"<p>and two"))
+        self.assertNotEqual(answer.headers["ETag"], tag)
+
+    def test_only_files_with_a_hash_in_their_names_are_kept_for_ever(self):
+        names = {"assets/index-DkD0Xn2v.js": True, "assets/a-b_-4Xc9d.css": True,
+                 "index.html": False, "assets/plain.js": False, "assets/my-longname.js": False,
+                 "other-DkD0Xn2v.js": False}
+        server = self.viewer_server({name: b"x" for name in [*names, "index.html"]})
+        for name, is_immutable in names.items():
+            expected = "public, max-age=31536000, immutable" if is_immutable else "no-cache"
+            self.assertEqual(server.get("/" + name).headers["Cache-Control"], expected, name)
+
+    def test_compressed_files_go_to_clients_that_accept_them(self):
+        text = b"let a = 1;\n" * 1000
+        server = self.viewer_server({"index.html": b"x", "assets/a.js": text})
+        packed = os.path.join(self.folder, "viewer", "assets", "a.js.gz")
+        with open(packed, "wb") as file:
+            file.write(gzip.compress(text))
+        plain = server.get("/assets/a.js")
+        self.assertEqual((plain.body, plain.headers["Content-Encoding"]), (text, None))
+        for accepted in ("gzip", "deflate, gzip;q=0.5", "br, *", "GZIP"):
+            answer = server.get("/assets/a.js", Accept_Encoding=accepted)
+            self.assertEqual(answer.headers["Content-Encoding"], "gzip", accepted)
+            self.assertEqual(gzip.decompress(answer.body), text)
+            self.assertEqual(answer.headers["Vary"], "Accept-Encoding")
+            self.assertNotEqual(answer.headers["ETag"], plain.headers["ETag"])
+            self.assertEqual(answer.headers["Content-Type"], "text/javascript; charset=utf-8")
+        for refused in ("gzip;q=0", "identity", "br", "*;q=0", "*, gzip;q=0.0"):
+            answer = server.get("/assets/a.js", Accept_Encoding=refused)
+            self.assertEqual((answer.body, answer.headers["Content-Encoding"]), (text, None))
+        os.utime(packed, (1, 1))  # older than the file
+        self.assertEqual(server.get("/assets/a.js", Accept_Encoding="gzip").body, text)
 
     def test_a_program_finds_the_viewer_beside_it_or_says_how_to_get_it(self):
         program = os.path.join(self.folder, "prefix", "bin", "tetralight")
