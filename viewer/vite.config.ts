@@ -1,7 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
+import {readFileSync, readdirSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {gzipSync} from 'node:zlib';
+import type {Plugin} from 'vite';
 import {defineConfig} from 'vitest/config';
 
+/** Writes NAME.gz beside each file of the page; the server sends it to clients that accept gzip. */
+function compress(): Plugin {
+    let folder = '';
+    return {
+        name: 'compress',
+        apply: 'build',
+        configResolved(config) { folder = join(config.root, config.build.outDir); },
+        closeBundle() {
+            for (const name of readdirSync(folder, {recursive: true}) as string[]) {
+                if (!/\.(html|js|css|svg|json|wasm)$/.test(name)) continue;
+                const path = join(folder, name);
+                writeFileSync(`${path}.gz`, gzipSync(readFileSync(path), {level: 9}));
+            }
+        },
+    };
+}
+
 export default defineConfig({
+    plugins: [compress()],
     build: {
         outDir: '../build/viewer',
         emptyOutDir: true,

@@ -139,10 +139,12 @@ export class Api {
         await this.request('DELETE', path);
     }
 
-    /** A bake until it is over. Server-sent events by hand: `EventSource` sends no token. */
-    async watch(bake: string, show: (bake: Bake) => void, signal: AbortSignal): Promise<void> {
-        const response = await this.request('GET', `/v1/bakes/${bake}/events`, undefined, undefined,
-                                            signal);
+    /**
+     * All bakes that are under way or are ordered meanwhile, until the signal. One connection for all of them: a
+     * browser opens six to a server. Server-sent events by hand: `EventSource` sends no token.
+     */
+    async watchBakes(show: (bake: Bake) => void, signal: AbortSignal): Promise<void> {
+        const response = await this.request('GET', '/v1/bakes/events', undefined, undefined, signal);
         const reader = response.body!.pipeThrough(new TextDecoderStream()).getReader();
         let text = '';
         while (true) {

@@ -23,7 +23,7 @@ export class BakesPanel {
     private readonly list = element('ul', {class: 'bakes', 'aria-label': 'Bakes'});
     private reusable = '';
     private offeredName = '';
-    private readonly watched = new Set<string>();
+    private stream: AbortController | null = null;
 
     constructor(private readonly viewer: Viewer, private readonly finished: () => void) {
         const form = element(
@@ -100,9 +100,7 @@ export class BakesPanel {
         const {bakes} = await this.viewer.api.get<{bakes: Bake[]}>('/v1/bakes');
         this.keepFocus(() => this.list.replaceChildren(...bakes.slice(0, 30).map(bake => this.row(bake))));
         if (bakes.length === 0) this.list.append(element('li', {class: 'hint'}, 'None yet.'));
-        for (const bake of bakes) {
-            if (isUnderWay(bake)) void this.watch(bake.id);
-        }
+        if (bakes.some(isUnderWay)) void this.watch();
     }
 
     private control(field: BakeField): Control {
@@ -135,10 +133,9 @@ export class BakesPanel {
             const value = this.marked(field, () => valueOf(field, control.value));
             if (value !== undefined) order[field.key] = value;
         }
-        const bake = await this.ordered(order);
+        await this.ordered(order);
         viewer.say('The bake is accepted.');
         await this.refresh();
-        void this.watch(bake.id);
     }
 
     private async ordered(order: Record<string, unknown>): Promise<Bake> {
@@ -168,17 +165,24 @@ export class BakesPanel {
         control.focus();
     }
 
-    private async watch(id: string): Promise<void> {
-        if (this.watched.has(id)) return;
-        this.watched.add(id);
-        const abort = new AbortController();
+    /** Follows all bakes while one of them is under way. */
+    private async watch(): Promise<void> {
+        if (this.stream !== null) return;
+        const stream = new AbortController();
+        this.stream = stream;
         try {
-            await this.viewer.api.watch(id, bake => this.update({...bake, id}), abort.signal);
+            await this.viewer.api.watchBakes(bake => this.update(bake), stream.signal);
         } catch (error) {
-            this.viewer.alerts.report('watch', error);
+            if (!stream.signal.aborted) this.viewer.alerts.report('watch', error);
         } finally {
-            this.watched.delete(id);
+            if (this.stream === stream) this.stream = null;
         }
+    }
+
+    private stopIfAllHaveEnded(): void {
+        if (this.list.querySelector('[data-state="queued"], [data-state="running"]') !== null) return;
+        this.stream?.abort();
+        this.stream = null;
     }
 
     private update(bake: Bake): void {
@@ -191,6 +195,7 @@ export class BakesPanel {
             if (old !== null) void this.viewer.alerts.attempt('open', () => this.viewer.openVolume(bake.volume!));
             this.finished();
         }
+        if (!isUnderWay(bake)) this.stopIfAllHaveEnded();
     }
 
     /** Rebuilds rows; the focus stays with its bake. */
