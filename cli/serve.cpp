@@ -76,7 +76,9 @@ struct Serve {
         settings.thread_count = values.integer32("threads");
         settings.tool_thread_count = values.integer32("tool_threads");
         settings.worker_count = values.integer32("workers");
+        settings.storage_worker_count = values.integer32("storage_workers");
         settings.max_waiting = values.integer32("max_waiting");
+        settings.queue_seconds = values.number("queue_seconds");
         settings.max_queued_bakes = values.integer32("max_bakes");
         settings.max_connections = values.integer32("max_connections");
         settings.max_body_bytes = values.integer("max_body");

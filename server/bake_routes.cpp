@@ -129,14 +129,14 @@ Response all_events(const Service& service) {
 }  // namespace
 
 std::vector<Route> bake_routes(Service& service) {
-    constexpr auto kWorkers = Plan::RunOn::Workers;
+    constexpr auto kStorage = Plan::RunOn::Storage;
     return {
         {.method = "POST",
          .pattern = "/v1/bakes",
          .access = Access::Writes,
          .handle = [&](Request& r) { return submit(service, r); },
          .body_limit = service.settings.max_body_bytes,
-         .run_on = kWorkers},
+         .run_on = kStorage},
         {.method = "GET",
          .pattern = "/v1/bakes",
          .handle =
@@ -156,7 +156,7 @@ std::vector<Route> bake_routes(Service& service) {
          .pattern = "/v1/bakes/{bake}/cancel",
          .access = Access::Writes,
          .handle = [&](Request& r) { return json_response(service.bakes.cancel(r.captures[0])); },
-         .run_on = kWorkers},
+         .run_on = kStorage},
         {.method = "DELETE",
          .pattern = "/v1/bakes/{bake}",
          .access = Access::Writes,
@@ -165,7 +165,7 @@ std::vector<Route> bake_routes(Service& service) {
                  service.bakes.remove(r.captures[0]);
                  return Response{.status = 204, .content_type = ""};
              },
-         .run_on = kWorkers}};
+         .run_on = kStorage}};
 }
 
 }  // namespace tetralight::server

@@ -248,7 +248,7 @@ Response section(Service& service, const Request& request) {
 void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
     const std::string all = std::string("/v1/") + name_of(kind);
     const std::string one = all + "/{" + noun_of(kind) + "}";
-    constexpr auto kWorkers = Plan::RunOn::Workers;
+    constexpr auto kStorage = Plan::RunOn::Storage;
     const uint64_t small = 65536;
     routes.push_back({.method = "POST",
                       .pattern = all,
@@ -257,7 +257,7 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
                       .parameters = {"name"},
                       .body_limit = service.settings.max_upload_bytes,
                       .body_to = Plan::BodyTo::File,
-                      .run_on = kWorkers,
+                      .run_on = kStorage,
                       .prepare = [&](Request& r) { prepare_upload(service, r); }});
     routes.push_back({.method = "GET",
                       .pattern = all,
@@ -271,12 +271,12 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
                       .access = Access::Writes,
                       .handle = [&, kind](Request& r) { return rename(service, kind, r); },
                       .body_limit = small,
-                      .run_on = kWorkers});
+                      .run_on = kStorage});
     routes.push_back({.method = "DELETE",
                       .pattern = one,
                       .access = Access::Writes,
                       .handle = [&, kind](Request& r) { return remove(service, kind, r); },
-                      .run_on = kWorkers});
+                      .run_on = kStorage});
     routes.push_back({.method = "GET", .pattern = one + "/file", .handle = [&, kind](Request& r) {
                           return download(service, kind, r);
                       }});

@@ -90,8 +90,10 @@ struct Response {
 struct Plan {
     enum class BodyTo : uint8_t { Memory, File };
     enum class RunOn : uint8_t {
-        Network,  ///< answers at once
-        Workers,  ///< may wait for disks and programs
+        Network,  ///< answers at once; long bodies are handled by `Compute`
+        Compute,  ///< needs a processor for a time
+        Storage,  ///< stores, deletes and checks; may wait for disks and short programs
+        Tools,    ///< waits for programs that may take minutes
     };
 
     /// The pattern of the path, for logs and metrics.

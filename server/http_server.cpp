@@ -10,7 +10,6 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/strand.hpp>
-#include <boost/asio/thread_pool.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <chrono>
 #include <cstdio>
@@ -26,6 +25,7 @@
 #include <tetralight/server/detail/read_request.h>
 #include <tetralight/server/detail/send_response.h>
 #include <tetralight/server/detail/session.h>
+#include <tetralight/server/work_queue.h>
 
 namespace tetralight::server {
 namespace {
@@ -43,6 +43,44 @@ std::string make_request_id() {
     return digits.data();
 }
 
+/// Work that takes longer than about a millisecond would delay other requests of a thread.
+bool is_long(const Request& request) {
+    constexpr size_t kLongText = size_t{8} << 10;
+    constexpr size_t kLongBinary = size_t{128} << 10;
+    return request.body.size() >
+           (request.has_type("application/octet-stream") ? kLongBinary : kLongText);
+}
+
+/// What a request costs beside others of its queue.
+uint64_t cost_of(const Plan& plan, const Request& request) {
+    constexpr uint64_t kBytes = 4096;
+    return plan.run_on == Plan::RunOn::Tools ? 1 : 1 + request.body_size / kBytes;
+}
+
+uint32_t network_thread_count(const Settings& settings) {
+    const uint32_t all = std::max(1u, std::thread::hardware_concurrency());
+    return settings.thread_count == 0 ? all : settings.thread_count;
+}
+
+/// Bodies in memory wait for computing: their sum is limited, too.
+WorkQueue::Limits compute_limits(const Settings& settings) {
+    constexpr int kNiceness = 3;  // network threads come first
+    constexpr uint64_t kBodies = 4;
+    constexpr uint64_t kBytes = 4096;
+    return {.threads = network_thread_count(settings),
+            .max_waiting = settings.max_waiting,
+            .max_cost = kBodies * (1 + settings.max_body_bytes / kBytes),
+            .niceness = kNiceness};
+}
+
+/// A request in a queue, and its answer once it is there.
+struct Waiting {
+    WorkQueue& queue;
+    WorkQueue::Handle item;
+    net::steady_timer& done;
+    const std::optional<Response>& response;
+};
+
 /// The state that all sessions share.
 class Server final : public HttpServer {
   public:
@@ -51,9 +89,17 @@ class Server final : public HttpServer {
           application_(std::move(application)),
           acceptor_(net::make_strand(io_)),
           drain_timer_(acceptor_.get_executor()),
-          workers_(settings.worker_count) {}
+          compute_(std::in_place, compute_limits(settings)),
+          storage_(std::in_place,
+                   WorkQueue::Limits{settings.storage_worker_count, settings.max_waiting}),
+          tools_(std::in_place, WorkQueue::Limits{settings.worker_count, settings.max_waiting}) {}
 
-    ~Server() override { workers_.join(); }
+    /// Work that runs uses the sessions, which end with `io_`.
+    ~Server() override {
+        compute_.reset();
+        storage_.reset();
+        tools_.reset();
+    }
 
     error_code open() {
         error_code error;
@@ -72,10 +118,16 @@ class Server final : public HttpServer {
 
     [[nodiscard]] uint32_t connection_count() const override { return connection_count_; }
 
+    [[nodiscard]] size_t waiting_count(Plan::RunOn place) const override {
+        const auto* queue = place == Plan::RunOn::Compute   ? &compute_
+                            : place == Plan::RunOn::Storage ? &storage_
+                                                            : &tools_;
+        return place == Plan::RunOn::Network ? 0 : (*queue)->waiting_count();
+    }
+
     void run() override {
         net::co_spawn(acceptor_.get_executor(), accept(), net::detached);
-        const uint32_t all = std::max(1u, std::thread::hardware_concurrency());
-        const uint32_t count = settings_.thread_count == 0 ? all : settings_.thread_count;
+        const uint32_t count = network_thread_count(settings_);
         std::vector<std::thread> threads;
         for (uint32_t i = 1; i < count; ++i) threads.emplace_back([this] { io_.run(); });
         io_.run();
@@ -90,6 +142,10 @@ class Server final : public HttpServer {
     net::awaitable<bool> serve_one(Session& session);
     net::awaitable<Response> answer(Session& session, Plan& plan, Request& request,
                                     std::optional<double>& waited);
+    net::awaitable<std::optional<Response>> wait_for(Session& session, Request& request,
+                                                     Waiting& waiting);
+    [[nodiscard]] WorkQueue* queue_for(const Plan& plan, const Request& request);
+    [[nodiscard]] Response busy(const Request& request) const;
     void end_idle_sessions();
 
     [[nodiscard]] SendRule send_rule(bool keeps_open) const {
@@ -101,8 +157,9 @@ class Server final : public HttpServer {
     net::io_context io_;
     tcp::acceptor acceptor_;
     net::steady_timer drain_timer_;
-    net::thread_pool workers_;
-    std::atomic<uint32_t> waiting_count_ = 0;
+    std::optional<WorkQueue> compute_;
+    std::optional<WorkQueue> storage_;
+    std::optional<WorkQueue> tools_;
     std::atomic<uint32_t> connection_count_ = 0;
     std::atomic<uint32_t> refused_count_ = 0;  ///< connections beyond the limit, which get 503
     std::atomic<bool> is_draining_ = false;    ///< each connection gets one more answer
@@ -247,45 +304,75 @@ net::awaitable<bool> Server::serve_one(Session& session) {
     co_return keeps_open&& sent.is_whole;
 }
 
-/// Runs the handler where the plan says. Sets how long the request waited for a worker.
+/// Null if the request is handled on the thread of its connection.
+WorkQueue* Server::queue_for(const Plan& plan, const Request& request) {
+    switch (plan.run_on) {
+        case Plan::RunOn::Network:
+            return is_long(request) ? &*compute_ : nullptr;
+        case Plan::RunOn::Compute:
+            return &*compute_;
+        case Plan::RunOn::Storage:
+            return &*storage_;
+        case Plan::RunOn::Tools:
+            break;
+    }
+    return &*tools_;
+}
+
+Response Server::busy(const Request& request) const {
+    return application_.refusal({503, "busy", "too many requests are waiting already", "requests",
+                                 std::to_string(settings_.max_waiting)},
+                                request);
+}
+
+/// Waits until the work is done. Gives another response if it was dropped: to make room for other
+/// clients, after its longest time, or because the client has disconnected.
+net::awaitable<std::optional<Response>> Server::wait_for(Session& session, Request& request,
+                                                         Waiting& waiting) {
+    constexpr auto kLook = std::chrono::milliseconds(200);
+    const auto end = Clock::now() + to_duration(settings_.queue_seconds);
+    while (!waiting.response) {
+        waiting.done.expires_after(kLook);
+        error_code ignored;
+        co_await waiting.done.async_wait(net::redirect_error(net::use_awaitable, ignored));
+        if (waiting.response) break;
+        if (session.is_abandoned()) request.is_abandoned = true;
+        const bool is_late = Clock::now() > end;
+        const bool is_dropped = request.is_abandoned || is_late
+                                    ? waiting.queue.drop(waiting.item)
+                                    : waiting.queue.is_dropped(waiting.item);
+        if (!is_dropped) continue;
+        if (request.is_abandoned) {
+            co_return application_.refusal({kAbandoned, "abandoned", "the client has disconnected"},
+                                           request);
+        }
+        co_return busy(request);
+    }
+    co_return std::nullopt;
+}
+
+/// Runs the handler where the plan says. Sets how long the request waited for a thread.
 net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& request,
                                         std::optional<double>& waited) {
-    // Handling such a body would delay other requests on this thread.
-    constexpr size_t kLongBody = size_t{1} << 20;
-    constexpr auto kLook = std::chrono::milliseconds(200);
-    if (plan.run_on == Plan::RunOn::Network && request.body.size() < kLongBody) {
-        co_return plan.handle(request);
-    }
-    if (waiting_count_ >= settings_.max_waiting) {
-        co_return application_.refusal(
-            {503, "busy", str_cat(settings_.max_waiting, " requests are waiting already"),
-             "requests", std::to_string(settings_.max_waiting)},
-            request);
-    }
-    ++waiting_count_;
+    WorkQueue* queue = queue_for(plan, request);
+    if (queue == nullptr) co_return plan.handle(request);
     const auto executor = co_await net::this_coro::executor;
     net::steady_timer done(executor);
     std::optional<Response> response;
     const auto begin = Clock::now();
-    net::post(workers_, [&] {
+    const auto item = queue->post(request.remote, cost_of(plan, request), [&] {
         if (is_over_) return;
         waited = std::chrono::duration<double>(Clock::now() - begin).count();
-        Response made = request.is_abandoned
-                            ? application_.refusal(
-                                  {kAbandoned, "abandoned", "the client has disconnected"}, request)
-                            : plan.handle(request);
+        Response made = plan.handle(request);
         net::post(executor, [&response, &done, made = std::move(made)]() mutable {
             response = std::move(made);
             done.cancel();
         });
     });
-    while (!response) {
-        done.expires_after(kLook);
-        error_code ignored;
-        co_await done.async_wait(net::redirect_error(net::use_awaitable, ignored));
-        if (session.is_abandoned()) request.is_abandoned = true;
-    }
-    --waiting_count_;
+    if (!item) co_return busy(request);
+    Waiting waiting{*queue, item, done, response};
+    auto instead = co_await wait_for(session, request, waiting);
+    if (instead) co_return std::move(*instead);
     co_return std::move(*response);
 }
 

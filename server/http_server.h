@@ -37,6 +37,9 @@ class HttpServer {
     /// Open connections.
     [[nodiscard]] virtual uint32_t connection_count() const = 0;
 
+    /// Requests that wait for a thread of a place.
+    [[nodiscard]] virtual size_t waiting_count(Plan::RunOn place) const = 0;
+
     /// Serves until `stop`, then until the requests in progress are answered or the time is up.
     virtual void run() = 0;
 

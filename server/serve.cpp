@@ -263,6 +263,7 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
                         const Request& request) { return dispatcher.refuse(problem, request); }});
     if (!http) return http.error();
     service.connection_count = [&] { return (*http)->connection_count(); };
+    service.waiting_count = [&](Plan::RunOn place) { return (*http)->waiting_count(place); };
     log.write(Log::Level::Info, "serving", start_facts(settings, **store, (*http)->port()));
     {
         const SignalWatch watch([&] {

@@ -31,6 +31,8 @@ struct Service {
     /// True once jobs of requests must end.
     std::atomic<bool> is_over = false;
     std::function<uint32_t()> connection_count = [] { return 0u; };
+    /// Requests that wait for a thread.
+    std::function<size_t(Plan::RunOn)> waiting_count = [](Plan::RunOn) { return size_t{0}; };
 };
 
 // The routes by subject.

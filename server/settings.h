@@ -37,9 +37,12 @@ struct Settings {
     uint32_t thread_count = 0;
     /// Threads of each job; 0 = one per processor.
     uint32_t tool_thread_count = 0;
-    /// Requests that use jobs or disks at once, and requests that may wait for them.
+    /// Requests that wait for jobs of minutes at once, and those that store or check.
     uint32_t worker_count = 4;
+    uint32_t storage_worker_count = 4;
+    /// Requests that may wait for each kind of thread, and their longest wait.
     uint32_t max_waiting = 256;
+    double queue_seconds = 60.0;
     uint32_t max_connections = 4096;
     uint32_t max_queued_bakes = 1000;
     uint64_t max_body_bytes = uint64_t{64} << 20;

@@ -44,6 +44,16 @@ double resident_bytes() {
     return resident * 4096.0;
 }
 
+void add_queues(const Service& service, std::vector<Figure>& figures) {
+    const auto add = [&](Plan::RunOn place, const char* label) {
+        figures.push_back({"waiting_requests", "Requests that wait for a thread.",
+                           static_cast<double>(service.waiting_count(place)), "gauge", label});
+    };
+    add(Plan::RunOn::Compute, "queue=\"compute\"");
+    add(Plan::RunOn::Storage, "queue=\"storage\"");
+    add(Plan::RunOn::Tools, "queue=\"tools\"");
+}
+
 double seconds_of(const timeval& time) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
 }
@@ -103,6 +113,7 @@ Response metrics(Service& service) {
         {"connections", "Open connections.", static_cast<double>(service.connection_count())},
         {"log_dropped_lines_total", "Lines of the log that stderr did not take.",
          static_cast<double>(service.log.dropped_count()), "counter"}};
+    add_queues(service, figures);
     add_store(service, figures);
     add_bakes(service, figures);
     add_disk(service, figures);

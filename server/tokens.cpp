@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 namespace {
@@ -74,7 +74,7 @@ void Tokens::read_changed_file(Source& source) {
     const std::string earlier = source.token;
     if (auto status = read(source); !status) {
         log_.write(Log::Level::Error, "a token could not be read; the last one stays valid",
-                   {{"field", source.field}, {"error", error_text(status.error())}});
+                   {{"field", source.field}, {"error", detail_of(status.error())}});
     } else if (source.token != earlier) {
         log_.write(Log::Level::Info, "a token has changed", {{"field", source.field}});
     }

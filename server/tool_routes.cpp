@@ -164,7 +164,7 @@ std::vector<Route> tool_routes(Service& service) {
             .access = access,
             .handle = [&service, handle](Request& request) { return handle(service, request); },
             .body_limit = service.settings.max_body_bytes,
-            .run_on = Plan::RunOn::Workers};
+            .run_on = Plan::RunOn::Tools};
     };
     return {route("/v1/grid", Access::Writes, grid),
             route("/v1/tetrahedralize", Access::Writes, tetrahedralize),

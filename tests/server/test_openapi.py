@@ -93,7 +93,8 @@ class OpenApi(ServiceTest):
     def test_every_operation_is_served_and_nothing_else(self):
         for path, method, _ in self.operations():
             real = re.sub(r"\{\w+\}", "none", path)
-            answer = self.server.request(method.upper(), real)
+            has_no_end = path == "/v1/bakes/events"
+            answer = self.server.request("HEAD" if has_no_end else method.upper(), real)
             code = answer.json().get("code") if answer.status >= 400 else None
             self.assertNotIn(code, ("no_such_path", "wrong_method"), path)
         source = os.path.join(os.path.dirname(__file__), "..", "..", "server")
