@@ -159,6 +159,7 @@ Response answer_json(Service& service, const ProbeFile& file, const Request& req
     std::string out = R"({"answers":[)";
     uint32_t hint = kNoIndex;
     for (const glm::vec3& position : positions) {
+        if (request.is_abandoned) throw Problem{499, "abandoned", "the client has disconnected"};
         const CellLocation location = locate(volume, position, hint, query.outside);
         hint = location.cell;
         if (out.back() != '[') out += ',';
