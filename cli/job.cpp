@@ -55,6 +55,10 @@ Result<Job> read_job(const std::string& path) {
     if (const auto status = check_json_object(*text); !status) {
         return status.error().in(path == "-" ? "stdin" : path);
     }
+    if (const auto key = find_duplicate_key(*text)) {
+        return Error{ErrorCode::InvalidArgument, *key, "",
+                     str_cat("\"", *key, "\" is given twice in one object")};
+    }
     const Json json = Json::parse(*text);
     const auto command = command_of(json);
     if (!command) return command.error();

@@ -41,28 +41,12 @@ size_t count_members(const Json& json) {
     return count;
 }
 
-/// The first key that an object of a valid text has twice.
-std::string find_duplicate(std::string_view text) {
-    std::vector<std::set<std::string>> keys;
-    std::string duplicate;
-    const auto look = [&](int, Json::parse_event_t event, Json& value) {
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end) keys.pop_back();
-        if (event != Json::parse_event_t::key) return true;
-        const std::string key = value.get<std::string>();
-        if (!keys.back().insert(key).second && duplicate.empty()) duplicate = key;
-        return true;
-    };
-    [[maybe_unused]] const Json ignored = Json::parse(text, look);
-    return duplicate;
-}
-
 /// Refuses an object that has a key twice: parsers differ in which of the values they take. The
 /// parsed object kept one member of those with the same key, so their number tells.
 void check_duplicates(std::string_view text, const Json& json) {
     const size_t count = count_colons(text);
     if (count == json.size() || count == count_members(json)) return;
-    const std::string key = find_duplicate(text);
+    const std::string key = find_duplicate_key(text).value_or("");
     throw Problem{422, "duplicate_member", "\"" + key + "\" is given twice in one object", key};
 }
 

@@ -2,6 +2,8 @@
 #include <tetralight/base/json/json_text.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
 
 #include <tetralight/base/str_cat.h>
 
@@ -38,6 +40,22 @@ Status check_json_object(std::string_view json) {
                      "is not a JSON object (" + json_error_reason(exception) + ")"};
     }
     return Error{ErrorCode::InvalidArgument, "is not a JSON object"};
+}
+
+std::optional<std::string> find_duplicate_key(std::string_view json) {
+    using Json = nlohmann::json;
+    std::vector<std::set<std::string>> keys;
+    std::optional<std::string> duplicate;
+    const auto look = [&](int, Json::parse_event_t event, Json& value) {
+        if (event == Json::parse_event_t::object_start) keys.emplace_back();
+        if (event == Json::parse_event_t::object_end) keys.pop_back();
+        if (event != Json::parse_event_t::key) return true;
+        const std::string key = value.get<std::string>();
+        if (!keys.back().insert(key).second && !duplicate) duplicate = key;
+        return true;
+    };
+    [[maybe_unused]] const Json ignored = Json::parse(json, look);
+    return duplicate;
 }
 
 std::string json_error_reason(const std::exception& exception) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,10 @@ inline constexpr int kDeepestJson = 64;
 
 /// Returns an error unless the text is one JSON object (RFC 8259) in UTF-8, not nested too deep.
 [[nodiscard]] Status check_json_object(std::string_view json);
+
+/// The first key that an object of the text has twice. Parsers differ in which of the values they
+/// take. Precondition: the text is JSON (RFC 8259), not nested too deep.
+[[nodiscard]] std::optional<std::string> find_duplicate_key(std::string_view json);
 
 /// The message of an exception of nlohmann-json without its tag, `[json.exception...] `.
 [[nodiscard]] std::string json_error_reason(const std::exception& exception);

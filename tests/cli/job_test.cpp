@@ -70,6 +70,12 @@ TEST_F(Job, SaysWhereItsTextIsNoJson) {
               "stdin: JSON is nested deeper than 64");
 }
 
+TEST_F(Job, NamesAKeyThatIsGivenTwice) {
+    const CommandResult result = run({"--job", "-"}, R"({"command": "info", "command": "bake"})");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(Json::parse(result.out)["error"]["field"], "command");
+}
+
 TEST_F(Job, WholeNumbersMayHaveADecimalPoint) {
     write("five.json", kFiveProbes);
     const Json job{{"command", "bake"},

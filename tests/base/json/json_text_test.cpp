@@ -73,6 +73,14 @@ TEST(JsonText, LimitsHowDeepObjectsNest) {
     EXPECT_EQ(error_text(status.error()), "JSON is nested deeper than 64");
 }
 
+TEST(JsonText, FindsAKeyThatAnObjectHasTwice) {
+    EXPECT_EQ(find_duplicate_key(R"({"a": 1, "b": {"a": 2}, "c": [{"a": 3}, {"a": 4}]})"),
+              std::nullopt);
+    EXPECT_EQ(find_duplicate_key(R"({"a": 1, "b": {"c": 2, "d": 3, "c": 4}})"), "c");
+    EXPECT_EQ(find_duplicate_key(R"([{"a": 1, "\u0061": 2}])"), "a");
+    EXPECT_EQ(find_duplicate_key("3"), std::nullopt);
+}
+
 TEST(JsonText, BracketsInStringsDoNotNest) {
     EXPECT_TRUE(check_json_depth("\"" + std::string(100, '[') + "\""));
     EXPECT_TRUE(check_json_depth("\"\\\"" + std::string(100, '[') + "\""));
