@@ -58,6 +58,12 @@ Result<size_t> find_named(const ProbeVolumeView& volume, std::string_view name) 
                          "\"; ", listed(volume))};
 }
 
+Error too_bright(std::string_view layer, float weight) {
+    return {ErrorCode::InvalidArgument, "weights", str_cat(weight),
+            str_cat("layer \"", layer, "\": weight ", weight,
+                    " makes its light too bright to be finite")};
+}
+
 }  // namespace
 
 std::vector<float> layer_weights(const ProbeVolumeView& volume) {
@@ -133,9 +139,7 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
     }
     if (!(bound < 1e37 && ambient_bound < 1e37)) {
         const size_t k = brightest.second;
-        return Error{ErrorCode::InvalidArgument, "weights", str_cat(weights[k]),
-                     str_cat("layer \"", k < names.size() ? names[k] : "", "\": weight ",
-                             weights[k], " makes its light too bright to be finite")};
+        return too_bright(k < names.size() ? names[k] : "", weights[k]);
     }
     info.compact_scale = compact_scale(static_cast<float>(bound));
     return info;
