@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <random>
 
 #include <tetralight/base/file.h>
@@ -22,6 +24,9 @@ namespace fs = std::filesystem;
 constexpr const char* kChunks = "chunks";
 constexpr const char* kProgress = "progress.json";
 constexpr const char* kResult = "result.probes";
+
+/// Before the name of a folder until its bake is accepted.
+constexpr const char* kNew = "new-";
 
 std::string random_id() {
     static std::random_device device;
@@ -53,8 +58,11 @@ void rename_old_inputs(const std::string& folder) {
     }
 }
 
+/// What is out of reach or used up for now keeps its status, 503.
 Problem bake_problem(const Error& error) {
-    return {500, "bake_failed", detail_of(error)};
+    const bool can_wait =
+        error.code == ErrorCode::Unavailable || error.code == ErrorCode::OutOfResources;
+    return can_wait ? storage_problem(error) : Problem{500, "bake_failed", detail_of(error)};
 }
 
 bool is_final(const std::string& state) {
@@ -67,7 +75,7 @@ Bakes::Bakes(const Settings& settings, Store& store, Log& log)
     : settings_(settings), store_(store), log_(log) {
     if (settings.is_read_only) return;
     load();
-    drop_unknown_folders();
+    clear_folders();
     thread_ = std::thread([this] { run(); });
 }
 
@@ -103,13 +111,19 @@ void Bakes::load() {
     }
 }
 
-/// Removes the folders of bakes that were never accepted or have ended.
-void Bakes::drop_unknown_folders() const {
+/// Removes the folders of bakes that were never accepted or have ended. Those that no row tells of
+/// are put aside: the database may be older than they are.
+void Bakes::clear_folders() const {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(store_.bake_folder(""), error)) {
-        const auto known = bakes_.find(entry.path().filename().string());
-        if (known == bakes_.end() || is_final(known->second.state)) {
+        const std::string name = entry.path().filename().string();
+        const auto known = bakes_.find(name);
+        const bool is_known = known != bakes_.end();
+        if (is_known && !is_final(known->second.state)) continue;
+        if (is_known || name.starts_with(kNew)) {
             remove_all(entry.path().string());
+        } else if (store_.put_aside(entry.path().string(), "bake-" + name)) {
+            store_.report(str_cat("bakes/", name, " is not in the database and is in quarantine"));
         }
     }
 }
@@ -160,11 +174,11 @@ Json Bakes::submit(const BakeOrder& order) {
     bake.priority = order.priority;
     bake.created = now();
     const std::string folder = store_.bake_folder(bake.id);
+    const std::string new_folder = store_.bake_folder(kNew + bake.id);
     try {
-        require_stored(make_folder(folder));
-        for (const auto& [file, name] : order.inputs) store_.link(file, folder + "/" + name);
-        require_stored(sync_folder(folder));
-        require_stored(sync_folder(store_.bake_folder("")));
+        require_stored(make_folder(new_folder));
+        for (const auto& [file, name] : order.inputs) store_.link(file, new_folder + "/" + name);
+        require_stored(sync_folder(new_folder));
         store_.database().transaction([&] {
             store_.database().run(
                 "INSERT INTO bakes (id, request, name, priority, state, created) "
@@ -176,8 +190,11 @@ Json Bakes::submit(const BakeOrder& order) {
             }
             bake.number = std::get<int64_t>(
                 store_.database().run("SELECT number FROM bakes WHERE id = ?", {bake.id})[0][0]);
+            // Before the commit, so that every accepted bake has its folder.
+            require_stored(move_folder_synced(new_folder, folder));
         });
     } catch (...) {
+        remove_all(new_folder);
         remove_all(folder);
         throw;
     }
@@ -288,6 +305,24 @@ void Bakes::end(const std::string& id, const std::string& state, const std::stri
                {{"bake", id}, {"state", state}, {"volume", volume}, {"error", error}});
 }
 
+/// Puts a bake back into the queue, and waits, if it lacks a file or resources that may come back.
+/// Returns false if it must fail.
+bool Bakes::wait_to_retry(const std::string& id, const Problem& problem) {
+    constexpr int kMostRetries = 3;
+    std::unique_lock lock(mutex_);
+    const auto found = bakes_.find(id);
+    if (problem.status != 503 || found == bakes_.end() || found->second.state != "running" ||
+        found->second.retries == kMostRetries) {
+        return false;
+    }
+    found->second.state = "queued";
+    const auto delay = std::chrono::seconds(1 << found->second.retries++);
+    log_.write(Log::Level::Warning, "a bake waits to be tried again",
+               {{"bake", id}, {"error", problem.detail}, {"seconds", delay.count()}});
+    wake_.wait_for(lock, delay, [&] { return is_ending_; });
+    return true;
+}
+
 /// Returns false if the end could not be stored. The bake then keeps its folder and continues at
 /// the next start.
 bool Bakes::fail(const std::string& id, const std::string& error) {
@@ -329,10 +364,8 @@ void Bakes::run() {
         const std::string name = next->name;
         lock.unlock();
         log_.write(Log::Level::Info, "a bake begins", {{"bake", id}});
-        try {
-            run_bake(id, request, name);
-        } catch (const Problem& problem) {
-            if (!fail(id, problem.detail)) continue;
+        if (const auto problem = try_bake(id, request, name)) {
+            if (wait_to_retry(id, *problem) || !fail(id, problem->detail)) continue;
         }
         if (is_over(id)) remove_all(store_.bake_folder(id));
         store_.keep_reserve();
@@ -357,6 +390,21 @@ void Bakes::update_progress(const std::string& id) {
     bake.probe_count = pace.value("probe_count", bake.probe_count);
     bake.rays_per_second = pace.value("rays_per_second", Json());
     bake.seconds_left = pace.value("seconds_left", Json());
+}
+
+/// Why a bake could not end; nothing if it did.
+std::optional<Problem> Bakes::try_bake(const std::string& id, const Json& request,
+                                       const std::string& name) {
+    try {
+        run_bake(id, request, name);
+        return std::nullopt;
+    } catch (const Problem& problem) {
+        return problem;
+    } catch (const std::bad_alloc&) {
+        return Problem{503, "no_memory", "not enough memory"};
+    } catch (const std::exception& exception) {
+        return Problem{500, "internal", exception.what()};
+    }
 }
 
 void Bakes::run_bake(const std::string& id, const Json& request, const std::string& name) {

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -70,6 +71,8 @@ class Bakes {
         Json report;
         double created = 0.0;
         double ended = 0.0;
+        /// How often it began and could not go on for lack of a file or of resources.
+        int retries = 0;
         /// Of the progress file of the running command.
         uint64_t probes_done = 0;
         uint64_t probe_count = 0;
@@ -80,14 +83,17 @@ class Bakes {
 
     [[nodiscard]] static Json to_json(const Bake& bake);
     void load();
-    void drop_unknown_folders() const;
+    void clear_folders() const;
     [[nodiscard]] const Bake& find_locked(const std::string& id) const;
     [[nodiscard]] size_t waiting_locked() const;
     [[nodiscard]] Bake* next_locked();
     void run();
+    [[nodiscard]] std::optional<Problem> try_bake(const std::string& id, const Json& request,
+                                                  const std::string& name);
     void run_bake(const std::string& id, const Json& request, const std::string& name);
     [[nodiscard]] bool is_cancelled(const std::string& id);
     void update_progress(const std::string& id);
+    [[nodiscard]] bool wait_to_retry(const std::string& id, const Problem& problem);
     [[nodiscard]] bool fail(const std::string& id, const std::string& error);
     void end(const std::string& id, const std::string& state, const std::string& volume,
              const std::string& error, const Json& report);

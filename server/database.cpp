@@ -70,6 +70,14 @@ constexpr std::array kMigrations = {
     R"sql(
         ALTER TABLE bakes DROP COLUMN arguments;
     )sql",
+    R"sql(
+        CREATE TABLE deleted (
+            kind TEXT NOT NULL,
+            file TEXT NOT NULL,
+            time REAL NOT NULL,
+            PRIMARY KEY (kind, file)
+        ) STRICT;
+    )sql",
 };
 
 struct Finalize {
@@ -111,17 +119,20 @@ ErrorCode error_code_of(sqlite3* handle) {
     if (code == SQLITE_FULL) return ErrorCode::DiskFull;
     if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) return ErrorCode::Corrupt;
     if (code == SQLITE_NOMEM) return ErrorCode::OutOfResources;
+    if (code == SQLITE_ERROR || code == SQLITE_CONSTRAINT) return ErrorCode::Unsupported;
     const bool has_reason = (code == SQLITE_IOERR || code == SQLITE_CANTOPEN) && reason != 0;
     return has_reason ? error_code_of_errno(reason) : ErrorCode::Unavailable;
 }
 
-/// Only a full disk is a problem that clients can tell from others: deleting helps against it.
+/// Damage is 500 "database"; a disk that is full, out of reach or lacks descriptors is what it is
+/// for every file of the server.
 [[noreturn]] void fail(sqlite3* handle) {
     const ErrorCode code = error_code_of(handle);
-    const bool is_full = code == ErrorCode::DiskFull;
-    throw DatabaseProblem{{is_full ? 507u : 500u, is_full ? "disk_full" : "database",
-                           str_cat("the database: ", sqlite3_errmsg(handle))},
-                          code};
+    const std::string detail = str_cat("the database: ", sqlite3_errmsg(handle));
+    const bool is_wrong = code == ErrorCode::Corrupt || code == ErrorCode::Unsupported;
+    const Problem problem =
+        is_wrong ? Problem{500, "database", detail} : storage_problem({code, detail});
+    throw DatabaseProblem{problem, code};
 }
 
 }  // namespace

@@ -185,7 +185,10 @@ Response remove(Service& service, Kind kind, const Request& request) {
 Response download(Service& service, Kind kind, const Request& request) {
     const StoredFile stored = service.store.get(kind, request.captures[0]);
     auto mapping = MappedFile::open(service.store.path(kind, stored.id));
-    if (!mapping) throw Problem{404, "not_found", "it was deleted", noun_of(kind), stored.id};
+    if (!mapping) {
+        (void)service.store.get(kind, stored.id);  // throws if it was deleted since
+        throw storage_problem(mapping.error());
+    }
     const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
     Response response =
         bytes_response(request, {kept->bytes(), kept}, content_type_of(kind), stored.id);

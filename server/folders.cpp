@@ -44,6 +44,11 @@ Status move_synced(const std::string& from, const std::string& to) {
     return sync_folder(std::filesystem::path(to).parent_path().string());
 }
 
+Status move_folder_synced(const std::string& from, const std::string& to) {
+    if (std::rename(from.c_str(), to.c_str()) != 0) return system_error(to, "write");
+    return sync_folder(std::filesystem::path(to).parent_path().string());
+}
+
 void remove_all(const std::string& path) {
     std::error_code ignored;
     std::filesystem::remove_all(path, ignored);

@@ -20,6 +20,9 @@ namespace tetralight::server {
 /// Moves a file and syncs the file and its new name.
 [[nodiscard]] Status move_synced(const std::string& from, const std::string& to);
 
+/// Moves a folder and syncs its old and its new name. Its contents must be synced before.
+[[nodiscard]] Status move_folder_synced(const std::string& from, const std::string& to);
+
 /// Deletes a file, or a folder with its contents. A missing one is no error.
 void remove_all(const std::string& path);
 

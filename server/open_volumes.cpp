@@ -20,7 +20,7 @@ std::shared_ptr<const ProbeFile> OpenVolumes::open(const std::string& reference)
     if (!opened) {
         // It may have been deleted since.
         if (!store_.find(Kind::Volumes, stored.id)) (void)store_.get(Kind::Volumes, reference);
-        if (can_retry(opened.error().code)) throw storage_problem(opened.error());
+        if (opened.error().code != ErrorCode::Corrupt) throw storage_problem(opened.error());
         store_.quarantine(Kind::Volumes, stored.id, reason_without_path(opened.error(), path));
         (void)store_.get(Kind::Volumes, stored.id);
     }

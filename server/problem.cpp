@@ -79,7 +79,9 @@ void name_member(const Error& error, const Json& order, Problem& problem) {
 }  // namespace
 
 Problem storage_problem(const Error& error) {
-    return problem_for(error, {500, "storage"});
+    // The store never deletes what it still names: such a file is out of reach.
+    const bool is_away = error.code == ErrorCode::NotFound;
+    return problem_for(error, is_away ? Answer{503, "unavailable"} : Answer{500, "storage"});
 }
 
 Problem setting_problem(const Error& error, const Json& order) {

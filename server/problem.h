@@ -29,7 +29,8 @@ struct Problem {
 // "disk_full", files that are out of reach with 503 "unavailable", and a lack of memory,
 // descriptors or processes with 503 "out_of_resources".
 
-/// The folder of the server could not be read or written: otherwise 500 "storage".
+/// The folder of the server could not be read or written: 503 "unavailable" if a file is not there,
+/// otherwise 500 "storage".
 [[nodiscard]] Problem storage_problem(const Error& error);
 
 /// A setting of an order is wrong: otherwise 400 "invalid_value".

@@ -11,6 +11,7 @@
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
+#include <tetralight/server/file_ids.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/reserve.h>
 
@@ -19,11 +20,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Bytes of a file of the store. Throws.
-MappedFile map(const std::string& path) {
-    auto file = MappedFile::open(path);
-    if (!file) throw storage_problem(file.error());
-    return std::move(*file);
+/// True if the disk has the file, in the size that the store knows.
+bool has_file(const std::string& path, uint64_t bytes) {
+    struct stat status = {};
+    return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+           static_cast<uint64_t>(status.st_size) == bytes;
+}
+
+FileIds ids_of(const std::string& path) {
+    auto ids = read_file_ids(path);
+    if (!ids) throw storage_problem(ids.error());
+    return std::move(*ids);
 }
 
 }  // namespace
@@ -91,6 +98,7 @@ void Store::insert(const StoredFile& file) {
             "VALUES (?, ?, ?, ?, ?, ?)",
             {file.id, kind, static_cast<int64_t>(file.bytes), file.created, file.facts,
              file.damage});
+        database_->run("DELETE FROM deleted WHERE kind = ? AND file = ?", {kind, file.id});
         database_->run("DELETE FROM names WHERE kind = ? AND file = ?", {kind, file.id});
         for (const std::string& name : file.names) {
             database_->run("INSERT OR REPLACE INTO names (kind, name, file) VALUES (?, ?, ?)",
@@ -106,30 +114,28 @@ void Store::insert(const StoredFile& file) {
 }
 
 /// The file that holds these bytes. An old id does not prove that they are the same.
-std::optional<StoredFile> Store::find_bytes(Kind kind, std::span<const std::byte> bytes) {
-    if (auto file = find(kind, id_of(bytes))) return file;
-    auto file = find(kind, old_id_of(bytes));
+std::optional<StoredFile> Store::find_bytes(Kind kind, const std::string& from,
+                                            const FileIds& ids) {
+    if (auto file = find(kind, ids.id)) return file;
+    auto file = find(kind, ids.old_id);
     if (!file || !file->damage.empty()) return std::nullopt;
-    const MappedFile stored = map(path(kind, file->id));
-    return std::ranges::equal(stored.bytes(), bytes) ? file : std::nullopt;
+    const auto are_same = have_same_bytes(path(kind, file->id), from);
+    if (!are_same && can_retry(are_same.error().code)) throw storage_problem(are_same.error());
+    return are_same && *are_same ? file : std::nullopt;
 }
 
 Store::Added Store::add(Kind kind, const std::string& from, const std::string& name,
                         const Json& facts) {
     check_name(name);
     const std::lock_guard change(change_mutex_);
+    const FileIds ids = ids_of(from);
+    const std::optional<StoredFile> known = find_bytes(kind, from, ids);
     StoredFile file;
-    std::optional<StoredFile> known;
-    {
-        const MappedFile mapping = map(from);
-        known = find_bytes(kind, mapping.bytes());
-        file.id = known ? known->id : id_of(mapping.bytes());
-        file.bytes = mapping.bytes().size();
-    }
+    file.id = known ? known->id : ids.id;
+    file.bytes = ids.bytes;
     const bool is_new = !known || !known->damage.empty();
     if (is_new) {
         check_quota(file.bytes);
-        require_stored(move_synced(from, path(kind, file.id)));
         file.kind = kind;
         file.created = now();
         file.facts = dump(facts);
@@ -137,6 +143,9 @@ Store::Added Store::add(Kind kind, const std::string& from, const std::string& n
     } else {
         file = *known;
     }
+    // A file that is out of reach or cut short comes back with the same bytes.
+    const bool is_moved = is_new || !has_file(path(kind, file.id), file.bytes);
+    if (is_moved) require_stored(move_synced(from, path(kind, file.id)));
     const bool has_new_name = !name.empty() && file.names.insert(name).second;
     if (is_new || has_new_name) {
         try {
@@ -149,6 +158,17 @@ Store::Added Store::add(Kind kind, const std::string& from, const std::string& n
         write_index();
     }
     return {file, is_new};
+}
+
+/// Removes the row of a file. If the file outlives it, because the disk fails or the server is
+/// killed, the next start deletes the file instead of adopting it.
+void Store::drop_row(const StoredFile& file) {
+    const std::string kind = name_of(file.kind);
+    database_->transaction([&] {
+        database_->run("DELETE FROM files WHERE kind = ? AND id = ?", {kind, file.id});
+        database_->run("INSERT OR REPLACE INTO deleted (kind, file, time) VALUES (?, ?, ?)",
+                       {kind, file.id, now()});
+    });
 }
 
 StoredFile Store::rename(Kind kind, const std::string& reference, const std::string& name,
@@ -176,10 +196,7 @@ void Store::remove(Kind kind, const std::string& reference, const Condition& con
         write_index();
         return;
     }
-    with_reserve([&] {
-        database_->run("DELETE FROM files WHERE kind = ? AND id = ?",
-                       {std::string(name_of(kind)), file->id});
-    });
+    with_reserve([&] { drop_row(*file); });
     {
         const std::unique_lock lock(mutex_);
         files(kind).erase(file->id);
@@ -210,15 +227,24 @@ void Store::quarantine(Kind kind, const std::string& id, const std::string& dama
     } catch (const Problem& problem) {
         log_.write(Log::Level::Error, "damage could not be stored", {{"error", problem.detail}});
     }
-    std::error_code ignored;
-    fs::rename(path(kind, id),
-               settings_.data + "/quarantine/" + name_of(kind) + "-" + id + extension_of(kind),
-               ignored);
+    put_aside(path(kind, id), str_cat(name_of(kind), "-", id, extension_of(kind)));
+}
+
+bool Store::put_aside(const std::string& from, const std::string& name) const {
+    const std::string folder = settings_.data + "/quarantine/";
+    std::error_code error;
+    std::string to = folder + name;
+    // Nothing in the quarantine is replaced.
+    for (int i = 1; fs::exists(fs::symlink_status(to, error)); ++i) {
+        to = str_cat(folder, i, "-", name);
+    }
+    fs::rename(from, to, error);
+    return !error;
 }
 
 void Store::link(const StoredFile& file, const std::string& to) {
     const std::string from = path(file.kind, file.id);
-    if (!has_id(map(from).bytes(), file.id)) {
+    if (!ids_of(from).contains(file.id)) {
         quarantine(file.kind, file.id, "its bytes have changed");
         (void)get(file.kind, file.id);  // throws
     }

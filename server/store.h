@@ -14,6 +14,7 @@
 
 #include <tetralight/base/result.h>
 #include <tetralight/server/database.h>
+#include <tetralight/server/file_ids.h>
 #include <tetralight/server/folders.h>
 #include <tetralight/server/json.h>
 #include <tetralight/server/log.h>
@@ -30,12 +31,14 @@ namespace tetralight::server {
 ///     DIR/index.json                   the stored files, for servers that only read
 ///     DIR/{scenes,skies,groups,volumes}/ID.EXT
 ///     DIR/bakes/ID/                    an unfinished bake
-///     DIR/work/                        folders of requests; emptied at the start
-///     DIR/quarantine/                  damaged files
+///     DIR/work/                        folders of requests; deleted at the start
+///     DIR/quarantine/                  damaged files, and those that no row tells of
 ///     DIR/reserve                      space that deleting needs when the disk is full
 ///
 /// A file is written before its row and deleted after it, so that every file that the database
-/// names exists. Thread-safe. Functions without a `Result` throw a `Problem`.
+/// names exists. Only corrupt files are put into the quarantine: a file that is missing or cannot
+/// be read for now is a 503 until it can. Thread-safe. Functions without a `Result` throw a
+/// `Problem`.
 class Store {
   public:
     [[nodiscard]] static Result<std::unique_ptr<Store>> open(const Settings& settings, Log& log,
@@ -66,6 +69,13 @@ class Store {
 
     /// Moves a damaged file to the quarantine.
     void quarantine(Kind kind, const std::string& id, const std::string& damage);
+
+    /// Moves a file or folder of the data folder to the quarantine, under this name or, if there is
+    /// one of this name, with a number before it. Returns false if the system refuses.
+    bool put_aside(const std::string& from, const std::string& name) const;
+
+    /// Tells the operator of damage that was found at the start.
+    void report(const std::string& finding);
 
     /// Links a file into a folder on the store's disk, where it stays even if the store deletes it.
     /// Throws if its bytes do not have its id.
@@ -105,25 +115,30 @@ class Store {
     void load();
     [[nodiscard]] Status try_database(const std::string& path);
     void quarantine_database(const std::string& path, const Error& error);
-    void adopt_or_drop_unknown_files();
-    void adopt_file(Kind kind, const std::string& id, const std::string& path,
-                    const StoreIndex& index);
+    void clear_work();
+    void match_files();
+    void match_files_of(Kind kind, const StoreIndex& index);
+    void heal(StoredFile file);
+    void take_in(Kind kind, const std::string& name, const StoreIndex& index);
+    [[nodiscard]] bool is_deleted(Kind kind, const std::string& id, const std::string& path);
+    void adopt(Kind kind, const std::string& id, uint64_t bytes, const StoreIndex& index);
+    void forget_deleted(Kind kind);
 
     [[nodiscard]] Files& files(Kind kind) { return files_[static_cast<size_t>(kind)]; }
 
     [[nodiscard]] const StoredFile* find_locked(Kind kind, const std::string& reference);
-    [[nodiscard]] std::optional<StoredFile> find_bytes(Kind kind, std::span<const std::byte> bytes);
+    [[nodiscard]] std::optional<StoredFile> find_bytes(Kind kind, const std::string& from,
+                                                       const FileIds& ids);
+    void drop_row(const StoredFile& file);
     void insert(const StoredFile& file);
     void index_names_locked();
     bool write_index();
     void read_index_if_changed();
-    void report(const std::string& finding);
 
     const Settings settings_;
     Log& log_;
     Metrics& metrics_;
     std::optional<Database> database_;
-    bool is_database_new_ = false;
     std::vector<std::string> findings_;
     mutable std::shared_mutex mutex_;
     Files files_[std::size(kKinds)];

@@ -3,8 +3,8 @@
 #include <tetralight/server/store.h>
 
 #include <filesystem>
+#include <new>
 
-#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/reserve.h>
@@ -32,16 +32,17 @@ Result<std::unique_ptr<Store>> Store::open(const Settings& settings, Log& log, M
         }
         return store;
     }
-    remove_all(settings.data + "/work");
     for (const char* folder :
          {"scenes", "skies", "groups", "volumes", "bakes", "work", "quarantine"}) {
         auto status = make_folder(settings.data + "/" + folder);
         if (!status) return status.error();
     }
+    if (auto status = sync_folder(settings.data); !status) return status.error();
+    store->clear_work();
     drop_reserve(store->reserve_path());
     if (auto status = store->open_database(); !status) return status.error();
     try {
-        store->adopt_or_drop_unknown_files();
+        store->match_files();
     } catch (const Problem& problem) {
         return Error{ErrorCode::Unavailable, settings.data + ": " + problem.detail};
     }
@@ -57,13 +58,16 @@ void Store::report(const std::string& finding) {
 /// A damaged database goes to the quarantine, and a new one takes its place.
 Status Store::open_database() {
     const std::string path = settings_.data + "/tetralight.db";
-    is_database_new_ = !fs::exists(path);
-    if (auto status = try_database(path); status || status.error().code != ErrorCode::Corrupt) {
-        return status;
-    } else {
-        quarantine_database(path, status.error());
+    const Status first = try_database(path);
+    if (first || first.error().code != ErrorCode::Corrupt) return first;
+    // SQLite reports a disk that cannot be read as damage, too.
+    for (const char* suffix : {"", "-wal"}) {
+        const auto ids = read_file_ids(path + suffix);
+        if (!ids && can_retry(ids.error().code)) return ids.error();
     }
-    is_database_new_ = true;
+    const Status second = try_database(path);
+    if (second || second.error().code != ErrorCode::Corrupt) return second;
+    quarantine_database(path, second.error());
     return try_database(path);
 }
 
@@ -78,6 +82,8 @@ Status Store::try_database(const std::string& path) {
         return Ok{};
     } catch (const DatabaseProblem& problem) {
         error = {problem.reason, path + ": " + problem.detail};
+    } catch (const std::bad_alloc&) {
+        error = {ErrorCode::OutOfResources, path + ": not enough memory"};
     } catch (const std::exception& exception) {
         error = {ErrorCode::Corrupt, str_cat(path, ": is damaged (", exception.what(), ")")};
     }
@@ -88,9 +94,7 @@ Status Store::try_database(const std::string& path) {
 void Store::quarantine_database(const std::string& path, const Error& error) {
     const std::string stamp = std::to_string(static_cast<int64_t>(now()));
     for (const char* suffix : {"", "-wal", "-shm"}) {
-        std::error_code ignored;
-        fs::rename(path + suffix,
-                   settings_.data + "/quarantine/" + stamp + "-tetralight.db" + suffix, ignored);
+        put_aside(path + suffix, stamp + "-tetralight.db" + suffix);
     }
     ++metrics_.quarantined;
     report(
@@ -117,43 +121,6 @@ void Store::load() {
         files(kind).at(std::get<std::string>(row[2])).names.insert(std::get<std::string>(row[1]));
     }
     index_names_locked();
-}
-
-/// A file without a row was never acknowledged; with a new database no file has a row yet.
-void Store::adopt_or_drop_unknown_files() {
-    const auto bytes = read_file(index_path());
-    const StoreIndex index = is_database_new_ && bytes ? parse_store_index(*bytes) : StoreIndex();
-    for (const Kind kind : kKinds) {
-        std::map<std::string, fs::path> present;
-        for (const auto& entry : fs::directory_iterator(settings_.data + "/" + name_of(kind))) {
-            present[entry.path().stem().string()] = entry.path();
-        }
-        for (auto& [id, file] : files(kind)) {
-            if (!file.damage.empty() || present.contains(id)) continue;
-            quarantine(kind, id, "the file is missing");
-            report(str_cat(name_of(kind), "/", id, " is missing"));
-        }
-        for (const auto& [id, path] : present) {
-            if (files(kind).contains(id)) continue;
-            if (is_database_new_ && is_id(id)) {
-                adopt_file(kind, id, path.string(), index);
-            } else {
-                remove_all(path.string());
-            }
-        }
-    }
-}
-
-void Store::adopt_file(Kind kind, const std::string& id, const std::string& path,
-                       const StoreIndex& index) {
-    StoredFile file;
-    const auto known = index.files.find(str_cat(name_of(kind), "/", id));
-    if (known != index.files.end()) file = known->second;
-    file.kind = kind;
-    file.id = id;
-    file.bytes = fs::file_size(path);
-    if (file.created == 0.0) file.created = now();
-    insert(file);
 }
 
 }  // namespace tetralight::server

@@ -3,14 +3,9 @@
 
 #include <algorithm>
 
-#include <tetralight/base/hash/sha256.h>
-#include <tetralight/base/hex.h>
 #include <tetralight/base/utf8.h>
 #include <tetralight/server/name_rules.h>
 #include <tetralight/server/problem.h>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 namespace tetralight::server {
 namespace {
@@ -59,19 +54,6 @@ bool is_id(const std::string& text) {
     return (text.size() == kIdLength || text.size() == kOldIdLength) &&
            std::ranges::all_of(
                text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
-}
-
-std::string id_of(std::span<const std::byte> bytes) {
-    return sha256_hex(bytes);
-}
-
-std::string old_id_of(std::span<const std::byte> bytes) {
-    const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-    return hex(hash.high64) + hex(hash.low64);
-}
-
-bool has_id(std::span<const std::byte> bytes, const std::string& id) {
-    return id == (id.size() == kOldIdLength ? old_id_of(bytes) : id_of(bytes));
 }
 
 void check_name(const std::string& name) {

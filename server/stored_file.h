@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 
 #include <tetralight/server/json.h>
@@ -49,15 +48,6 @@ struct StoredFile {
 
 /// True if a text has the form of an id: 64 or 32 hexadecimal digits.
 [[nodiscard]] bool is_id(const std::string& text);
-
-/// The id of new bytes: their SHA-256.
-[[nodiscard]] std::string id_of(std::span<const std::byte> bytes);
-
-/// The id that versions before 0.1 gave: XXH128. Others can make two files of one such id.
-[[nodiscard]] std::string old_id_of(std::span<const std::byte> bytes);
-
-/// True if the bytes are those that an id, old or new, was made from.
-[[nodiscard]] bool has_id(std::span<const std::byte> bytes, const std::string& id);
 
 /// Throws a `Problem` unless the text can be a name: at most 200 bytes of UTF-8 without control
 /// characters and slashes, and not an id.

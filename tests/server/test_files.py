@@ -426,7 +426,8 @@ class Damage(VolumeTest):
         server.stop()
         os.remove(os.path.join(self.data, "volumes", volume + ".probes"))
         again = self.start()
-        self.assert_problem(again.get(f"/v1/volumes/{volume}/file"), 410, "quarantined")
+        self.assert_problem(again.get(f"/v1/volumes/{volume}/file"), 503, "unavailable")
+        self.assertEqual(os.listdir(os.path.join(self.data, "quarantine")), [])
 
     def test_a_damaged_scene(self):
         server = self.start()
