@@ -21,6 +21,9 @@ constexpr Command kCommands[] = {
     {&settings::kValidate, run_validate},
 #ifdef TETRALIGHT_HAS_SERVER
     {&settings::kServe, run_serve},
+    {&settings::kFsck, run_fsck},
+    {&settings::kBackup, run_backup},
+    {&settings::kRestore, run_restore},
 #endif
 };
 

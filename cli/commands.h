@@ -10,7 +10,9 @@
 
 namespace tetralight::cli {
 
+Status run_backup(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_bake(const Values& values);
+Status run_fsck(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_grid(const Values& values);
 Status run_info(const Values& values);
 Status run_lppv(const Values& values);
@@ -20,7 +22,8 @@ Status run_prune(const Values& values);
 Status run_query(const Values& values);
 Status run_relight(const Values& values);
 Status run_render(const Values& values);
-Status run_serve(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
+Status run_restore(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
+Status run_serve(const Values& values);    // only with TETRALIGHT_BUILD_SERVER
 Status run_tetrahedralize(const Values& values);
 Status run_validate(const Values& values);
 

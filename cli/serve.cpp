@@ -86,6 +86,8 @@ struct Serve {
         settings.max_positions = values.integer("max_positions");
         settings.max_triangles = values.integer("max_triangles");
         settings.quota_bytes = values.integer("quota");
+        settings.copy_limit_bytes = values.integer("copy_limit");
+        settings.recheck_seconds = values.number("recheck_seconds");
         settings.tool_memory_bytes = values.integer("tool_memory");
         settings.tool_address_space_bytes = values.integer("tool_address_space");
         settings.tool_processor_seconds = values.integer("tool_processor_seconds");

@@ -209,6 +209,15 @@ Status Database::connect(const std::string& path, const char* locking_mode) {
     return Ok{};
 }
 
+/// Returns corrupt if its pages or tables are damaged. Throws a `DatabaseProblem`.
+Status Database::check(const std::string& path) {
+    const auto rows = run("PRAGMA quick_check(1)");
+    const auto* verdict = std::get_if<std::string>(&rows.at(0).at(0));
+    if (verdict != nullptr && *verdict == "ok") return Ok{};
+    return Error{ErrorCode::Corrupt,
+                 str_cat(path, ": is damaged (", verdict == nullptr ? "" : *verdict, ")")};
+}
+
 Result<Database> Database::open(const std::string& path) {
     Database database;
     auto connected = database.connect(path, "NORMAL");
@@ -216,13 +225,26 @@ Result<Database> Database::open(const std::string& path) {
     if (!connected) connected = database.connect(path, "EXCLUSIVE");
     if (!connected) return connected.error();
     try {
-        const auto check = database.run("PRAGMA quick_check(1)");
-        const auto* verdict = std::get_if<std::string>(&check.at(0).at(0));
-        if (verdict == nullptr || *verdict != "ok") {
-            return Error{ErrorCode::Corrupt,
-                         str_cat(path, ": is damaged (", verdict == nullptr ? "" : *verdict, ")")};
-        }
+        if (auto status = database.check(path); !status) return status.error();
         if (auto status = database.migrate(); !status) return status.error().in(path);
+    } catch (const DatabaseProblem& problem) {
+        return Error{problem.reason, str_cat(path, ": ", problem.detail)};
+    }
+    return database;
+}
+
+Result<Database> Database::open_to_read(const std::string& path) {
+    Database database;
+    sqlite3* raw = nullptr;
+    const int flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_FULLMUTEX;
+    const int opened = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
+    database.handle_.reset(raw);
+    if (opened != SQLITE_OK) {
+        return Error{error_code_of(raw), str_cat(path, ": ", sqlite3_errmsg(raw))};
+    }
+    sqlite3_busy_timeout(raw, 5000);
+    try {
+        if (auto status = database.check(path); !status) return status.error();
     } catch (const DatabaseProblem& problem) {
         return Error{problem.reason, str_cat(path, ": ", problem.detail)};
     }

@@ -32,6 +32,9 @@ class Database {
     /// damaged, unsupported if a newer version of the program wrote it.
     [[nodiscard]] static Result<Database> open(const std::string& path);
 
+    /// Opens one that another program may write to, checks it, and changes nothing.
+    [[nodiscard]] static Result<Database> open_to_read(const std::string& path);
+
     /// Rows of one statement. Throws a `DatabaseProblem`.
     std::vector<Row> run(const char* sql, const Row& values = {});
 
@@ -45,6 +48,7 @@ class Database {
 
     Database() = default;
     [[nodiscard]] Status connect(const std::string& path, const char* locking_mode);
+    [[nodiscard]] Status check(const std::string& path);
     [[nodiscard]] Status migrate();
 
     std::unique_ptr<sqlite3, Close> handle_;

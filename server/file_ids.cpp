@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include <tetralight/base/descriptor.h>
 #include <tetralight/base/hash/sha256.h>
 #include <tetralight/base/hex.h>
 #include <tetralight/base/system_error.h>
@@ -73,6 +72,23 @@ Result<FileIds> read_file_ids(const std::string& path) {
     ids.id = sha.hex();
     ids.old_id = hex(old.high64) + hex(old.low64);
     return ids;
+}
+
+Status copy_file(const std::string& path, const Descriptor& to) {
+    const auto file = open_regular(path);
+    if (!file) return file.error();
+    std::vector<std::byte> memory(kPiece);
+    while (true) {
+        auto piece = read_piece(*file, path, memory);
+        if (!piece) return piece.error();
+        if (piece->empty()) return Ok{};
+        for (auto left = *piece; !left.empty();) {
+            const ssize_t written = ::write(to.value(), left.data(), left.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written <= 0) return system_error("copy " + path);
+            left = left.subspan(static_cast<size_t>(written));
+        }
+    }
 }
 
 Result<bool> have_same_bytes(const std::string& a, const std::string& b) {

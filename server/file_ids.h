@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include <tetralight/base/descriptor.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::server {
@@ -23,6 +24,9 @@ struct FileIds {
 /// Reads a file once. The file is not mapped: a disk that fails or a file that shrinks is an error
 /// here, not a signal.
 [[nodiscard]] Result<FileIds> read_file_ids(const std::string& path);
+
+/// Appends the bytes of a file to an open one.
+[[nodiscard]] Status copy_file(const std::string& path, const Descriptor& to);
 
 /// True if two files have the same bytes.
 [[nodiscard]] Result<bool> have_same_bytes(const std::string& a, const std::string& b);

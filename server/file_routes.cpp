@@ -7,6 +7,7 @@
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
+#include <tetralight/server/page.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/service.h>
 
@@ -98,6 +99,8 @@ Response upload(Service& service, Kind kind, Request& request) {
     const Json facts = find_facts(service, kind, request, *folder);
     const auto added =
         service.store.add(kind, folder->file(kUpload), name == nullptr ? "" : *name, facts);
+    // An earlier file of this id may have been damaged.
+    if (added.is_new && kind == Kind::Volumes) service.volumes.forget(added.file.id);
     Response response = json_response(to_json_with_facts(added.file), added.is_new ? 201 : 200);
     response.headers.emplace_back("Location", str_cat("/v1/", name_of(kind), "/", added.file.id));
     return response;
@@ -105,23 +108,14 @@ Response upload(Service& service, Kind kind, Request& request) {
 
 /// `?limit=` and `?after=` an id; `?name=` one name.
 Response list(Service& service, Kind kind, const Request& request) {
-    constexpr size_t kMost = 1000;
-    size_t limit = kMost;
-    if (const std::string* asked = request.parameter("limit")) {
-        const auto [next, error] =
-            std::from_chars(asked->data(), asked->data() + asked->size(), limit);
-        if (error != std::errc{} || *next != '\0' || limit == 0 || limit > kMost) {
-            throw Problem{400, "invalid_value", "limit: must be 1 to 1000", "limit", *asked};
-        }
-    }
-    const std::string* after = request.parameter("after");
+    const Page page = page_of(request);
     const std::string* name = request.parameter("name");
     Json files = Json::array();
     Json next = nullptr;
     for (const StoredFile& file : service.store.list(kind)) {
-        if (after != nullptr && file.id <= *after) continue;
+        if (file.id <= page.after) continue;
         if (name != nullptr && !file.names.contains(*name)) continue;
-        if (files.size() == limit) {
+        if (files.size() == page.limit) {
             next = files.back()["id"];
             break;
         }
@@ -201,16 +195,17 @@ Response download(Service& service, Kind kind, const Request& request) {
 /// One section of a volume's file, byte for byte (docs/file_format.md).
 Response section(Service& service, const Request& request) {
     const StoredFile stored = service.store.get(Kind::Volumes, request.captures[0]);
-    const auto file = service.volumes.open(stored.id);
-    for (const ProbeFile::Section& section : file->sections()) {
+    const auto volume = service.volumes.open(stored.id);
+    const ProbeFile& file = volume->file;
+    for (const ProbeFile::Section& section : file.sections()) {
         if (section.name != request.captures[1]) continue;
-        const auto bytes = file->section_bytes(section.name, section.element_size);
+        const auto bytes = file.section_bytes(section.name, section.element_size);
         if (!bytes) break;
-        return bytes_response(request, {*bytes, file}, "application/octet-stream",
+        return bytes_response(request, {*bytes, volume}, "application/octet-stream",
                               stored.id + "-" + section.name);
     }
     Json names = Json::array();
-    for (const ProbeFile::Section& section : file->sections()) names.push_back(section.name);
+    for (const ProbeFile::Section& section : file.sections()) names.push_back(section.name);
     throw Problem{404, "not_found", "the volume has no such section; it has " + dump(names),
                   "section", request.captures[1].substr(0, 200)};
 }

@@ -1,52 +1,123 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/open_volumes.h>
 
+#include <algorithm>
+
+#include <tetralight/server/file_ids.h>
 #include <tetralight/server/problem.h>
 
 namespace tetralight::server {
 
-std::shared_ptr<const ProbeFile> OpenVolumes::open(const std::string& reference) {
-    const StoredFile stored = store_.get(Kind::Volumes, reference);
+OpenVolumes::OpenVolumes(Store& store) : store_(store) {
+    thread_ = std::thread([this] { run(); });
+}
+
+OpenVolumes::~OpenVolumes() {
     {
         const std::lock_guard lock(mutex_);
-        if (const auto found = by_id_.find(stored.id); found != by_id_.end()) {
-            entries_.splice(entries_.begin(), entries_, found->second);
-            return found->second->file;
-        }
+        is_ending_ = true;
     }
+    wake_.notify_all();
+    thread_.join();
+}
+
+std::shared_ptr<const LoadedVolume> OpenVolumes::open(const std::string& reference) {
+    const StoredFile stored = store_.get(Kind::Volumes, reference);
+    if (auto known = find(stored.id)) return known;
     // Without the lock, because this reads the whole file. Two threads may do it at once.
     const std::string path = store_.path(Kind::Volumes, stored.id);
-    auto opened = open_probe_file(path);
-    if (!opened) {
+    auto loaded = load_volume(path, stored.id, store_.settings().copy_limit_bytes);
+    if (!loaded) {
         // It may have been deleted since.
         if (!store_.find(Kind::Volumes, stored.id)) (void)store_.get(Kind::Volumes, reference);
-        if (opened.error().code != ErrorCode::Corrupt) throw storage_problem(opened.error());
-        store_.quarantine(Kind::Volumes, stored.id, reason_without_path(opened.error(), path));
-        (void)store_.get(Kind::Volumes, stored.id);
+        if (loaded.error().code != ErrorCode::Corrupt) throw storage_problem(loaded.error());
+        store_.quarantine(Kind::Volumes, stored.id, reason_without_path(loaded.error(), path));
+        (void)store_.get(Kind::Volumes, stored.id);  // throws
     }
-    auto file = std::make_shared<const ProbeFile>(std::move(*opened));
+    return keep(stored.id, std::move(*loaded));
+}
+
+/// The volume if it is open. One whose file became unreadable is opened anew.
+std::shared_ptr<const LoadedVolume> OpenVolumes::find(const std::string& id) {
     const std::lock_guard lock(mutex_);
-    if (by_id_.contains(stored.id)) return by_id_[stored.id]->file;
-    entries_.push_front({stored.id, file});
-    by_id_[stored.id] = entries_.begin();
-    if (entries_.size() > kMostOpen) {
-        by_id_.erase(entries_.back().id);
-        entries_.pop_back();
+    const auto found = by_id_.find(id);
+    if (found == by_id_.end()) return nullptr;
+    if (found->second->volume->is_damaged()) {
+        erase_locked(found->second);
+        return nullptr;
     }
-    return file;
+    entries_.splice(entries_.begin(), entries_, found->second);
+    return found->second->volume;
+}
+
+std::shared_ptr<const LoadedVolume> OpenVolumes::keep(const std::string& id, LoadedVolume volume) {
+    auto kept = std::make_shared<const LoadedVolume>(std::move(volume));
+    const std::lock_guard lock(mutex_);
+    if (by_id_.contains(id)) return by_id_[id]->volume;
+    if (kept->is_copy()) copied_bytes_ += kept->bytes;
+    entries_.push_front({id, kept, Clock::now()});
+    by_id_[id] = entries_.begin();
+    const uint64_t most_bytes = kMostCopies * store_.settings().copy_limit_bytes;
+    while (entries_.size() > kMostOpen) erase_locked(std::prev(entries_.end()));
+    for (auto entry = std::prev(entries_.end());
+         copied_bytes_ > most_bytes && entry != entries_.begin();) {
+        const auto oldest = entry--;
+        if (oldest->volume->is_copy()) erase_locked(oldest);
+    }
+    return kept;
+}
+
+void OpenVolumes::erase_locked(std::list<Entry>::iterator entry) {
+    if (entry->volume->is_copy()) copied_bytes_ -= entry->volume->bytes;
+    by_id_.erase(entry->id);
+    entries_.erase(entry);
 }
 
 void OpenVolumes::forget(const std::string& id) {
     const std::lock_guard lock(mutex_);
     const auto found = by_id_.find(id);
-    if (found == by_id_.end()) return;
-    entries_.erase(found->second);
-    by_id_.erase(found);
+    if (found != by_id_.end()) erase_locked(found->second);
 }
 
 size_t OpenVolumes::count() const {
     const std::lock_guard lock(mutex_);
     return entries_.size();
+}
+
+/// Reads the files of mapped volumes again, one at a time.
+void OpenVolumes::run() {
+    const std::chrono::duration<double> pause(
+        std::min(1.0, store_.settings().recheck_seconds / 2.0));
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, pause, [&] { return is_ending_; })) {
+        lock.unlock();
+        if (const std::string id = next_to_check(); !id.empty()) check(id);
+        lock.lock();
+    }
+}
+
+/// The mapped volume whose check is the oldest, if it is due.
+std::string OpenVolumes::next_to_check() {
+    const std::lock_guard lock(mutex_);
+    const Entry* oldest = nullptr;
+    for (const Entry& entry : entries_) {
+        if (entry.volume->is_copy()) continue;
+        if (oldest == nullptr || entry.checked < oldest->checked) oldest = &entry;
+    }
+    const std::chrono::duration<double> interval(store_.settings().recheck_seconds);
+    return oldest != nullptr && Clock::now() - oldest->checked >= interval ? oldest->id : "";
+}
+
+void OpenVolumes::check(const std::string& id) {
+    const auto ids = read_file_ids(store_.path(Kind::Volumes, id));
+    if (ids && !ids->contains(id) && store_.find(Kind::Volumes, id)) {
+        forget(id);
+        store_.quarantine(Kind::Volumes, id, "its bytes have changed");
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    const auto found = by_id_.find(id);
+    if (found != by_id_.end()) found->second->checked = Clock::now();
 }
 
 }  // namespace tetralight::server

@@ -286,9 +286,11 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
 }
 
 Response query(Service& service, Request& request) {
-    const auto file = service.volumes.open(request.captures[0]);
-    return request.has_type(kBinary) ? answer_binary(service, *file, request)
-                                     : answer_json(service, *file, request);
+    const auto volume = service.volumes.open(request.captures[0]);
+    Response response = request.has_type(kBinary) ? answer_binary(service, volume->file, request)
+                                                  : answer_json(service, volume->file, request);
+    volume->require_whole();
+    return response;
 }
 
 }  // namespace

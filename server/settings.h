@@ -51,6 +51,10 @@ struct Settings {
     uint64_t max_triangles = 50'000'000;
     /// Size of all files together; 0 = as much as the disk has.
     uint64_t quota_bytes = 0;
+    /// Volumes of at most this size are copied into memory when they are opened; larger ones are
+    /// mapped, and their files are read again after `recheck_seconds`.
+    uint64_t copy_limit_bytes = uint64_t{64} << 20;
+    double recheck_seconds = 60.0;
     /// Memory of each job; 0 = three quarters of the machine's.
     uint64_t tool_memory_bytes = 0;
     /// Address space of each job; 0 = four times the machine's memory, at least 64 GiB.

@@ -231,7 +231,7 @@ void Store::quarantine(Kind kind, const std::string& id, const std::string& dama
 }
 
 bool Store::put_aside(const std::string& from, const std::string& name) const {
-    const std::string folder = settings_.data + "/quarantine/";
+    const std::string folder = quarantine_folder();
     std::error_code error;
     std::string to = folder + name;
     // Nothing in the quarantine is replaced.
@@ -240,6 +240,26 @@ bool Store::put_aside(const std::string& from, const std::string& name) const {
     }
     fs::rename(from, to, error);
     return !error;
+}
+
+StoredFile Store::take_back(Kind kind, const std::string& id, const std::string& from) {
+    const std::lock_guard change(change_mutex_);
+    const FileIds ids = ids_of(from);
+    if (!ids.contains(id)) {
+        throw Problem{422, "bad_data", "its bytes do not have its id: they are damaged", "name",
+                      fs::path(from).filename().string()};
+    }
+    StoredFile file;
+    if (const auto known = find(kind, id)) file = *known;
+    file.kind = kind;
+    file.id = id;
+    file.bytes = ids.bytes;
+    file.damage.clear();
+    if (file.created == 0.0) file.created = now();
+    require_stored(move_synced(from, path(kind, id)));
+    insert(file);
+    write_index();
+    return file;
 }
 
 void Store::link(const StoredFile& file, const std::string& to) {

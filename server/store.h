@@ -74,6 +74,12 @@ class Store {
     /// one of this name, with a number before it. Returns false if the system refuses.
     bool put_aside(const std::string& from, const std::string& name) const;
 
+    /// Moves a file back to its place and serves it, with the names that it had. Throws a
+    /// `Problem`: 422 if its bytes do not have its id.
+    StoredFile take_back(Kind kind, const std::string& id, const std::string& from);
+
+    [[nodiscard]] std::string quarantine_folder() const { return settings_.data + "/quarantine/"; }
+
     /// Tells the operator of damage that was found at the start.
     void report(const std::string& finding);
 
@@ -96,6 +102,8 @@ class Store {
     void with_reserve(const std::function<void()>& work);
     /// Fills the reserve up again. Call it after space was freed.
     void keep_reserve() const;
+
+    [[nodiscard]] const Settings& settings() const { return settings_; }
 
     [[nodiscard]] bool is_read_only() const { return settings_.is_read_only; }
 

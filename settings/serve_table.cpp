@@ -108,6 +108,12 @@ constexpr Setting kLimits[] = {
     limit("max_triangles", "triangles", "Most triangles of a scene", 1, kMostBytes, "50000000"),
     limit("quota", "bytes", "Size of all stored files; 0 = as much as the disk has", 0, kMostBytes,
           "0"),
+    limit("copy_limit", "bytes",
+          "Volumes up to this size are copied into memory when they are opened; larger ones are "
+          "mapped, and their files are read again from time to time",
+          0, kMostBytes, "67108864"),
+    seconds("recheck_seconds", "Time after which the file of a mapped volume is read again", 0.01,
+            "60"),
     limit("tool_memory", "bytes", "Memory of each program; 0 = three quarters of the machine's", 0,
           kMostBytes, "0"),
     limit(

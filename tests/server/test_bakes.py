@@ -44,7 +44,7 @@ class BakeTest(ServiceTest):
         return os.path.join(self.data, "bakes", bake, "chunks")
 
     def wait_for_chunks(self, bake, count):
-        for _ in range(1200):
+        for _ in range(6000):  # a bake gives way to all other programs of the machine
             if os.path.isdir(self.chunk_folder(bake)):
                 chunks = [c for c in os.listdir(self.chunk_folder(bake)) if c.endswith(".pack")]
                 if len(chunks) >= count:

@@ -166,7 +166,8 @@ class Injected(ServiceTest):
                 reached += script.faults.has_fired()
                 self.assertTrue(script.faults.has_fired())
                 self.check(script, expected)
-                self.assertEqual(script.descriptors, expected.descriptors)
+                # Fewer if SQLite began without the memory that it shares with other programs.
+                self.assertLessEqual(script.descriptors, expected.descriptors)
                 shutil.rmtree(os.path.dirname(script.data))
         print(json.dumps({"faults_tried": len(places), "reached": reached}))
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_file.h>
+#include <tetralight/server/map_guard.h>
+
+namespace tetralight::server {
+
+/// A verified volume in memory.
+struct LoadedVolume {
+    ProbeFile file;
+    uint64_t bytes = 0;
+    /// Of a volume that is mapped; a copy needs none, as nothing can change it.
+    std::optional<MapGuard> guard = {};
+
+    [[nodiscard]] bool is_copy() const { return !guard; }
+
+    /// True if its file became unreadable: answers that it gave are wrong.
+    [[nodiscard]] bool is_damaged() const { return guard && guard->is_damaged(); }
+
+    /// Throws a `Problem`, 503, if it is damaged. Call it before an answer is sent.
+    void require_whole() const;
+};
+
+/// Opens a volume whose bytes must have an id, and verifies all of it. One of at most `copy_limit`
+/// bytes is copied, so that nothing that happens to its file changes its light. A larger one is
+/// mapped. Returns corrupt if its bytes do not have the id or are no volume, and otherwise the
+/// reason why it cannot be read.
+[[nodiscard]] Result<LoadedVolume> load_volume(const std::string& path, const std::string& id,
+                                               uint64_t copy_limit);
+
+}  // namespace tetralight::server

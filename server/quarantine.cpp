@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/server/quarantine.h>
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <tetralight/base/system_error.h>
+#include <tetralight/server/problem.h>
+
+namespace tetralight::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads "volumes-ID.probes", also behind "unknown-" and a number.
+void find_id(Quarantined& entry) {
+    for (const Kind kind : kKinds) {
+        const size_t begin = entry.name.rfind(std::string(name_of(kind)) + "-");
+        if (begin == std::string::npos) continue;
+        const fs::path file = entry.name.substr(begin + std::string(name_of(kind)).size() + 1);
+        if (!is_id(file.stem().string()) || file.extension() != extension_of(kind)) continue;
+        entry.kind = kind;
+        entry.id = file.stem().string();
+    }
+}
+
+}  // namespace
+
+std::vector<Quarantined> list_quarantine(const std::string& folder) {
+    std::vector<Quarantined> all;
+    std::error_code error;
+    fs::directory_iterator entry(folder, error);
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        struct stat status = {};
+        if (::lstat(entry->path().c_str(), &status) != 0) continue;  // taken back meanwhile
+        Quarantined one{.name = entry->path().filename().string(),
+                        .bytes = static_cast<uint64_t>(status.st_size),
+                        .time = static_cast<double>(status.st_mtim.tv_sec)};
+        if (S_ISREG(status.st_mode)) find_id(one);
+        all.push_back(std::move(one));
+    }
+    if (error) {
+        throw storage_problem({error_code_of_errno(error.value()),
+                               "quarantine: cannot be read (" + error.message() + ")"});
+    }
+    std::ranges::sort(all, {}, &Quarantined::name);
+    return all;
+}
+
+std::optional<Quarantined> find_quarantined(const std::string& folder, const std::string& name) {
+    for (Quarantined& entry : list_quarantine(folder)) {
+        if (entry.name == name) return std::move(entry);
+    }
+    return std::nullopt;
+}
+
+}  // namespace tetralight::server

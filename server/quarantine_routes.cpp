@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/page.h>
+#include <tetralight/server/problem.h>
+#include <tetralight/server/quarantine.h>
+#include <tetralight/server/service.h>
+
+namespace tetralight::server {
+namespace {
+
+Json to_json(const Quarantined& entry) {
+    Json json{{"name", entry.name}, {"bytes", entry.bytes}, {"time", entry.time}};
+    json["kind"] = entry.kind ? Json(name_of(*entry.kind)) : Json();
+    json["id"] = entry.kind ? Json(entry.id) : Json();
+    return json;
+}
+
+/// `?limit=` and `?after=` a name.
+Response list(Service& service, const Request& request) {
+    const Page page = page_of(request);
+    Json entries = Json::array();
+    Json next = nullptr;
+    for (const Quarantined& entry : list_quarantine(service.store.quarantine_folder())) {
+        if (entry.name <= page.after) continue;
+        if (entries.size() == page.limit) {
+            next = entries.back()["name"];
+            break;
+        }
+        entries.push_back(to_json(entry));
+    }
+    return json_response({{"quarantine", entries}, {"next", next}});
+}
+
+/// Puts a file back where it was if its bytes have its id.
+Response restore(Service& service, const Request& request) {
+    const std::string& name = request.captures[0];
+    const auto entry = find_quarantined(service.store.quarantine_folder(), name);
+    if (!entry) {
+        throw Problem{404, "not_found", "there is nothing of this name in the quarantine", "name",
+                      name.substr(0, 200)};
+    }
+    if (!entry->kind) {
+        throw Problem{422, "bad_data", "only files of the store can be taken back", "name", name};
+    }
+    const StoredFile file =
+        service.store.take_back(*entry->kind, entry->id, service.store.quarantine_folder() + name);
+    service.volumes.forget(file.id);
+    return json_response(to_json_with_facts(file));
+}
+
+}  // namespace
+
+std::vector<Route> quarantine_routes(Service& service) {
+    return {{.method = "GET",
+             .pattern = "/v1/quarantine",
+             .handle = [&](Request& r) { return list(service, r); },
+             .parameters = {"after", "limit"},
+             .run_on = Plan::RunOn::Workers},
+            {.method = "POST",
+             .pattern = "/v1/quarantine/{name}/restore",
+             .access = Access::Writes,
+             .handle = [&](Request& r) { return restore(service, r); },
+             .run_on = Plan::RunOn::Workers}};
+}
+
+}  // namespace tetralight::server
