@@ -106,6 +106,11 @@ struct Serve {
         };
         const std::string listen = values.text("listen");
         if (!parse_listen(listen, settings)) wrong("listen", listen, "ADDRESS:PORT");
+        if (const std::string keep = values.text("keep"); !keep.empty()) {
+            const auto parsed = server::parse_keep(keep);
+            if (!parsed) wrong("keep", keep, "a number such as 100 or an age such as 30d");
+            settings.keep = parsed.value_or(server::Keep());
+        }
         for (const std::string& origin : settings.cors_origins) {
             if (!is_origin(origin)) {
                 wrong("cors_origin", origin, "an origin such as https://example.com");

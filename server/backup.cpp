@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <set>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
 #include <tetralight/server/database.h>
 #include <tetralight/server/file_ids.h>
 #include <tetralight/server/folders.h>
+#include <tetralight/server/problem.h>
 #include <tetralight/server/stored_file.h>
 #include <tetralight/server/tar.h>
 
@@ -68,7 +68,7 @@ class Backup {
             str_cat(name_of(*kind), "/", std::get<std::string>(row[1]), extension_of(*kind));
         auto status = add(name, data_ + "/" + name);
         if (status || status.error().code != ErrorCode::NotFound) return status;
-        report.missing.push_back(error_text(status.error()));
+        report.missing.push_back(detail_of(status.error()));
         return Ok{};
     }
 

@@ -4,6 +4,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/order.h>
+#include <tetralight/server/page.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/service.h>
 
@@ -50,6 +51,28 @@ Response submit(Service& service, const Request& request) {
     Response response = json_response(bake, 202);
     response.headers.emplace_back("Location", "/v1/bakes/" + bake["id"].get<std::string>());
     return response;
+}
+
+/// Newest first. `?limit=` and `?after=` an id.
+Response list(Service& service, const Request& request) {
+    const Page page = page_of(request);
+    Json bakes = Json::array();
+    Json next = nullptr;
+    bool is_before = !page.after.empty();
+    for (Json& bake : service.bakes.list()) {
+        const bool is_last = bake["id"] == page.after;
+        if (!is_before && bakes.size() == page.limit) {
+            next = bakes.back()["id"];
+            break;
+        }
+        if (!is_before) bakes.push_back(std::move(bake));
+        is_before &= !is_last;
+    }
+    if (is_before) {
+        throw Problem{404, "not_found", "there is no such bake", "after",
+                      page.after.substr(0, 200)};
+    }
+    return json_response({{"bakes", bakes}, {"next", next}});
 }
 
 /// The bake after each change, and its end.
@@ -139,10 +162,8 @@ std::vector<Route> bake_routes(Service& service) {
          .run_on = kStorage},
         {.method = "GET",
          .pattern = "/v1/bakes",
-         .handle =
-             [&](Request&) {
-                 return json_response({{"bakes", service.bakes.list()}});
-             }},
+         .handle = [&](Request& r) { return list(service, r); },
+         .parameters = {"after", "limit"}},
         {.method = "GET",
          .pattern = "/v1/bakes/events",
          .handle = [&](Request&) { return all_events(service); }},

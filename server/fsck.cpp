@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <set>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/database.h>
@@ -30,7 +29,7 @@ struct Check {
         const auto ids = read_file_ids(data + "/" + place);
         if (!ids) {
             const bool is_missing = ids.error().code == ErrorCode::NotFound;
-            add(is_missing ? "missing" : "unreadable", place, error_text(ids.error()));
+            add(is_missing ? "missing" : "unreadable", place, detail_of(ids.error()));
             return;
         }
         found.bytes += ids->bytes;
@@ -103,7 +102,7 @@ Result<FolderCheck> check_folder(const std::string& data) {
             check.add("database", "tetralight.db", problem.detail);
         }
     } else if (database.error().code == ErrorCode::Corrupt) {
-        check.add("database", "tetralight.db", error_text(database.error()));
+        check.add("database", "tetralight.db", detail_of(database.error()));
     } else {
         return database.error();
     }

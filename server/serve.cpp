@@ -17,6 +17,7 @@
 #include <tetralight/server/gate.h>
 #include <tetralight/server/http_server.h>
 #include <tetralight/server/problem.h>
+#include <tetralight/server/retention.h>
 #include <tetralight/server/service.h>
 #include <tetralight/server/viewer_files.h>
 
@@ -250,6 +251,7 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
     OpenVolumes volumes(**store);
     Bakes bakes(settings, **store, log);
     const Readiness readiness(settings);
+    const Retention retention(**store, bakes, volumes, log);
     Service service{settings, log, metrics, **store, volumes, bakes, readiness, **tokens};
     const Dispatcher dispatcher(service);
     auto http = HttpServer::bind(

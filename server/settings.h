@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/server/keep.h>
 #include <tetralight/server/log.h>
 
 namespace tetralight::server {
@@ -51,6 +52,8 @@ struct Settings {
     uint64_t max_triangles = 50'000'000;
     /// Size of all files together; 0 = as much as the disk has.
     uint64_t quota_bytes = 0;
+    /// Which volumes without a name and which ended bakes are kept; no limit: all.
+    Keep keep;
     /// Volumes of at most this size are copied into memory when they are opened; larger ones are
     /// mapped, and their files are read again after `recheck_seconds`.
     uint64_t copy_limit_bytes = uint64_t{64} << 20;

@@ -196,14 +196,27 @@ void Store::remove(Kind kind, const std::string& reference, const Condition& con
         write_index();
         return;
     }
-    with_reserve([&] { drop_row(*file); });
+    remove_locked(*file);
+}
+
+bool Store::remove_unnamed(Kind kind, const std::string& id) {
+    const std::lock_guard change(change_mutex_);
+    const auto file = find(kind, id);
+    if (!file || !file->names.empty()) return false;
+    remove_locked(*file);
+    return true;
+}
+
+/// The row, the index and the file. Precondition: no other change runs.
+void Store::remove_locked(const StoredFile& file) {
+    with_reserve([&] { drop_row(file); });
     {
         const std::unique_lock lock(mutex_);
-        files(kind).erase(file->id);
+        files(file.kind).erase(file.id);
         index_names_locked();
     }
     const bool is_index_written = write_index();
-    remove_all(path(kind, file->id));
+    remove_all(path(file.kind, file.id));
     if (!is_index_written) write_index();
     keep_reserve();
 }

@@ -67,6 +67,9 @@ class Store {
     /// By name: removes the name, and with its last name the file. By id: removes the file.
     void remove(Kind kind, const std::string& reference, const Condition& condition = {});
 
+    /// Removes a file that has no name. Returns false, and changes nothing, if it has one by now.
+    bool remove_unnamed(Kind kind, const std::string& id);
+
     /// Moves a damaged file to the quarantine.
     void quarantine(Kind kind, const std::string& id, const std::string& damage);
 
@@ -137,6 +140,7 @@ class Store {
     [[nodiscard]] const StoredFile* find_locked(Kind kind, const std::string& reference);
     [[nodiscard]] std::optional<StoredFile> find_bytes(Kind kind, const std::string& from,
                                                        const FileIds& ids);
+    void remove_locked(const StoredFile& file);
     void drop_row(const StoredFile& file);
     void insert(const StoredFile& file);
     void index_names_locked();

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <set>
 
-#include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/problem.h>
@@ -107,7 +106,7 @@ void Store::take_in(Kind kind, const std::string& name, const StoreIndex& index)
         const auto ids = read_file_ids(from);
         if (!ids && can_retry(ids.error().code)) {
             report(str_cat(place, " is not in the database and cannot be read (",
-                           error_text(ids.error()), "); the next start tries again"));
+                           detail_of(ids.error()), "); the next start tries again"));
             return;
         }
         if (ids && ids->contains(id)) {

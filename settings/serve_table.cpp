@@ -108,6 +108,13 @@ constexpr Setting kLimits[] = {
     limit("max_triangles", "triangles", "Most triangles of a scene", 1, kMostBytes, "50000000"),
     limit("quota", "bytes", "Size of all stored files; 0 = as much as the disk has", 0, kMostBytes,
           "0"),
+    {.name = "keep",
+     .type = Type::Text,
+     .help = "Keep this many volumes without a name and this many ended bakes, or those younger "
+             "than an age: 100, 30d, 12h, 90m, 45s; the server deletes the others",
+     .without = "all are kept",
+     .value_name = "COUNT|AGE",
+     .access = Access::Command},
     limit("copy_limit", "bytes",
           "Volumes up to this size are copied into memory when they are opened; larger ones are "
           "mapped, and their files are read again from time to time",

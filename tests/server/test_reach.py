@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is out of reach or used up for a moment is 503, and comes back by itself: nothing is condemned."""
 import contextlib
+import errno
 import os
 import resource
 import unittest
 
 import test_bakes
+from faults import SHIM, Faults
 from service import BINARY, Answer, read
 from test_files import VolumeTest
 
@@ -43,7 +45,7 @@ def descriptors_left(server, count):
         resource.prlimit(process, resource.RLIMIT_NOFILE, limits)
 
 
-class Reach(VolumeTest):
+class ReachTest(VolumeTest):
     def setUp(self):
         super().setUp()
         self.volumes = os.path.join(self.data, "volumes")
@@ -72,6 +74,8 @@ class Reach(VolumeTest):
         self.assertEqual(server.get("/v1/volumes/level").json()["state"], "ready")
         self.assertEqual(self.in_quarantine(), [])
 
+
+class Reach(ReachTest):
     def test_a_volume_without_a_free_descriptor(self):
         server = self.fresh_server_with_a_volume()
         connection = server.connect()
@@ -129,6 +133,46 @@ class Reach(VolumeTest):
         with folder_is_away(os.path.join(self.data, "work"), b"a file"):
             self.assert_retry(server.post("/v1/volumes", read(self.volume_file(3)), BINARY))
         self.upload(server, "volumes", self.volume_file(3))
+
+
+@unittest.skipUnless(SHIM, "sanitizers do not go with preloaded libraries")
+class Refused(ReachTest):
+    def test_a_call_that_fails_once_condemns_nothing(self):
+        self.fresh_server_with_a_volume().stop()
+        faults = Faults(self.data, self.folder)
+        for options in ((), ("--copy-limit", "0")):
+            for call, error in (("open", errno.EACCES), ("open", errno.EMFILE), ("open", errno.ENOENT),
+                                ("read", errno.EIO), ("read", errno.ESTALE)):
+                with self.subTest(call=call, error=errno.errorcode[error], options=options):
+                    server = self.start(*options, env=faults.env)
+                    faults.arm(call, 1, error)
+                    answer = server.post("/v1/volumes/level/query", QUERY)
+                    self.assertTrue(faults.has_fired())
+                    self.assertEqual(answer.status, 503, answer.body)
+                    self.assert_served(server)
+                    server.stop()
+
+    def test_a_folder_that_cannot_be_read_at_the_start(self):
+        self.fresh_server_with_a_volume().stop()
+        faults = Faults(self.data, self.folder)
+        opened = self.opens_of_a_start(faults)
+        for number in range(1, opened + 1):
+            with self.subTest(number=number):
+                faults.arm("open", number, errno.EACCES)
+                try:
+                    server = self.start(env=faults.env)
+                except RuntimeError:
+                    server = self.start(env=faults.env)
+                self.assertTrue(faults.has_fired())
+                self.assert_served(server)
+                server.stop()
+
+    def opens_of_a_start(self, faults):
+        faults.arm()
+        server = self.start(env=faults.env)
+        count = faults.counts()["open"]
+        server.stop()
+        return count
 
 
 class Bakes(test_bakes.BakeTest):

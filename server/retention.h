@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include <tetralight/server/bakes.h>
+#include <tetralight/server/log.h>
+#include <tetralight/server/open_volumes.h>
+#include <tetralight/server/store.h>
+
+namespace tetralight::server {
+
+/// Deletes volumes without a name and bakes that have ended, once they are older or more than the
+/// settings keep. Volumes with a name, scenes, skies and groups stay.
+class Retention {
+  public:
+    /// Starts a thread if the settings limit anything. Keeps references.
+    Retention(Store& store, Bakes& bakes, OpenVolumes& volumes, Log& log);
+    ~Retention();
+    Retention(const Retention&) = delete;
+    Retention& operator=(const Retention&) = delete;
+
+  private:
+    void run();
+    void delete_volumes();
+    void delete_bakes();
+
+    Store& store_;
+    Bakes& bakes_;
+    OpenVolumes& volumes_;
+    Log& log_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool is_ending_ = false;
+    std::thread thread_;
+};
+
+}  // namespace tetralight::server
