@@ -54,7 +54,7 @@ Response submit(Service& service, const Request& request) {
 }
 
 /// Newest first. `?limit=` and `?after=` an id.
-Response list(Service& service, const Request& request) {
+Response list_bakes(Service& service, const Request& request) {
     const Page page = page_of(request);
     Json bakes = Json::array();
     Json next = nullptr;
@@ -162,7 +162,7 @@ std::vector<Route> bake_routes(Service& service) {
          .run_on = kStorage},
         {.method = "GET",
          .pattern = "/v1/bakes",
-         .handle = [&](Request& r) { return list(service, r); },
+         .handle = [&](Request& r) { return list_bakes(service, r); },
          .parameters = {"after", "limit"}},
         {.method = "GET",
          .pattern = "/v1/bakes/events",

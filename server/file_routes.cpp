@@ -178,10 +178,14 @@ Response remove(Service& service, Kind kind, const Request& request) {
 
 Response download(Service& service, Kind kind, const Request& request) {
     const StoredFile stored = service.store.get(kind, request.captures[0]);
-    auto mapping = MappedFile::open(service.store.path(kind, stored.id));
+    const std::string path = service.store.path(kind, stored.id);
+    auto mapping = MappedFile::open(path);
     if (!mapping) {
         (void)service.store.get(kind, stored.id);  // throws if it was deleted since
-        throw storage_problem(mapping.error());
+        Problem problem = storage_problem(mapping.error());
+        problem.detail =
+            str_cat("the ", noun_of(kind), " ", reason_without_path(mapping.error(), path));
+        throw problem;
     }
     const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
     Response response =

@@ -30,7 +30,11 @@ std::shared_ptr<const LoadedVolume> OpenVolumes::open(const std::string& referen
     if (!loaded) {
         // It may have been deleted since.
         if (!store_.find(Kind::Volumes, stored.id)) (void)store_.get(Kind::Volumes, reference);
-        if (loaded.error().code != ErrorCode::Corrupt) throw storage_problem(loaded.error());
+        if (loaded.error().code != ErrorCode::Corrupt) {
+            Problem problem = storage_problem(loaded.error());
+            problem.detail = "the volume " + reason_without_path(loaded.error(), path);
+            throw problem;
+        }
         store_.quarantine(Kind::Volumes, stored.id, reason_without_path(loaded.error(), path));
         (void)store_.get(Kind::Volumes, stored.id);  // throws
     }

@@ -16,7 +16,7 @@ Json to_json(const Quarantined& entry) {
 }
 
 /// `?limit=` and `?after=` a name.
-Response list(Service& service, const Request& request) {
+Response list_entries(Service& service, const Request& request) {
     const Page page = page_of(request);
     Json entries = Json::array();
     Json next = nullptr;
@@ -32,7 +32,7 @@ Response list(Service& service, const Request& request) {
 }
 
 /// Puts a file back where it was if its bytes have its id.
-Response restore(Service& service, const Request& request) {
+Response put_back(Service& service, const Request& request) {
     const std::string& name = request.captures[0];
     const auto entry = find_quarantined(service.store.quarantine_folder(), name);
     if (!entry) {
@@ -53,13 +53,13 @@ Response restore(Service& service, const Request& request) {
 std::vector<Route> quarantine_routes(Service& service) {
     return {{.method = "GET",
              .pattern = "/v1/quarantine",
-             .handle = [&](Request& r) { return list(service, r); },
+             .handle = [&](Request& r) { return list_entries(service, r); },
              .parameters = {"after", "limit"},
              .run_on = Plan::RunOn::Workers},
             {.method = "POST",
              .pattern = "/v1/quarantine/{name}/restore",
              .access = Access::Writes,
-             .handle = [&](Request& r) { return restore(service, r); },
+             .handle = [&](Request& r) { return put_back(service, r); },
              .run_on = Plan::RunOn::Workers}};
 }
 

@@ -29,8 +29,10 @@ bool has_file(const std::string& path, uint64_t bytes) {
 
 FileIds ids_of(const std::string& path) {
     auto ids = read_file_ids(path);
-    if (!ids) throw storage_problem(ids.error());
-    return std::move(*ids);
+    if (ids) return std::move(*ids);
+    Problem problem = storage_problem(ids.error());
+    problem.detail = "the file " + reason_without_path(ids.error(), path);
+    throw problem;
 }
 
 }  // namespace

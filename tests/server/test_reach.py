@@ -149,6 +149,7 @@ class Refused(ReachTest):
                     answer = server.post("/v1/volumes/level/query", QUERY)
                     self.assertTrue(faults.has_fired())
                     self.assertEqual(answer.status, 503, answer.body)
+                    self.assertNotIn(self.folder, answer.body.decode())
                     self.assert_served(server)
                     server.stop()
 
