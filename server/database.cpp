@@ -221,6 +221,9 @@ Status Database::check(const std::string& path) {
 Result<Database> Database::open(const std::string& path) {
     Database database;
     auto connected = database.connect(path, "NORMAL");
+    // A fault that passes must not lock other programs, such as `tetralight backup`, out.
+    const bool is_full = !connected && connected.error().code == ErrorCode::DiskFull;
+    if (!connected && !is_full) connected = database.connect(path, "NORMAL");
     // A full disk has no space for the file that programs share the log with. EXCLUSIVE needs none.
     if (!connected) connected = database.connect(path, "EXCLUSIVE");
     if (!connected) return connected.error();

@@ -166,6 +166,7 @@ class Refused(ReachTest):
                     server = self.start(env=faults.env)
                 self.assertTrue(faults.has_fired())
                 self.assert_served(server)
+                self.command("fsck", self.data)  # the database is not locked for others
                 server.stop()
 
     def opens_of_a_start(self, faults):
