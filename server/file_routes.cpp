@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include <tetralight/base/file.h>
+#include <tetralight/base/hash/sha256.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
 #include <tetralight/server/page.h>
@@ -127,8 +128,9 @@ Response list(Service& service, Kind kind, const Request& request) {
 /// The entity tag of a file's description. It changes with the names of the file, the tag of its
 /// bytes does not.
 std::string tag_of(const StoredFile& file) {
-    const std::string text = dump(to_json_with_facts(file));
-    return "\"" + id_of(std::as_bytes(std::span(text))).substr(0, 32) + "\"";
+    Sha256 hash;
+    hash.add(dump(to_json_with_facts(file)));
+    return "\"" + hash.hex().substr(0, 32) + "\"";
 }
 
 /// Refuses an edit by a client that has seen an earlier state (`If-Match`).

@@ -55,12 +55,12 @@ std::vector<Route> quarantine_routes(Service& service) {
              .pattern = "/v1/quarantine",
              .handle = [&](Request& r) { return list_entries(service, r); },
              .parameters = {"after", "limit"},
-             .run_on = Plan::RunOn::Workers},
+             .run_on = Plan::RunOn::Storage},
             {.method = "POST",
              .pattern = "/v1/quarantine/{name}/restore",
              .access = Access::Writes,
              .handle = [&](Request& r) { return put_back(service, r); },
-             .run_on = Plan::RunOn::Workers}};
+             .run_on = Plan::RunOn::Storage}};
 }
 
 }  // namespace tetralight::server
