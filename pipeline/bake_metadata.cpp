@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <concepts>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -18,8 +17,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The shortest decimal number that reads back to the same float or double; no ".0" at the end.
-template <std::floating_point Float>
-Json value_json(Float value) {
+template <class Float>
+Json shortest(Float value) {
     constexpr auto kLargestExact = static_cast<Float>(1u << 24);
     if (std::trunc(value) == value && std::abs(value) <= kLargestExact) {
         return static_cast<int64_t>(value);
@@ -31,9 +30,10 @@ Json value_json(Float value) {
 }
 
 template <class T>
-    requires(!std::floating_point<T>)
 Json value_json(const T& value) {
-    if constexpr (std::is_enum_v<T>) {
+    if constexpr (std::is_floating_point_v<T>) {
+        return shortest(value);
+    } else if constexpr (std::is_enum_v<T>) {
         return name_of(value);
     } else {
         return value;

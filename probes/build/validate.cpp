@@ -157,7 +157,7 @@ class HullRayValidator {
           ray_of_vertex_(positions.size(), glm::vec3(0.0f)) {}
 
     void check(uint32_t cell) {
-        if (cell < volume_.info.inner_cell_count) return;
+        if (cell < volume_.info.inner_cell_count || volume_.hull_rays.empty()) return;
         const glm::dvec3 normal = outward_normal(cell);
         const auto& rays = volume_.hull_rays[cell - volume_.info.inner_cell_count].rays;
         for (int i = 0; i < cell_vertex_count(volume_.info.dimension) - 1; ++i) {

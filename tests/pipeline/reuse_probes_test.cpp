@@ -155,9 +155,10 @@ TEST_F(ReuseProbes, IsOfOneSceneAndOneSetOfSettings) {
               "its scene, sky or sun is different");
     EXPECT_EQ(after([](auto& t) { t.scene.probe_adjustments[0].intensity = 0.6f; }),
               "its adjustment volumes are different");
-    EXPECT_EQ(after([](auto& t) { t.all.bake.seed = 7; }), "its seed is 0, that of this bake is 7");
+    EXPECT_EQ(after([](auto& t) { t.all.bake.seed = 7; }),
+              "its setting seed is 0, that of this bake is 7");
     EXPECT_EQ(after([](auto& t) { t.all.bake.target_error = 0.5; }),
-              "its target_error is not set, that of this bake is 0.5");
+              "its setting target_error is not set, that of this bake is 0.5");
     EXPECT_EQ(after([](auto& t) {
                   t.all.lighting.layers = {"sky", "transfer"};
               }),

@@ -71,7 +71,7 @@ TEST(VolumeMembers, AreCopied) {
 TEST(VolumeMembers, AreSectionsOfTheFileInTheirOrder) {
     const ProbeVolume volume = make_distinct_volume();
     const std::string path = testing::TempDir() + "tetralight_volume_members.probes";
-    ASSERT_TRUE(write_probe_file(path, volume.view()));
+    ASSERT_TRUE(write_file(path, probe_file_bytes(volume.view())));  // it means nothing
     const auto file = open_probe_file_lazy(path);
     ASSERT_TRUE(file);
     std::vector<std::string> names{"info"};

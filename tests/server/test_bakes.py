@@ -157,7 +157,7 @@ class Bakes(BakeTest):
         volume = server.wait_for(self.begin(server, **QUICK))["volume"]
         answer = server.wait_for(self.begin(server, **QUICK, reuse=volume, seed=5))
         self.assertEqual((answer["state"], answer["report"]["reused"]), ("done", 0))
-        self.assertIn("reuse: nothing is re-used: its seed is 0, that of this bake is 5",
+        self.assertIn("reuse: nothing is reused: its setting seed is 0, that of this bake is 5",
                       answer["report"]["warnings"])
         self.assert_problem(server.post("/v1/bakes", {"scene": self.scene, "reuse": "none"}), 404,
                             "not_found")

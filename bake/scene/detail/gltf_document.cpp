@@ -80,8 +80,10 @@ Result<tinygltf::Model> parse_model(Bytes bytes, const std::string& folder) {
     // check_gltf_json() does not check (a skin without matrices, for example).
     if (is_parsed) return model;
     // The parser appends buffers one by one, so that the next one is the one it could not read.
-    if (failure)
+    if (failure) {
+        failure->value.clear();  // the path, where the file has a URI
         return in_element(in_member(*failure, ".uri"), "buffers", model.buffers.size(), "");
+    }
     return Error{ErrorCode::Corrupt, one_line(error.empty() ? "cannot parse glTF" : error)};
 }
 

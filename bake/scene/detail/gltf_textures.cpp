@@ -55,7 +55,7 @@ Result<Image8> decode_file(const GltfDocument& document, const GltfImage& image,
     const auto bytes = read_file(path);
     if (!bytes) {
         Error error = in_member(bytes.error().in(place), ".uri");
-        if (error.value.empty()) error.value = quoted_value(image.uri);
+        error.value = quoted_value(image.uri);
         return error;
     }
     auto pixels = decode_image8(*bytes, str_cat(place, ": ", path));
