@@ -4,12 +4,10 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <utility>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/file_writer.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/system_error.h>
@@ -36,25 +34,14 @@ Result<std::vector<std::byte>> read_file(const std::string& path) {
     const auto size = regular_file_size(file, path);
     if (!size) return size.error();
     std::vector<std::byte> bytes(*size);
-    size_t done = 0;
-    while (done < bytes.size()) {
-        const ssize_t count = ::read(file.value(), bytes.data() + done, bytes.size() - done);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return system_error(path, "read");
-        if (count == 0) break;
-        done += static_cast<size_t>(count);
-    }
-    bytes.resize(done);
+    const auto count = read_up_to(file, bytes);
+    if (!count) return system_error(path, "read");
+    bytes.resize(*count);
     return bytes;
 }
 
 Status write_file(const std::string& path, std::span<const std::span<const std::byte>> parts) {
-    auto writer = FileWriter::open(path);
-    if (!writer) return writer.error();
-    for (const auto part : parts) {
-        if (auto status = writer->write(part); !status) return status;
-    }
-    return writer->commit();
+    return write_file(path, parts, WrittenFileCheck());
 }
 
 Status write_file(const std::string& path, std::span<const std::byte> bytes) {

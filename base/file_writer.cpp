@@ -8,6 +8,7 @@
 #include <climits>
 #include <utility>
 
+#include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/system_error.h>
@@ -40,11 +41,6 @@ bool sync_folder(const std::string& folder) {
     const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (!descriptor) return errno == EACCES;  // a folder that may be written to, but not listed
     return ::fsync(descriptor.value()) == 0 || errno == EINVAL || errno == EROFS;
-}
-
-/// The name under which the system shows an open file of this process.
-std::string name_of_open_file(const Descriptor& file) {
-    return "/proc/self/fd/" + std::to_string(file.value());
 }
 
 }  // namespace
@@ -82,7 +78,7 @@ Result<FileWriter> FileWriter::open(const std::string& path) {
 
 bool FileWriter::open_beside() {
     file_ = Descriptor(::open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
-    if (file_ && ::access(name_of_open_file(file_).c_str(), F_OK) == 0) return true;
+    if (file_ && ::access(path_of_descriptor(file_).c_str(), F_OK) == 0) return true;
     std::string name = target_ + ".XXXXXX";
     file_ = Descriptor(::mkostemp(name.data(), O_CLOEXEC));
     if (file_) temporary_ = name;
@@ -94,20 +90,17 @@ FileWriter::~FileWriter() {
 }
 
 Status FileWriter::write(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(file_.value(), bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return system_error(path_, "write");
-        bytes = bytes.subspan(static_cast<size_t>(written));
-    }
+    if (!write_all(file_, bytes)) return system_error(path_, "write");
     return Ok{};
 }
 
-Status write_file(const std::string& path, std::span<const std::byte> bytes,
+Status write_file(const std::string& path, std::span<const std::span<const std::byte>> parts,
                   const WrittenFileCheck& check) {
     auto writer = FileWriter::open(path);
     if (!writer) return writer.error();
-    if (auto status = writer->write(bytes); !status) return status;
+    for (const auto part : parts) {
+        if (auto status = writer->write(part); !status) return status;
+    }
     return writer->commit(check);
 }
 
@@ -132,7 +125,7 @@ bool FileWriter::sync_content() {
 
 Status FileWriter::read_back(const WrittenFileCheck& check) {
     const auto written =
-        MappedFile::open(temporary_.empty() ? name_of_open_file(file_) : temporary_);
+        MappedFile::open(temporary_.empty() ? path_of_descriptor(file_) : temporary_);
     if (!written) return written.error().in(shown_path(path_));
     const Status status = check(written->bytes());
     if (status) return Ok{};
@@ -148,7 +141,7 @@ bool FileWriter::move_into_place() {
 bool FileWriter::give_name() {
     if (!temporary_.empty()) return true;
     constexpr int kMostTries = 1000;
-    const std::string unnamed = name_of_open_file(file_);
+    const std::string unnamed = path_of_descriptor(file_);
     for (int i = 0; i < kMostTries; ++i) {
         const std::string name =
             target_ + "." + std::to_string(::getpid()) + "." + std::to_string(i);

@@ -53,8 +53,9 @@ class FileWriter {
     Descriptor file_;
 };
 
-/// Writes a whole file with a check (`FileWriter::commit`).
-[[nodiscard]] Status write_file(const std::string& path, std::span<const std::byte> bytes,
+/// `write_file` of file.h, with a check of what was written (`FileWriter::commit`).
+[[nodiscard]] Status write_file(const std::string& path,
+                                std::span<const std::span<const std::byte>> parts,
                                 const WrittenFileCheck& check);
 
 /// The path that a chain of symbolic links ends at, whether it exists or not. Returns an error if

@@ -15,7 +15,7 @@
 #include <optional>
 #include <utility>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/detail/spawn.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
@@ -31,13 +31,8 @@ using Bytes = std::span<const std::byte>;
 Result<Descriptor> make_memory_file(std::span<const Bytes> parts) {
     Descriptor file(::memfd_create("stdin", MFD_CLOEXEC));
     if (!file) return system_error("make a file in memory");
-    for (Bytes part : parts) {
-        while (!part.empty()) {
-            const ssize_t written = ::write(file.value(), part.data(), part.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) return system_error("write a file in memory");
-            part = part.subspan(static_cast<size_t>(written));
-        }
+    for (const Bytes part : parts) {
+        if (!write_all(file, part)) return system_error("write a file in memory");
     }
     ::lseek(file.value(), 0, SEEK_SET);
     return file;

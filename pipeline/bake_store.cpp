@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,7 +10,7 @@
 #include <filesystem>
 #include <tuple>
 
-#include <tetralight/base/descriptor.h>
+#include <tetralight/base/file.h>
 #include <tetralight/base/file_writer.h>
 #include <tetralight/base/hex.h>
 #include <tetralight/base/str_cat.h>
@@ -50,12 +49,6 @@ uint64_t checksum_of(std::span<const std::byte> bytes) {
     ContentHash hash;
     hash.add_bytes(bytes);
     return hash.value();
-}
-
-Status sync_folder(const std::string& path) {
-    const Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!folder || ::fsync(folder.value()) != 0) return system_error(path, "sync");
-    return Ok{};
 }
 
 std::vector<std::string> pack_paths(const std::string& folder) {
@@ -203,7 +196,6 @@ Result<std::string> BakeStore::write_pack(std::span<const StoreEntry> entries) {
                                                   table_bytes};
     for (const StoreEntry& entry : entries) parts.push_back(entry.value);
     if (auto status = write_file(path, parts); !status) return status.error();
-    if (auto status = sync_folder(folder_); !status) return status.error();
     return path;
 }
 

@@ -219,7 +219,9 @@ std::vector<std::byte> probe_file_bytes(const ProbeVolumeView& volume,
 
 Status write_probe_file(const std::string& path, const ProbeVolumeView& volume,
                         std::span<const ExtraSection> extra) {
-    return write_file(path, probe_file_bytes(volume, extra), verify_written);
+    const std::vector<std::byte> file = probe_file_bytes(volume, extra);
+    const std::span<const std::byte> bytes = file;
+    return write_file(path, std::span(&bytes, 1), verify_written);
 }
 
 }  // namespace tetralight

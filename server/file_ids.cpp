@@ -3,14 +3,13 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/hash/sha256.h>
 #include <tetralight/base/hex.h>
 #include <tetralight/base/system_error.h>
@@ -35,15 +34,9 @@ Result<Descriptor> open_regular(const std::string& path) {
 /// Fills `memory` as far as the file goes.
 Result<std::span<const std::byte>> read_piece(const Descriptor& file, const std::string& path,
                                               std::span<std::byte> memory) {
-    size_t done = 0;
-    while (done < memory.size()) {
-        const ssize_t count = ::read(file.value(), memory.data() + done, memory.size() - done);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return system_error(path, "read");
-        if (count == 0) break;
-        done += static_cast<size_t>(count);
-    }
-    return std::span<const std::byte>(memory.first(done));
+    const auto count = read_up_to(file, memory);
+    if (!count) return system_error(path, "read");
+    return std::span<const std::byte>(memory.first(*count));
 }
 
 struct FreeXxh {
@@ -82,12 +75,7 @@ Status copy_file(const std::string& path, const Descriptor& to) {
         auto piece = read_piece(*file, path, memory);
         if (!piece) return piece.error();
         if (piece->empty()) return Ok{};
-        for (auto left = *piece; !left.empty();) {
-            const ssize_t written = ::write(to.value(), left.data(), left.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) return system_error("copy " + path);
-            left = left.subspan(static_cast<size_t>(written));
-        }
+        if (!write_all(to, *piece)) return system_error("copy " + path);
     }
 }
 

@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <tetralight/base/descriptor.h>
-#include <tetralight/base/str_cat.h>
+#include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/system_error.h>
 #include <tetralight/server/file_ids.h>
 #include <tetralight/server/problem.h>
@@ -49,16 +48,11 @@ Result<LoadedVolume> map_volume(const std::string& path, const std::string& id) 
     return LoadedVolume{std::move(*file), ids->bytes, std::move(*guard)};
 }
 
-/// The name under which the system shows an open file of this process.
-std::string name_of_open_file(const Descriptor& file) {
-    return str_cat("/proc/self/fd/", file.value());
-}
-
 Result<LoadedVolume> copy_volume(const std::string& path, const std::string& id) {
     const Descriptor copy(::memfd_create("volume", MFD_CLOEXEC));
     if (!copy) return system_error("make a file in memory");
     if (auto status = copy_file(path, copy); !status) return status.error();
-    const std::string name = name_of_open_file(copy);
+    const std::string name = path_of_descriptor(copy);
     const auto ids = read_file_ids(name);
     if (!ids) return ids.error();
     auto file = open_probe_file(name);

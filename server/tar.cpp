@@ -3,14 +3,13 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
 #include <vector>
 
+#include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/system_error.h>
 
@@ -132,15 +131,12 @@ Status TarWriter::add(const std::string& name, const std::string& path) {
     if (auto done = writer_.write(std::as_bytes(std::span(&header, 1))); !done) return done;
     std::vector<std::byte> memory(size_t{1} << 20);
     while (left > 0) {
-        const ssize_t count =
-            ::read(file.value(), memory.data(), std::min<uint64_t>(memory.size(), left));
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return system_error(path, "read");
-        if (count == 0) return Error{ErrorCode::Unavailable, path + ": became shorter"};
-        if (auto done = writer_.write(std::span(memory).first(static_cast<size_t>(count))); !done) {
-            return done;
-        }
-        left -= static_cast<uint64_t>(count);
+        const auto piece = std::span(memory).first(std::min<uint64_t>(memory.size(), left));
+        const auto count = read_up_to(file, piece);
+        if (!count) return system_error(path, "read");
+        if (*count < piece.size()) return Error{ErrorCode::Unavailable, path + ": became shorter"};
+        if (auto done = writer_.write(piece); !done) return done;
+        left -= piece.size();
     }
     return writer_.write(std::span(memory = std::vector<std::byte>(padding)));
 }
@@ -161,13 +157,9 @@ Error TarReader::corrupt(const std::string& reason) const {
 }
 
 Status TarReader::fill(std::span<std::byte> memory) {
-    while (!memory.empty()) {
-        const ssize_t count = ::read(file_.value(), memory.data(), memory.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) return system_error(path_, "read");
-        if (count == 0) return corrupt("ends too early");
-        memory = memory.subspan(static_cast<size_t>(count));
-    }
+    const auto count = read_up_to(file_, memory);
+    if (!count) return system_error(path_, "read");
+    if (*count < memory.size()) return corrupt("ends too early");
     return Ok{};
 }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/detail/read_request.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/read.hpp>
 #include <limits>
+#include <span>
 #include <utility>
 
+#include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::server {
@@ -172,7 +172,7 @@ net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settin
         request.body_size += count;
         body.resize(begin + count);
         if (is_to_file &&
-            ::write(request.body_file.value(), body.data(), count) != static_cast<ssize_t>(count)) {
+            !write_all(request.body_file, std::as_bytes(std::span(body.data(), count)))) {
             co_return refusal({507, "disk_full", "the body could not be stored", "body",
                                str_cat(request.body_size, " bytes")});
         }
