@@ -26,6 +26,10 @@ Error usage(std::string_view field, std::string_view value, const std::string& m
     return {ErrorCode::InvalidArgument, std::string(field), std::string(value), message};
 }
 
+Error unexpected(const std::string& word) {
+    return usage("", word, str_cat("unexpected argument \"", word, "\""));
+}
+
 /// "there is no option -1; write several numbers as 0,-1,0" after `--sun-direction 0 -1 0`.
 bool is_number(const std::string& word) {
     double number = 0.0;
@@ -131,7 +135,7 @@ class CommandParser {
             message += str_cat("there is no option ", name, hint);
         }
         if (!message.empty()) return usage("", first, message);
-        return usage("", words[0], str_cat("unexpected argument \"", words[0], "\""));
+        return unexpected(words[0]);
     }
 
     CLI::App app_;
@@ -146,16 +150,12 @@ constexpr std::pair<std::string_view, CommandLine::Kind> kOwnCommands[] = {
     {"man", CommandLine::Kind::Man},
     {"help", CommandLine::Kind::Help}};
 
-/// The first word that is no option: it selects the command, and no later word does.
+/// The index of the first word that is not an option. Only this word selects the command.
 size_t command_index(const std::vector<std::string>& words) {
     size_t index = 0;
     while (index < words.size() && is_option(words[index]))
         index += words[index] == "--job" ? 2 : 1;
     return std::min(index, words.size());
-}
-
-Error unexpected(const std::string& word) {
-    return usage("", word, str_cat("unexpected argument \"", word, "\""));
 }
 
 Error unknown_command(const std::string& word) {

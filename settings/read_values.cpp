@@ -5,6 +5,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/settings/suggest.h>
+#include <tetralight/settings/value_json.h>
 #include <tetralight/settings/value_text.h>
 
 namespace tetralight::settings {

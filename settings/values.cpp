@@ -3,6 +3,7 @@
 
 #include <tetralight/base/contract.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/settings/value_json.h>
 #include <tetralight/settings/value_text.h>
 
 namespace tetralight::settings {

@@ -8,6 +8,7 @@
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/settings/read_values.h>
+#include <tetralight/settings/value_json.h>
 #include <tetralight/settings/value_text.h>
 
 namespace tetralight::settings {
