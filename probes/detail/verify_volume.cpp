@@ -163,7 +163,10 @@ std::string index_problem(const char* what, uint32_t index, bool is_used, size_t
     return str_cat(what, " ", index, " is out of range (", is_used ? count : 0, ")");
 }
 
-Status check_cell(const ProbeVolumeView& v, uint32_t index) {
+/// Which neighbors of a cell are compared with it.
+enum class Compared : uint8_t { Later, All };
+
+Status check_cell(const ProbeVolumeView& v, uint32_t index, Compared compared) {
     const Cell& cell = v.cells[index];
     const CellShape shape(v.info, index);
     for (int i = 0; i < 4; ++i) {
@@ -174,7 +177,9 @@ Status check_cell(const ProbeVolumeView& v, uint32_t index) {
             problem =
                 index_problem("neighbor", cell.neighbors[i], shape.has_neighbor(i), v.cells.size());
         }
-        if (problem.empty() && shape.has_neighbor(i) && !is_neighbor(v, index, i)) {
+        const bool is_compared =
+            shape.has_neighbor(i) && (compared == Compared::All || cell.neighbors[i] > index);
+        if (problem.empty() && is_compared && !is_neighbor(v, index, i)) {
             problem = str_cat("cell ", cell.neighbors[i], " is not its neighbor");
         }
         if (!problem.empty()) return cell_error(index, problem);
@@ -182,11 +187,37 @@ Status check_cell(const ProbeVolumeView& v, uint32_t index) {
     return Ok{};
 }
 
-Status check_cells(const ProbeVolumeView& v) {
+Status check_cells(const ProbeVolumeView& v, Compared compared) {
     for (uint32_t i = 0; i < v.cells.size(); ++i) {
-        if (auto status = check_cell(v, i); !status) return status;
+        if (auto status = check_cell(v, i, compared); !status) return status;
     }
     return Ok{};
+}
+
+/// True if no cell has a neighbor twice, and as many neighbors come before their cells as after.
+bool are_links_balanced(const ProbeVolumeView& v) {
+    int64_t balance = 0;
+    for (uint32_t i = 0; i < v.cells.size(); ++i) {
+        const auto& [a, b, c, d] = v.cells[i].neighbors;
+        const bool is_twice = (a == b && a != kNoIndex) || (c == d && c != kNoIndex) ||
+                              ((a == c || b == c) && c != kNoIndex) ||
+                              ((a == d || b == d) && d != kNoIndex);
+        if (is_twice) return false;
+        for (const uint32_t neighbor : v.cells[i].neighbors) {
+            if (neighbor != kNoIndex) balance += neighbor > i ? 1 : -1;
+        }
+    }
+    return balance == 0;
+}
+
+/// Compares each pair of neighbors once, from its first cell: the second one names the first one
+/// then. If the links are balanced, every link back to an earlier cell is one of these. Else a
+/// comparison of all links finds the wrong one.
+Status check_cells(const ProbeVolumeView& v) {
+    if (auto status = check_cells(v, Compared::Later); !status) return status;
+    if (are_links_balanced(v)) return Ok{};
+    if (auto status = check_cells(v, Compared::All); !status) return status;
+    return detail::section_error("cells", "a cell is the neighbor of another one twice");
 }
 
 Status check_tables(const ProbeVolumeView& v) {

@@ -201,6 +201,37 @@ TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {
     EXPECT_TRUE(verify(volume.view()));
 }
 
+/// The links of cell `from` to its neighbors that come before it in the order of cells.
+std::vector<uint32_t*> links_to_earlier_cells(ProbeVolume& volume, uint32_t from) {
+    std::vector<uint32_t*> links;
+    for (uint32_t& neighbor : volume.cells[from].neighbors) {
+        if (neighbor < from) links.push_back(&neighbor);
+    }
+    return links;
+}
+
+/// Pairs are compared from their first cell, so that a wrong link back is found by counting only.
+TEST_F(ProbeFileTest, VerifyFindsWrongLinksToEarlierCells) {
+    size_t tried = 0;
+    for (uint32_t from = 2; from < volume.cells.size(); ++from) {
+        ProbeVolume broken = volume;
+        const auto links = links_to_earlier_cells(broken, from);
+        if (links.empty()) continue;
+        const uint32_t other = (*links[0] + 1) % from;
+        const uint32_t wrong[] = {from, other, *links.back()};
+        for (const uint32_t link : wrong) {
+            if (link == volume.cells[from].neighbors[links[0] - &broken.cells[from].neighbors[0]])
+                continue;
+            *links[0] = link;
+            const Status status = verify(broken.view());
+            ASSERT_FALSE(status) << "cell " << from << " to " << link;
+            EXPECT_EQ(status.error().code, ErrorCode::Corrupt);
+            ++tried;
+        }
+    }
+    EXPECT_GT(tried, volume.cells.size());
+}
+
 TEST_F(ProbeFileTest, AVolumeThatCannotBeReadReplacesNothing) {
     ASSERT_TRUE(write_probe_file(path, volume.view()));
     ProbeVolume broken = volume;
