@@ -34,6 +34,22 @@ size_t end_of_comment_or_literal(const std::string& text, size_t begin) {
     return std::min(end + 1, text.size());
 }
 
+/// Files for which `is_wanted(path)`, relative to the repository and sorted.
+template <class IsWanted>
+std::vector<fs::path> files_below(const fs::path& folder, IsWanted is_wanted) {
+    std::vector<fs::path> files;
+    for (auto entry = fs::recursive_directory_iterator(kRoot / folder);
+         entry != fs::recursive_directory_iterator(); ++entry) {
+        const fs::path& path = entry->path();
+        if (path.filename() == "node_modules" || path.filename() == "build") {
+            entry.disable_recursion_pending();
+        }
+        if (is_wanted(path)) files.push_back(fs::relative(path, kRoot));
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
 }  // namespace
 
 std::string read_text(const fs::path& path) {
@@ -42,18 +58,14 @@ std::string read_text(const fs::path& path) {
 }
 
 std::vector<fs::path> source_files(const fs::path& folder) {
-    std::vector<fs::path> files;
-    for (auto entry = fs::recursive_directory_iterator(kRoot / folder);
-         entry != fs::recursive_directory_iterator(); ++entry) {
-        const fs::path& path = entry->path();
-        if (path.filename() == "node_modules" || path.filename() == "build") {
-            entry.disable_recursion_pending();
-        }
-        const bool is_source = path.extension() == ".h" || path.extension() == ".cpp";
-        if (is_source) files.push_back(fs::relative(path, kRoot));
-    }
-    std::ranges::sort(files);
-    return files;
+    return files_below(folder, [](const fs::path& path) {
+        return path.extension() == ".h" || path.extension() == ".cpp";
+    });
+}
+
+std::vector<fs::path> build_files(const fs::path& folder) {
+    return files_below(folder,
+                       [](const fs::path& path) { return path.filename() == "CMakeLists.txt"; });
 }
 
 std::vector<std::string> source_folders() {

@@ -14,6 +14,9 @@ namespace tetralight {
 /// directories and installed packages are left out.
 [[nodiscard]] std::vector<std::filesystem::path> source_files(const std::filesystem::path& folder);
 
+/// The CMakeLists.txt files below a folder, relative to the repository and sorted.
+[[nodiscard]] std::vector<std::filesystem::path> build_files(const std::filesystem::path& folder);
+
 /// Every folder of the repository that holds C++.
 [[nodiscard]] std::vector<std::string> source_folders();
 
