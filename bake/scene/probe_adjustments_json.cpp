@@ -137,6 +137,10 @@ Result<std::vector<ProbeAdjustment>> parse(std::span<const std::byte> bytes) {
     const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (auto status = check_json_depth(characters); !status) return status.error();
     try {
+        if (const auto key = find_duplicate_key(characters)) {
+            return Error{ErrorCode::Corrupt, *key, "",
+                         str_cat("\"", *key, "\" is given twice in one object")};
+        }
         return read_adjustments(json::parse(characters));
     } catch (const std::bad_alloc&) {
         throw;

@@ -86,6 +86,8 @@ TEST(ProbeAdjustments, ErrorsNameTheVolumeAndTheValue) {
     EXPECT_EQ(error_of(R"({"adjustments": [{"name": "a", "shape": "box", "forbid": true},
                                            {"name": "a", "shape": "box", "forbid": true}]})"),
               "two adjustment volumes are named \"a\"");
+    EXPECT_EQ(error_of(one(R"("shape": "box", "forbid": true, "forbid": false)")),
+              "\"forbid\" is given twice in one object");
     EXPECT_NE(error_of("{"), "(no error)");
 }
 
