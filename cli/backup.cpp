@@ -7,36 +7,32 @@
 namespace tetralight::cli {
 namespace {
 
-void report_backup(const CommonOptions& common, const std::string& output,
-                   const server::BackupReport& report) {
+using Copy = Result<server::BackupReport>(const std::string& from, const std::string& to);
+
+Status run(const Values& values, std::string_view from, Copy copy) {
+    const CommonOptions common(values);
+    const std::string output = values.text("output");
+    const auto report = copy(values.text(from), output);
+    if (!report) return report.error();
     const Json json{{"output", output},
-                    {"files", report.files},
-                    {"bytes", report.bytes},
-                    {"missing", report.missing}};
-    common.warn(report.missing);
+                    {"files", report->files},
+                    {"bytes", report->bytes},
+                    {"missing", report->missing}};
+    common.warn(report->missing);
     common.report(output, json,
-                  str_cat(printable(output), ": ", counted(report.files, "file"), ", ",
-                          magnitude(static_cast<double>(report.bytes)), "B\n"));
+                  str_cat(printable(output), ": ", counted(report->files, "file"), ", ",
+                          magnitude(static_cast<double>(report->bytes)), "B\n"));
+    return Ok{};
 }
 
 }  // namespace
 
 Status run_backup(const Values& values) {
-    const CommonOptions common(values);
-    const std::string output = values.text("output");
-    const auto report = server::back_up(values.text("data"), output);
-    if (!report) return report.error();
-    report_backup(common, output, *report);
-    return Ok{};
+    return run(values, "data", server::back_up);
 }
 
 Status run_restore(const Values& values) {
-    const CommonOptions common(values);
-    const std::string output = values.text("output");
-    const auto report = server::restore(values.text("archive"), output);
-    if (!report) return report.error();
-    report_backup(common, output, *report);
-    return Ok{};
+    return run(values, "archive", server::restore);
 }
 
 }  // namespace tetralight::cli

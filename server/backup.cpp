@@ -47,7 +47,7 @@ class Backup {
   public:
     Backup(const std::string& data, TarWriter& tar) : data_(data), tar_(tar) {}
 
-    /// Unfinished bakes go on while they are stored, and files are deleted.
+    /// The service runs on during a backup: bakes may progress, and files may be deleted.
     Status add_if_there(const std::string& name) {
         auto status = add(name, data_ + "/" + name);
         return status || status.error().code != ErrorCode::NotFound ? status : Ok{};
@@ -122,7 +122,8 @@ Status restore_entry(TarReader& tar, const TarEntry& entry, const std::string& f
     const std::string top = entry.name.substr(0, entry.name.find('/'));
     const bool is_known = std::ranges::find(kTops, top) != kTops.end();
     if (!is_known) {
-        return Error{ErrorCode::Corrupt, shown_path(entry.name) + " is no part of a data folder"};
+        return Error{ErrorCode::Corrupt,
+                     shown_path(entry.name) + " does not belong to a data folder"};
     }
     if (auto status = make_folder(fs::path(path).parent_path().string()); !status) return status;
     auto writer = FileWriter::open(path);
@@ -148,9 +149,9 @@ Result<BackupReport> restore_into(TarReader& tar, const std::string& archive,
         if (!entry) return entry.error();
         if (!*entry) break;
         const bool is_new = names.insert((*entry)->name).second;
-        const Status status =
-            is_new ? restore_entry(tar, **entry, folder)
-                   : Error{ErrorCode::Corrupt, shown_path((*entry)->name) + " is there twice"};
+        const Status status = is_new ? restore_entry(tar, **entry, folder)
+                                     : Error{ErrorCode::Corrupt, shown_path((*entry)->name) +
+                                                                     " is in the archive twice"};
         if (!status) return status.error().in(shown_path(archive));
         ++report.files;
         report.bytes += (*entry)->size;

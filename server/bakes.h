@@ -71,7 +71,7 @@ class Bakes {
         Json report;
         double created = 0.0;
         double ended = 0.0;
-        /// How often it began and could not go on for lack of a file or of resources.
+        /// Number of starts that failed because a file or a resource was missing.
         int retries = 0;
         /// Of the progress file of the running command.
         uint64_t probes_done = 0;

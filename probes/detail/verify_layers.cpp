@@ -11,6 +11,7 @@
 #include <tetralight/probes/dering.h>
 #include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/detail/verify_text.h>
+#include <tetralight/probes/is_finite.h>
 
 namespace tetralight::detail {
 namespace {
@@ -48,10 +49,7 @@ bool is_index(uint32_t index, size_t count) {
 
 bool is_finite(const Layer& layer) {
     return std::isfinite(layer.weight) && layer.weight >= 0.0f && std::isfinite(layer.largest) &&
-           layer.largest >= 0.0f &&
-           std::ranges::all_of(layer.ambient.coefficients, [](const glm::vec3& c) {
-               return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-           });
+           layer.largest >= 0.0f && tetralight::is_finite(layer.ambient);
 }
 
 Status check_counts(const ProbeVolumeView& v) {
