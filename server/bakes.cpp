@@ -21,9 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // In the folder of a bake.
-constexpr const char* kChunks = "chunks";
-constexpr const char* kProgress = "progress.json";
-constexpr const char* kResult = "result.probes";
+constexpr const char* kChunks = "results/chunks";
+constexpr const char* kProgress = "results/progress.json";
+constexpr const char* kResult = "results/result.probes";
 
 /// Before the name of a folder until its bake is accepted.
 constexpr const char* kNew = "new-";
@@ -41,11 +41,15 @@ Json read_pace(const std::string& path) {
     return bytes ? object_in(*bytes) : Json::object();
 }
 
-/// The inputs of bakes that a version before 0.1 accepted have other names: "groups_0.json" instead
-/// of "groups[0]".
-void rename_old_inputs(const std::string& folder) {
+/// In bakes that an earlier version accepted, the inputs have other names ("groups_0.json" instead
+/// of "groups[0]"), and finished probes lie beside them.
+void rename_old_files(const std::string& folder) {
     std::error_code ignored;
-    for (const fs::path& path : fs::directory_iterator(folder, ignored)) {
+    fs::create_directory(folder + "/" + kResults, ignored);
+    fs::rename(folder + "/chunks", folder + "/" + kChunks, ignored);
+    for (const char* name : {"progress.json", "result.probes"}) remove_all(folder + "/" + name);
+    for (const std::string& old_name : names_in(folder, ignored)) {
+        const fs::path path = folder + "/" + old_name;
         const std::string extension = path.extension().string(), stem = path.stem().string();
         const bool is_old =
             (extension == ".glb" || extension == ".hdr" || extension == ".json" ||
@@ -178,6 +182,7 @@ Json Bakes::submit(const BakeOrder& order) {
     try {
         require_stored(make_folder(new_folder));
         for (const auto& [file, name] : order.inputs) store_.link(file, new_folder + "/" + name);
+        require_stored(make_folder(new_folder + "/" + kResults));
         require_stored(sync_folder(new_folder));
         store_.database().transaction([&] {
             store_.database().run(
@@ -414,7 +419,7 @@ void Bakes::run_bake(const std::string& id, const Json& request, const std::stri
         job.folder = folder;
         return run_job(settings_, job);
     };
-    rename_old_inputs(folder);
+    rename_old_files(folder);
     remove_all(folder + "/" + kProgress);  // of an earlier run
     Json order = job_settings(settings::kBake, request);
     order.update({{"output", kResult}, {"chunks", kChunks}, {"progress_file", kProgress}});

@@ -57,7 +57,8 @@ Job reading_job(Kind kind, const WorkFolder& folder) {
                     .settings = {{"scene", "empty.gltf"}, {"sky", kUpload}, {"explain", true}}};
         case Kind::Groups:
             return {.command = "tetrahedralize",
-                    .settings = {{"groups", Json::array({kUpload})}, {"output", "check.probes"}}};
+                    .settings = {{"groups", Json::array({kUpload})},
+                                 {"output", str_cat(kResults, "/check.probes")}}};
         case Kind::Volumes:
             break;
     }

@@ -12,6 +12,7 @@
 #include <new>
 #include <thread>
 
+#include <tetralight/base/landlock.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
 #include <tetralight/server/gate.h>
@@ -221,6 +222,7 @@ Json start_facts(const Settings& settings, const Store& store, uint16_t port) {
             {"token", has_tokens(settings) ? "needed" : "none"},
             {"read_only", settings.is_read_only},
             {"viewer", settings.viewer},
+            {"landlock", landlock_version()},
             {"findings", store.findings()}};
 }
 

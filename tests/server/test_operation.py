@@ -158,6 +158,32 @@ class Programs(ServiceTest):
         self.assertEqual(server.get("/healthz").status, 200)
 
 
+REACH_PROBE = os.environ.get("TETRALIGHT_REACH_PROBE", "")
+
+
+@unittest.skipUnless(REACH_PROBE, "sanitizers do not go with preloaded libraries")
+class FilesOfPrograms(ServiceTest):
+    """What programs that read uploads may open."""
+
+    CAN_READ_OTHER_FILES, CAN_WRITE_THE_UPLOAD, CAN_WRITE_RESULTS = 1, 2, 4
+
+    def test_programs_reach_their_own_files_only(self):
+        secret = os.path.join(self.folder, "secret")
+        with open(secret, "w", encoding="utf-8") as file:
+            file.write("secret")
+        server = self.start(env={"LD_PRELOAD": REACH_PROBE, "TETRALIGHT_REACH_FILE": secret})
+        answer = server.post("/v1/volumes", b"any bytes")
+        problem = self.assert_problem(answer, 500, "tool_failed")
+        code = int(re.search(r"exit code (\d+)", problem["detail"])[1]) - 64
+        self.assertTrue(code & self.CAN_WRITE_RESULTS)
+        versions = lambda: [line["landlock"] for line in server.logged() if line["message"] == "serving"]
+        self.assertTrue(self.eventually(versions))
+        if versions() == [0]:
+            self.skipTest("the kernel has no Landlock, as the log says")
+        self.assertFalse(code & self.CAN_READ_OTHER_FILES)
+        self.assertFalse(code & self.CAN_WRITE_THE_UPLOAD)
+
+
 class MetricsOfRequests(ServiceTest):
     def value(self, server, name):
         found = re.search(rf"^tetralight_{re.escape(name)} (\S+)$",

@@ -32,15 +32,17 @@ struct Shim {
 
 Shim shim;
 
-int raw_open(const char* path, int flags) {
-    return static_cast<int>(::syscall(SYS_openat, AT_FDCWD, path, flags | O_CLOEXEC, 0644));
-}
-
-/// A descriptor that the limit of the server does not count as one of its own next ones.
-int move_up(int file) {
-    const int high = ::fcntl(file, F_DUPFD_CLOEXEC, 900);
-    if (high < 0) return file;
+/// Opens a file of the test. Programs that this one executes inherit it, because they may be unable
+/// to open it themselves; `variable` tells them its number.
+int open_shared(const char* variable, const char* path, int flags) {
+    if (const char* inherited = std::getenv(variable)) return std::atoi(inherited);
+    const int file = static_cast<int>(::syscall(SYS_openat, AT_FDCWD, path, flags, 0644));
+    // One that the limit of the server does not count as one of its own next ones.
+    const int high = ::fcntl(file, F_DUPFD, 900);
     ::syscall(SYS_close, file);
+    char number[16];
+    std::snprintf(number, sizeof number, "%d", high);
+    ::setenv(variable, number, 1);
     return high;
 }
 
@@ -51,12 +53,12 @@ __attribute__((constructor)) void begin() {
     if (root == nullptr || state == nullptr) return;
     shim.root_length = std::strlen(root);
     std::memcpy(shim.root, root, shim.root_length + 1);
-    const int file = raw_open(state, O_RDWR);
+    const int file = open_shared("TETRALIGHT_FAULT_STATE_FILE", state, O_RDWR);
     void* memory = reinterpret_cast<void*>(::syscall(SYS_mmap, nullptr, sizeof(FaultState),
                                                      PROT_READ | PROT_WRITE, MAP_SHARED, file, 0));
-    ::syscall(SYS_close, file);
     if (memory != MAP_FAILED) shim.state = static_cast<FaultState*>(memory);
-    if (log != nullptr) shim.log = move_up(raw_open(log, O_WRONLY | O_APPEND | O_CREAT));
+    if (log == nullptr) return;
+    shim.log = open_shared("TETRALIGHT_FAULT_LOG_FILE", log, O_WRONLY | O_APPEND | O_CREAT);
 }
 
 bool is_below_root(const char* path) {
