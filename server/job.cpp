@@ -32,18 +32,21 @@ uint64_t machine_memory() {
     return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kHasShadowMemory = true;  // sanitizers reserve terabytes
+#else
+constexpr bool kHasShadowMemory = false;
+#endif
+
 uint64_t memory_limit(const Settings& settings) {
-    return settings.tool_memory_bytes > 0 ? settings.tool_memory_bytes : machine_memory() / 4 * 3;
+    if (settings.tool_memory_bytes > 0) return settings.tool_memory_bytes;
+    return kHasShadowMemory ? 0 : machine_memory() / 4 * 3;
 }
 
 uint64_t address_space_limit(const Settings& settings) {
     if (settings.tool_address_space_bytes > 0) return settings.tool_address_space_bytes;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return 0;  // sanitizers reserve terabytes
-#else
     constexpr uint64_t kLeast = uint64_t{64} << 30;
-    return std::max(machine_memory() * 4, kLeast);
-#endif
+    return kHasShadowMemory ? 0 : std::max(machine_memory() * 4, kLeast);
 }
 
 /// A bake may take days, so only jobs with a time limit have one.

@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -17,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 // Between fork and exec only system calls are allowed, so that nothing here allocates.
 
@@ -83,7 +85,11 @@ bool find_path(int folder, const char* name, char* path) {
 }
 
 bool is_watched(int folder, const char* name, char* path) {
-    return shim.state != nullptr && find_path(folder, name, path) && is_below_root(path);
+    if (shim.state == nullptr || !find_path(folder, name, path) || !is_below_root(path))
+        return false;
+    constexpr timespec kPause{0, 10'000'000};
+    while (shim.state->is_hanging != 0) ::nanosleep(&kPause, nullptr);
+    return true;
 }
 
 /// How often progress is written and read depends on the time.
@@ -390,6 +396,26 @@ int unlinkat(int folder, const char* path, int flags) {
 int remove(const char* path) {
     const int done = unlink_watched(AT_FDCWD, path, 0);
     return done != 0 && errno == EISDIR ? unlink_watched(AT_FDCWD, path, AT_REMOVEDIR) : done;
+}
+
+int stat(const char* path, struct stat* facts) {
+    char full[PATH_MAX];
+    (void)is_watched(AT_FDCWD, path, full);
+    return static_cast<int>(::syscall(SYS_newfstatat, AT_FDCWD, path, facts, 0));
+}
+
+int access(const char* path, int mode) {
+    char full[PATH_MAX];
+    (void)is_watched(AT_FDCWD, path, full);
+    return static_cast<int>(::syscall(SYS_faccessat, AT_FDCWD, path, mode));
+}
+
+int statvfs(const char* path, struct statvfs* disk) {
+    char full[PATH_MAX];
+    (void)is_watched(AT_FDCWD, path, full);
+    static const auto next =
+        reinterpret_cast<int (*)(const char*, struct statvfs*)>(::dlsym(RTLD_NEXT, "statvfs"));
+    return next(path, disk);
 }
 
 int ftruncate(int file, off_t size) {
