@@ -33,20 +33,21 @@ uint64_t machine_memory() {
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kHasShadowMemory = true;  // sanitizers reserve terabytes
+/// Sanitizers reserve terabytes of memory, and read and write files of their own.
+constexpr bool kIsSanitized = true;
 #else
-constexpr bool kHasShadowMemory = false;
+constexpr bool kIsSanitized = false;
 #endif
 
 uint64_t memory_limit(const Settings& settings) {
     if (settings.tool_memory_bytes > 0) return settings.tool_memory_bytes;
-    return kHasShadowMemory ? 0 : machine_memory() / 4 * 3;
+    return kIsSanitized ? 0 : machine_memory() / 4 * 3;
 }
 
 uint64_t address_space_limit(const Settings& settings) {
     if (settings.tool_address_space_bytes > 0) return settings.tool_address_space_bytes;
     constexpr uint64_t kLeast = uint64_t{64} << 30;
-    return kHasShadowMemory ? 0 : std::max(machine_memory() * 4, kLeast);
+    return kIsSanitized ? 0 : std::max(machine_memory() * 4, kLeast);
 }
 
 /// A bake may take days, so only jobs with a time limit have one.
@@ -76,6 +77,7 @@ void add_tetgen(const std::string& program, std::vector<FileAccess>& files) {
 
 /// A job reads its folder and writes where its results go: the inputs are links to stored files.
 std::vector<FileAccess> files_of_jobs(const std::string& program, const std::string& executable) {
+    if (kIsSanitized) return {};
     std::vector<FileAccess> files = program_files();
     files.push_back({executable.empty() ? program : executable, FileAccess::Right::Execute});
     add_tetgen(program, files);
