@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <tetralight/base/landlock.h>
 #include <tetralight/base/result.h>
 
 // Runs another program and waits for it:
@@ -54,6 +55,9 @@ struct ProcessCommand {
     uint64_t address_space_limit = 0;
     /// Seconds of processor time of all its threads together; 0 = no limit. A signal ends it then.
     uint64_t processor_seconds_limit = 0;
+    /// Where the kernel has Landlock, the program uses these files alone, opens no connection over
+    /// TCP and sends no signal to other processes. Empty: no such limits.
+    std::span<const FileAccess> files = {};
     /// Which process the system ends first if memory runs out: 0 = as this one, 1000 = the first.
     int out_of_memory_score = 0;
     /// It is killed after this time; 0 = never.

@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kDatabase = "tetralight.db";
 /// What an archive may hold.
-constexpr std::array kTops{"tetralight.db", "index.json", "scenes",     "skies",
-                           "groups",        "volumes",    "quarantine", "bakes"};
+constexpr std::array kTops{kDatabase, "index.json", "scenes",     "skies",
+                           "groups",  "volumes",    "quarantine", "bakes"};
 
 /// All files below a folder, by their names relative to `data`.
 std::vector<std::string> files_below(const std::string& data, const char* folder) {

@@ -25,6 +25,9 @@ struct BakeOrder {
     std::vector<OrderFile> inputs;
 };
 
+/// True of "done", "failed" and "cancelled".
+[[nodiscard]] bool is_final(const std::string& state);
+
 /// Queued, running and finished bakes. One bake runs at a time, on all processors: the oldest of
 /// the highest priority. Accepted bakes and finished probes are on the disk: after a crash each
 /// bake continues and gives the same bytes. Thread-safe; functions throw a `Problem`.

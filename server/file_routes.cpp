@@ -57,7 +57,8 @@ Job reading_job(Kind kind, const WorkFolder& folder) {
                     .settings = {{"scene", "empty.gltf"}, {"sky", kUpload}, {"explain", true}}};
         case Kind::Groups:
             return {.command = "tetrahedralize",
-                    .settings = {{"groups", Json::array({kUpload})}, {"output", "check.probes"}}};
+                    .settings = {{"groups", Json::array({kUpload})},
+                                 {"output", str_cat(kResults, "/check.probes")}}};
         case Kind::Volumes:
             break;
     }
@@ -128,9 +129,8 @@ Response list(Service& service, Kind kind, const Request& request) {
 /// The entity tag of a file's description. It changes with the names of the file, the tag of its
 /// bytes does not.
 std::string tag_of(const StoredFile& file) {
-    Sha256 hash;
-    hash.add(dump(to_json_with_facts(file)));
-    return "\"" + hash.hex().substr(0, 32) + "\"";
+    const std::string text = dump(to_json_with_facts(file));
+    return "\"" + sha256_hex(std::as_bytes(std::span(text))).substr(0, 32) + "\"";
 }
 
 /// Refuses an edit by a client that has seen an earlier state (`If-Match`).
@@ -184,10 +184,7 @@ Response download(Service& service, Kind kind, const Request& request) {
     auto mapping = MappedFile::open(path);
     if (!mapping) {
         (void)service.store.get(kind, stored.id);  // throws if it was deleted since
-        Problem problem = storage_problem(mapping.error());
-        problem.detail =
-            str_cat("the ", noun_of(kind), " ", reason_without_path(mapping.error(), path));
-        throw problem;
+        throw storage_problem(noun_of(kind), mapping.error(), path);
     }
     const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
     Response response =

@@ -49,6 +49,16 @@ Status move_folder_synced(const std::string& from, const std::string& to) {
     return sync_folder(std::filesystem::path(to).parent_path().string());
 }
 
+std::set<std::string> names_in(const std::string& folder, std::error_code& error) {
+    std::set<std::string> names;
+    std::filesystem::directory_iterator entry(folder, error);
+    while (!error && entry != std::filesystem::directory_iterator()) {
+        names.insert(entry->path().filename().string());
+        entry.increment(error);
+    }
+    return names;
+}
+
 void remove_all(const std::string& path) {
     std::error_code ignored;
     std::filesystem::remove_all(path, ignored);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
 #include <string>
+#include <system_error>
 
 #include <tetralight/base/descriptor.h>
 #include <tetralight/base/result.h>
@@ -22,6 +24,9 @@ namespace tetralight::server {
 
 /// Moves a folder and syncs its old and its new name. Its contents must be synced before.
 [[nodiscard]] Status move_folder_synced(const std::string& from, const std::string& to);
+
+/// The names in a folder; with `error`, those that could be read.
+[[nodiscard]] std::set<std::string> names_in(const std::string& folder, std::error_code& error);
 
 /// Deletes a file, or a folder with its contents. A missing one is no error.
 void remove_all(const std::string& path);

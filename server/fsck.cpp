@@ -8,6 +8,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/database.h>
 #include <tetralight/server/file_ids.h>
+#include <tetralight/server/folders.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/stored_file.h>
 
@@ -61,10 +62,8 @@ struct Check {
     void check_names(const std::set<std::string>& places) {
         for (const Kind kind : kKinds) {
             std::error_code error;
-            fs::directory_iterator entry(data + "/" + name_of(kind), error);
-            for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-                const std::string place =
-                    str_cat(name_of(kind), "/", entry->path().filename().string());
+            for (const std::string& name : names_in(data + "/" + name_of(kind), error)) {
+                const std::string place = str_cat(name_of(kind), "/", name);
                 if (!places.contains(place)) add("unknown", place, "the database has no row of it");
             }
             // Without the folder, every file in it is missing.
@@ -74,11 +73,8 @@ struct Check {
     }
 
     void count_quarantine() {
-        std::error_code error;
-        fs::directory_iterator entry(data + "/quarantine", error);
-        for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-            ++found.quarantined;
-        }
+        std::error_code ignored;
+        found.quarantined += names_in(data + "/quarantine", ignored).size();
     }
 };
 

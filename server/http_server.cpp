@@ -25,13 +25,10 @@
 #include <tetralight/server/detail/read_request.h>
 #include <tetralight/server/detail/send_response.h>
 #include <tetralight/server/detail/session.h>
-#include <tetralight/server/work_queue.h>
+#include <tetralight/server/detail/workers.h>
 
 namespace tetralight::server {
 namespace {
-
-/// Status in logs: the client had disconnected.
-constexpr unsigned kAbandoned = 499;
 
 /// Ids that differ from those of other runs of the server.
 std::string make_request_id() {
@@ -43,44 +40,6 @@ std::string make_request_id() {
     return digits.data();
 }
 
-/// Work that takes longer than about a millisecond would delay other requests of a thread.
-bool is_long(const Request& request) {
-    constexpr size_t kLongText = size_t{8} << 10;
-    constexpr size_t kLongBinary = size_t{128} << 10;
-    return request.body.size() >
-           (request.has_type("application/octet-stream") ? kLongBinary : kLongText);
-}
-
-/// What a request costs beside others of its queue.
-uint64_t cost_of(const Plan& plan, const Request& request) {
-    constexpr uint64_t kBytes = 4096;
-    return plan.run_on == Plan::RunOn::Tools ? 1 : 1 + request.body_size / kBytes;
-}
-
-uint32_t network_thread_count(const Settings& settings) {
-    const uint32_t all = std::max(1u, std::thread::hardware_concurrency());
-    return settings.thread_count == 0 ? all : settings.thread_count;
-}
-
-/// Bodies in memory wait for computing: their sum is limited, too.
-WorkQueue::Limits compute_limits(const Settings& settings) {
-    constexpr int kNiceness = 3;  // network threads come first
-    constexpr uint64_t kBodies = 4;
-    constexpr uint64_t kBytes = 4096;
-    return {.threads = network_thread_count(settings),
-            .max_waiting = settings.max_waiting,
-            .max_cost = kBodies * (1 + settings.max_body_bytes / kBytes),
-            .niceness = kNiceness};
-}
-
-/// A request in a queue, and its answer once it is there.
-struct Waiting {
-    WorkQueue& queue;
-    WorkQueue::Handle item;
-    net::steady_timer& done;
-    const std::optional<Response>& response;
-};
-
 /// The state that all sessions share.
 class Server final : public HttpServer {
   public:
@@ -89,17 +48,7 @@ class Server final : public HttpServer {
           application_(std::move(application)),
           acceptor_(net::make_strand(io_)),
           drain_timer_(acceptor_.get_executor()),
-          compute_(std::in_place, compute_limits(settings)),
-          storage_(std::in_place,
-                   WorkQueue::Limits{settings.storage_worker_count, settings.max_waiting}),
-          tools_(std::in_place, WorkQueue::Limits{settings.worker_count, settings.max_waiting}) {}
-
-    /// Work that runs uses the sessions, which end with `io_`.
-    ~Server() override {
-        compute_.reset();
-        storage_.reset();
-        tools_.reset();
-    }
+          workers_(settings_, application_) {}
 
     error_code open() {
         error_code error;
@@ -119,10 +68,7 @@ class Server final : public HttpServer {
     [[nodiscard]] uint32_t connection_count() const override { return connection_count_; }
 
     [[nodiscard]] size_t waiting_count(Plan::RunOn place) const override {
-        const auto* queue = place == Plan::RunOn::Compute   ? &compute_
-                            : place == Plan::RunOn::Storage ? &storage_
-                                                            : &tools_;
-        return place == Plan::RunOn::Network ? 0 : (*queue)->waiting_count();
+        return workers_.waiting_count(place);
     }
 
     void run() override {
@@ -140,12 +86,6 @@ class Server final : public HttpServer {
     net::awaitable<void> refuse(std::shared_ptr<Session> session);
     net::awaitable<void> serve(std::shared_ptr<Session> session);
     net::awaitable<bool> serve_one(Session& session);
-    net::awaitable<Response> answer(Session& session, Plan& plan, Request& request,
-                                    std::optional<double>& waited);
-    net::awaitable<std::optional<Response>> wait_for(Session& session, Request& request,
-                                                     Waiting& waiting);
-    [[nodiscard]] WorkQueue* queue_for(const Plan& plan, const Request& request);
-    [[nodiscard]] Response busy(const Request& request) const;
     void end_idle_sessions();
 
     [[nodiscard]] SendRule send_rule(bool keeps_open) const {
@@ -157,16 +97,13 @@ class Server final : public HttpServer {
     net::io_context io_;
     tcp::acceptor acceptor_;
     net::steady_timer drain_timer_;
-    std::optional<WorkQueue> compute_;
-    std::optional<WorkQueue> storage_;
-    std::optional<WorkQueue> tools_;
     std::atomic<uint32_t> connection_count_ = 0;
     std::atomic<uint32_t> refused_count_ = 0;  ///< connections beyond the limit, which get 503
     std::atomic<bool> is_draining_ = false;    ///< each connection gets one more answer
     std::atomic<bool> is_ending_ = false;      ///< no connection gets another answer
-    std::atomic<bool> is_over_ = false;        ///< the results of workers are dropped
     std::mutex sessions_mutex_;                ///< guards the sessions and the timer
     std::list<std::weak_ptr<Session>> sessions_;
+    Workers workers_;  ///< ends first: its work uses the sessions, which end with `io_`
 };
 
 void Server::stop() {
@@ -194,7 +131,7 @@ void Server::end_idle_sessions() {
     drain_timer_.expires_after(to_duration(settings_.drain_seconds));
     drain_timer_.async_wait([this](const error_code& error) {
         if (error) return;
-        is_over_ = true;
+        workers_.drop_results();
         io_.stop();
     });
 }
@@ -294,7 +231,11 @@ net::awaitable<bool> Server::serve_one(Session& session) {
     if (reading.refused) {
         response = application_.refusal(*reading.refused, request);
     } else {
-        response = co_await answer(session, plan, request, waited);
+        response = co_await workers_.answer(session, plan, request, waited);
+    }
+    if (request.is_abandoned) {
+        finish(kAbandoned, {});
+        co_return false;
     }
     // The unread part of a body would be taken for the next request.
     const bool keeps_open =
@@ -302,78 +243,6 @@ net::awaitable<bool> Server::serve_one(Session& session) {
     const Sent sent = co_await send_response(session, request, response, send_rule(keeps_open));
     finish(response.status, sent);
     co_return keeps_open&& sent.is_whole;
-}
-
-/// Null if the request is handled on the thread of its connection.
-WorkQueue* Server::queue_for(const Plan& plan, const Request& request) {
-    switch (plan.run_on) {
-        case Plan::RunOn::Network:
-            return is_long(request) ? &*compute_ : nullptr;
-        case Plan::RunOn::Compute:
-            return &*compute_;
-        case Plan::RunOn::Storage:
-            return &*storage_;
-        case Plan::RunOn::Tools:
-            break;
-    }
-    return &*tools_;
-}
-
-Response Server::busy(const Request& request) const {
-    return application_.refusal({503, "busy", "too many requests are waiting already", "requests",
-                                 std::to_string(settings_.max_waiting)},
-                                request);
-}
-
-/// Waits until the work is done. Gives another response if it was dropped: to make room for other
-/// clients, after its longest time, or because the client has disconnected.
-net::awaitable<std::optional<Response>> Server::wait_for(Session& session, Request& request,
-                                                         Waiting& waiting) {
-    constexpr auto kLook = std::chrono::milliseconds(200);
-    const auto end = Clock::now() + to_duration(settings_.queue_seconds);
-    while (!waiting.response) {
-        waiting.done.expires_after(kLook);
-        error_code ignored;
-        co_await waiting.done.async_wait(net::redirect_error(net::use_awaitable, ignored));
-        if (waiting.response) break;
-        if (session.is_abandoned()) request.is_abandoned = true;
-        const bool is_late = Clock::now() > end;
-        const bool is_dropped = request.is_abandoned || is_late
-                                    ? waiting.queue.drop(waiting.item)
-                                    : waiting.queue.is_dropped(waiting.item);
-        if (!is_dropped) continue;
-        if (request.is_abandoned) {
-            co_return application_.refusal({kAbandoned, "abandoned", "the client has disconnected"},
-                                           request);
-        }
-        co_return busy(request);
-    }
-    co_return std::nullopt;
-}
-
-/// Runs the handler where the plan says. Sets how long the request waited for a thread.
-net::awaitable<Response> Server::answer(Session& session, Plan& plan, Request& request,
-                                        std::optional<double>& waited) {
-    WorkQueue* queue = queue_for(plan, request);
-    if (queue == nullptr) co_return plan.handle(request);
-    const auto executor = co_await net::this_coro::executor;
-    net::steady_timer done(executor);
-    std::optional<Response> response;
-    const auto begin = Clock::now();
-    const auto item = queue->post(request.remote, cost_of(plan, request), [&] {
-        if (is_over_) return;
-        waited = std::chrono::duration<double>(Clock::now() - begin).count();
-        Response made = plan.handle(request);
-        net::post(executor, [&response, &done, made = std::move(made)]() mutable {
-            response = std::move(made);
-            done.cancel();
-        });
-    });
-    if (!item) co_return busy(request);
-    Waiting waiting{*queue, item, done, response};
-    auto instead = co_await wait_for(session, request, waiting);
-    if (instead) co_return std::move(*instead);
-    co_return std::move(*response);
 }
 
 }  // namespace

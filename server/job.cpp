@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <climits>
+#include <cstdlib>
 
+#include <tetralight/base/landlock.h>
 #include <tetralight/base/process.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/server/folders.h>
 
 namespace tetralight::server {
 namespace {
@@ -29,18 +32,22 @@ uint64_t machine_memory() {
     return pages * static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+/// Sanitizers reserve terabytes of memory, and read and write files of their own.
+constexpr bool kIsSanitized = true;
+#else
+constexpr bool kIsSanitized = false;
+#endif
+
 uint64_t memory_limit(const Settings& settings) {
-    return settings.tool_memory_bytes > 0 ? settings.tool_memory_bytes : machine_memory() / 4 * 3;
+    if (settings.tool_memory_bytes > 0) return settings.tool_memory_bytes;
+    return kIsSanitized ? 0 : machine_memory() / 4 * 3;
 }
 
 uint64_t address_space_limit(const Settings& settings) {
     if (settings.tool_address_space_bytes > 0) return settings.tool_address_space_bytes;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return 0;  // sanitizers reserve terabytes
-#else
     constexpr uint64_t kLeast = uint64_t{64} << 30;
-    return std::max(machine_memory() * 4, kLeast);
-#endif
+    return kIsSanitized ? 0 : std::max(machine_memory() * 4, kLeast);
 }
 
 /// A bake may take days, so only jobs with a time limit have one.
@@ -50,6 +57,33 @@ uint64_t processor_seconds_limit(const Settings& settings, const Job& job) {
     const auto processors = static_cast<uint64_t>(std::max(1L, ::sysconf(_SC_NPROCESSORS_ONLN)));
     const uint64_t threads = std::max<uint64_t>(settings.tool_thread_count, processors);
     return static_cast<uint64_t>(job.limit_seconds + 1.0) * threads;
+}
+
+/// Where the program of `"backend": "tetgen"` may lie (docs/command.md).
+void add_tetgen(const std::string& program, std::vector<FileAccess>& files) {
+    using Right = FileAccess::Right;
+    constexpr const char* kName = "/tetralight-tetgen";
+    if (const char* named = std::getenv("TETRALIGHT_TETGEN"))
+        files.push_back({named, Right::Execute});
+    files.push_back({program.substr(0, program.rfind('/')) + kName, Right::Execute});
+    const char* variable = std::getenv("PATH");
+    std::string_view rest = variable == nullptr ? "" : variable;
+    while (!rest.empty()) {
+        const std::string_view folder = rest.substr(0, rest.find(':'));
+        rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+        if (folder.starts_with('/')) files.push_back({str_cat(folder, kName), Right::Execute});
+    }
+}
+
+/// A job reads its folder and writes where its results go: the inputs are links to stored files.
+std::vector<FileAccess> files_of_jobs(const std::string& program, const std::string& executable) {
+    if (kIsSanitized) return {};
+    std::vector<FileAccess> files = program_files();
+    files.push_back({executable.empty() ? program : executable, FileAccess::Right::Execute});
+    add_tetgen(program, files);
+    files.push_back({".", FileAccess::Right::Read});
+    files.push_back({kResults, FileAccess::Right::Write});
+    return files;
 }
 
 std::chrono::milliseconds milliseconds(double seconds) {
@@ -115,12 +149,19 @@ JobResult run_job(const Settings& settings, const Job& job) {
     order["threads"] = settings.tool_thread_count;
     const std::string text = dump(order);
     const std::array input{std::as_bytes(std::span(text))};
+    const std::string program = program_of(settings);
     // The same program even if another one was installed since.
-    const bool is_this = settings.program.empty();
+    const std::string executable = settings.program.empty() ? "/proc/self/exe" : "";
+    const std::vector<FileAccess> files = files_of_jobs(program, executable);
+    JobResult result;
+    if (auto status = make_folder(job.folder + "/" + kResults); !status) {
+        result.error = status.error();
+        return result;
+    }
     const auto process =
-        run_process({.program = program_of(settings),
+        run_process({.program = program,
                      .arguments = {"--job", "-"},
-                     .executable = is_this ? "/proc/self/exe" : "",
+                     .executable = executable,
                      .folder = job.folder,
                      .input = input,
                      .group = job.is_background ? ProcessGroup::Session : ProcessGroup::Own,
@@ -128,12 +169,12 @@ JobResult run_job(const Settings& settings, const Job& job) {
                      .memory_limit = memory_limit(settings),
                      .address_space_limit = address_space_limit(settings),
                      .processor_seconds_limit = processor_seconds_limit(settings, job),
+                     .files = files,
                      .out_of_memory_score = kOutOfMemoryScore,
                      .time_limit = milliseconds(job.limit_seconds),
                      .output_limit = kMostOutput,
                      .is_cancelled = job.is_cancelled});
     if (process) return read_result(*process);
-    JobResult result;
     result.error = process.error();
     return result;
 }

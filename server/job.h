@@ -16,10 +16,15 @@
 
 namespace tetralight::server {
 
+/// The folder of a job's results, in its working folder. Nothing else can be written by a job where
+/// the kernel has Landlock (base/landlock.h): not its inputs, which are links to stored files.
+inline constexpr const char* kResults = "results";
+
 struct Job {
     /// "bake", "render"...
     std::string command;
-    /// Its settings by their names. Paths are names of files in `folder`.
+    /// Its settings by their names. Paths are names of files in `folder`; those of results begin
+    /// with `kResults`.
     Json settings;
     /// The working folder.
     std::string folder = {};

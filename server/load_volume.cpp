@@ -37,6 +37,8 @@ std::span<const std::byte> mapped_bytes(const ProbeFile& file) {
 }
 
 Result<LoadedVolume> map_volume(const std::string& path, const std::string& id) {
+    const auto stamp = stamp_of(path);
+    if (!stamp) return system_error(path, "open");
     const auto ids = read_file_ids(path);
     if (!ids) return ids.error();
     const ThreadGuard reading;
@@ -45,7 +47,7 @@ Result<LoadedVolume> map_volume(const std::string& path, const std::string& id) 
     if (!file) return file.error();
     auto guard = MapGuard::make(mapped_bytes(*file));
     if (!guard) return guard.error();
-    return LoadedVolume{std::move(*file), ids->bytes, std::move(*guard)};
+    return LoadedVolume{std::move(*file), ids->bytes, std::move(*guard), path, *stamp};
 }
 
 Result<LoadedVolume> copy_volume(const std::string& path, const std::string& id) {
@@ -65,7 +67,7 @@ Result<LoadedVolume> copy_volume(const std::string& path, const std::string& id)
 }  // namespace
 
 void LoadedVolume::require_whole() const {
-    if (!is_damaged()) return;
+    if (is_copy() || (!is_damaged() && !has_changed(stamp_of(path)))) return;
     throw Problem{503, "unavailable", "the volume's file changed while it was read"};
 }
 

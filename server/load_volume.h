@@ -7,6 +7,7 @@
 
 #include <tetralight/base/result.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/server/file_stamp.h>
 #include <tetralight/server/map_guard.h>
 
 namespace tetralight::server {
@@ -17,13 +18,23 @@ struct LoadedVolume {
     uint64_t bytes = 0;
     /// Of a volume that is mapped; a copy needs none, as nothing can change it.
     std::optional<MapGuard> guard = {};
+    /// Of a volume that is mapped: its file, and what it was before it was verified.
+    std::string path = {};
+    FileStamp stamp = {};
 
     [[nodiscard]] bool is_copy() const { return !guard; }
 
     /// True if its file became unreadable: answers that it gave are wrong.
     [[nodiscard]] bool is_damaged() const { return guard && guard->is_damaged(); }
 
-    /// Throws a `Problem`, 503, if it is damaged. Call it before an answer is sent.
+    /// True if the bytes of its file may have changed since they were verified; `now` is its stamp.
+    /// A file that is gone keeps its bytes while it is mapped.
+    [[nodiscard]] bool has_changed(const std::optional<FileStamp>& now) const {
+        return !is_copy() && now && !now->has_same_bytes(stamp);
+    }
+
+    /// Throws a `Problem`, 503, if it is damaged or may have changed. Call it before an answer is
+    /// sent.
     void require_whole() const;
 };
 

@@ -84,6 +84,12 @@ Problem storage_problem(const Error& error) {
     return problem_for(error, is_away ? Answer{503, "unavailable"} : Answer{500, "storage"});
 }
 
+Problem storage_problem(const std::string& what, const Error& error, const std::string& path) {
+    Problem problem = storage_problem(error);
+    problem.detail = str_cat("the ", what, " ", reason_without_path(error, path));
+    return problem;
+}
+
 Problem setting_problem(const Error& error, const Json& order) {
     Problem problem = problem_for(error, {400, "invalid_value"});
     name_member(error, order, problem);
@@ -114,6 +120,12 @@ Problem job_problem(const Settings& settings, const JobResult& result, const Req
 
 void require_stored(const Status& status) {
     if (!status) throw storage_problem(status.error());
+}
+
+FileIds require_file_ids(const std::string& path) {
+    auto ids = read_file_ids(path);
+    if (!ids) throw storage_problem("file", ids.error(), path);
+    return std::move(*ids);
 }
 
 std::string reason_without_path(const Error& error, const std::string& path) {

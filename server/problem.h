@@ -5,6 +5,7 @@
 
 #include <tetralight/base/error.h>
 #include <tetralight/base/result.h>
+#include <tetralight/server/file_ids.h>
 #include <tetralight/server/http.h>
 #include <tetralight/server/job.h>
 
@@ -33,6 +34,10 @@ struct Problem {
 /// otherwise 500 "storage".
 [[nodiscard]] Problem storage_problem(const Error& error);
 
+/// The same about a file whose path clients must not see: "the volume cannot be read (...)".
+[[nodiscard]] Problem storage_problem(const std::string& what, const Error& error,
+                                      const std::string& path);
+
 /// A setting of an order is wrong: otherwise 400 "invalid_value".
 [[nodiscard]] Problem setting_problem(const Error& error, const Json& order);
 
@@ -44,6 +49,9 @@ struct Problem {
 
 /// Throws a `storage_problem` for an error.
 void require_stored(const Status& status);
+
+/// The ids of a file of the server. Throws a `storage_problem` if it cannot be read.
+[[nodiscard]] FileIds require_file_ids(const std::string& path);
 
 /// The text of an error about a file of the server, without the file's path.
 [[nodiscard]] std::string reason_without_path(const Error& error, const std::string& path);

@@ -3,10 +3,10 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include <tetralight/base/system_error.h>
+#include <tetralight/server/folders.h>
 #include <tetralight/server/problem.h>
 
 namespace tetralight::server {
@@ -31,11 +31,10 @@ void find_id(Quarantined& entry) {
 std::vector<Quarantined> list_quarantine(const std::string& folder) {
     std::vector<Quarantined> all;
     std::error_code error;
-    fs::directory_iterator entry(folder, error);
-    for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    for (const std::string& name : names_in(folder, error)) {
         struct stat status = {};
-        if (::lstat(entry->path().c_str(), &status) != 0) continue;  // taken back meanwhile
-        Quarantined one{.name = entry->path().filename().string(),
+        if (::lstat((folder + "/" + name).c_str(), &status) != 0) continue;  // taken back meanwhile
+        Quarantined one{.name = name,
                         .bytes = static_cast<uint64_t>(status.st_size),
                         .time = static_cast<double>(status.st_mtim.tv_sec)};
         if (S_ISREG(status.st_mode)) find_id(one);
@@ -45,7 +44,6 @@ std::vector<Quarantined> list_quarantine(const std::string& folder) {
         throw storage_problem({error_code_of_errno(error.value()),
                                "quarantine: cannot be read (" + error.message() + ")"});
     }
-    std::ranges::sort(all, {}, &Quarantined::name);
     return all;
 }
 

@@ -1,42 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+#include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 
-#include <sys/types.h>
-
+#include <tetralight/server/file_stamp.h>
+#include <tetralight/server/periodic.h>
 #include <tetralight/server/settings.h>
 
 namespace tetralight::server {
 
 /// Whether the data folder is still the one that the server opened. An unmounted disk leaves an
-/// empty folder under the same path, and SQLite writes on into a database that was removed.
+/// empty folder under the same path, and SQLite writes on into a database that was removed. A
+/// thread of its own looks four times a second, because a disk that does not answer lets its reader
+/// wait for ever. Thread-safe; nothing here waits for the disk but the constructor.
 class Readiness {
   public:
     /// Remembers the folder and its database. Precondition: the store is open.
     explicit Readiness(const Settings& settings);
 
-    /// Why requests cannot be answered; nothing if they can. Thread-safe.
+    /// Why requests cannot be answered; nothing if they can.
     [[nodiscard]] std::optional<std::string> fault() const;
 
-  private:
-    struct Identity {
-        dev_t device = 0;
-        ino_t number = 0;
-
-        bool operator==(const Identity&) const = default;
+    struct Disk {
+        uint64_t free_bytes = 0;  ///< that the server may use
+        uint64_t bytes = 0;
     };
 
-    [[nodiscard]] static std::optional<Identity> identify(const std::string& path);
+    /// The disk of the data folder; nothing if it did not answer.
+    [[nodiscard]] std::optional<Disk> disk() const;
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    struct State {
+        std::optional<std::string> fault;
+        std::optional<Disk> disk;
+        Clock::time_point time;  ///< when the look began
+    };
+
+    [[nodiscard]] State look() const;
+    [[nodiscard]] std::optional<std::string> fault_of_folder() const;
     [[nodiscard]] std::optional<std::string> fault_of_writer() const;
 
     const bool is_read_only_;
     const std::string folder_;
     const std::string database_;
     const std::string index_;
-    const std::optional<Identity> folder_identity_;
-    const std::optional<Identity> database_identity_;
+    const std::optional<FileStamp> folder_stamp_;
+    const std::optional<FileStamp> database_stamp_;
+    mutable std::mutex mutex_;
+    State state_;
+    Periodic periodic_;
 };
 
 }  // namespace tetralight::server

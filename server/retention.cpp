@@ -12,35 +12,22 @@ namespace tetralight::server {
 Retention::Retention(Store& store, Bakes& bakes, OpenVolumes& volumes, Log& log)
     : store_(store), bakes_(bakes), volumes_(volumes), log_(log) {
     if (store.is_read_only() || !store.settings().keep.is_limited()) return;
-    thread_ = std::thread([this] { run(); });
+    periodic_.start(std::chrono::seconds(2), [this] { delete_old(); });
+    periodic_.wake();
 }
 
-Retention::~Retention() {
-    {
-        const std::lock_guard lock(mutex_);
-        is_ending_ = true;
+void Retention::delete_old() {
+    const auto report = [&](const std::string& error) {
+        log_.write(Log::Level::Error, "what is too old could not be deleted", {{"error", error}});
+    };
+    try {
+        delete_volumes();
+        delete_bakes();
+    } catch (const Problem& problem) {
+        report(problem.detail);
+    } catch (const std::exception& exception) {
+        report(exception.what());
     }
-    wake_.notify_all();
-    if (thread_.joinable()) thread_.join();
-}
-
-void Retention::run() {
-    constexpr std::chrono::seconds kPause(2);
-    std::unique_lock lock(mutex_);
-    do {
-        lock.unlock();
-        try {
-            delete_volumes();
-            delete_bakes();
-        } catch (const Problem& problem) {
-            log_.write(Log::Level::Error, "what is too old could not be deleted",
-                       {{"error", problem.detail}});
-        } catch (const std::exception& exception) {
-            log_.write(Log::Level::Error, "what is too old could not be deleted",
-                       {{"error", exception.what()}});
-        }
-        lock.lock();
-    } while (!wake_.wait_for(lock, kPause, [&] { return is_ending_; }));
 }
 
 void Retention::delete_volumes() {

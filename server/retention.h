@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
-#include <thread>
-
 #include <tetralight/server/bakes.h>
 #include <tetralight/server/log.h>
 #include <tetralight/server/open_volumes.h>
+#include <tetralight/server/periodic.h>
 #include <tetralight/server/store.h>
 
 namespace tetralight::server {
@@ -18,12 +15,9 @@ class Retention {
   public:
     /// Starts a thread if the settings limit anything. Keeps references.
     Retention(Store& store, Bakes& bakes, OpenVolumes& volumes, Log& log);
-    ~Retention();
-    Retention(const Retention&) = delete;
-    Retention& operator=(const Retention&) = delete;
 
   private:
-    void run();
+    void delete_old();
     void delete_volumes();
     void delete_bakes();
 
@@ -31,10 +25,7 @@ class Retention {
     Bakes& bakes_;
     OpenVolumes& volumes_;
     Log& log_;
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    bool is_ending_ = false;
-    std::thread thread_;
+    Periodic periodic_;
 };
 
 }  // namespace tetralight::server

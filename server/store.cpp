@@ -2,15 +2,11 @@
 #include <tetralight/server/store.h>
 
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
-#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/base/system_error.h>
 #include <tetralight/server/file_ids.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/reserve.h>
@@ -25,14 +21,6 @@ bool has_file(const std::string& path, uint64_t bytes) {
     struct stat status = {};
     return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
            static_cast<uint64_t>(status.st_size) == bytes;
-}
-
-FileIds ids_of(const std::string& path) {
-    auto ids = read_file_ids(path);
-    if (ids) return std::move(*ids);
-    Problem problem = storage_problem(ids.error());
-    problem.detail = "the file " + reason_without_path(ids.error(), path);
-    throw problem;
 }
 
 }  // namespace
@@ -61,7 +49,6 @@ void Store::index_names_locked() {
 }
 
 std::optional<StoredFile> Store::find(Kind kind, const std::string& reference) {
-    if (is_read_only()) read_index_if_changed();
     const std::shared_lock lock(mutex_);
     const StoredFile* file = find_locked(kind, reference);
     return file == nullptr ? std::nullopt : std::optional(*file);
@@ -84,7 +71,6 @@ StoredFile Store::get(Kind kind, const std::string& reference) {
 }
 
 std::vector<StoredFile> Store::list(Kind kind) {
-    if (is_read_only()) read_index_if_changed();
     const std::shared_lock lock(mutex_);
     std::vector<StoredFile> all;
     for (const auto& [id, file] : files(kind)) all.push_back(file);
@@ -130,7 +116,7 @@ Store::Added Store::add(Kind kind, const std::string& from, const std::string& n
                         const Json& facts) {
     check_name(name);
     const std::lock_guard change(change_mutex_);
-    const FileIds ids = ids_of(from);
+    const FileIds ids = require_file_ids(from);
     const std::optional<StoredFile> known = find_bytes(kind, from, ids);
     StoredFile file;
     file.id = known ? known->id : ids.id;
@@ -223,69 +209,6 @@ void Store::remove_locked(const StoredFile& file) {
     keep_reserve();
 }
 
-void Store::quarantine(Kind kind, const std::string& id, const std::string& damage) {
-    ++metrics_.quarantined;
-    log_.write(Log::Level::Error, "a file is damaged",
-               {{"kind", name_of(kind)}, {"id", id}, {"damage", damage}});
-    {
-        const std::unique_lock lock(mutex_);
-        const auto found = files(kind).find(id);
-        if (found == files(kind).end()) return;
-        found->second.damage = damage;
-    }
-    if (is_read_only()) return;
-    try {
-        with_reserve([&] {
-            database_->run("UPDATE files SET damage = ? WHERE kind = ? AND id = ?",
-                           {damage, std::string(name_of(kind)), id});
-        });
-    } catch (const Problem& problem) {
-        log_.write(Log::Level::Error, "damage could not be stored", {{"error", problem.detail}});
-    }
-    put_aside(path(kind, id), str_cat(name_of(kind), "-", id, extension_of(kind)));
-}
-
-bool Store::put_aside(const std::string& from, const std::string& name) const {
-    const std::string folder = quarantine_folder();
-    std::error_code error;
-    std::string to = folder + name;
-    // Nothing in the quarantine is replaced.
-    for (int i = 1; fs::exists(fs::symlink_status(to, error)); ++i) {
-        to = str_cat(folder, i, "-", name);
-    }
-    fs::rename(from, to, error);
-    return !error;
-}
-
-StoredFile Store::take_back(Kind kind, const std::string& id, const std::string& from) {
-    const std::lock_guard change(change_mutex_);
-    const FileIds ids = ids_of(from);
-    if (!ids.contains(id)) {
-        throw Problem{422, "bad_data", "its bytes do not have its id: they are damaged", "name",
-                      fs::path(from).filename().string()};
-    }
-    StoredFile file;
-    if (const auto known = find(kind, id)) file = *known;
-    file.kind = kind;
-    file.id = id;
-    file.bytes = ids.bytes;
-    file.damage.clear();
-    if (file.created == 0.0) file.created = now();
-    require_stored(move_synced(from, path(kind, id)));
-    insert(file);
-    write_index();
-    return file;
-}
-
-void Store::link(const StoredFile& file, const std::string& to) {
-    const std::string from = path(file.kind, file.id);
-    if (!ids_of(from).contains(file.id)) {
-        quarantine(file.kind, file.id, "its bytes have changed");
-        (void)get(file.kind, file.id);  // throws
-    }
-    if (::link(from.c_str(), to.c_str()) != 0) require_stored(system_error(to, "link"));
-}
-
 std::string Store::path(Kind kind, const std::string& id) const {
     return settings_.data + "/" + name_of(kind) + "/" + id + extension_of(kind);
 }
@@ -328,60 +251,6 @@ void Store::with_reserve(const std::function<void()>& work) {
 
 void Store::keep_reserve() const {
     server::keep_reserve(reserve_path());
-}
-
-/// A change is stored even if its index cannot be written: the next change brings it up to date.
-bool Store::write_index() {
-    Json json = Json::array();
-    {
-        const std::shared_lock lock(mutex_);
-        for (const Files& all : files_) {
-            for (const auto& [id, file] : all) {
-                json.push_back(index_entry(file));
-            }
-        }
-    }
-    const std::string bytes = dump({{"files", json}});
-    const auto write = [&] {
-        require_stored(write_file(index_path(), std::as_bytes(std::span(bytes))));
-    };
-    try {
-        with_reserve(write);
-        keep_reserve();
-        return true;
-    } catch (const Problem& problem) {
-        log_.write(Log::Level::Error,
-                   "index.json could not be written; readers miss the last change",
-                   {{"error", problem.detail}});
-        return false;
-    }
-}
-
-/// At most once a second. A damaged index changes nothing.
-void Store::read_index_if_changed() {
-    const auto ticks = std::chrono::steady_clock::now().time_since_epoch().count();
-    int64_t next = next_index_check_;
-    constexpr int64_t kSecond = 1'000'000'000;
-    if (ticks < next || !next_index_check_.compare_exchange_strong(next, ticks + kSecond)) return;
-    struct stat status = {};
-    if (::stat(index_path().c_str(), &status) != 0) return;
-    std::string stamp = str_cat(status.st_ino, " ", status.st_mtim.tv_sec, " ",
-                                status.st_mtim.tv_nsec, " ", status.st_size);
-    const std::lock_guard change(change_mutex_);
-    if (stamp == index_stamp_) return;
-    const auto bytes = read_file(index_path());
-    if (!bytes) return;  // perhaps readable in a second
-    index_stamp_ = std::move(stamp);
-    const StoreIndex index = parse_store_index(*bytes);
-    if (!index.is_whole) {
-        ++metrics_.damaged_indexes;
-        log_.write(Log::Level::Error, "index.json is damaged; the one before it is served");
-        return;
-    }
-    const std::unique_lock lock(mutex_);
-    for (Files& all : files_) all.clear();
-    for (const auto& [key, file] : index.files) files(file.kind)[file.id] = file;
-    index_names_locked();
 }
 
 }  // namespace tetralight::server

@@ -15,10 +15,12 @@
 #include <tetralight/base/result.h>
 #include <tetralight/server/database.h>
 #include <tetralight/server/file_ids.h>
+#include <tetralight/server/file_stamp.h>
 #include <tetralight/server/folders.h>
 #include <tetralight/server/json.h>
 #include <tetralight/server/log.h>
 #include <tetralight/server/metrics.h>
+#include <tetralight/server/periodic.h>
 #include <tetralight/server/settings.h>
 #include <tetralight/server/store_index.h>
 #include <tetralight/server/stored_file.h>
@@ -157,8 +159,8 @@ class Store {
     std::map<std::string, std::string> id_of_name_[std::size(kKinds)];
     std::mutex change_mutex_;  ///< one change at a time, with its file, row and index
     std::atomic<uint64_t> work_count_ = 0;
-    std::atomic<int64_t> next_index_check_ = 0;
-    std::string index_stamp_;
+    std::optional<FileStamp> index_stamp_;
+    Periodic periodic_;  ///< reads the index of another server
 };
 
 /// Seconds since 1970.

@@ -17,17 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The names in a folder.
-std::set<std::string> names_in(const std::string& folder, std::error_code& error) {
-    std::set<std::string> names;
-    fs::directory_iterator entry(folder, error);
-    while (!error && entry != fs::directory_iterator()) {
-        names.insert(entry->path().filename().string());
-        entry.increment(error);
-    }
-    return names;
-}
-
 /// The id in the name of a file of the store; empty if the store gives no file this name.
 std::string id_in(Kind kind, const std::string& name) {
     const fs::path path(name);

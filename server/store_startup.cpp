@@ -2,6 +2,7 @@
 // How a store starts: its folders, its database, and the files that it finds.
 #include <tetralight/server/store.h>
 
+#include <chrono>
 #include <filesystem>
 #include <new>
 
@@ -30,6 +31,8 @@ Result<std::unique_ptr<Store>> Store::open(const Settings& settings, Log& log, M
         if (metrics.damaged_indexes > 0) {
             return Error{ErrorCode::Corrupt, store->index_path() + ": is damaged"};
         }
+        store->periodic_.start(std::chrono::milliseconds(500),
+                               [s = store.get()] { s->read_index_if_changed(); });
         return store;
     }
     for (const char* folder :

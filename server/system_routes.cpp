@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <dirent.h>
 #include <sys/resource.h>
-#include <sys/statvfs.h>
 
 #include <filesystem>
 
@@ -69,15 +68,13 @@ void add_process(std::vector<Figure>& figures) {
 
 /// Nothing if the disk does not answer.
 void add_disk(const Service& service, std::vector<Figure>& figures) {
-    struct statvfs disk = {};
-    if (::statvfs(service.settings.data.c_str(), &disk) != 0) return;
-    const auto bytes = [&](auto blocks) {
-        return static_cast<double>(blocks) * static_cast<double>(disk.f_frsize);
-    };
+    const auto disk = service.readiness.disk();
+    if (!disk) return;
     figures.push_back({"disk_free_bytes",
                        "Space of the data folder's disk that the server may use.",
-                       bytes(disk.f_bavail)});
-    figures.push_back({"disk_size_bytes", "Size of the data folder's disk.", bytes(disk.f_blocks)});
+                       static_cast<double>(disk->free_bytes)});
+    figures.push_back(
+        {"disk_size_bytes", "Size of the data folder's disk.", static_cast<double>(disk->bytes)});
 }
 
 void add_store(const Service& service, std::vector<Figure>& figures) {

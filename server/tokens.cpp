@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/tokens.h>
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <chrono>
 
 #include <tetralight/base/file.h>
-#include <tetralight/base/str_cat.h>
 #include <tetralight/server/problem.h>
 
 namespace tetralight::server {
-namespace {
-
-/// Changes when a file is written or replaced; empty if there is none.
-std::string stamp_of(const std::string& path) {
-    struct stat facts = {};
-    if (::stat(path.c_str(), &facts) != 0) return {};
-    return str_cat(facts.st_dev, ".", facts.st_ino, ".", facts.st_size, ".", facts.st_mtim.tv_sec,
-                   ".", facts.st_mtim.tv_nsec, ".", facts.st_ctim.tv_sec, ".",
-                   facts.st_ctim.tv_nsec);
-}
-
-}  // namespace
 
 Result<std::string> parse_token(std::string text, const std::string& field,
                                 const std::string& source) {
@@ -54,6 +39,12 @@ Result<std::unique_ptr<Tokens>> Tokens::open(const Settings& settings, Log& log)
         if (auto status = read(*source); !status) return status.error();
     }
     tokens->has_any_ = !tokens->admin_.token.empty() || !tokens->reader_.token.empty();
+    if (!tokens->admin_.path.empty() || !tokens->reader_.path.empty()) {
+        tokens->periodic_.start(std::chrono::milliseconds(500), [t = tokens.get()] {
+            t->read_changed_file(t->admin_);
+            t->read_changed_file(t->reader_);
+        });
+    }
     return tokens;
 }
 
@@ -71,28 +62,25 @@ Status Tokens::read(Source& source) {
 
 void Tokens::read_changed_file(Source& source) {
     if (source.path.empty() || stamp_of(source.path) == source.stamp) return;
-    const std::string earlier = source.token;
-    if (auto status = read(source); !status) {
+    // Requests wait for no file.
+    Source now{.field = source.field, .path = source.path};
+    if (auto status = read(now); !status) {
+        source.stamp = now.stamp;
         log_.write(Log::Level::Error, "a token could not be read; the last one stays valid",
                    {{"field", source.field}, {"error", detail_of(status.error())}});
-    } else if (source.token != earlier) {
+        return;
+    }
+    const bool is_new = now.token != source.token;
+    {
+        const std::lock_guard lock(mutex_);
+        source = std::move(now);
+    }
+    if (is_new) {
         log_.write(Log::Level::Info, "a token has changed", {{"field", source.field}});
     }
 }
 
-/// Looks at the files at most once a second.
-void Tokens::read_changed_files() {
-    constexpr int64_t kPause = 1'000'000'000;
-    const int64_t now = std::chrono::steady_clock::now().time_since_epoch().count();
-    int64_t due = next_look_;
-    if (now < due || !next_look_.compare_exchange_strong(due, now + kPause)) return;
-    const std::lock_guard lock(mutex_);
-    read_changed_file(admin_);
-    read_changed_file(reader_);
-}
-
 Right Tokens::right_of(std::string_view token) {
-    read_changed_files();
     const std::lock_guard lock(mutex_);
     // Both are compared in any case: the time does not tell which one was close.
     const bool is_admin = is_same_secret(token, admin_.token) && !admin_.token.empty();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -10,7 +9,9 @@
 #include <string_view>
 
 #include <tetralight/base/result.h>
+#include <tetralight/server/file_stamp.h>
 #include <tetralight/server/log.h>
+#include <tetralight/server/periodic.h>
 #include <tetralight/server/settings.h>
 
 namespace tetralight::server {
@@ -41,22 +42,21 @@ class Tokens {
     struct Source {
         std::string field;      ///< the setting, for messages
         std::string path = {};  ///< empty: the token does not change
-        std::string stamp = {};
+        std::optional<FileStamp> stamp = {};
         std::string token = {};
     };
 
     explicit Tokens(Log& log) : log_(log) {}
 
     [[nodiscard]] static Status read(Source& source);
-    void read_changed_files();
     void read_changed_file(Source& source);
 
     Log& log_;
     bool has_any_ = false;
-    std::atomic<int64_t> next_look_ = 0;  ///< nanoseconds of the steady clock
-    std::mutex mutex_;
+    std::mutex mutex_;  ///< guards the tokens, which `periodic_` changes
     Source admin_{.field = "token_file"};
     Source reader_{.field = "read_token_file"};
+    Periodic periodic_;  ///< looks at the files
 };
 
 /// The token in the text of a file: without the blanks and line breaks at its end. Returns an error

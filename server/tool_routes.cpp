@@ -11,8 +11,12 @@ namespace tetralight::server {
 namespace {
 
 /// The name of a job's result in its folder.
+std::string result_name(std::string_view extension) {
+    return str_cat(kResults, "/result", extension);
+}
+
 std::string result_name(Kind kind) {
-    return std::string("result") + extension_of(kind);
+    return result_name(extension_of(kind));
 }
 
 /// Links all files of an order into the folder of its job.
@@ -124,7 +128,7 @@ Response lppv(Service& service, const Request& request) {
         refuse("format", format, "vdb, nvdb, exr, dds or ktx2");
     }
     const WorkFolder folder = service.store.make_work_folder();
-    const std::string output = "result." + format;
+    const std::string output = result_name("." + format);
     Json report = run_order(service, request, settings::kLppv, order, folder, output);
     report.erase("warnings");
     return {.content_type = "application/octet-stream",
@@ -136,7 +140,7 @@ Response render(Service& service, const Request& request) {
     const Json order = parse_object(request.body);
     check_order(settings::kRender, order);
     const WorkFolder folder = service.store.make_work_folder();
-    const std::string output = "result.png";
+    const std::string output = result_name(".png");
     (void)run_order(service, request, settings::kRender, order, folder, output);
     return {.content_type = "image/png", .body = file_body(folder.file(output))};
 }

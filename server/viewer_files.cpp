@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/server/viewer_files.h>
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <filesystem>
 
 #include <tetralight/base/file.h>
 #include <tetralight/base/hash/sha256.h>
-#include <tetralight/base/str_cat.h>
 #include <tetralight/server/problem.h>
 
 namespace tetralight::server {
@@ -82,19 +79,16 @@ Response page_response(const std::string& name, const std::string& tag) {
 
 /// Null if there is no such file.
 std::shared_ptr<const ViewerFiles::File> ViewerFiles::find(const std::string& path) const {
-    struct stat facts = {};
-    if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return nullptr;
-    const int64_t changed =
-        int64_t{facts.st_mtim.tv_sec} * 1'000'000'000 + int64_t{facts.st_mtim.tv_nsec};
-    const std::string stamp =
-        str_cat(facts.st_dev, ".", facts.st_ino, ".", facts.st_size, ".", changed);
+    std::error_code error;
+    const auto stamp = stamp_of(path);
+    if (!stamp || !fs::is_regular_file(path, error)) return nullptr;
     const std::lock_guard lock(mutex_);
     auto& known = files_[path];
-    if (known && known->stamp == stamp) return known;
+    if (known && known->stamp == *stamp) return known;
     auto bytes = read_file(path);
     if (!bytes) return nullptr;
     const std::string tag = sha256_hex(*bytes).substr(0, kTagLength);
-    known = std::make_shared<const File>(File{stamp, tag, Body(std::move(*bytes)), changed});
+    known = std::make_shared<const File>(File{*stamp, tag, Body(std::move(*bytes))});
     return known;
 }
 
@@ -118,7 +112,7 @@ Response ViewerFiles::respond(const Request& request) const {
     bool is_compressed = false;
     if (accepts_gzip(request.header("accept-encoding"))) {
         const auto compressed = find_in_folder(name + ".gz");
-        is_compressed = compressed && compressed->changed >= file->changed;
+        is_compressed = compressed && compressed->stamp.written >= file->stamp.written;
         if (is_compressed) {
             file = compressed;
             tag = "\"" + file->tag + "-gzip\"";

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/server/file_stamp.h>
 #include <tetralight/server/http.h>
 
 namespace tetralight::server {
@@ -26,10 +27,9 @@ class ViewerFiles {
 
   private:
     struct File {
-        std::string stamp;  ///< changes with the file
-        std::string tag;    ///< the entity tag without its quotes
+        FileStamp stamp;
+        std::string tag;  ///< the entity tag without its quotes
         Body body;
-        int64_t changed = 0;  ///< nanoseconds
     };
 
     [[nodiscard]] std::shared_ptr<const File> find(const std::string& path) const;

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <string>
 
+#include <tetralight/base/detail/restrict_files.h>
 #include <tetralight/base/system_error.h>
 
 namespace tetralight::detail {
@@ -40,6 +41,8 @@ struct ChildPlan {
     uint64_t processor_seconds_limit = 0;
     std::string niceness_text;
     std::string score_text;
+    std::span<const FileAccess> files;
+    int landlock_version = 0;
 };
 
 /// Writes to a file of the kernel, if this system has it.
@@ -111,6 +114,8 @@ bool redirect(const ChildStreams& streams) {
     restore_signals();
     if (!redirect(plan.streams)) fail(plan, false);
     if (*plan.folder != '\0' && ::chdir(plan.folder) != 0) fail(plan, true);
+    const bool is_restricted = !plan.files.empty() && plan.landlock_version > 0;
+    if (is_restricted && !restrict_files(plan.files, plan.landlock_version)) fail(plan, false);
     ::execvp(plan.executable, plan.arguments.data());
     fail(plan, false);
 }
@@ -136,6 +141,8 @@ ChildPlan make_plan(const ProcessCommand& command, const ChildStreams& streams, 
     if (command.out_of_memory_score != 0) {
         plan.score_text = std::to_string(command.out_of_memory_score);
     }
+    plan.files = command.files;
+    if (!plan.files.empty()) plan.landlock_version = landlock_version();
     return plan;
 }
 

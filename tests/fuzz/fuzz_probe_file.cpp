@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/build/validate.h>
-#include <tetralight/probes/compact_probes.h>
-#include <tetralight/probes/detail/probe_file_layout.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/is_finite.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/probes/recombine.h>
 #include "tests/fuzz/mutator.h"
+#include "tests/fuzz/sound_file.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/layered_volume.h"
 #include "tests/support/temp_folder.h"
@@ -22,54 +19,13 @@
 namespace tetralight::fuzz {
 namespace {
 
-/// Tetrahedra with layers and lights, triangles, segments, one probe.
-ProbeVolume make_volume(size_t kind) {
-    if (kind == 0) {
-        ProbeVolume volume = test::make_layered_volume(24, 3, 7);
-        volume.lights.resize(2);
-        volume.light_names = "sun\nlamp\n";
-        volume.light_states.resize(2);
-        volume.occlusion_lights.assign(24, {0, 1, kNoIndex, kNoIndex});
-        volume.occlusion.assign(24, glm::vec4(0.5f));
-        volume.validity.assign(24, 1.0f);
-        volume.health.resize(24);
-        make_compact_probes(volume);
-        return volume;
-    }
-    std::vector<glm::dvec3> positions = test::random_positions(kind == 3 ? 1 : 12, kind);
-    for (glm::dvec3& p : positions) {
-        p.y = 0.0;
-        if (kind == 2) p.z = 0.0;
-    }
-    return test::make_lit_volume(positions);
-}
-
-const std::vector<std::byte>& sound_file(size_t kind) {
-    static const auto files = [] {
-        std::array<std::vector<std::byte>, 4> all;
-        for (size_t k = 0; k < all.size(); ++k) all[k] = probe_file_bytes(make_volume(k).view());
-        return all;
-    }();
-    return files[kind];
-}
-
 /// Changes bytes of sections, not of the layout; makes all checksums right.
 std::vector<std::byte> changed_file(Mutator& mutator) {
-    std::vector<std::byte> bytes = sound_file(mutator.below(4));
-    detail::FileHeader header;
-    std::memcpy(&header, bytes.data(), sizeof header);
-    std::vector<detail::SectionEntry> table(header.section_count);
-    std::memcpy(table.data(), bytes.data() + sizeof header, table.size() * sizeof table[0]);
+    SoundFile file(mutator.below(kVolumeKinds));
     for (size_t change = mutator.below(3) + 1; change > 0; --change) {
-        detail::SectionEntry& entry = table[mutator.below(table.size())];
-        const auto section = std::span(bytes).subspan(entry.offset, entry.size());
-        mutator.change_bytes(section);
-        entry.checksum = detail::checksum(section);
+        mutator.change_bytes(file.section(mutator.below(file.section_count())));
     }
-    std::memcpy(bytes.data() + sizeof header, table.data(), table.size() * sizeof table[0]);
-    header.checksum = detail::header_checksum(header, table);
-    std::memcpy(bytes.data(), &header, sizeof header);
-    return bytes;
+    return file.finish();
 }
 
 std::vector<glm::vec3> query_positions() {
@@ -127,12 +83,15 @@ std::string relight(const ProbeVolumeView& volume) {
     return status ? "" : "relit: " + error_text(status.error());
 }
 
-}  // namespace
+/// What is wrong with how a file is taken, and whether it is taken for valid.
+struct Verdict {
+    std::string problem;
+    bool is_valid = false;
+};
 
-std::string fuzz_probe_file(uint64_t seed) {
+Verdict judge(std::span<const std::byte> bytes) {
     static const TempFolder folder;
-    Mutator mutator(seed);
-    const auto file = open_probe_file_lazy(folder.write("a.probes", changed_file(mutator)));
+    const auto file = open_probe_file_lazy(folder.write("a.probes", bytes));
     if (!file) return {};
     const bool is_verified = static_cast<bool>(verify(*file));
     const bool is_valid = is_verified && validate(file->view()).problems().empty();
@@ -141,7 +100,19 @@ std::string fuzz_probe_file(uint64_t seed) {
     if (problem.empty() && is_verified && !file->view().layers.empty()) {
         problem = relight(file->view());
     }
-    return problem;
+    return {problem, is_valid};
+}
+
+}  // namespace
+
+std::string fuzz_probe_file(uint64_t seed) {
+    Mutator mutator(seed);
+    return judge(changed_file(mutator)).problem;
+}
+
+std::string replay_probe_file(const std::string& path) {
+    const Verdict verdict = judge(file_of_changes(path));
+    return verdict.problem.empty() && verdict.is_valid ? "is taken for valid" : verdict.problem;
 }
 
 }  // namespace tetralight::fuzz

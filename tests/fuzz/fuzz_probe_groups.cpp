@@ -18,6 +18,11 @@
 namespace tetralight::fuzz {
 namespace {
 
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 /// The files of tests/fuzz/groups, in the order of their names.
 const std::vector<std::string>& sound_texts() {
     static const auto texts = [] {
@@ -27,36 +32,49 @@ const std::vector<std::string>& sound_texts() {
         }
         std::ranges::sort(paths);
         std::vector<std::string> all;
-        for (const auto& path : paths) {
-            std::ifstream file(path, std::ios::binary);
-            all.emplace_back(std::istreambuf_iterator<char>(file),
-                             std::istreambuf_iterator<char>());
-        }
+        for (const auto& path : paths) all.push_back(text_of(path));
         return all;
     }();
     return texts;
 }
 
-}  // namespace
+/// What is wrong with how a text is taken, and whether it is refused.
+struct Verdict {
+    std::string problem;
+    bool is_refused = false;
+};
 
-std::string fuzz_probe_groups(uint64_t seed) {
+Verdict judge(const std::string& text) {
     static const TempFolder folder;
-    Mutator mutator(seed);
-    std::string text = sound_texts()[mutator.below(sound_texts().size())];
-    for (size_t change = mutator.below(4); change > 0; --change) mutator.change_text(text);
     const std::string path = folder.write("a.json", text);
     const auto groups = read_probe_groups(path);
     if (!groups) {
         const std::string message = error_text(groups.error());
-        return message.starts_with(path) ? ""
-                                         : str_cat("the error does not name the file: ", message);
+        const bool is_named = message.starts_with(path);
+        return {is_named ? "" : str_cat("the error does not name the file: ", message), true};
     }
     const auto merged = merge(*groups);
-    if (!merged) return {};
+    if (!merged) return {"", true};
     const ProbeVolume volume = make_probe_volume(*merged);
-    if (const auto status = verify(volume.view()); !status) return error_text(status.error());
+    if (const auto status = verify(volume.view()); !status) return {error_text(status.error())};
     const auto problems = validate(volume.view()).problems();
-    return problems.empty() ? "" : problems[0];
+    return {problems.empty() ? "" : problems[0]};
+}
+
+}  // namespace
+
+std::string fuzz_probe_groups(uint64_t seed) {
+    Mutator mutator(seed);
+    std::string text = sound_texts()[mutator.below(sound_texts().size())];
+    for (size_t change = mutator.below(4); change > 0; --change) mutator.change_text(text);
+    return judge(text).problem;
+}
+
+std::string replay_probe_groups(const std::string& path) {
+    const Verdict verdict = judge(text_of(path));
+    const bool must_be_refused =
+        std::filesystem::path(path).filename().string().starts_with("refused_");
+    return must_be_refused && !verdict.is_refused ? "is not refused" : verdict.problem;
 }
 
 }  // namespace tetralight::fuzz

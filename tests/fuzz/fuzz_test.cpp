@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fixed number of cases of each target; `./run fuzz NAME SECONDS` runs more.
+// The corpus, and a fixed number of cases of each target; `./run fuzz NAME SECONDS` runs more.
 #include <gtest/gtest.h>
+
+#include <filesystem>
 
 #include "tests/fuzz/targets.h"
 
@@ -17,6 +19,16 @@ TEST_P(Fuzz, FindsNothing) {
     for (uint64_t seed = 1; seed <= kCaseCount; ++seed) {
         ASSERT_EQ(GetParam().run(seed), "") << "seed " << seed;
     }
+}
+
+TEST_P(Fuzz, TakesNothingOfTheCorpusWronglyAgain) {
+    const std::string folder = TETRALIGHT_FUZZ_CORPUS "/" + std::string(GetParam().name);
+    size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        EXPECT_EQ(GetParam().replay(entry.path().string()), "") << entry.path();
+        ++count;
+    }
+    EXPECT_GT(count, 0u);
 }
 
 }  // namespace

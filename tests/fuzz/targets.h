@@ -20,9 +20,18 @@ namespace tetralight::fuzz {
 /// Groups of probes as JSON: read with an error, or merged and joined to a volume that is valid.
 [[nodiscard]] std::string fuzz_probe_groups(uint64_t seed);
 
+// One case of the corpus: what was taken wrongly once (tests/fuzz/corpus/NAME).
+
+/// A text of `file_of_changes`: the file must be refused.
+[[nodiscard]] std::string replay_probe_file(const std::string& path);
+
+/// JSON; must be refused if the name of the file begins with "refused_".
+[[nodiscard]] std::string replay_probe_groups(const std::string& path);
+
 struct Target {
     std::string_view name;
-    std::string (*run)(uint64_t seed);  ///< empty: nothing is wrong
+    std::string (*run)(uint64_t seed);                    ///< empty: nothing is wrong
+    std::string (*replay)(const std::string& path) = {};  ///< the same
 };
 
 [[nodiscard]] std::span<const Target> targets();

@@ -36,7 +36,7 @@ class Faults:
 
     def __init__(self, root, folder, with_log=False):
         state, self.log = os.path.join(folder, "fault.state"), os.path.join(folder, "fault.log")
-        size = 4 * (6 + len(CALLS))
+        size = 4 * (7 + len(CALLS))
         with open(state, "wb") as file:
             file.write(bytes(size))
         with open(state, "r+b") as file:
@@ -60,6 +60,10 @@ class Faults:
         self._set(2, number)
         self._set(1, 0 if call is None else 1 + CALLS.index(call))
         self._set(0, 1)
+
+    def hang(self, is_hanging):
+        """Whether the disk gives no answers."""
+        self._set(6 + len(CALLS), int(is_hanging))
 
     def disarm(self):
         self._set(1, 0)

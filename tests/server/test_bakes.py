@@ -41,7 +41,7 @@ class BakeTest(ServiceTest):
         return server.get(f"/v1/volumes/{answer['volume']}/file").body
 
     def chunk_folder(self, bake):
-        return os.path.join(self.data, "bakes", bake, "chunks")
+        return os.path.join(self.data, "bakes", bake, "results", "chunks")
 
     def wait_for_chunks(self, bake, count):
         for _ in range(6000):  # a bake gives way to all other programs of the machine
@@ -178,6 +178,22 @@ class Bakes(BakeTest):
         server = self.start()
         self.assertEqual(self.file_of(server, bake), expected)
 
+    def test_a_bake_of_an_earlier_version_continues(self):
+        expected = self.baked_by_command("--samples", str(SLOW["samples"]), "-b", "4")
+        server = self.start()
+        bake = self.begin(server, **SLOW)
+        self.wait_for_chunks(bake, 2)
+        server.kill()
+        folder = os.path.join(self.data, "bakes", bake)
+        # Its results lay beside its inputs.
+        for name in os.listdir(os.path.join(folder, "results")):
+            os.rename(os.path.join(folder, "results", name), os.path.join(folder, name))
+        os.rmdir(os.path.join(folder, "results"))
+        chunks = len(os.listdir(os.path.join(folder, "chunks")))
+        server = self.start()
+        self.assertGreaterEqual(len(self.wait_for_chunks(bake, chunks)), chunks)
+        self.assertEqual(self.file_of(server, bake), expected)
+
     def test_sigterm_leaves_a_bake_for_the_next_time(self):
         server = self.start()
         bake = self.begin(server, **SLOW)
@@ -304,7 +320,7 @@ class Bakes(BakeTest):
         self.wait_for_chunks(bake, 3)
         server.kill()
         # A claim of the run before, which no run could keep.
-        with open(os.path.join(self.data, "bakes", bake, "progress.json"), "w") as file:
+        with open(os.path.join(self.data, "bakes", bake, "results", "progress.json"), "w") as file:
             json.dump({"probe_count": 1, "rays_per_second": 1e30, "seconds_left": 1e30}, file)
         server = self.start()
         seen = []

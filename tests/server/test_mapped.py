@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files that change under an open volume: no wrong light, and the server stays."""
 import os
+import threading
 import unittest
 
+from service import read
 from test_files import VolumeTest
 
 QUERY = {"positions": [[0.5, 0.5, 0.5]] * 100}
@@ -66,6 +68,48 @@ class Mapped(Changed):
         os.truncate(self.path, os.path.getsize(self.path) // 2)
         statuses = {self.query().status for _ in range(20)}
         self.assertLessEqual(statuses, {410, 503})
+        self.assert_condemned()
+
+
+    def test_zeros_that_were_written_into_a_file_are_found_at_the_next_request(self):
+        self.assertEqual(self.query().body, self.light)
+        self.write_zeros()
+        self.assert_condemned()
+
+    def test_a_volume_whose_file_was_written_with_the_same_bytes_is_verified_and_served(self):
+        data = read(self.path)
+        with open(self.path, "r+b") as file:
+            file.write(data)
+        self.assertEqual(self.query().body, self.light)
+
+    def test_zeros_under_the_old_time_are_found_in_the_background(self):
+        time = os.stat(self.path).st_mtime_ns
+        self.write_zeros()
+        os.utime(self.path, ns=(time, time))
+        self.query()  # sees that something about the file has changed
+        self.assertTrue(self.eventually(lambda: self.query().status == 410))
+        self.assert_condemned()
+
+    def test_no_answer_is_wrong_while_a_file_is_overwritten(self):
+        """Of a file that is changed at any moment: the right light, or a problem."""
+        done = threading.Event()
+        bodies = set()
+
+        def ask():
+            while not done.is_set():
+                answer = self.query()
+                bodies.add(answer.body if answer.status == 200 else answer.status)
+
+        threads = [threading.Thread(target=ask) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        self.assertTrue(self.eventually(lambda: bodies))
+        self.write_zeros()
+        self.assertTrue(self.eventually(lambda: 410 in bodies))
+        done.set()
+        for thread in threads:
+            thread.join()
+        self.assertLessEqual(bodies, {self.light, 410, 503})
         self.assert_condemned()
 
 

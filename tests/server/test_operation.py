@@ -9,6 +9,7 @@ import subprocess
 import threading
 import unittest
 
+from faults import SHIM, Faults
 from service import COURTYARD, ServiceTest, lattice, write_groups
 
 
@@ -60,11 +61,14 @@ class Log(ServiceTest):
 
 class Readiness(ServiceTest):
     def assert_not_ready(self, server, words):
-        answer = server.get("/readyz")
-        self.assertEqual(answer.status, 503)
-        self.assertIn(words, answer.body.decode())
+        """Soon: the server looks four times a second."""
+        self.assertTrue(self.eventually(lambda: words in server.get("/readyz").body.decode()))
+        self.assertEqual(server.get("/readyz").status, 503)
         self.assertIn("\ntetralight_ready 0\n", server.get("/metrics").body.decode())
         self.assertEqual(server.get("/healthz").status, 200)
+
+    def assert_ready(self, server):
+        self.assertTrue(self.eventually(lambda: server.get("/readyz").status == 200))
 
     def test_another_folder_under_the_same_path_is_not_ready(self):
         server = self.start()
@@ -80,7 +84,7 @@ class Readiness(ServiceTest):
         self.assert_not_ready(server, "not the one")
         shutil.rmtree(self.data)
         os.rename(aside, self.data)
-        self.assertEqual(server.get("/readyz").status, 200)
+        self.assert_ready(server)
 
     def test_without_its_database_a_server_is_not_ready(self):
         server = self.start()
@@ -90,7 +94,7 @@ class Readiness(ServiceTest):
         shutil.copy(database + ".aside", database)
         self.assert_not_ready(server, "not the one")
         os.replace(database + ".aside", database)
-        self.assertEqual(server.get("/readyz").status, 200)
+        self.assert_ready(server)
 
     def test_a_reader_is_ready_where_there_is_an_index(self):
         self.start()
@@ -103,7 +107,28 @@ class Readiness(ServiceTest):
         self.assert_not_ready(server, "index.json")
         os.rmdir(self.data)
         os.rename(aside, self.data)
-        self.assertEqual(server.get("/readyz").status, 200)
+        self.assert_ready(server)
+
+    @unittest.skipUnless(SHIM, "sanitizers do not go with preloaded libraries")
+    def test_a_disk_that_does_not_answer_stops_no_thread_of_the_network(self):
+        groups = os.path.join(self.folder, "groups.json")
+        write_groups(groups, lattice(2))
+        self.command("tetrahedralize", groups, "-o", self.data + ".probes")
+        os.mkdir(self.data)
+        faults = Faults(self.data, self.folder)
+        server = self.start("--threads", "1", env=faults.env)
+        self.upload(server, "volumes", self.data + ".probes", "level")
+        query = lambda: server.post("/v1/volumes/level/query", {"positions": [[0.5, 0.5, 0.5]]}).body
+        light = query()
+        faults.hang(True)
+        try:
+            self.assert_not_ready(server, "does not answer")
+            for path in ("/healthz", "/metrics", "/v1/volumes/level", "/v1/bakes"):
+                self.assertEqual(server.get(path).status, 200, path)
+            self.assertEqual(query(), light)
+        finally:
+            faults.hang(False)
+        self.assert_ready(server)
 
 
 class Programs(ServiceTest):
@@ -156,6 +181,32 @@ class Programs(ServiceTest):
             answer = server.post("/v1/scenes", file.read())
         self.assertIn(answer.status, (500, 503), answer.body)
         self.assertEqual(server.get("/healthz").status, 200)
+
+
+REACH_PROBE = os.environ.get("TETRALIGHT_REACH_PROBE", "")
+
+
+@unittest.skipUnless(REACH_PROBE, "sanitizers do not go with preloaded libraries")
+class FilesOfPrograms(ServiceTest):
+    """What programs that read uploads may open."""
+
+    CAN_READ_OTHER_FILES, CAN_WRITE_THE_UPLOAD, CAN_WRITE_RESULTS = 1, 2, 4
+
+    def test_programs_reach_their_own_files_only(self):
+        secret = os.path.join(self.folder, "secret")
+        with open(secret, "w", encoding="utf-8") as file:
+            file.write("secret")
+        server = self.start(env={"LD_PRELOAD": REACH_PROBE, "TETRALIGHT_REACH_FILE": secret})
+        answer = server.post("/v1/volumes", b"any bytes")
+        problem = self.assert_problem(answer, 500, "tool_failed")
+        code = int(re.search(r"exit code (\d+)", problem["detail"])[1]) - 64
+        self.assertTrue(code & self.CAN_WRITE_RESULTS)
+        versions = lambda: [line["landlock"] for line in server.logged() if line["message"] == "serving"]
+        self.assertTrue(self.eventually(versions))
+        if versions() == [0]:
+            self.skipTest("the kernel has no Landlock, as the log says")
+        self.assertFalse(code & self.CAN_READ_OTHER_FILES)
+        self.assertFalse(code & self.CAN_WRITE_THE_UPLOAD)
 
 
 class MetricsOfRequests(ServiceTest):

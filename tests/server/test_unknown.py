@@ -115,7 +115,7 @@ class UnknownBakes(test_bakes.BakeTest):
         server = self.start()
         aside = os.path.join(self.data, "quarantine", "bake-" + bake)
         self.assertEqual(read(os.path.join(aside, "scene")), read(COURTYARD))
-        self.assertTrue(os.listdir(os.path.join(aside, "chunks")))
+        self.assertTrue(os.listdir(os.path.join(aside, "results", "chunks")))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -17,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 
 // Between fork and exec only system calls are allowed, so that nothing here allocates.
 
@@ -32,15 +34,17 @@ struct Shim {
 
 Shim shim;
 
-int raw_open(const char* path, int flags) {
-    return static_cast<int>(::syscall(SYS_openat, AT_FDCWD, path, flags | O_CLOEXEC, 0644));
-}
-
-/// A descriptor that the limit of the server does not count as one of its own next ones.
-int move_up(int file) {
-    const int high = ::fcntl(file, F_DUPFD_CLOEXEC, 900);
-    if (high < 0) return file;
+/// Opens a file of the test. Programs that this one executes inherit it, because they may be unable
+/// to open it themselves; `variable` tells them its number.
+int open_shared(const char* variable, const char* path, int flags) {
+    if (const char* inherited = std::getenv(variable)) return std::atoi(inherited);
+    const int file = static_cast<int>(::syscall(SYS_openat, AT_FDCWD, path, flags, 0644));
+    // One that the limit of the server does not count as one of its own next ones.
+    const int high = ::fcntl(file, F_DUPFD, 900);
     ::syscall(SYS_close, file);
+    char number[16];
+    std::snprintf(number, sizeof number, "%d", high);
+    ::setenv(variable, number, 1);
     return high;
 }
 
@@ -51,12 +55,12 @@ __attribute__((constructor)) void begin() {
     if (root == nullptr || state == nullptr) return;
     shim.root_length = std::strlen(root);
     std::memcpy(shim.root, root, shim.root_length + 1);
-    const int file = raw_open(state, O_RDWR);
+    const int file = open_shared("TETRALIGHT_FAULT_STATE_FILE", state, O_RDWR);
     void* memory = reinterpret_cast<void*>(::syscall(SYS_mmap, nullptr, sizeof(FaultState),
                                                      PROT_READ | PROT_WRITE, MAP_SHARED, file, 0));
-    ::syscall(SYS_close, file);
     if (memory != MAP_FAILED) shim.state = static_cast<FaultState*>(memory);
-    if (log != nullptr) shim.log = move_up(raw_open(log, O_WRONLY | O_APPEND | O_CREAT));
+    if (log == nullptr) return;
+    shim.log = open_shared("TETRALIGHT_FAULT_LOG_FILE", log, O_WRONLY | O_APPEND | O_CREAT);
 }
 
 bool is_below_root(const char* path) {
@@ -81,7 +85,11 @@ bool find_path(int folder, const char* name, char* path) {
 }
 
 bool is_watched(int folder, const char* name, char* path) {
-    return shim.state != nullptr && find_path(folder, name, path) && is_below_root(path);
+    if (shim.state == nullptr || !find_path(folder, name, path) || !is_below_root(path))
+        return false;
+    constexpr timespec kPause{0, 10'000'000};
+    while (shim.state->is_hanging != 0) ::nanosleep(&kPause, nullptr);
+    return true;
 }
 
 /// How often progress is written and read depends on the time.
@@ -388,6 +396,26 @@ int unlinkat(int folder, const char* path, int flags) {
 int remove(const char* path) {
     const int done = unlink_watched(AT_FDCWD, path, 0);
     return done != 0 && errno == EISDIR ? unlink_watched(AT_FDCWD, path, AT_REMOVEDIR) : done;
+}
+
+int stat(const char* path, struct stat* facts) {
+    char full[PATH_MAX];
+    (void)is_watched(AT_FDCWD, path, full);
+    return static_cast<int>(::syscall(SYS_newfstatat, AT_FDCWD, path, facts, 0));
+}
+
+int access(const char* path, int mode) {
+    char full[PATH_MAX];
+    (void)is_watched(AT_FDCWD, path, full);
+    return static_cast<int>(::syscall(SYS_faccessat, AT_FDCWD, path, mode));
+}
+
+int statvfs(const char* path, struct statvfs* disk) {
+    char full[PATH_MAX];
+    (void)is_watched(AT_FDCWD, path, full);
+    static const auto next =
+        reinterpret_cast<int (*)(const char*, struct statvfs*)>(::dlsym(RTLD_NEXT, "statvfs"));
+    return next(path, disk);
 }
 
 int ftruncate(int file, off_t size) {

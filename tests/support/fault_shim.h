@@ -48,6 +48,9 @@ struct FaultState {
     /// Held while a change is made and recorded.
     std::atomic<uint32_t> lock;
     std::atomic<uint32_t> counts[static_cast<uint32_t>(Call::Count)];
+    /// While it is not 0, no call on a file below the folder returns, like those on a disk of the
+    /// network that does not answer. `stat`, `access` and `statvfs` wait, too.
+    std::atomic<uint32_t> is_hanging;
 };
 
 }  // namespace tetralight::faults

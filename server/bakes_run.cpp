@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a bake runs and ends.
+#include <tetralight/server/bakes.h>
+
+#include <filesystem>
+#include <new>
+
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/server/job.h>
+#include <tetralight/server/problem.h>
+
+namespace tetralight::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In the folder of a bake.
+constexpr const char* kChunks = "results/chunks";
+constexpr const char* kProgress = "results/progress.json";
+constexpr const char* kResult = "results/result.probes";
+
+/// The progress file of the running command; an empty object if there is none.
+Json read_pace(const std::string& path) {
+    const auto bytes = read_file(path);
+    return bytes ? object_in(*bytes) : Json::object();
+}
+
+/// In bakes that an earlier version accepted, the inputs have other names ("groups_0.json" instead
+/// of "groups[0]"), and finished probes lie beside them.
+void rename_old_files(const std::string& folder) {
+    std::error_code ignored;
+    fs::create_directory(folder + "/" + kResults, ignored);
+    fs::rename(folder + "/chunks", folder + "/" + kChunks, ignored);
+    for (const char* name : {"progress.json", "result.probes"}) remove_all(folder + "/" + name);
+    for (const std::string& old_name : names_in(folder, ignored)) {
+        const fs::path path = folder + "/" + old_name;
+        const std::string extension = path.extension().string(), stem = path.stem().string();
+        const bool is_old =
+            (extension == ".glb" || extension == ".hdr" || extension == ".json" ||
+             extension == ".probes") &&
+            (stem == "scene" || stem == "sky" || stem == "reuse" || stem.starts_with("groups_"));
+        const size_t number = stem.find('_');
+        const std::string name =
+            number == std::string::npos ? stem : str_cat("groups[", stem.substr(number + 1), "]");
+        if (is_old) fs::rename(path, folder + "/" + name, ignored);
+    }
+}
+
+/// What is out of reach or used up for now keeps its status, 503.
+Problem bake_problem(const Error& error) {
+    const bool can_wait =
+        error.code == ErrorCode::Unavailable || error.code == ErrorCode::OutOfResources;
+    return can_wait ? storage_problem(error) : Problem{500, "bake_failed", detail_of(error)};
+}
+
+}  // namespace
+
+/// Only the first end of a bake counts.
+void Bakes::end(const std::string& id, const std::string& state, const std::string& volume,
+                const std::string& error, const Json& report) {
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    if (found == bakes_.end() || is_final(found->second.state)) return;
+    Bake bake = found->second;
+    bake.state = state;
+    bake.volume = volume;
+    bake.error = error;
+    bake.report = report;
+    bake.ended = now();
+    if (state == "done") bake.probes_done = bake.probe_count = report.value("probes", 0u);
+    store_.with_reserve([&] {
+        store_.database().run(
+            "UPDATE bakes SET state = ?, volume = ?, error = ?, report = ?, ended = ?, "
+            "probes_done = ?, probe_count = ? WHERE id = ?",
+            {state, volume, error, report.empty() ? "" : dump(report), bake.ended,
+             static_cast<int64_t>(bake.probes_done), static_cast<int64_t>(bake.probe_count), id});
+    });
+    found->second = std::move(bake);
+    log_.write(Log::Level::Info, "a bake has ended",
+               {{"bake", id}, {"state", state}, {"volume", volume}, {"error", error}});
+}
+
+/// Puts a bake back into the queue, and waits, if it lacks a file or resources that may come back.
+/// Returns false if it must fail.
+bool Bakes::wait_to_retry(const std::string& id, const Problem& problem) {
+    constexpr int kMostRetries = 3;
+    std::unique_lock lock(mutex_);
+    const auto found = bakes_.find(id);
+    if (problem.status != 503 || found == bakes_.end() || found->second.state != "running" ||
+        found->second.retries == kMostRetries) {
+        return false;
+    }
+    found->second.state = "queued";
+    const auto delay = std::chrono::seconds(1 << found->second.retries++);
+    log_.write(Log::Level::Warning, "a bake waits to be tried again",
+               {{"bake", id}, {"error", problem.detail}, {"seconds", delay.count()}});
+    wake_.wait_for(lock, delay, [&] { return is_ending_; });
+    return true;
+}
+
+/// Returns false if the end could not be stored. The bake then keeps its folder and continues at
+/// the next start.
+bool Bakes::fail(const std::string& id, const std::string& error) {
+    try {
+        end(id, "failed", "", error, {});
+        return true;
+    } catch (const Problem& problem) {
+        log_.write(Log::Level::Error, "the end of a bake could not be stored",
+                   {{"bake", id}, {"error", problem.detail}});
+    }
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    if (found == bakes_.end()) return true;
+    found->second.state = "failed";
+    found->second.error = error;
+    return false;
+}
+
+Bakes::Bake* Bakes::next_locked() {
+    Bake* next = nullptr;
+    for (auto& [id, bake] : bakes_) {
+        if (bake.state != "queued") continue;
+        const bool is_before = next == nullptr || bake.priority > next->priority ||
+                               (bake.priority == next->priority && bake.number < next->number);
+        if (is_before) next = &bake;
+    }
+    return next;
+}
+
+void Bakes::run() {
+    while (true) {
+        std::unique_lock lock(mutex_);
+        Bake* next = nullptr;
+        wake_.wait(lock, [&] { return is_ending_ || (next = next_locked()) != nullptr; });
+        if (is_ending_) return;
+        next->state = "running";
+        const std::string id = next->id;
+        const Json request = next->request;
+        const std::string name = next->name;
+        lock.unlock();
+        log_.write(Log::Level::Info, "a bake begins", {{"bake", id}});
+        if (const auto problem = try_bake(id, request, name)) {
+            if (wait_to_retry(id, *problem) || !fail(id, problem->detail)) continue;
+        }
+        if (is_over(id)) remove_all(store_.bake_folder(id));
+        store_.keep_reserve();
+    }
+}
+
+bool Bakes::is_cancelled(const std::string& id) {
+    update_progress(id);
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    return is_ending_ || found == bakes_.end() || found->second.state != "running";
+}
+
+void Bakes::update_progress(const std::string& id) {
+    const std::string folder = store_.bake_folder(id) + "/";
+    const Json pace = read_pace(folder + kProgress);
+    const std::lock_guard lock(mutex_);
+    const auto found = bakes_.find(id);
+    if (found == bakes_.end()) return;
+    Bake& bake = found->second;
+    bake.probes_done = pace.value("probes_done", bake.probes_done);
+    bake.probe_count = pace.value("probe_count", bake.probe_count);
+    bake.rays_per_second = pace.value("rays_per_second", Json());
+    bake.seconds_left = pace.value("seconds_left", Json());
+}
+
+/// Why a bake could not end; nothing if it did.
+std::optional<Problem> Bakes::try_bake(const std::string& id, const Json& request,
+                                       const std::string& name) {
+    try {
+        run_bake(id, request, name);
+        return std::nullopt;
+    } catch (const Problem& problem) {
+        return problem;
+    } catch (const std::bad_alloc&) {
+        return Problem{503, "no_memory", "not enough memory"};
+    } catch (const std::exception& exception) {
+        return Problem{500, "internal", exception.what()};
+    }
+}
+
+void Bakes::run_bake(const std::string& id, const Json& request, const std::string& name) {
+    using End = JobResult::End;
+    const std::string folder = store_.bake_folder(id);
+    const auto run = [&](Job job) {
+        job.folder = folder;
+        return run_job(settings_, job);
+    };
+    rename_old_files(folder);
+    remove_all(folder + "/" + kProgress);  // of an earlier run
+    Json order = job_settings(settings::kBake, request);
+    order.update({{"output", kResult}, {"chunks", kChunks}, {"progress_file", kProgress}});
+    update_progress(id);
+    const JobResult bake =
+        run({.command = "bake", .settings = order, .is_background = true, .is_cancelled = [&] {
+                 return is_cancelled(id);
+             }});
+    // When the server stops, the bake keeps its state and continues at the next start.
+    if (bake.end == End::Cancelled) return;
+    if (bake.end != End::Done) throw bake_problem(bake.error);
+    const JobResult info = run({.command = "info", .settings = {{"volume", kResult}}});
+    if (info.end != End::Done) throw bake_problem(info.error);
+    std::string volume;
+    store_.with_reserve([&] {
+        volume = store_.add(Kind::Volumes, folder + "/" + kResult, name, info.report).file.id;
+    });
+    end(id, "done", volume, "", bake.report);
+}
+
+}  // namespace tetralight::server
