@@ -131,6 +131,7 @@ class Readiness(ServiceTest):
         self.assert_ready(server)
 
 
+@unittest.skipUnless(SHIM, "sanitizers reserve more memory than the limits")
 class Programs(ServiceTest):
     """Limits of the programs that read what clients upload."""
 
