@@ -43,8 +43,13 @@ bool is_utf8(std::string_view bytes) noexcept {
 }
 
 bool has_control_character(std::string_view text) noexcept {
-    return std::ranges::any_of(text,
-                               [](char c) { return is_in(c, 0x00, 0x1f) || is_in(c, 0x7f, 0x7f); });
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (is_in(text[i], 0x00, 0x1f) || is_in(text[i], 0x7f, 0x7f)) return true;
+        const bool is_c1 =
+            text[i] == '\xc2' && i + 1 < text.size() && is_in(text[i + 1], 0x80, 0x9f);
+        if (is_c1) return true;
+    }
+    return false;
 }
 
 Status check_characters(std::string_view name) {

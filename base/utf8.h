@@ -10,7 +10,7 @@ namespace tetralight {
 /// True if bytes are UTF-8 (RFC 3629): no overlong forms, surrogates or values above U+10FFFF.
 [[nodiscard]] bool is_utf8(std::string_view bytes) noexcept;
 
-/// True if the text holds a line break or another control character of ASCII.
+/// True if the text holds a line break or another control character (C0, DEL, C1 in UTF-8).
 [[nodiscard]] bool has_control_character(std::string_view text) noexcept;
 
 /// Returns invalid_argument if the name of a group, a light or a layer holds a control character or

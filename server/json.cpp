@@ -53,7 +53,7 @@ void check_duplicates(std::string_view text, const Json& json) {
 }  // namespace
 
 Json parse_object(std::string_view body) {
-    if (auto status = check_json_depth(body); !status) {
+    if (auto status = check_json_shape(body); !status) {
         throw Problem{400, "invalid_json", detail_of(status.error()), "body"};
     }
     try {

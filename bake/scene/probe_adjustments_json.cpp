@@ -135,7 +135,7 @@ Result<std::vector<ProbeAdjustment>> read_adjustments(const json& document) {
 
 Result<std::vector<ProbeAdjustment>> parse(std::span<const std::byte> bytes) {
     const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (auto status = check_json_depth(characters); !status) return status.error();
+    if (auto status = check_json_shape(characters); !status) return status.error();
     try {
         if (const auto key = find_duplicate_key(characters)) {
             return Error{ErrorCode::Corrupt, *key, "",

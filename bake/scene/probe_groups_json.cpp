@@ -221,7 +221,7 @@ Status check_first_bytes(std::string_view bytes) {
 Result<std::vector<ProbeGroup>> parse_groups(std::span<const std::byte> bytes) {
     const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (auto status = check_first_bytes(characters); !status) return status.error();
-    if (auto status = check_json_depth(characters); !status) return status.error();
+    if (auto status = check_json_shape(characters); !status) return status.error();
     ParsePlace place;
     try {
         const json document = json::parse(characters, std::ref(place));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/base/json/json_text.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
@@ -9,8 +10,9 @@
 
 namespace tetralight {
 
-Status check_json_depth(std::string_view json) {
+Status check_json_shape(std::string_view json) {
     int depth = 0;
+    std::array<int, kDeepestJson + 1> member_counts{};
     bool is_in_string = false;
     for (size_t i = 0; i < json.size(); ++i) {
         const char c = json[i];
@@ -24,6 +26,12 @@ Status check_json_depth(std::string_view json) {
                 return Error{ErrorCode::InvalidArgument,
                              str_cat("JSON is nested deeper than ", kDeepestJson)};
             }
+            member_counts[static_cast<size_t>(depth)] = 0;
+        } else if (c == ':' && depth >= 0) {
+            if (++member_counts[static_cast<size_t>(depth)] > kMostJsonMembers) {
+                return Error{ErrorCode::InvalidArgument,
+                             str_cat("a JSON object has more than ", kMostJsonMembers, " members")};
+            }
         } else if (c == ']' || c == '}') {
             --depth;
         }
@@ -32,7 +40,7 @@ Status check_json_depth(std::string_view json) {
 }
 
 Status check_json_object(std::string_view json) {
-    if (auto status = check_json_depth(json); !status) return status;
+    if (auto status = check_json_shape(json); !status) return status;
     try {
         if (nlohmann::json::parse(json).is_object()) return Ok{};
     } catch (const nlohmann::json::exception& exception) {

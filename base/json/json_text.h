@@ -16,9 +16,14 @@ namespace tetralight {
 /// code that handles JSON calls itself once a level.
 inline constexpr int kDeepestJson = 64;
 
-/// Returns an error if JSON is nested deeper than `kDeepestJson`. It counts brackets outside of
-/// strings and finds no other errors.
-[[nodiscard]] Status check_json_depth(std::string_view json);
+/// The largest number of members of one object that is accepted. Objects that keep the order of
+/// their members search them one after the other.
+inline constexpr int kMostJsonMembers = 4096;
+
+/// Returns an error if JSON is nested deeper than `kDeepestJson`, or an object has more than
+/// `kMostJsonMembers` members. It counts brackets and colons outside of strings and finds no other
+/// errors.
+[[nodiscard]] Status check_json_shape(std::string_view json);
 
 /// Returns an error unless the text is one JSON object (RFC 8259) in UTF-8, not nested too deep.
 [[nodiscard]] Status check_json_object(std::string_view json);

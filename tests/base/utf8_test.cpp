@@ -26,7 +26,12 @@ TEST(Utf8, RefusesOverlongFormsSurrogatesAndWhatIsCutOff) {
 
 TEST(Utf8, RefusesNamesWithControlCharactersOrOtherBytes) {
     EXPECT_TRUE(check_characters("Lampe \xc3\xa4"));
-    for (const char* name : {"a\nb", "a\tb", "\x7f"}) {
+    EXPECT_TRUE(
+        check_characters("20\xc2\xa0"
+                         "m\xc2\xb2"));  // the first character after C1 is a space
+    for (const char* name : {"a\nb", "a\tb", "\x7f",
+                             "a\xc2\x9b"
+                             "31m"}) {
         EXPECT_EQ(error_text(check_characters(name).error()),
                   "the name holds a line break or another control character");
     }

@@ -146,7 +146,7 @@ Status check_document(const json& document, GltfContainer container) {
 }  // namespace
 
 Status check_gltf_json(std::string_view json_text, GltfContainer container) {
-    if (auto status = check_json_depth(json_text); !status) return status;
+    if (auto status = check_json_shape(json_text); !status) return status;
     try {
         return check_document(json::parse(json_text), container);
     } catch (const std::bad_alloc&) {

@@ -73,6 +73,22 @@ TEST(JsonText, LimitsHowDeepObjectsNest) {
     EXPECT_EQ(error_text(status.error()), "JSON is nested deeper than 64");
 }
 
+std::string with_members(int count) {
+    std::string json = "{";
+    for (int i = 0; i < count; ++i) json += "\"k" + std::to_string(i) + "\":[{\"a:\":1}],";
+    json.back() = '}';
+    return json;
+}
+
+TEST(JsonText, LimitsTheMembersOfAnObject) {
+    EXPECT_TRUE(check_json_object(with_members(4096)));
+    const auto status = check_json_object(with_members(4097));
+    ASSERT_FALSE(status);
+    EXPECT_EQ(error_text(status.error()), "a JSON object has more than 4096 members");
+    EXPECT_TRUE(check_json_shape("[" + with_members(4000) + "," + with_members(4000) + "]"));
+    EXPECT_TRUE(check_json_shape("]]]]:::"));  // the parser finds what is no JSON
+}
+
 TEST(JsonText, FindsAKeyThatAnObjectHasTwice) {
     EXPECT_EQ(find_duplicate_key(R"({"a": 1, "b": {"a": 2}, "c": [{"a": 3}, {"a": 4}]})"),
               std::nullopt);
@@ -82,10 +98,10 @@ TEST(JsonText, FindsAKeyThatAnObjectHasTwice) {
 }
 
 TEST(JsonText, BracketsInStringsDoNotNest) {
-    EXPECT_TRUE(check_json_depth("\"" + std::string(100, '[') + "\""));
-    EXPECT_TRUE(check_json_depth("\"\\\"" + std::string(100, '[') + "\""));
-    EXPECT_FALSE(check_json_depth("\"\\\\\"" + std::string(100, '[')));
-    EXPECT_FALSE(check_json_depth(std::string(300000, '{')));
+    EXPECT_TRUE(check_json_shape("\"" + std::string(100, '[') + "\""));
+    EXPECT_TRUE(check_json_shape("\"\\\"" + std::string(100, '[') + "\""));
+    EXPECT_FALSE(check_json_shape("\"\\\\\"" + std::string(100, '[')));
+    EXPECT_FALSE(check_json_shape(std::string(300000, '{')));
 }
 
 }  // namespace
