@@ -23,6 +23,7 @@ Json report_json(const ValidationReport& report) {
             {"probes_without_source", report.probes_without_source},
             {"misplaced_float_probes", report.misplaced_float_probes},
             {"wrong_compact_probes", report.wrong_compact_probes},
+            {"wrong_layer_sums", report.wrong_layer_sums},
             {"cell_measure", report.cell_measure},
             {"hull_measure", report.hull_measure}};
 }

@@ -11,7 +11,7 @@ namespace {
 /// Halves have 11 bits, and below 2^-14 a step of 2^-24.
 bool is_rounded(uint16_t half, float value) {
     const float step = std::max(std::abs(value) * 0x1p-10f, 0x1p-24f);
-    return std::abs(glm::unpackHalf1x16(half) - value) <= step;
+    return std::isfinite(value) && std::abs(glm::unpackHalf1x16(half) - value) <= step;
 }
 
 bool is_rounded(const CompactProbe& compact, const ProbeVolumeView& volume, size_t probe) {

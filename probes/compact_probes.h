@@ -13,6 +13,10 @@ namespace tetralight {
 /// Without irradiance there are no compact probes.
 void make_compact_probes(ProbeVolume& volume);
 
+/// The largest |coefficient| that a volume's light may have. Irradiance in any direction, which
+/// adds nine of them, is finite then.
+inline constexpr float kLargestCoefficient = 1e37f;
+
 /// The largest |coefficient|, as `Layer::largest` holds it for a layer.
 [[nodiscard]] float largest_coefficient(std::span<const IrradianceSh> irradiance) noexcept;
 

@@ -137,7 +137,7 @@ Result<RecombinedInfo> check_weights(const ProbeVolumeView& volume,
         ambient_bound += ambient;
         info.ambient += weights[k] * volume.layers[k].ambient;
     }
-    if (!(bound < 1e37 && ambient_bound < 1e37)) {
+    if (!(std::max(bound, ambient_bound) < double{kLargestCoefficient})) {
         const size_t k = brightest.second;
         return too_bright(k < names.size() ? names[k] : "", weights[k]);
     }
@@ -169,6 +169,34 @@ void recombine_probes(const ProbeVolumeView& volume, std::span<const float> weig
                         sizeof compact[0].irradiance);
         }
     }
+}
+
+uint32_t count_wrong_sums(const ProbeVolumeView& volume) noexcept {
+    if (volume.layer_irradiance.empty() || volume.irradiance.empty()) return 0;
+    const size_t probes = volume.positions.size();
+    const auto coefficients = [](const IrradianceSh& sh) {
+        return std::span(&sh.coefficients[0].x, kFloats);
+    };
+    uint32_t count = 0;
+    for (size_t probe = 0; probe < probes; ++probe) {
+        std::array<double, kFloats> sum{}, magnitude{};
+        for (size_t k = 0; k < volume.layers.size(); ++k) {
+            const auto part = coefficients(volume.layer_irradiance[k * probes + probe]);
+            for (size_t i = 0; i < kFloats; ++i) {
+                const double term = double{volume.layers[k].weight} * double{part[i]};
+                sum[i] += term;
+                magnitude[i] += std::abs(term);
+            }
+        }
+        const auto stored = coefficients(volume.irradiance[probe]);
+        constexpr double kRounding = 1e-5;
+        bool is_sum = true;
+        for (size_t i = 0; i < kFloats; ++i) {
+            is_sum &= std::abs(sum[i] - double{stored[i]}) <= kRounding * magnitude[i] + 1e-37;
+        }
+        count += !is_sum;
+    }
+    return count;
 }
 
 Status recombine(ProbeVolume& volume, std::span<const float> weights) {

@@ -78,6 +78,10 @@ template <class ParallelFor>
 
 [[nodiscard]] Status recombine(ProbeVolume& volume, std::span<const float> weights);
 
+/// The number of probes whose irradiance is not the weighted sum of their layers, beyond rounding.
+/// 0 if the volume holds no layers or no irradiance. Precondition: `verify`.
+[[nodiscard]] uint32_t count_wrong_sums(const ProbeVolumeView& volume) noexcept;
+
 namespace detail {
 
 /// Records weights and what follows from them.

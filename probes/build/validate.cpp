@@ -12,6 +12,7 @@
 #include <tetralight/probes/build/detail/cgal.h>
 #include <tetralight/probes/build/detail/spread.h>
 #include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/recombine.h>
 
 namespace tetralight {
 namespace {
@@ -255,6 +256,8 @@ std::vector<std::string> ValidationReport::problems() const {
         "float positions differ from the exact ones");
     add(wrong_compact_probes, "compact probe differs from its floats",
         "compact probes differ from their floats");
+    add(wrong_layer_sums, "probe's light is not the sum of its layers",
+        "probes' light is not the sum of their layers");
     if (has_bad_metadata) lines.emplace_back("metadata is not a JSON object");
     const double tolerance = 1e-9 * std::abs(hull_measure) + measure_rounding;
     if (std::abs(cell_measure - hull_measure) > tolerance) {
@@ -277,6 +280,7 @@ ValidationReport validate(const ProbeVolumeView& volume) {
     check_cells(HullRayValidator(volume, positions, report), volume.cells.size());
     check_probes(volume, positions, report);
     report.wrong_compact_probes = count_wrong_compact_probes(volume);
+    report.wrong_layer_sums = count_wrong_sums(volume);
     return report;
 }
 

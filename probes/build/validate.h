@@ -20,6 +20,7 @@ struct ValidationReport {
     uint32_t probes_without_source = 0;   ///< in no group
     uint32_t misplaced_float_probes = 0;  ///< float position is not the rounded exact one
     uint32_t wrong_compact_probes = 0;    ///< halves are not the rounded floats
+    uint32_t wrong_layer_sums = 0;        ///< light is not the weighted sum of the layers
     bool has_bad_metadata = false;        ///< not one JSON object (`check_metadata`)
 
     /// Measure of all inner cells, and of the hull: m³; m² in a plane, m on a line.
@@ -36,7 +37,7 @@ struct ValidationReport {
 /// Checks the geometry of a volume whose structure is sound (see `verify`): the Delaunay property
 /// under exact arithmetic on the stored double positions, orientation, convexity of the hull, hull
 /// rays that lead away from it, every probe present, sum of the cells = content of the hull.
-/// Compact probes have to equal the rounded floats. Flat volumes are checked in their plane. Hull
+/// Compact probes have to equal the rounded floats, and light the weighted sum of its layers. Flat volumes are checked in their plane. Hull
 /// rays are not checked if there are none. A volume without exact positions is checked on its float
 /// ones.
 [[nodiscard]] ValidationReport validate(const ProbeVolumeView& volume);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <vector>
 
 #include <tetralight/base/str_cat.h>
@@ -81,7 +82,12 @@ Result<std::span<const SectionEntry>> read_section_table(std::span<const std::by
                      "the header or the section table is corrupt (wrong checksum)"};
     }
     uint64_t end = sizeof header + table_size;
+    std::set<std::string> names;
     for (const SectionEntry& entry : table) {
+        if (!names.insert(section_name(entry)).second) {
+            return Error{ErrorCode::Corrupt, section_name(entry), "",
+                         str_cat("section \"", section_name(entry), "\" occurs twice")};
+        }
         if (auto status = check_entry(entry, end, file.size()); !status) return status.error();
         end = entry.offset + entry.size();
     }

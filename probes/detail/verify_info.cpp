@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/farthest_position.h>
 #include <tetralight/probes/is_finite.h>
@@ -94,7 +95,10 @@ Status check_info(const ProbeVolumeView& volume) {
         return info_error("world_origin",
                           str_cat("the origin is not within ", kFarthestPosition, " m"));
     }
-    if (!is_finite(info.ambient)) return info_error("ambient", "a number is not finite");
+    const float ambient = largest_coefficient(std::span(&info.ambient, 1));
+    if (!is_finite(info.ambient) || ambient > kLargestCoefficient) {
+        return info_error("ambient", "a coefficient is not finite, or above 1e37");
+    }
     if (!(info.radial_fraction >= 0.0f && info.radial_fraction <= 1.0f)) {
         return info_error("radial_fraction",
                           str_cat(info.radial_fraction, " is not a fraction from 0 to 1"));

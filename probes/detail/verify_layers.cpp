@@ -21,15 +21,15 @@ Status check_count(std::string_view section, size_t count, size_t expected) {
     return section_error(section, str_cat(count, " elements instead of ", expected));
 }
 
-/// Checks sections whose elements consist of floats.
+/// Checks sections whose elements consist of floats, of at most this magnitude.
 template <class T>
-Status check_floats(std::string_view section, std::span<const T> elements) {
+Status check_floats(std::string_view section, std::span<const T> elements, float largest) {
     static_assert(sizeof(T) % sizeof(float) == 0);
     const auto* floats = reinterpret_cast<const float*>(elements.data());
     const size_t each = sizeof(T) / sizeof(float);
     for (size_t i = 0; i < elements.size() * each; ++i) {
-        if (std::isfinite(floats[i])) continue;
-        return element_error(section, i / each, "is not finite");
+        if (std::abs(floats[i]) <= largest) continue;
+        return element_error(section, i / each, str_cat("is not finite, or above ", largest));
     }
     return Ok{};
 }
@@ -43,13 +43,20 @@ Status check_each(std::string_view section, std::span<const T> elements, Predica
     return Ok{};
 }
 
+// The products of both, which relighting adds, are finite. The sky of 1e30, the brightest that can
+// be baked, has coefficients of at most 1.3e31.
+constexpr float kLargestTransfer = 1e6f;
+constexpr float kLargestSky = 2e31f;
+
 bool is_index(uint32_t index, size_t count) {
     return index < count || index == kNoIndex;
 }
 
-bool is_finite(const Layer& layer) {
-    return std::isfinite(layer.weight) && layer.weight >= 0.0f && std::isfinite(layer.largest) &&
-           layer.largest >= 0.0f && tetralight::is_finite(layer.ambient);
+bool is_in_range(const Layer& layer) {
+    const float ambient = largest_coefficient(std::span(&layer.ambient, 1));
+    return std::isfinite(layer.weight) && layer.weight >= 0.0f && layer.largest >= 0.0f &&
+           layer.largest <= kLargestCoefficient && is_finite(layer.ambient) &&
+           ambient <= kLargestCoefficient;
 }
 
 Status check_counts(const ProbeVolumeView& v) {
@@ -90,7 +97,7 @@ Status check_layers(const ProbeVolumeView& v) {
     const auto is_state = [&](const LightState& state) {
         return state.mixed_lighting <= MixedLighting::Subtractive &&
                (state.channel < 4 || state.channel == kNoIndex) &&
-               is_index(state.layer, v.layers.size());
+               is_index(state.layer, v.layers.size()) && state.fell_back <= 1;
     };
     const auto are_lights = [&](const OcclusionLights& lights) {
         return std::ranges::all_of(
@@ -100,13 +107,13 @@ Status check_layers(const ProbeVolumeView& v) {
         return window <= 1 + static_cast<uint8_t>(DeringWindow::Lanczos);
     };
     for (const Status& status :
-         {check_names("layer_names", v.layer_names),
+         {check_distinct_names("layer_names", v.layer_names),
           check_each("light_states", v.light_states, is_state),
           check_each("occlusion_lights", v.occlusion_lights, are_lights),
-          check_each("layers", v.layers, [](const Layer& layer) { return is_finite(layer); }),
-          check_floats("layer_irradiance", v.layer_irradiance),
-          check_floats("transfer", v.transfer), check_floats("sky", v.sky),
-          check_each("dering", v.dering, is_window)}) {
+          check_each("layers", v.layers, is_in_range),
+          check_floats("layer_irradiance", v.layer_irradiance, kLargestCoefficient),
+          check_floats("transfer", v.transfer, kLargestTransfer),
+          check_floats("sky", v.sky, kLargestSky), check_each("dering", v.dering, is_window)}) {
         if (!status) return status;
     }
     return check_bounds(v);

@@ -25,6 +25,15 @@ Status check_names(std::string_view section, std::string_view names) {
     return Ok{};
 }
 
+Status check_distinct_names(std::string_view section, std::string_view names) {
+    if (auto status = check_names(section, names); !status) return status;
+    auto lines = split_names(names);
+    std::ranges::sort(lines);
+    const auto twice = std::ranges::adjacent_find(lines);
+    if (twice == lines.end()) return Ok{};
+    return section_error(section, str_cat("name \"", *twice, "\" occurs twice"));
+}
+
 Status check_sorted_names(std::string_view section, std::string_view names) {
     if (auto status = check_names(section, names); !status) return status;
     const auto lines = split_names(names);

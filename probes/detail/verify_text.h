@@ -13,7 +13,10 @@ namespace tetralight::detail {
 /// UTF-8, each name ended by a line break.
 [[nodiscard]] Status check_names(std::string_view section, std::string_view names);
 
-/// The same, and sorted without duplicates.
+/// The same, and no name occurs twice.
+[[nodiscard]] Status check_distinct_names(std::string_view section, std::string_view names);
+
+/// The same, and sorted.
 [[nodiscard]] Status check_sorted_names(std::string_view section, std::string_view names);
 
 /// UTF-8 without control characters other than the white space of JSON. Offline code checks that

@@ -7,10 +7,12 @@
 #include <utility>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/detail/verify_info.h>
 #include <tetralight/probes/detail/verify_layers.h>
 #include <tetralight/probes/detail/verify_text.h>
+#include <tetralight/probes/farthest_position.h>
 #include <tetralight/probes/is_finite.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -96,9 +98,16 @@ Status check_numbers(const ProbeVolumeView& v) {
     const auto fractions = [&](const glm::vec4& f) {
         return fraction(f.x) && fraction(f.y) && fraction(f.z) && fraction(f.w);
     };
+    const auto light = [](const IrradianceSh& sh) {
+        return largest_coefficient(std::span(&sh, 1)) <= kLargestCoefficient && is_finite(sh);
+    };
     const auto plausible = [](const ProbeHealth& health) {
+        const glm::vec3& offset = health.virtual_offset;
+        const float farthest =
+            std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
         return std::isfinite(health.standard_error) && health.standard_error >= 0.0f &&
-               health.surface_distance >= 0.0f && is_finite(health.virtual_offset);
+               health.surface_distance >= 0.0f && is_finite(offset) &&
+               double{farthest} <= kFarthestPosition && health.is_dilated <= 1;
     };
     const size_t ray_count =
         static_cast<size_t>(std::max(cell_vertex_count(v.info.dimension) - 1, 0));
@@ -111,7 +120,7 @@ Status check_numbers(const ProbeVolumeView& v) {
     for (const Status& status :
          {check_each("positions", v.positions, "is not finite", finite),
           check_each("exact_positions", v.exact_positions, "is not finite", finite),
-          check_each("irradiance", v.irradiance, "is not finite", finite),
+          check_each("irradiance", v.irradiance, "is not finite, or above 1e37", light),
           check_each("compact", v.compact, "is not finite", finite),
           check_each("occlusion", v.occlusion, "is not in [0, 1]", fractions),
           check_each("validity", v.validity, "is not in [0, 1]", fraction),

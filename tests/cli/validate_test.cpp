@@ -71,9 +71,18 @@ const Corruption kCorruptions[] = {
      }},
     {"probes_without_source", [](ProbeVolume& v) { v.sources.pop_back(); }},
     {"misplaced_float_probes", [](ProbeVolume& v) { v.positions[2].y += 0.01f; }},
-    {"wrong_compact_probes", [](ProbeVolume& v) {
+    {"wrong_compact_probes",
+     [](ProbeVolume& v) {
          make_compact_probes(v);
          v.irradiance[3].coefficients[4].y += 0.01f * v.info.compact_scale * 4096.0f;
+     }},
+    {"wrong_layer_sums", [](ProbeVolume& v) {
+         v.layers.resize(2);
+         v.layer_names = "sun\nsky\n";
+         v.layers[0].weight = 1.001f;  // 1 when the light was added up
+         v.layers[0].largest = largest_coefficient(v.irradiance);
+         v.layer_irradiance = v.irradiance;
+         v.layer_irradiance.resize(2 * v.irradiance.size());
      }}};
 
 /// Something that no query could use, and the section that is to blame.

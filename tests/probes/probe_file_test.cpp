@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include <tetralight/base/error_text.h>
+#include <tetralight/base/file.h>
 #include <tetralight/probes/detail/probe_file_layout.h>
 #include <tetralight/probes/interpolate.h>
 #include "tests/support/random_probes.h"
@@ -230,6 +232,18 @@ TEST_F(ProbeFileTest, VerifyFindsWrongLinksToEarlierCells) {
         }
     }
     EXPECT_GT(tried, 20u);
+}
+
+/// Readers could take either of the two.
+TEST_F(ProbeFileTest, RefusesASectionThatOccursTwice) {
+    const std::vector<std::byte> bytes(16);
+    const ExtraSection extra{"extra", bytes};
+    ASSERT_TRUE(write_file(path, probe_file_bytes(volume.view(), std::array{extra, extra})));
+    for (const auto& opened : {open_probe_file(path), open_probe_file_lazy(path)}) {
+        ASSERT_FALSE(opened);
+        EXPECT_EQ(opened.error().code, ErrorCode::Corrupt);
+        EXPECT_EQ(opened.error().field, "extra");
+    }
 }
 
 TEST_F(ProbeFileTest, AVolumeThatCannotBeReadReplacesNothing) {

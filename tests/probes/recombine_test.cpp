@@ -52,6 +52,7 @@ TEST(Recombine, RewritesCompactProbesAndLeavesTheirOcclusion) {
     const std::vector<CompactProbe> before = volume.compact;
     ASSERT_TRUE(recombine(volume, std::vector<float>{3.0f, 0.5f, 0.25f}));
     EXPECT_EQ(count_wrong_compact_probes(volume.view()), 0u);
+    EXPECT_EQ(count_wrong_sums(volume.view()), 0u);
     for (size_t i = 0; i < before.size(); ++i) {
         EXPECT_EQ(volume.compact[i].occlusion, before[i].occlusion);
         EXPECT_NE(volume.compact[i].irradiance, before[i].irradiance);

@@ -88,6 +88,32 @@ TEST(VerifyInfo, NumbersAreInRange) {
     EXPECT_EQ(field_after([](ProbeVolume& v) { v.info.seed_cube.scale = NAN; }), "info.seed_cube");
 }
 
+TEST(VerifyInfo, LightIsFiniteInEveryDirection) {
+    for (const float bright : {3.4e38f, -3.4e38f, 1.1e37f, NAN}) {
+        EXPECT_EQ(field_after([&](ProbeVolume& v) { v.info.ambient.coefficients[3].y = bright; }),
+                  "info.ambient")
+            << bright;
+        EXPECT_EQ(field_after([&](ProbeVolume& v) { v.irradiance[2].coefficients[8].z = bright; }),
+                  "irradiance[2]")
+            << bright;
+        EXPECT_EQ(
+            field_after([&](ProbeVolume& v) { v.layers[1].ambient.coefficients[0].x = bright; }),
+            "layers[1]")
+            << bright;
+    }
+}
+
+TEST(VerifyInfo, HealthIsInRange) {
+    const auto health = [](const std::function<void(ProbeHealth&)>& change) {
+        return field_after([&](ProbeVolume& v) {
+            v.health.resize(v.positions.size());
+            change(v.health[4]);
+        });
+    };
+    EXPECT_EQ(health([](ProbeHealth& h) { h.is_dilated = 2; }), "health[4]");
+    EXPECT_EQ(health([](ProbeHealth& h) { h.virtual_offset.y = 3.4e38f; }), "health[4]");
+}
+
 TEST(VerifyInfo, LightsHaveTheNumbersOfTheirType) {
     const auto light = [](size_t index, const std::function<void(Light&)>& change) {
         return field_after([&](ProbeVolume& v) { change(v.lights[index]); });
@@ -107,7 +133,7 @@ TEST(VerifyInfo, LightsHaveTheNumbersOfTheirType) {
 }
 
 TEST(VerifyInfo, LayersAreWithinTheirBounds) {
-    for (const float largest : {1e-30f, 0.0f, -1.0f}) {
+    for (const float largest : {1e-30f, 0.0f, -1.0f, 3e38f}) {
         EXPECT_EQ(field_after([&](ProbeVolume& v) { v.layers[1].largest = largest; }), "layers[1]")
             << largest;
     }
@@ -116,6 +142,16 @@ TEST(VerifyInfo, LayersAreWithinTheirBounds) {
 TEST(VerifyInfo, NamesHoldNoControlCharacters) {
     EXPECT_EQ(field_after([](ProbeVolume& v) { v.group_names = "\x1b[31mred\n"; }), "group_names");
     EXPECT_EQ(field_after([](ProbeVolume& v) { v.layer_names = "sun\n\x07sky\n"; }), "layer_names");
+    EXPECT_EQ(field_after([](ProbeVolume& v) {
+                  v.group_names =
+                      "\xc2\x9b"
+                      "31mred\n";
+              }),
+              "group_names");
+}
+
+TEST(VerifyInfo, LayersHaveDifferentNames) {
+    EXPECT_EQ(field_after([](ProbeVolume& v) { v.layer_names = "sun\nsun\n"; }), "layer_names");
 }
 
 TEST(VerifyInfo, SourcesAreSorted) {

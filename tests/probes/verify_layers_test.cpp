@@ -71,11 +71,13 @@ TEST(VerifyLayers, RefusesIndicesAndNumbersOutOfRange) {
     EXPECT_EQ(error_after([](ProbeVolume& v) { v.layers[0].ambient.coefficients[2].y = NAN; }),
               "section \"layers\": element 0: is out of range");
     EXPECT_EQ(error_after([](ProbeVolume& v) { v.layer_irradiance[7].coefficients[8].z = NAN; }),
-              "section \"layer_irradiance\": element 7: is not finite");
+              "section \"layer_irradiance\": element 7: is not finite, or above 1e+37");
     EXPECT_EQ(error_after([](ProbeVolume& v) { v.transfer[3].bounced[8][15].z = INFINITY; }),
-              "section \"transfer\": element 3: is not finite");
+              "section \"transfer\": element 3: is not finite, or above 1e+06");
     EXPECT_EQ(error_after([](ProbeVolume& v) { v.sky[0].coefficients[15].z = NAN; }),
-              "section \"sky\": element 0: is not finite");
+              "section \"sky\": element 0: is not finite, or above 2e+31");
+    EXPECT_EQ(error_after([](ProbeVolume& v) { v.light_states[1].fell_back = 1u << 31; }),
+              "section \"light_states\": element 1: is out of range");
     EXPECT_EQ(error_after([](ProbeVolume& v) { v.dering[2] = 4; }),
               "section \"dering\": element 2: is out of range");
 }
