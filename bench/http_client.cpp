@@ -13,8 +13,8 @@
 #include <fcntl.h>
 #include <charconv>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/bench/harness.h>
@@ -125,19 +125,11 @@ ServerProcess::~ServerProcess() {
 }
 
 double ServerProcess::cpu_seconds() const {
-    const std::string path = "/proc/" + std::to_string(pid_) + "/stat";
-    double ticks = 0.0;
-    if (std::FILE* file = std::fopen(path.c_str(), "re")) {
-        double user = 0.0;
-        double system = 0.0;
-        // The name in brackets is "tetralight" or "tetralight_benc": no spaces.
-        if (std::fscanf(file, "%*s %*s %*s %*s %*s %*s %*s %*s %*s %*s %*s %*s %*s %lf %lf", &user,
-                        &system) == 2) {
-            ticks = user + system;
-        }
-        std::fclose(file);
-    }
-    return ticks / static_cast<double>(::sysconf(_SC_CLK_TCK));
+    clockid_t clock = 0;
+    timespec time = {};
+    require(::clock_getcpuclockid(pid_, &clock) == 0 && ::clock_gettime(clock, &time) == 0,
+            "the processor time of the server is not known");
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) / 1e9;
 }
 
 double own_cpu_seconds() {

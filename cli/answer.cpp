@@ -2,10 +2,10 @@
 #include <tetralight/cli/answer.h>
 
 #include <charconv>
-#include <cmath>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/probes/answer_json.h>
 
 namespace tetralight::cli {
 namespace {
@@ -19,24 +19,6 @@ void append_number(std::string& out, Number number) {
     out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
-void append_json_number(std::string& out, float number) {
-    if (std::isfinite(number)) {
-        append_number(out, static_cast<double>(number));
-    } else {
-        out += "null";
-    }
-}
-
-/// `[1,2,3]`
-template <class Vector>
-void append_json_vector(std::string& out, const Vector& vector) {
-    for (int i = 0; i < Vector::length(); ++i) {
-        out += i == 0 ? '[' : ',';
-        append_json_number(out, vector[i]);
-    }
-    out += ']';
-}
-
 /// Calls `visit(probe, weight)` for the probes of a location.
 template <class Visit>
 void for_each_probe(const CellLocation& location, const ProbeVolumeView& volume, Visit visit) {
@@ -45,19 +27,6 @@ void for_each_probe(const CellLocation& location, const ProbeVolumeView& volume,
         const uint32_t probe = volume.cells[location.cell].vertices[static_cast<size_t>(i)];
         if (probe != kNoIndex) visit(probe, location.weights[i]);
     }
-}
-
-void append_json_probes(std::string& out, const CellLocation& location,
-                        const ProbeVolumeView& volume) {
-    const size_t begin = out.size();
-    for_each_probe(location, volume, [&](uint32_t probe, float weight) {
-        out += out.size() == begin ? "" : ",";
-        out += R"({"probe":)";
-        append_number(out, probe);
-        out += R"(,"weight":)";
-        append_json_number(out, weight);
-        out += '}';
-    });
 }
 
 }  // namespace
@@ -81,26 +50,10 @@ void append_text(std::string& out, const glm::vec3& position, const CellLocation
 
 void append_json(std::string& out, const glm::vec3& position, const CellLocation& location,
                  const RawAnswer& answer, const ProbeVolumeView& volume) {
-    out += R"({"position":)";
-    append_json_vector(out, position);
-    out += R"(,"cell":)";
-    if (location.cell == kNoIndex) {
-        out += "null";
-    } else {
-        append_number(out, location.cell);
-    }
-    out += R"(,"probes":[)";
-    append_json_probes(out, location, volume);
-    out += R"(],"ambient":)";
-    append_json_number(out, location.ambient);
-    out += R"(,"irradiance_sh":)";
-    for (int i = 0; i < kCoefficientCount; ++i) {
-        out += i == 0 ? '[' : ',';
-        append_json_vector(out, answer.irradiance.coefficients[static_cast<size_t>(i)]);
-    }
-    out += R"(],"occlusion":)";
-    append_json_vector(out, answer.occlusion);
-    out += "}\n";
+    char line[kAnswerJsonSize];
+    char* end = write_json(line, volume, {position, location, answer.irradiance, answer.occlusion});
+    *end++ = '\n';
+    out.append(line, end);
 }
 
 void append_csv(std::string& out, const glm::vec3& position, const RawAnswer& answer) {

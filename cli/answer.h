@@ -29,8 +29,7 @@ static_assert(sizeof(RawAnswer) == 128 && std::is_trivially_copyable_v<RawAnswer
 void append_text(std::string& out, const glm::vec3& position, const CellLocation& location,
                  const RawAnswer& answer, const ProbeVolumeView& volume);
 
-/// Appends a line with a JSON object. Its numbers are exactly those of raw output when they are
-/// read as doubles; null for coordinates that are not finite.
+/// Appends a line with the JSON object of `write_json`.
 void append_json(std::string& out, const glm::vec3& position, const CellLocation& location,
                  const RawAnswer& answer, const ProbeVolumeView& volume);
 

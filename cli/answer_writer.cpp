@@ -28,6 +28,7 @@ Status AnswerWriter::write_header() {
 
 void AnswerWriter::answer(std::span<const glm::vec3> positions, Slice& slice) const {
     slice.answers.resize(positions.size());
+    slice.locations.resize(positions.size());
     // Hints that name no cell: each walk begins at the seed of its own position.
     slice.cells.assign(positions.size(), kNoIndex);
     const std::span<std::byte> memory = std::as_writable_bytes(std::span(slice.answers));
@@ -38,6 +39,10 @@ void AnswerWriter::answer(std::span<const glm::vec3> positions, Slice& slice) co
     batch.occlusion =
         strided_occlusion(memory.subspan(offsetof(RawAnswer, occlusion)), sizeof(RawAnswer));
     batch.outside = settings_.outside;
+    // Raw answers and CSV have no weights.
+    const bool has_weights =
+        settings_.format == AnswerFormat::Text || settings_.format == AnswerFormat::JsonLines;
+    if (has_weights) batch.locations = slice.locations;
     const auto report = interpolate(volume_, batch);
     slice.status = report ? Status(Ok{}) : Status(report.error());
     slice.not_finite_count = report ? report->not_finite_count : 0;
@@ -53,9 +58,8 @@ void AnswerWriter::format(std::span<const glm::vec3> positions, Slice& slice) co
             append_csv(slice.text, positions[i], answer);
             continue;
         }
-        const CellLocation location = locate(volume_, positions[i], answer.cell, settings_.outside);
         const auto append = settings_.format == AnswerFormat::JsonLines ? append_json : append_text;
-        append(slice.text, positions[i], location, answer, volume_);
+        append(slice.text, positions[i], slice.locations[i], answer, volume_);
     }
 }
 

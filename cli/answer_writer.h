@@ -45,6 +45,7 @@ class AnswerWriter {
     struct Slice {
         std::vector<RawAnswer> answers;
         std::vector<uint32_t> cells;
+        std::vector<CellLocation> locations;
         std::string text;
         uint64_t not_finite_count = 0;
         Status status = Ok{};

@@ -39,13 +39,15 @@ struct InterpolationBatch {
     /// In: where each walk starts; out: the cell found, for the next frame. May be empty: then
     /// walks start near the cells of the positions before them.
     std::span<uint32_t> hints = {};
-    /// At least one of the two outputs must be set.
+    /// At least one of irradiance, occlusion and locations must be set.
     ShOutput irradiance = {};
     OcclusionOutput occlusion = {};
     OutsideHull outside = {};
     /// Scratch memory of two elements a position. If given, positions are answered along a Morton
     /// curve, which is faster for positions in random order.
     std::span<uint64_t> sort_memory = {};
+    /// Out: the cell and the weights of each position. May be empty.
+    std::span<CellLocation> locations = {};
 };
 
 /// Counters of a batch.
@@ -63,7 +65,7 @@ struct BatchReport {
 /// Locates and blends every position of the batch. Thread-safe on one volume; allocates nothing.
 /// `locate` documents what may differ between calls.
 ///
-/// Returns invalid_argument if neither output is set, a span is too short for `positions` (the
+/// Returns invalid_argument if no output is set, a span is too short for `positions` (the
 /// message holds both lengths), answers overlap or are not aligned, or the fade distance is not
 /// positive and finite. `Error::field` is the member of the batch.
 [[nodiscard]] Result<BatchReport> interpolate(const ProbeVolumeView& volume,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstring>
-#include <glm/gtc/packing.hpp>
+#include <span>
 
+#include <tetralight/probes/detail/half_kernel.h>
 #include <tetralight/probes/packed_sh.h>
 #include <tetralight/probes/query_output.h>
 
@@ -36,9 +38,9 @@ inline void write_irradiance(const ShOutput& output, size_t answer, const float*
             return write_values<28>(output, answer, values);
         }
         case ShFormat::Half: {
-            uint16_t halves[27];
-            for (int k = 0; k < 27; ++k) halves[k] = glm::packHalf1x16(coefficients[k]);
-            return write_values<27>(output, answer, halves);
+            std::array<uint16_t, 27> halves;
+            write_halves(std::span(coefficients, halves.size()), halves.data());
+            return write_values<27>(output, answer, halves.data());
         }
     }
 }

@@ -119,7 +119,8 @@ TEST_F(QueryInput, OfAnObjectIsReadToItsEndBeforeItIsAnswered) {
 /// to double first it would be the middle, and then 1.
 TEST_F(QueryInput, IsRoundedOnce) {
     const std::string digits = "1.00000005960464477539062500001";
-    const double next = std::nextafter(1.0f, 2.0f);
+    const double next = 1.0000001;  // the shortest digits of the float after 1
+    ASSERT_EQ(static_cast<float>(next), std::nextafter(1.0f, 2.0f));
     EXPECT_EQ(answers(digits + " 0 0")[0]["position"][0], next);
     EXPECT_EQ(answers("[" + digits + ",0,0]", {"--from", "jsonl"})[0]["position"][0], next);
     EXPECT_EQ(answers("[[" + digits + ",0,0]]", {"--from", "json"})[0]["position"][0], next);

@@ -131,13 +131,28 @@ TEST_F(QueryOutput, HasTheFloatsOfRawInJson) {
     for (size_t i = 0; i < all.size(); ++i) {
         EXPECT_EQ(all[i]["cell"], expected[i].cell);
         for (size_t k = 0; k < 27; ++k) {
-            EXPECT_EQ(all[i]["irradiance_sh"][k / 3][k % 3].get<double>(),
-                      static_cast<double>(expected[i].irradiance[k]));
+            EXPECT_EQ(all[i]["irradiance_sh"][k / 3][k % 3].get<float>(),
+                      expected[i].irradiance[k]);
         }
         for (size_t k = 0; k < 4; ++k) {
-            EXPECT_EQ(all[i]["occlusion"][k].get<double>(),
-                      static_cast<double>(expected[i].occlusion[k]));
+            EXPECT_EQ(all[i]["occlusion"][k].get<float>(), expected[i].occlusion[k]);
         }
+    }
+}
+
+/// The digits of JSON and CSV are the same: the shortest ones.
+TEST_F(QueryOutput, HasTheNumbersOfCsvInJson) {
+    const std::string positions = raw(random_positions(20));
+    const auto json =
+        split(succeed({"query", "v.probes", "--from", "raw", "--json"}, positions).out, '\n');
+    const auto csv =
+        split(succeed({"query", "v.probes", "--from", "raw", "--to", "csv"}, positions).out, '\n');
+    for (size_t i = 0; i < json.size(); ++i) {
+        const auto values = split(csv.at(i + 1), ',');
+        const std::string position = values[0] + "," + values[1] + "," + values[2];
+        EXPECT_EQ(json[i].find("{\"position\":[" + position + "],\"cell\":" + values[3]), 0u);
+        EXPECT_NE(json[i].find("\"irradiance_sh\":[[" + values[4] + "," + values[5] + ","),
+                  std::string::npos);
     }
 }
 

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import random
+import re
 import shutil
 import struct
 import subprocess
@@ -88,12 +89,83 @@ class Query(ServiceTest):
             cell = struct.unpack_from("<I", body, 16 + 124 * count + 24 * i)[0]
             self.assertEqual(cell, answer["cell"])
 
+    def test_json_reads_back_to_the_floats_of_binary(self):
+        count = len(self.positions)
+        body = self.binary(self.positions, wants=OCCLUSION | CELLS).body
+        sh = struct.unpack_from(f"<{27 * count}I", body, 16)
+        occlusion = struct.unpack_from(f"<{4 * count}I", body, 16 + 108 * count)
+        cells = [struct.unpack_from("<5I", body, 16 + 124 * count + 24 * i + 4) for i in range(count)]
+
+        def bits(numbers):
+            return struct.unpack(f"<{len(numbers)}I", struct.pack(f"<{len(numbers)}f", *numbers))
+
+        for i, answer in enumerate(self.query(positions=self.positions)):
+            flat = [x for coefficient in answer["irradiance_sh"] for x in coefficient]
+            self.assertEqual(bits(flat), sh[27 * i:27 * i + 27])
+            self.assertEqual(bits(answer["occlusion"]), occlusion[4 * i:4 * i + 4])
+            weights = [probe["weight"] for probe in answer["probes"]]
+            self.assertEqual(bits([answer["ambient"]] + weights), cells[i][:1 + len(weights)])
+            self.assertEqual(bits(answer["position"]), bits(self.positions[i]))
+
+    def test_positions_are_rounded_once(self):
+        digits = "1.00000005960464477539062500001"  # to double it is halfway between two floats
+        answer = self.server.post("/v1/volumes/court/query", f'{{"positions":[[{digits},0,0]]}}',
+                                  "application/json")
+        self.assertEqual(answer.json()["answers"][0]["position"], [1.0000001, 0, 0])
+
+    def test_json_has_the_shortest_numbers(self):
+        answer = self.server.post("/v1/volumes/court/query", {"positions": self.positions[:50]})
+        for number in re.findall(rb"-?[0-9][0-9.e+-]*", answer.body):
+            self.assertLessEqual(len(number.strip(b"-").split(b"e")[0].strip(b"0.")), 10, number)
+
+    def test_outputs_do_not_change_each_other(self):
+        count = len(self.positions)
+        whole = self.binary(self.positions, wants=OCCLUSION | CELLS).body
+        self.assertEqual(self.binary(self.positions).body[16:], whole[16:16 + 108 * count])
+        occlusion = self.binary(self.positions, 0, OCCLUSION).body
+        self.assertEqual(occlusion[16:], whole[16 + 108 * count:16 + 124 * count])
+        self.assertEqual(self.binary(self.positions, 0, CELLS).body[16:], whole[16 + 124 * count:])
+
+    def test_order_and_number_of_positions_do_not_matter(self):
+        order = list(range(len(self.positions)))
+        random.Random(2).shuffle(order)
+        plain = self.query(positions=self.positions)
+        self.assertEqual(self.query(positions=[self.positions[i] for i in order]),
+                         [plain[i] for i in order])
+        many = self.query(positions=self.positions * 5)  # more than are answered at a time
+        self.assertEqual(many, plain * 5)
+        for i in range(0, len(order), 50):
+            self.assertEqual(self.query(positions=[self.positions[i]]), [plain[i]])
+
+    def test_spellings_of_json(self):
+        plain = self.query(positions=[[1.5, -2, 30]], outside="clamp")
+        for text in ('{"positions":[[1.5,-2,30]],"outside":"clamp"}',
+                     '{"outside": "clamp", "fade": null, "positions": [[1.5e0, -20E-1, 3.0e+1]]}',
+                     ' \n{\t"outside":"clamp","positions"\r:\n[ [ 1.50 ,-2.000, 30 ] ] } ',
+                     '{"p\\u006fsitions":[[1.5,-2,30]],"outside":"clamp"}',
+                     '{"outside":"cl\\u0061mp","positions":[[1.5,-2,30]]}'):
+            answer = self.server.post("/v1/volumes/court/query", text, "application/json")
+            self.assertEqual((answer.status, answer.json()["answers"] if answer.status == 200 else
+                              answer.body), (200, plain), text)
+
+    def test_positions_that_json_does_not_allow(self):
+        for positions in ("[[1,2,03]]", "[[1,2,3.]]", "[[1,2,.3]]", "[[1,2,+3]]", "[[1,2,3e]]",
+                          "[[1,2,-]]", "[[1,2,0x3]]", "[[1,2,3],]", "[[1,2,3]", "[[1,2,3]]]",
+                          "[,[1,2,3]]", "[[1 2,3]]", "[[1,2,3,4]]", "[[1,2,[3]]]", "[[1,2,inf]]",
+                          "[[1,2,true]]", "[[1,2,1e39]]", "[[1,2,3]] [[1,2,3]]"):
+            answer = self.server.post("/v1/volumes/court/query", f'{{"positions":{positions}}}',
+                                      "application/json")
+            self.assertEqual(answer.status, 400, positions)
+        twice = '{"positions":[[1,2,3]],"positions":[[1,2,3]]}'
+        answer = self.server.post("/v1/volumes/court/query", twice, "application/json")
+        self.assert_problem(answer, 422, "duplicate_member")
+
     def test_forms_of_sh(self):
         count = len(self.positions)
         floats = struct.unpack_from(f"<{27 * count}f", self.binary(self.positions).body, 16)
         halves = struct.unpack_from(f"<{27 * count}e", self.binary(self.positions, HALVES).body, 16)
-        for x, y in zip(halves, floats, strict=True):
-            self.assertAlmostEqual(x, y, delta=2e-3 * abs(y) + 1e-4)
+        nearest = struct.unpack(f"<{27 * count}e", struct.pack(f"<{27 * count}e", *floats))
+        self.assertEqual(halves, nearest)
         packed = struct.unpack_from(f"<{28 * count}f", self.binary(self.positions, PACKED).body, 16)
         # SHAr.w = (k_0 L_0 - k_6 L_6), with E_0 = pi L_0 and E_6 = pi / 4 L_6.
         for i in range(count):
