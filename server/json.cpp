@@ -52,12 +52,12 @@ void check_duplicates(std::string_view text, const Json& json) {
 
 }  // namespace
 
-Json parse_object(std::string_view body) {
+Json parse_object(std::string_view body, const Json::parser_callback_t& callback) {
     if (auto status = check_json_shape(body); !status) {
         throw Problem{400, "invalid_json", detail_of(status.error()), "body"};
     }
     try {
-        Json json = Json::parse(body);
+        Json json = Json::parse(body, callback);
         if (json.is_object()) {
             check_duplicates(body, json);
             return json;

@@ -21,8 +21,10 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Response json_response(const Json& json, unsigned status = 200);
 
 /// The JSON object of a body. Throws a `Problem`: 400 if it is nested too deep, not JSON or no
-/// object, 422 "duplicate_member" if an object in it has a key twice.
-[[nodiscard]] Json parse_object(std::string_view body);
+/// object, 422 "duplicate_member" if an object in it has a key twice. The callback, if any, sees
+/// what is parsed, and may drop values that are not in objects.
+[[nodiscard]] Json parse_object(std::string_view body,
+                                const Json::parser_callback_t& callback = nullptr);
 
 /// The JSON object of a text that may be damaged; an empty object if there is none.
 [[nodiscard]] Json object_in(std::string_view text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -7,7 +8,6 @@
 #include <tetralight/probes/answer_json.h>
 #include <tetralight/server/json.h>
 #include <tetralight/server/order.h>
-#include <tetralight/server/position_list.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/query.h>
 
@@ -42,7 +42,43 @@ Query read_settings(const Json& json, Query query) {
     return query;
 }
 
-/// The general way to read positions: it tells which one is wrong.
+/// Takes the numbers out of the list of positions while a query is parsed, so that no JSON value
+/// is kept for each of them. The list is empty afterwards.
+class PositionTaker {
+  public:
+    explicit PositionTaker(std::vector<glm::vec3>& positions) : positions_(positions) {}
+
+    /// A callback of the parser. Returns false for values that are not kept.
+    bool operator()(int depth, Json::parse_event_t event, const Json& value) {
+        using Event = Json::parse_event_t;
+        constexpr int kMember = 1, kPosition = 2, kCoordinate = 3;
+        if (event == Event::key && depth == kMember) is_in_list_ = value == "positions";
+        if (!is_in_list_ || depth < kPosition) return true;
+        if (event == Event::value && depth == kCoordinate && value.is_number() && count_ < 3) {
+            positions_.back()[count_++] = value.get<float>();
+            return false;
+        }
+        if (event == Event::array_start && depth == kPosition) {
+            positions_.emplace_back();
+            count_ = 0;
+            return true;
+        }
+        const bool is_position = event == Event::array_end && depth == kPosition && count_ == 3;
+        has_only_positions_ = has_only_positions_ && is_position;
+        return !is_position;
+    }
+
+    /// False if something else than positions was in the list.
+    [[nodiscard]] bool has_only_positions() const { return has_only_positions_; }
+
+  private:
+    std::vector<glm::vec3>& positions_;
+    bool is_in_list_ = false;
+    bool has_only_positions_ = true;
+    int count_ = 0;
+};
+
+/// Reads positions from a document that holds them. Its errors say which one is wrong.
 void read_positions(const Json& json, std::vector<glm::vec3>& positions) {
     positions.clear();
     const Json* list = Fields(json).find("positions");
@@ -59,9 +95,13 @@ Query read_query(const std::string& body, std::vector<glm::vec3>& positions) {
             str_cat("a query in JSON may have ", kMostJson, " bytes; the binary form takes more"),
             "body", str_cat(body.size(), " bytes")};
     }
-    const auto rest = take_positions(body, positions);
-    const Json json = parse_object(rest ? *rest : body);
-    if (!rest) read_positions(json, positions);
+    PositionTaker taker(positions);
+    Json json = parse_object(body, std::ref(taker));
+    const auto list = json.find("positions");
+    if (!taker.has_only_positions() || list == json.end() || !list->is_array()) {
+        json = parse_object(body);
+        read_positions(json, positions);
+    }
     return read_settings(json, {.positions = positions});
 }
 
