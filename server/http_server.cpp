@@ -57,6 +57,9 @@ class Server final : public HttpServer {
         const tcp::endpoint endpoint(address, settings_.port);
         acceptor_.open(endpoint.protocol(), error);
         if (!error) acceptor_.set_option(net::socket_base::reuse_address(true), error);
+        // Asio would wait for the next connection before it looks at those that wait already.
+        const net::socket_base::enable_connection_aborted reports(true);
+        if (!error) acceptor_.set_option(reports, error);
         if (!error) acceptor_.bind(endpoint, error);
         if (!error) acceptor_.listen(net::socket_base::max_listen_connections, error);
         if (!error) ::fcntl(acceptor_.native_handle(), F_SETFD, FD_CLOEXEC);
