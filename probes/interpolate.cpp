@@ -101,7 +101,7 @@ Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locati
     batch.irradiance = irradiance;
     batch.occlusion = occlusion;
     if (auto status = check_outputs(batch, locations.size()); !status) return status;
-    constexpr size_t kPart = 256;
+    constexpr size_t kPart = 2048;
     std::array<uint32_t, kPart> answers;
     for (size_t begin = 0; begin < locations.size(); begin += kPart) {
         const size_t count = std::min(kPart, locations.size() - begin);
