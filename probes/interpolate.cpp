@@ -86,11 +86,8 @@ void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
     TETRALIGHT_ASSERT(locations.size() >= positions.size(), "each position has a location");
     detail::BatchQueries queries(volume, {positions, {}, {}, outside}, detail::query_kernels());
     while (queries.locate_block()) {
-        const detail::QueryBlock& block = queries.block();
-        for (size_t query = 0; query < detail::QueryBlock::kSize; ++query) {
-            const size_t stream = query / detail::QueryBlock::kStreamSize;
-            if (query % detail::QueryBlock::kStreamSize >= block.count[stream]) continue;
-            locations[queries.source()[query]] = block.location[query];
+        for (size_t i = 0; i < queries.source().size(); ++i) {
+            locations[queries.source()[i]] = queries.locations()[i];
         }
     }
 }

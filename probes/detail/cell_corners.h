@@ -10,16 +10,27 @@
 
 namespace tetralight::detail {
 
+/// A position relative to the volume's local origin.
+struct LocalPosition {
+    glm::dvec3 position{0.0};
+    /// The position is farther away and was moved to this one.
+    bool is_moved = false;
+};
+
 /// A position relative to the volume's local origin. Far away only the direction matters, and
 /// double could not distinguish the hull's corners: positions beyond `kFarthestExtents` are moved
 /// to it.
-inline glm::dvec3 local_position(const VolumeInfo& info, const glm::vec3& position) noexcept {
+inline LocalPosition find_local(const VolumeInfo& info, const glm::vec3& position) noexcept {
     constexpr double kFarthestExtents = 65536.0;
     const glm::dvec3 local = glm::dvec3(position) - info.world_origin;
     const double farthest = kFarthestExtents * static_cast<double>(info.extent);
     const double square = glm::dot(local, local);
-    if (!(farthest > 0.0) || !(square > farthest * farthest)) return local;
-    return local * (farthest / std::sqrt(square));
+    if (!(farthest > 0.0) || !(square > farthest * farthest)) return {local, false};
+    return {local * (farthest / std::sqrt(square)), true};
+}
+
+inline glm::dvec3 local_position(const VolumeInfo& info, const glm::vec3& position) noexcept {
+    return find_local(info, position).position;
 }
 
 /// Corners of a cell relative to a local position. Every index is tested here, where it is used:
