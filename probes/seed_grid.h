@@ -8,6 +8,8 @@
 #include <span>
 #include <type_traits>
 
+#include <tetralight/probes/probe_volume.h>
+
 // The seed grid of a volume: a cell near each position, found by two or three reads. Section
 // "seed_grid" is an array of 32-bit words: a grid, then the finer grids inside its voxels.
 //
@@ -90,5 +92,10 @@ inline constexpr uint32_t kSeedGridLongestSide = 1u << 20;
     }
     return word < words.size() ? words[word] : 0;
 }
+
+/// For each position a cell that contains it or is near it: where a walk from the seed grid is
+/// after a limited number of tests. For filling a grid. Precondition: as many cells as positions.
+void find_near_cells(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
+                     std::span<uint32_t> cells);
 
 }  // namespace tetralight

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <tetralight/base/box.h>
-#include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/seed_grid.h>
 
 namespace tetralight {
@@ -44,8 +43,8 @@ SeedGridHeader make_header(const Box<glm::dvec3>& box, double voxel_count) {
     for (int i = 0; i < 48; ++i) {  // bisection of the voxels along the longest side
         const double middle = 0.5 * (coarsest + finest);
         const glm::dvec3 inner = sides(middle);
-        const double count = with_layer(inner.x, size.x) * with_layer(inner.y, size.y) *
-                             with_layer(inner.z, size.z);
+        const double count =
+            with_layer(inner.x, size.x) * with_layer(inner.y, size.y) * with_layer(inner.z, size.z);
         (count > voxel_count ? finest : coarsest) = middle;
     }
     const glm::dvec3 inner = sides(coarsest);
@@ -78,6 +77,7 @@ class Maker {
         enter_cells();
         fill_gaps();
         locate_centers();
+        prefer_hull_cells();
         return std::move(words_);
     }
 
@@ -240,17 +240,32 @@ class Maker {
         view.seed_grid = words;
         constexpr size_t kPart = 4096;
         std::vector<glm::vec3> centers;
-        std::vector<CellLocation> locations(kPart);
+        std::vector<uint32_t> cells(kPart);
         for (size_t begin = 0; begin < voxels_.size(); begin += kPart) {
             const auto part =
                 std::span(voxels_).subspan(begin, std::min(kPart, voxels_.size() - begin));
             centers.clear();
             for (const Voxel& voxel : part) centers.push_back(voxel.center);
-            locate(view, centers, std::span(locations).first(part.size()));
+            find_near_cells(view, centers, cells);
             for (size_t i = 0; i < part.size(); ++i) {
-                const uint32_t cell = locations[i].cell;
-                if (cell < kNoCell) words_[part[i].word] = cell;
+                if (cells[i] < kNoCell) words_[part[i].word] = cells[i];
             }
+        }
+    }
+
+    /// Voxels with the middle of a hull triangle begin at its hull cell. Below smooth layers of
+    /// probes the tetrahedra are stacked by the hundred, and no walk from there to the hull is
+    /// short.
+    void prefer_hull_cells() {
+        if (volume_.info.dimension != Dimension::Space) return;
+        for (size_t i = 0; i < volume_.hull_rays.size(); ++i) {
+            const auto cell = static_cast<uint32_t>(volume_.info.inner_cell_count + i);
+            glm::vec3 sum(0.0f);
+            for (size_t k = 0; k < 3; ++k) {
+                sum += volume_.positions[volume_.cells[cell].vertices[k]];
+            }
+            const uint64_t word = find_seed_word(words_, sum / 3.0f);
+            if (word < words_.size() && cell < kNoCell) words_[word] = cell;
         }
     }
 

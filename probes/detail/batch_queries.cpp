@@ -115,7 +115,7 @@ void BatchQueries::begin_walks() {
 
 void BatchQueries::walk() {
     auto& [tetrahedra, hull_cells, doubtful, doubtful_cell, doubtful_count, location] = block_;
-    for (uint32_t pass = 0; pass < kPassLimit; ++pass) {
+    for (uint32_t pass = 0; pass < input_.pass_limit; ++pass) {
         report_.step_count += tetrahedra.count + hull_cells.count;
         if (tetrahedra.count + hull_cells.count == 0) return;
         const size_t hull_count = hull_cells.count;
@@ -135,6 +135,10 @@ void BatchQueries::walk() {
 void BatchQueries::resolve_doubtful() {
     for (size_t i = 0; i < block_.doubtful_count; ++i) {
         const size_t query = block_.doubtful[i];
+        if (has_tetrahedra_ && input_.unresolved == Unresolved::KeepCell) {
+            block_.location[query] = {block_.doubtful_cell[i]};
+            continue;
+        }
         const LocationTrace trace = Walk(volume_, position_of(query)).run(block_.doubtful_cell[i]);
         report_.step_count += trace.step_count;
         report_.fallback_count += trace.is_fallback;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include <tetralight/probes/detail/query_kernels.h>
+#include <tetralight/probes/detail/tetrahedron_test.h>
 #include <tetralight/probes/interpolate.h>
 
 namespace tetralight::detail {
@@ -18,6 +19,11 @@ namespace tetralight::detail {
 /// Each answer is that of `walk_one`, to the bit. A block takes about 90 KiB of the stack.
 class BatchQueries {
   public:
+    enum class Unresolved : uint8_t {
+        Walk,
+        KeepCell,  ///< the location names the cell that the query reached, without weights
+    };
+
     struct Input {
         std::span<const glm::vec3> positions;
         /// As in `InterpolationBatch`; written to when a block is located.
@@ -26,6 +32,9 @@ class BatchQueries {
         /// `positions`.
         std::span<const uint64_t> order;
         OutsideHull outside;
+        /// Tests of a query in passes. What is left then walks on alone, or stays where it is.
+        uint32_t pass_limit = kPassLimit;
+        Unresolved unresolved = Unresolved::Walk;
     };
 
     BatchQueries(const ProbeVolumeView& volume, const Input& input, const QueryKernels& kernels);

@@ -28,7 +28,7 @@ inline constexpr double kThinVolume = 1e-9;
 inline constexpr double kHullRounding = 1e-12;
 
 /// Tests of a query before its walk goes on in double.
-inline constexpr uint32_t kPassLimit = 96;
+inline constexpr uint32_t kPassLimit = 512;
 
 enum class Verdict : uint8_t {
     Inside,

@@ -80,8 +80,10 @@ CellLocation finish(uint32_t cell, const CellWeights& cell_weights) noexcept {
     return {cell, 0.0f, weights};
 }
 
-Walk::Walk(const ProbeVolumeView& volume, const glm::vec3& position) noexcept
-    : volume_(volume), position_(local_position(volume.info, position)) {}
+Walk::Walk(const ProbeVolumeView& volume, const glm::vec3& position) noexcept : volume_(volume) {
+    const glm::dvec3 local = glm::dvec3(position) - volume.info.world_origin;
+    position_ = within_reach(volume.info, foot_on_probes(volume, local)).position;
+}
 
 uint32_t Walk::start_cell() const noexcept {
     if (!volume_.seed_grid.empty()) {
@@ -216,13 +218,35 @@ LocationTrace Walk::search_near(uint32_t start) const {
     return {is_found ? best.location : CellLocation{}, static_cast<uint32_t>(found)};
 }
 
-/// The fallback that cannot fail: the cell that is nearest to containing the position.
+/// The fallback that cannot fail: the cell that is nearest to containing the position. Where
+/// rounding leaves no cell with a volume, the nearest probe.
 CellLocation Walk::search_all() const {
     Best best;
     for (uint32_t cell = 0; cell < volume_.cells.size(); ++cell) {
         best.consider(cell, precise_weights(cell));
     }
-    return best.location;
+    return best.location.cell != kNoIndex ? best.location : nearest_corner();
+}
+
+CellLocation Walk::nearest_corner() const {
+    CellLocation nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (uint32_t cell = 0; cell < volume_.cells.size(); ++cell) {
+        std::array<glm::dvec3, 4> corners{};
+        if (!find_corners(volume_, cell, position_, corners)) continue;
+        for (int i = 0; i < 4; ++i) {
+            const bool is_corner =
+                volume_.cells[cell].vertices[static_cast<size_t>(i)] < volume_.positions.size();
+            const double square =
+                glm::dot(corners[static_cast<size_t>(i)], corners[static_cast<size_t>(i)]);
+            if (!is_corner || !(square < least)) continue;
+            least = square;
+            glm::vec4 weights(0.0f);
+            weights[i] = 1.0f;
+            nearest = {cell, 0.0f, weights};
+        }
+    }
+    return nearest;
 }
 
 }  // namespace tetralight::detail

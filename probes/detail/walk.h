@@ -74,9 +74,10 @@ class Walk {
                                            const HullCellRays& rays) const;
     [[nodiscard]] LocationTrace search_near(uint32_t start) const;
     [[nodiscard]] CellLocation search_all() const;
+    [[nodiscard]] CellLocation nearest_corner() const;
 
     const ProbeVolumeView& volume_;
-    glm::dvec3 position_;
+    glm::dvec3 position_{0.0};
 };
 
 }  // namespace tetralight::detail
