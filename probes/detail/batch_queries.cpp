@@ -110,6 +110,9 @@ void BatchQueries::begin_walks() {
         auto& list =
             start_[i] < volume_.info.inner_cell_count ? block_.tetrahedra : block_.hull_cells;
         list.add(local_[i], walking_[i], start_[i]);
+        for (const uint32_t probe : volume_.cells[start_[i]].vertices) {
+            if (probe < volume_.positions.size()) __builtin_prefetch(&volume_.positions[probe]);
+        }
     }
 }
 

@@ -2,7 +2,6 @@
 #include <tetralight/probes/detail/hull_test.h>
 
 #include <tetralight/probes/detail/hull_cell.h>
-#include <tetralight/probes/detail/walk.h>
 
 namespace tetralight::detail {
 namespace {
@@ -27,14 +26,15 @@ CellTest judge(const ProbeVolumeView& volume, uint32_t cell,
     CellTest test;
     int face = 3;
     if (weights) {
-        const CellWeights all{{*weights, 0.0}};
-        face = all.most_negative();
-        if (all.weights[face] >= 0.0) {
-            test.location = finish(cell, all);
-            if (test.location.cell == cell) test.verdict = Verdict::Inside;
+        face = weights->x <= weights->y ? 0 : 1;
+        if (weights->z < (*weights)[face]) face = 2;
+        const double least = (*weights)[face];
+        if (least >= 0.0) {
+            test.verdict = Verdict::Inside;
+            test.location = {cell, 0.0f, glm::vec4(glm::dvec4(*weights + 0.0, 0.0))};
             return test;
         }
-        if (!(all.weights[face] < -kHullRounding)) return test;
+        if (!(least < -kHullRounding)) return test;
     }
     test.next = volume.cells[cell].neighbors[static_cast<size_t>(face)];
     if (test.next < volume.cells.size()) test.verdict = Verdict::Outside;

@@ -99,10 +99,6 @@ HWY_INLINE VecD compress(VecD v, MaskD mask) {
 constexpr int32_t kInside = 4;
 constexpr int32_t kDoubtful = 5;
 
-/// Lanes whose cell, and whose cell's corners, are fetched ahead.
-constexpr size_t kCellsAhead = 64;
-constexpr size_t kCornersAhead = 32;
-
 /// The tests of one pass.
 class Pass {
   public:
@@ -119,7 +115,6 @@ class Pass {
     HWY_INLINE void run() {
         fill_last_vector();
         for (size_t i = 0; i < list_.count; i += kLanes) {
-            prefetch(i);
             test(i);
         }
         list_.count = kept_;
@@ -134,18 +129,6 @@ class Pass {
         for (size_t i = list_.count; i < end; ++i) {
             list_.move(list_.count - 1, i);
             list_.query[i] = QueryBlock::kSize;
-        }
-    }
-
-    HWY_INLINE void prefetch(size_t i) const {
-        for (size_t k = i + kCellsAhead; k < std::min(i + kCellsAhead + kLanes, list_.count); ++k) {
-            hwy::Prefetch(&cells_[list_.cell[k]]);
-        }
-        for (size_t k = i + kCornersAhead; k < std::min(i + kCornersAhead + kLanes, list_.count);
-             ++k) {
-            for (const uint32_t probe : cells_[list_.cell[k]].vertices) {
-                hwy::Prefetch(positions_ + 3 * size_t{probe});
-            }
         }
     }
 
@@ -253,7 +236,9 @@ class Pass {
             hn::StoreU(hn::Compress(cell, is_doubtful), du, &block_.doubtful_cell[count]);
             count += hn::CountTrue(du, is_doubtful);
         }
+        const size_t kept = kept_;
         kept_ += append(list_, kept_, i, next, is_inner);
+        for (size_t k = kept; k < kept_; ++k) hwy::Prefetch(&cells_[list_.cell[k]]);
     }
 
     HWY_INLINE VecU neighbor_across(size_t i, hn::Vec<Integers> face) const {
