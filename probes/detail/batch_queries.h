@@ -16,7 +16,7 @@ namespace tetralight::detail {
 ///     BatchQueries queries(volume, {positions, hints, order, outside}, query_kernels());
 ///     while (queries.locate_block()) ... // queries.locations(), queries.source()
 ///
-/// Each answer is that of `walk_one`, to the bit. A block takes about 90 KiB of the stack.
+/// Each answer is that of `walk_one`, to the bit. A block takes about 36 KiB of the stack.
 class BatchQueries {
   public:
     enum class Unresolved : uint8_t {

@@ -54,7 +54,7 @@ struct QueryList {
 /// Queries that are processed together, in passes: each pass tests one cell for every query that
 /// is not located yet.
 struct QueryBlock {
-    static constexpr size_t kSize = 1024;
+    static constexpr size_t kSize = 256;
 
     /// In and out: queries whose next cell is a tetrahedron, below `inner_cell_count`.
     QueryList<kSize> tetrahedra;
