@@ -8,6 +8,7 @@
 
 #include <tetralight/bench/harness.h>
 #include <tetralight/bench/query_subject.h>
+#include <tetralight/bench/query_worst.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/probe_file.h>
@@ -277,6 +278,7 @@ void bench_query(const Options& options) {
     if (!options.is_quick) sizes.insert(sizes.end(), {{"200k", 200'000}, {"1m", kMillion}});
     for (const auto& [name, count] : sizes) ask(make_random_subject(name, count), options);
     ask(make_scene_subject(options), options);
+    if (!options.is_quick) report_worst_queries(options);
 }
 
 }  // namespace tetralight::bench

@@ -10,7 +10,6 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/detail/batch_queries.h>
 #include <tetralight/probes/detail/blend_probes.h>
-#include <tetralight/probes/morton_order.h>
 
 namespace tetralight {
 namespace {
@@ -52,57 +51,6 @@ Status check_outside(const OutsideHull& outside) {
         str_cat("fade_distance is ", outside.fade_distance, "; it must be positive and finite")};
 }
 
-template <class T>
-std::span<T> part_of(std::span<T> elements, size_t begin, size_t count) {
-    return elements.empty() ? elements : elements.subspan(begin, count);
-}
-
-BatchReport locate_all(const ProbeVolumeView& volume, const detail::BatchQueries::Input& input,
-                       std::span<CellLocation> locations) {
-    detail::BatchQueries queries(volume, input, detail::query_kernels());
-    while (queries.locate_block()) {
-        const detail::QueryBlock& block = queries.block();
-        for (size_t query = 0; query < detail::QueryBlock::kSize; ++query) {
-            const size_t stream = query / detail::QueryBlock::kStreamSize;
-            if (query % detail::QueryBlock::kStreamSize >= block.count[stream]) continue;
-            locations[queries.source()[query]] = block.location[query];
-        }
-    }
-    return queries.report();
-}
-
-/// Location i is answer first + i.
-void blend_all(const ProbeVolumeView& volume, std::span<const CellLocation> locations, size_t first,
-               const InterpolationBatch& batch) {
-    if (batch.irradiance.memory.empty() && batch.occlusion.memory.empty()) return;
-    constexpr size_t kPart = 256;
-    std::array<uint32_t, kPart> answers;
-    for (size_t begin = 0; begin < locations.size(); begin += kPart) {
-        const size_t count = std::min(kPart, locations.size() - begin);
-        std::iota(answers.begin(), answers.end(), static_cast<uint32_t>(first + begin));
-        detail::query_kernels().blend(
-            volume, locations.subspan(begin, count),
-            {std::span(answers).first(count), batch.irradiance, batch.occlusion});
-    }
-}
-
-/// Answers positions [begin, begin + count) of a checked batch.
-BatchReport answer_part(const ProbeVolumeView& volume, const InterpolationBatch& batch,
-                        size_t begin, size_t count) {
-    if (batch.locations.empty()) return detail::answer(volume, batch, begin, count);
-    detail::BatchQueries::Input input;
-    input.positions = batch.positions.subspan(begin, count);
-    input.hints = part_of(batch.hints, begin, count);
-    input.outside = batch.outside;
-    if (!batch.sort_memory.empty()) {
-        input.order = morton_order(input.positions, batch.sort_memory.subspan(2 * begin));
-    }
-    const auto locations = batch.locations.subspan(begin, count);
-    const BatchReport report = locate_all(volume, input, locations);
-    blend_all(volume, locations, begin, batch);
-    return report;
-}
-
 }  // namespace
 
 InterpolatedProbe interpolate(const ProbeVolumeView& volume,
@@ -127,7 +75,7 @@ Status check_batch(const InterpolationBatch& batch) {
 void detail::BatchTasks::run(size_t task) noexcept {
     const size_t begin = task * kBatchTaskSize;
     const size_t count = std::min(kBatchTaskSize, batch.positions.size() - begin);
-    const BatchReport report = answer_part(volume, batch, begin, count);
+    const BatchReport report = detail::answer(volume, batch, begin, count);
     not_finite_count += report.not_finite_count;
     step_count += report.step_count;
     fallback_count += report.fallback_count;
@@ -135,13 +83,18 @@ void detail::BatchTasks::run(size_t task) noexcept {
 
 Result<BatchReport> interpolate(const ProbeVolumeView& volume, const InterpolationBatch& batch) {
     if (auto status = check_batch(batch); !status) return status.error();
-    return answer_part(volume, batch, 0, batch.positions.size());
+    return detail::answer(volume, batch, 0, batch.positions.size());
 }
 
 void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
             std::span<CellLocation> locations, const OutsideHull& outside) {
     TETRALIGHT_ASSERT(locations.size() >= positions.size(), "each position has a location");
-    locate_all(volume, {positions, {}, {}, outside}, locations);
+    detail::BatchQueries queries(volume, {positions, {}, {}, outside}, detail::query_kernels());
+    while (queries.locate_block()) {
+        for (size_t i = 0; i < queries.source().size(); ++i) {
+            locations[queries.source()[i]] = queries.locations()[i];
+        }
+    }
 }
 
 Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
@@ -150,7 +103,14 @@ Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locati
     batch.irradiance = irradiance;
     batch.occlusion = occlusion;
     if (auto status = check_outputs(batch, locations.size()); !status) return status;
-    blend_all(volume, locations, 0, batch);
+    constexpr size_t kPart = 2048;
+    std::array<uint32_t, kPart> answers;
+    for (size_t begin = 0; begin < locations.size(); begin += kPart) {
+        const size_t count = std::min(kPart, locations.size() - begin);
+        std::iota(answers.begin(), answers.end(), static_cast<uint32_t>(begin));
+        detail::query_kernels().blend(volume, locations.subspan(begin, count),
+                                      {std::span(answers).first(count), irradiance, occlusion});
+    }
     return Ok{};
 }
 

@@ -37,7 +37,7 @@ struct InterpolationBatch {
     /// World space.
     std::span<const glm::vec3> positions;
     /// In: where each walk starts; out: the cell found, for the next frame. May be empty: then
-    /// walks start near the cells of the positions before them.
+    /// walks start at the volume's seed grid.
     std::span<uint32_t> hints = {};
     /// At least one of irradiance, occlusion and locations must be set.
     ShOutput irradiance = {};

@@ -5,15 +5,15 @@
 
 #include <tetralight/base/contract.h>
 #include <tetralight/probes/detail/closest_hull_point.h>
-#include <tetralight/probes/detail/walk.h>
+#include <tetralight/probes/detail/walk_one.h>
 #include <tetralight/probes/is_finite.h>
 
 namespace tetralight {
 LocationTrace trace_location(const ProbeVolumeView& volume, glm::vec3 position,
                              uint32_t hint) noexcept {
     if (volume.cells.empty() || !is_finite(position)) return {};
-    const detail::Walk walk(volume, position);
-    return walk.run(hint < volume.cells.size() ? hint : walk.start_cell());
+    const uint32_t start = hint < volume.cells.size() ? hint : detail::start_cell(volume, position);
+    return detail::walk_one(volume, position, start);
 }
 
 CellLocation locate(const ProbeVolumeView& volume, glm::vec3 position, uint32_t hint,

@@ -40,13 +40,14 @@ struct OutsideHull {
 ///
 /// Walks from cell to cell, beginning at `hint`: the cell of a previous query near by, or of the
 /// same object in the last frame. Any value is allowed; if it is not the index of a cell, the walk
-/// begins at the volume's nearest seed. The walk always ends: after a bounded number of steps the
-/// cells around, and finally all cells, are searched. Cost: the number of cells between the hint
-/// and the position. Thread-safe.
+/// begins at the cell that the volume's seed grid names. The walk always ends: after a bounded
+/// number of steps the cells around, and finally all cells, are searched. Cost: the number of cells
+/// between the hint and the position. Thread-safe.
 ///
-/// The light of an answer is a function of its position up to rounding. Where cells meet, the hint
-/// and the kind of call (one, batch, GPU) choose which of them answers, with the same light; but
-/// nearly coplanar probes make cells thinner than rounding, across which the light changes.
+/// An answer is a function of the position and the hint, to the bit: single queries and batches
+/// give the same. Where cells meet, hints and the GPU may choose another of them, with the same
+/// light up to rounding; but nearly coplanar probes make cells thinner than rounding, across which
+/// the light changes.
 [[nodiscard]] CellLocation locate(const ProbeVolumeView& volume, glm::vec3 position,
                                   uint32_t hint = kNoIndex,
                                   const OutsideHull& outside = {}) noexcept;

@@ -172,6 +172,8 @@ struct ProbeVolumeView {
     std::span<const Cell> cells;
     std::span<const HullCellRays> hull_rays;  ///< one a hull cell
     std::span<const Seed> seeds;              ///< sorted by Hilbert index; may be empty
+    /// Where walks without a hint begin (probes/seed_grid.h). Empty: at one of `seeds`.
+    std::span<const uint32_t> seed_grid;
 
     std::span<const ProbeSource> sources;  ///< sorted by group, then index
     std::string_view group_names;          ///< sorted, each ended by '\n'
@@ -216,6 +218,7 @@ struct ProbeVolume {
     std::vector<Cell> cells;
     std::vector<HullCellRays> hull_rays;
     std::vector<Seed> seeds;
+    std::vector<uint32_t> seed_grid;
     std::vector<ProbeSource> sources;
     std::string group_names;
     std::vector<Light> lights;

@@ -27,6 +27,7 @@ constexpr void for_each_volume_member(Visit&& visit) {
     visit("cells", Query, &Owner::cells, &View::cells);
     visit("hull_rays", Query, &Owner::hull_rays, &View::hull_rays);
     visit("seeds", Query, &Owner::seeds, &View::seeds);
+    visit("seed_grid", Query, &Owner::seed_grid, &View::seed_grid);
     visit("irradiance", Query, &Owner::irradiance, &View::irradiance);
     visit("occlusion", Query, &Owner::occlusion, &View::occlusion);
     visit("validity", Offline, &Owner::validity, &View::validity);

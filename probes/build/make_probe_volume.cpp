@@ -7,6 +7,7 @@
 
 #include <tetralight/probes/build/detail/local_origin.h>
 #include <tetralight/probes/build/hull_rays.h>
+#include <tetralight/probes/build/make_seed_grid.h>
 #include <tetralight/probes/build/make_seeds.h>
 
 namespace tetralight {
@@ -36,6 +37,7 @@ ProbeVolume make_probe_volume(const MergedProbes& probes, Tetrahedralization cel
     volume.exact_positions = probes.positions;
     volume.cells = std::move(cells.cells);
     volume.hull_rays = std::move(hull.cells);
+    volume.seed_grid = make_seed_grid(volume.view());
     volume.sources = probes.sources;
     for (const std::string& name : probes.group_names) volume.group_names += name + "\n";
     return volume;

@@ -2,15 +2,16 @@
 #include <tetralight/probes/detail/batch_queries.h>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include <tetralight/probes/detail/cell_corners.h>
 #include <tetralight/probes/detail/closest_hull_point.h>
-#include <tetralight/probes/detail/hull_walk.h>
+#include <tetralight/probes/detail/hull_test.h>
+#include <tetralight/probes/detail/tetrahedron_test.h>
 #include <tetralight/probes/detail/walk.h>
+#include <tetralight/probes/detail/walk_one.h>
 #include <tetralight/probes/is_finite.h>
 #include <tetralight/probes/morton_order.h>
+#include <tetralight/probes/seed_grid.h>
 
 namespace tetralight::detail {
 namespace {
@@ -27,171 +28,139 @@ BatchQueries::BatchQueries(const ProbeVolumeView& volume, const Input& input,
     : volume_(volume),
       input_(input),
       kernels_(kernels),
-      stream_length_((input.positions.size() + QueryBlock::kStreamCount - 1) /
-                     QueryBlock::kStreamCount) {
-    block_.start.fill(kNoIndex);
-}
+      has_tetrahedra_(detail::has_tetrahedra(volume)) {}
 
 bool BatchQueries::locate_block() {
-    if (done_ >= stream_length_) return false;
+    if (done_ >= input_.positions.size()) return false;
     fill();
+    find_words();
+    find_starts();
+    begin_walks();
     walk();
-    resolve_remaining();
+    resolve_doubtful();
     apply_policy();
-    for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
-        const size_t first = stream * QueryBlock::kStreamSize;
-        for (size_t query = first; query < first + block_.count[stream]; ++query) {
-            if (!input_.hints.empty()) {
-                input_.hints[source_[query]] = block_.location[query].cell;
-            }
-        }
-    }
-    done_ += QueryBlock::kStreamSize;
+    write_hints();
+    done_ += count_;
     return true;
 }
 
+/// Positions that are not finite do not walk; those that were moved walk in double.
 void BatchQueries::fill() {
-    block_.unresolved_count = 0;
-    for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
-        const size_t begin = stream * stream_length_ + done_;
-        const size_t end = std::min({(stream + 1) * stream_length_, input_.positions.size(),
-                                     begin + QueryBlock::kStreamSize});
-        block_.count[stream] = end > begin ? end - begin : 0;
-        for (size_t i = 0; i < block_.count[stream]; ++i) {
-            fill_query(stream * QueryBlock::kStreamSize + i, begin + i);
+    count_ = std::min(QueryBlock::kSize, input_.positions.size() - done_);
+    walking_count_ = 0;
+    block_.doubtful_count = 0;
+    for (size_t query = 0; query < count_; ++query) {
+        const size_t next = done_ + query;
+        source_[query] = static_cast<uint32_t>(input_.order.empty() ? next : input_.order[next]);
+        const glm::vec3& position = position_of(query);
+        if (volume_.cells.empty() || !is_finite(position)) {
+            block_.location[query] = {};
+            report_.not_finite_count += !is_finite(position);
+            continue;
         }
-        choose_starts(stream);
-    }
-    prefetch_starts();
-}
-
-void BatchQueries::fill_query(size_t query, size_t index) {
-    if (!input_.order.empty()) index = static_cast<uint32_t>(input_.order[index]);
-    source_[query] = static_cast<uint32_t>(index);
-    const glm::vec3& position = input_.positions[index];
-    if (!is_finite(position)) {
-        // It walks along with the stream; what it finds is not used.
-        not_finite_[not_finite_count_++] = static_cast<uint32_t>(query);
-        block_.x[query] = block_.y[query] = block_.z[query] = 0.0;
-        return;
-    }
-    const glm::dvec3 local = local_position(volume_.info, position);
-    block_.x[query] = local.x;
-    block_.y[query] = local.y;
-    block_.z[query] = local.z;
-}
-
-/// A walk begins at its hint, else where the one before it ended, else, if that is many cells away,
-/// at a seed.
-void BatchQueries::choose_starts(size_t stream) {
-    const size_t first = stream * QueryBlock::kStreamSize;
-    const auto seed = [&](size_t query) {
-        return start_near(Walk(volume_, input_.positions[source_[query]]).start_cell());
-    };
-    double reach = done_ == 0 ? -1.0 : square_reach(block_.cell[stream]);
-    uint32_t* const starts = &block_.start[QueryBlock::start_index(0, stream)];
-    starts[first + block_.count[stream]] = kNoIndex;
-    for (size_t query = first; query < first + block_.count[stream]; ++query) {
-        starts[query] = kNoIndex;
-        const uint32_t hint = input_.hints.empty() ? kNoIndex : input_.hints[source_[query]];
-        const glm::dvec3 position(block_.x[query], block_.y[query], block_.z[query]);
-        const glm::dvec3 jump = position - std::exchange(last_[stream], position);
-        if (hint < volume_.cells.size()) {
-            starts[query] = start_near(hint);
-        } else if (!input_.hints.empty() || glm::dot(jump, jump) > reach) {
-            starts[query] = seed(query);
+        const LocalPosition local = find_local(volume_.info, position);
+        if (!has_tetrahedra_ || local.is_moved) {
+            const uint32_t hint = hint_of(query);
+            block_.doubtful[block_.doubtful_count] = static_cast<uint32_t>(query);
+            block_.doubtful_cell[block_.doubtful_count++] =
+                hint < volume_.cells.size() ? hint : start_cell(volume_, position);
+            continue;
         }
-        if (reach < 0.0) reach = square_reach(starts[query]);
+        local_[walking_count_] = local.position;
+        walking_[walking_count_++] = static_cast<uint32_t>(query);
     }
 }
 
-/// The squared distance beyond which a seed is nearer than this cell, in cells to be tested.
-double BatchQueries::square_reach(uint32_t cell) const {
-    constexpr double kReach = 3.0;  // edges of the cell, measured
-    std::array<glm::dvec3, 4> corners{};
-    if (!find_corners(volume_, cell, glm::dvec3(0.0), corners)) return 0.0;
-    double square = 0.0;
-    for (const glm::dvec3& corner : corners) {
-        const glm::dvec3 edge = corner - corners[0];
-        square = std::max(square, glm::dot(edge, edge));
-    }
-    return kReach * kReach * square;
+uint32_t BatchQueries::hint_of(size_t query) const {
+    return input_.hints.empty() ? kNoIndex : input_.hints[source_[query]];
 }
 
-/// Starts that do not follow each other lie anywhere in memory: all are fetched at once.
-void BatchQueries::prefetch_starts() const {
-    const auto for_each_start = [&](const auto& visit) {
-        for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
-            const size_t first = stream * QueryBlock::kStreamSize;
-            for (size_t query = first; query < first + block_.count[stream]; ++query) {
-                const uint32_t start = block_.start[QueryBlock::start_index(query, stream)];
-                if (start < volume_.cells.size()) visit(volume_.cells[start]);
+/// Each read of what may not be in a cache is a loop of its own that only fetches.
+void BatchQueries::find_words() {
+    const std::span<const uint32_t> words = volume_.seed_grid;
+    const bool has_grid = words.size() >= kSeedGridHeaderWords;
+    const SeedGridHeader grid = has_grid ? seed_grid_header(words, 0) : SeedGridHeader{};
+    for (size_t i = 0; i < walking_count_; ++i) {
+        word_[i] = has_grid ? seed_word(grid, 0, glm::vec3(local_[i])) : words.size();
+        if (word_[i] < words.size()) __builtin_prefetch(&words[word_[i]]);
+    }
+}
+
+void BatchQueries::find_starts() {
+    const std::span<const uint32_t> words = volume_.seed_grid;
+    for (size_t i = 0; i < walking_count_; ++i) {
+        uint32_t start = hint_of(walking_[i]);
+        if (start >= volume_.cells.size()) {
+            if (words.empty()) {
+                start = start_cell(volume_, position_of(walking_[i]));
+            } else {
+                start = seed_cell(words, word_[i], glm::vec3(local_[i]));
+                if (start >= volume_.cells.size()) start = 0;
             }
         }
-    };
-    for_each_start([](const Cell& cell) { __builtin_prefetch(&cell); });
-    for_each_start([&](const Cell& cell) {
-        for (const uint32_t probe : cell.vertices) {
+        start_[i] = start;
+        __builtin_prefetch(&volume_.cells[start]);
+    }
+}
+
+void BatchQueries::begin_walks() {
+    block_.tetrahedra.count = 0;
+    block_.hull_cells.count = 0;
+    for (size_t i = 0; i < walking_count_; ++i) {
+        auto& list =
+            start_[i] < volume_.info.inner_cell_count ? block_.tetrahedra : block_.hull_cells;
+        list.add(local_[i], walking_[i], start_[i]);
+        for (const uint32_t probe : volume_.cells[start_[i]].vertices) {
             if (probe < volume_.positions.size()) __builtin_prefetch(&volume_.positions[probe]);
         }
-    });
-}
-
-/// Walks of volumes that have tetrahedra begin in one of them.
-uint32_t BatchQueries::start_near(uint32_t cell) const {
-    if (!has_tetrahedra() || cell < volume_.info.inner_cell_count) return cell;
-    const uint32_t inner = volume_.cells[cell].neighbors[3];
-    return inner < volume_.info.inner_cell_count ? inner : kNoIndex;
-}
-
-bool BatchQueries::has_tetrahedra() const {
-    return volume_.info.dimension == Dimension::Space && volume_.info.inner_cell_count > 0 &&
-           volume_.info.inner_cell_count <= volume_.cells.size();
-}
-
-/// Kernels know tetrahedra; every query of a volume of lower dimension is left open.
-void BatchQueries::walk() {
-    if (has_tetrahedra()) {
-        kernels_.walk_tetrahedra(volume_, block_);
-        return walk_hull(volume_, kernels_, block_);
     }
-    for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
-        const size_t first = stream * QueryBlock::kStreamSize;
-        for (size_t query = first; query < first + block_.count[stream]; ++query) {
-            block_.unresolved[block_.unresolved_count] = static_cast<uint32_t>(query);
-            block_.unresolved_cell[block_.unresolved_count++] =
-                block_.start[QueryBlock::start_index(query, stream)];
+}
+
+void BatchQueries::walk() {
+    auto& [tetrahedra, hull_cells, doubtful, doubtful_cell, doubtful_count, location] = block_;
+    for (uint32_t pass = 0; pass < input_.pass_limit; ++pass) {
+        report_.step_count += tetrahedra.count + hull_cells.count;
+        if (tetrahedra.count + hull_cells.count == 0) return;
+        const size_t hull_count = hull_cells.count;
+        const size_t doubtful_before = doubtful_count;
+        if (tetrahedra.count > 0) kernels_.test_tetrahedra(volume_, block_);
+        if (hull_count > 0) test_hull_cells(volume_, kernels_, block_, hull_count);
+        report_.step_count -= doubtful_count - doubtful_before;  // `Walk` begins with these cells
+    }
+    for (const auto* list : {&tetrahedra, &hull_cells}) {
+        for (size_t i = 0; i < list->count; ++i) {
+            doubtful[doubtful_count] = list->query[i];
+            doubtful_cell[doubtful_count++] = list->cell[i];
         }
     }
 }
 
-void BatchQueries::resolve_remaining() {
-    report_.step_count += std::exchange(block_.step_count, 0);
-    uint32_t previous = kNoIndex;
-    for (size_t i = 0; i < block_.unresolved_count; ++i) {
-        const size_t query = block_.unresolved[i];
-        const glm::vec3& position = input_.positions[source_[query]];
-        const uint32_t start =
-            block_.unresolved_cell[i] == kNoIndex ? previous : block_.unresolved_cell[i];
-        const LocationTrace trace = trace_location(volume_, position, start);
+void BatchQueries::resolve_doubtful() {
+    for (size_t i = 0; i < block_.doubtful_count; ++i) {
+        const size_t query = block_.doubtful[i];
+        if (has_tetrahedra_ && input_.unresolved == Unresolved::KeepCell) {
+            block_.location[query] = {block_.doubtful_cell[i]};
+            continue;
+        }
+        const LocationTrace trace = Walk(volume_, position_of(query)).run(block_.doubtful_cell[i]);
         report_.step_count += trace.step_count;
         report_.fallback_count += trace.is_fallback;
         block_.location[query] = trace.location;
-        previous = trace.location.cell;
     }
-    for (size_t i = 0; i < not_finite_count_; ++i) block_.location[not_finite_[i]] = {};
-    report_.not_finite_count += std::exchange(not_finite_count_, 0);
 }
 
 void BatchQueries::apply_policy() {
     if (input_.outside.policy == OutsidePolicy::Extrapolate) return;
-    for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
-        const size_t first = stream * QueryBlock::kStreamSize;
-        for (size_t query = first; query < first + block_.count[stream]; ++query) {
-            CellLocation& location = block_.location[query];
-            location =
-                clamp_to_hull(volume_, input_.positions[source_[query]], location, input_.outside);
-        }
+    for (size_t query = 0; query < count_; ++query) {
+        CellLocation& location = block_.location[query];
+        location = clamp_to_hull(volume_, position_of(query), location, input_.outside);
+    }
+}
+
+void BatchQueries::write_hints() {
+    if (input_.hints.empty()) return;
+    for (size_t query = 0; query < count_; ++query) {
+        input_.hints[source_[query]] = block_.location[query].cell;
     }
 }
 
@@ -212,14 +181,14 @@ BatchReport answer(const ProbeVolumeView& volume, const InterpolationBatch& batc
         part_of(occlusion.memory, begin * occlusion.answer_stride, std::dynamic_extent);
 
     BatchQueries queries(volume, input, kernels);
+    const auto locations = part_of(batch.locations, begin, count);
+    const bool is_blended = !irradiance.memory.empty() || !occlusion.memory.empty();
     while (queries.locate_block()) {
-        for (size_t stream = 0; stream < QueryBlock::kStreamCount; ++stream) {
-            const size_t first = stream * QueryBlock::kStreamSize;
-            const size_t size = queries.block().count[stream];
-            const std::span locations = std::span(queries.block().location).subspan(first, size);
-            kernels.blend(volume, locations,
-                          {queries.source().subspan(first, size), irradiance, occlusion});
+        for (size_t i = 0; !locations.empty() && i < queries.source().size(); ++i) {
+            locations[queries.source()[i]] = queries.locations()[i];
         }
+        if (!is_blended) continue;
+        kernels.blend(volume, queries.locations(), {queries.source(), irradiance, occlusion});
     }
     return queries.report();
 }

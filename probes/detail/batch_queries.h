@@ -6,16 +6,24 @@
 #include <span>
 
 #include <tetralight/probes/detail/query_kernels.h>
+#include <tetralight/probes/detail/tetrahedron_test.h>
 #include <tetralight/probes/interpolate.h>
 
 namespace tetralight::detail {
 
 /// Locates many positions, a block at a time:
 ///
-///     BatchQueries queries(volume, positions, hints, outside, order, query_kernels());
-///     while (queries.locate_block()) ... // queries.block().location, queries.source()
+///     BatchQueries queries(volume, {positions, hints, order, outside}, query_kernels());
+///     while (queries.locate_block()) ... // queries.locations(), queries.source()
+///
+/// Each answer is that of `walk_one`, to the bit. A block takes about 36 KiB of the stack.
 class BatchQueries {
   public:
+    enum class Unresolved : uint8_t {
+        Walk,
+        KeepCell,  ///< the location names the cell that the query reached, without weights
+    };
+
     struct Input {
         std::span<const glm::vec3> positions;
         /// As in `InterpolationBatch`; written to when a block is located.
@@ -24,6 +32,9 @@ class BatchQueries {
         /// `positions`.
         std::span<const uint64_t> order;
         OutsideHull outside;
+        /// Tests of a query in passes. What is left then walks on alone, or stays where it is.
+        uint32_t pass_limit = kPassLimit;
+        Unresolved unresolved = Unresolved::Walk;
     };
 
     BatchQueries(const ProbeVolumeView& volume, const Input& input, const QueryKernels& kernels);
@@ -31,36 +42,48 @@ class BatchQueries {
     /// Locates the next block. False if all positions are located.
     [[nodiscard]] bool locate_block();
 
-    [[nodiscard]] const QueryBlock& block() const { return block_; }
+    [[nodiscard]] std::span<const CellLocation> locations() const {
+        return std::span(block_.location).first(count_);
+    }
 
     /// For each query of the block the index of its position.
-    [[nodiscard]] std::span<const uint32_t> source() const { return source_; }
+    [[nodiscard]] std::span<const uint32_t> source() const {
+        return std::span(source_).first(count_);
+    }
 
     [[nodiscard]] const BatchReport& report() const { return report_; }
 
   private:
     void fill();
-    void fill_query(size_t query, size_t index);
-    void choose_starts(size_t stream);
-    void prefetch_starts() const;
+    void find_words();
+    void find_starts();
+    void begin_walks();
     void walk();
-    void resolve_remaining();
+    void resolve_doubtful();
     void apply_policy();
-    [[nodiscard]] bool has_tetrahedra() const;
-    [[nodiscard]] uint32_t start_near(uint32_t cell) const;
-    [[nodiscard]] double square_reach(uint32_t cell) const;
+    void write_hints();
+    [[nodiscard]] uint32_t hint_of(size_t query) const;
+
+    [[nodiscard]] const glm::vec3& position_of(size_t query) const {
+        return input_.positions[source_[query]];
+    }
 
     const ProbeVolumeView& volume_;
     Input input_;
     const QueryKernels& kernels_;
-    size_t stream_length_;
-    size_t done_ = 0;                                          ///< of each stream
-    std::array<glm::dvec3, QueryBlock::kStreamCount> last_{};  ///< position of each stream
+    bool has_tetrahedra_;
+    size_t done_ = 0;
+    size_t count_ = 0;  ///< of this block
     BatchReport report_;
     QueryBlock block_;
     std::array<uint32_t, QueryBlock::kSize> source_;
-    std::array<uint32_t, QueryBlock::kSize> not_finite_;
-    size_t not_finite_count_ = 0;
+    /// Local positions of the queries that walk, and their index in the block.
+    std::array<glm::dvec3, QueryBlock::kSize> local_;
+    std::array<uint32_t, QueryBlock::kSize> walking_;
+    size_t walking_count_ = 0;
+    /// Places of the words in the seed grid, then the cells where walks begin.
+    std::array<uint64_t, QueryBlock::kSize> word_;
+    std::array<uint32_t, QueryBlock::kSize> start_;
 };
 
 /// Answers positions [begin, begin + count) of a checked batch.

@@ -78,7 +78,11 @@ class Blender {
     /// True if this code supports the volume; otherwise the scalar twin blends.
     [[nodiscard]] bool is_able() const { return is_compact_ || has_floats_; }
 
-    HWY_INLINE void prefetch(const CellLocation& location) const {
+    HWY_INLINE void prefetch_cell(const CellLocation& location) const {
+        if (location.cell < volume_.cells.size()) hwy::Prefetch(&volume_.cells[location.cell]);
+    }
+
+    HWY_INLINE void prefetch_probes(const CellLocation& location) const {
         if (location.cell >= volume_.cells.size()) return;
         for (const uint32_t probe : volume_.cells[location.cell].vertices) {
             if (probe >= volume_.positions.size()) continue;
@@ -148,10 +152,17 @@ void blend(const ProbeVolumeView& volume, std::span<const CellLocation> location
            const BlendTarget& target) {
     const Blender blender(volume, target);
     if (!blender.is_able()) return scalar_kernels().blend(volume, locations, target);
-    constexpr size_t kAhead = 8;
-    for (size_t i = 0; i < std::min(kAhead, locations.size()); ++i) blender.prefetch(locations[i]);
-    for (size_t i = 0; i < locations.size(); ++i) {
-        if (i + kAhead < locations.size()) blender.prefetch(locations[i + kAhead]);
+    // Probes are fetched by the indices in their cell, so the cell must have arrived before.
+    constexpr size_t kCellsAhead = 48;
+    constexpr size_t kProbesAhead = 12;
+    const size_t count = locations.size();
+    for (size_t i = 0; i < std::min(kCellsAhead, count); ++i) blender.prefetch_cell(locations[i]);
+    for (size_t i = 0; i < std::min(kProbesAhead, count); ++i) {
+        blender.prefetch_probes(locations[i]);
+    }
+    for (size_t i = 0; i < count; ++i) {
+        if (i + kCellsAhead < count) blender.prefetch_cell(locations[i + kCellsAhead]);
+        if (i + kProbesAhead < count) blender.prefetch_probes(locations[i + kProbesAhead]);
         if (HWY_UNLIKELY(locations[i].cell >= volume.cells.size())) {
             scalar_kernels().blend(
                 volume, locations.subspan(i, 1),

@@ -10,16 +10,46 @@
 
 namespace tetralight::detail {
 
-/// A position relative to the volume's local origin. Far away only the direction matters, and
-/// double could not distinguish the hull's corners: positions beyond `kFarthestExtents` are moved
-/// to it.
-inline glm::dvec3 local_position(const VolumeInfo& info, const glm::vec3& position) noexcept {
+/// A position relative to the volume's local origin.
+struct LocalPosition {
+    glm::dvec3 position{0.0};
+    /// The position is farther away and was moved to this one.
+    bool is_moved = false;
+};
+
+/// Far away only the direction matters, and double could not distinguish the hull's corners:
+/// positions beyond `kFarthestExtents` are moved to it.
+inline LocalPosition within_reach(const VolumeInfo& info, const glm::dvec3& local) noexcept {
     constexpr double kFarthestExtents = 65536.0;
-    const glm::dvec3 local = glm::dvec3(position) - info.world_origin;
     const double farthest = kFarthestExtents * static_cast<double>(info.extent);
     const double square = glm::dot(local, local);
-    if (!(farthest > 0.0) || !(square > farthest * farthest)) return local;
-    return local * (farthest / std::sqrt(square));
+    if (!(farthest > 0.0) || !(square > farthest * farthest)) return {local, false};
+    return {local * (farthest / std::sqrt(square)), true};
+}
+
+/// A position relative to the volume's local origin, within reach.
+inline LocalPosition find_local(const VolumeInfo& info, const glm::vec3& position) noexcept {
+    return within_reach(info, glm::dvec3(position) - info.world_origin);
+}
+
+/// The foot of a local position on the plane or line of a flat volume: its cells do not depend on
+/// the distance from there, which could cost all digits.
+inline glm::dvec3 foot_on_probes(const ProbeVolumeView& volume, const glm::dvec3& local) noexcept {
+    if (volume.positions.empty()) return local;
+    const glm::dvec3 probe(volume.positions[0]);
+    const glm::dvec3 along = volume.info.axis * glm::dot(volume.info.axis, local - probe);
+    switch (volume.info.dimension) {
+        case Dimension::Plane:
+            return local - along;
+        case Dimension::Line:
+            return probe + along;
+        default:
+            return local;
+    }
+}
+
+inline glm::dvec3 local_position(const VolumeInfo& info, const glm::vec3& position) noexcept {
+    return find_local(info, position).position;
 }
 
 /// Corners of a cell relative to a local position. Every index is tested here, where it is used:

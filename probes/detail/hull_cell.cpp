@@ -87,30 +87,41 @@ std::optional<double> first_root(const Cubic& c) {
     return std::nullopt;
 }
 
-/// det[A + tA', B + tB', D − t v2] as a cubic in t, where A, B are edges of the triangle, A', B'
-/// those of its rays, and D goes from the third corner to the position.
-Cubic plane_cubic(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& v) {
-    const glm::dvec3 a = p[0] - p[2], da = v[0] - v[2];
-    const glm::dvec3 b = p[1] - p[2], db = v[1] - v[2];
-    const glm::dvec3 d = -p[2];
+/// Edges A, B of a triangle and the way D from its third corner to the query; how they change with
+/// t: A + tA', B + tB', D − t v2.
+struct MovingTriangle {
+    HullTriangle at;
+    glm::dvec3 first_rate, second_rate, third_ray;
+
+    [[nodiscard]] HullTriangle after(double t) const {
+        return {at.first + t * first_rate, at.second + t * second_rate,
+                at.to_query - t * third_ray};
+    }
+};
+
+/// det[A + tA', B + tB', D − t v2] as a cubic in t.
+Cubic plane_cubic(const MovingTriangle& triangle) {
+    const auto& [a, b, d] = triangle.at;
+    const glm::dvec3& da = triangle.first_rate;
+    const glm::dvec3& db = triangle.second_rate;
+    const glm::dvec3& v2 = triangle.third_ray;
     // The normal of the moved triangle: n0 + n1 t + n2 t².
     const glm::dvec3 n0 = glm::cross(a, b);
     const glm::dvec3 n1 = glm::cross(a, db) + glm::cross(da, b);
     const glm::dvec3 n2 = glm::cross(da, db);
-    return {glm::dot(n0, d), glm::dot(n1, d) - glm::dot(n0, v[2]),
-            glm::dot(n2, d) - glm::dot(n1, v[2]), -glm::dot(n2, v[2])};
+    return {glm::dot(n0, d), glm::dot(n1, d) - glm::dot(n0, v2), glm::dot(n2, d) - glm::dot(n1, v2),
+            -glm::dot(n2, v2)};
 }
 
-std::optional<glm::dvec3> weights_of_origin(const std::array<glm::dvec3, 3>& q) {
-    const glm::dvec3 first = q[1] - q[0];
-    const glm::dvec3 second = q[2] - q[0];
+std::optional<glm::dvec3> weights_of_query(const HullTriangle& triangle) {
+    const auto& [first, second, to_query] = triangle;
     const glm::dvec3 normal = glm::cross(first, second);
     const double area = glm::dot(normal, normal);
     const double longest = std::max(glm::dot(first, first), glm::dot(second, second));
     if (!(area > kFlatTriangle * longest * longest)) return std::nullopt;
     const double unit = 1 / area;
-    const double w0 = determinant(q[1], q[2], normal) * unit;
-    const double w1 = determinant(q[2], q[0], normal) * unit;
+    const double w0 = glm::dot(glm::cross(to_query, second), normal) * unit;
+    const double w1 = glm::dot(glm::cross(first, to_query), normal) * unit;
     return glm::dvec3(w0, w1, 1 - w0 - w1);
 }
 
@@ -127,31 +138,29 @@ std::optional<double> first_crossing(const Cubic& cubic) {
     return high <= kFarthestRoot ? std::optional(bracketed_root(cubic, top, high)) : std::nullopt;
 }
 
-/// Length of the longest corner; none if it is 0 or not finite.
-std::optional<double> length_scale(std::span<const glm::dvec3> corners) {
+/// Length of the longest vector; none if it is 0 or not finite.
+std::optional<double> length_scale(std::span<const glm::dvec3> vectors) {
     double scale = 0;
-    for (const glm::dvec3& corner : corners) scale = std::max(scale, glm::dot(corner, corner));
+    for (const glm::dvec3& v : vectors) scale = std::max(scale, glm::dot(v, v));
     if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
     return std::sqrt(scale);
 }
 
 }  // namespace
 
-std::optional<glm::dvec3> hull_cell_weights(const std::array<glm::dvec3, 3>& corners,
+std::optional<glm::dvec3> hull_cell_weights(const HullTriangle& triangle,
                                             const HullCellRays& rays) noexcept {
-    const auto scale = length_scale(corners);
+    const auto scale = length_scale(std::array{triangle.first, triangle.second, triangle.to_query});
     if (!scale) return std::nullopt;
-    std::array<glm::dvec3, 3> p;
-    std::array<glm::dvec3, 3> v;
     const double unit = 1 / *scale;
-    for (int i = 0; i < 3; ++i) {
-        p[i] = corners[i] * unit;
-        v[i] = glm::dvec3(rays.rays[i]);
-    }
-    const std::optional<double> t = first_crossing(plane_cubic(p, v));
-    if (!t) return std::nullopt;
-    for (int i = 0; i < 3; ++i) p[i] += *t * v[i];
-    return weights_of_origin(p);
+    const glm::dvec3 third(rays.rays[2]);
+    const MovingTriangle moving{
+        {triangle.first * unit, triangle.second * unit, triangle.to_query * unit},
+        glm::dvec3(rays.rays[0]) - third,
+        glm::dvec3(rays.rays[1]) - third,
+        third};
+    const std::optional<double> t = first_crossing(plane_cubic(moving));
+    return t ? weights_of_query(moving.after(*t)) : std::nullopt;
 }
 
 std::optional<glm::dvec2> hull_edge_weights(const std::array<glm::dvec3, 2>& corners,

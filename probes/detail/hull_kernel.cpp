@@ -55,15 +55,19 @@ struct Cubics {
     VecD c0, c1, c2, c3;
 };
 
-HWY_INLINE Cubics plane_cubics(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& v) {
-    const Vec3 a = subtract(p[0], p[2]), da = subtract(v[0], v[2]);
-    const Vec3 b = subtract(p[1], p[2]), db = subtract(v[1], v[2]);
-    const Vec3 d{hn::Neg(p[2].x), hn::Neg(p[2].y), hn::Neg(p[2].z)};
-    const Vec3 n0 = cross(a, b);
-    const Vec3 n1 = add(cross(a, db), cross(da, b));
-    const Vec3 n2 = cross(da, db);
-    return {dot(n0, d), hn::Sub(dot(n1, d), dot(n0, v[2])), hn::Sub(dot(n2, d), dot(n1, v[2])),
-            hn::Neg(dot(n2, v[2]))};
+/// `MovingTriangle` in the lanes.
+struct Triangles {
+    Vec3 first, second, to_query;
+    Vec3 first_rate, second_rate, third_ray;
+};
+
+HWY_INLINE Cubics plane_cubics(const Triangles& at) {
+    const Vec3 n0 = cross(at.first, at.second);
+    const Vec3 n1 = add(cross(at.first, at.second_rate), cross(at.first_rate, at.second));
+    const Vec3 n2 = cross(at.first_rate, at.second_rate);
+    const Vec3 &d = at.to_query, &v2 = at.third_ray;
+    return {dot(n0, d), hn::Sub(dot(n1, d), dot(n0, v2)), hn::Sub(dot(n2, d), dot(n1, v2)),
+            hn::Neg(dot(n2, v2))};
 }
 
 /// `root_of_falling` in each lane of `is_falling`; what the others hold has no meaning.
@@ -88,31 +92,42 @@ HWY_INLINE VecD roots_of_falling(const Cubics& c, hn::Mask<Doubles> is_falling) 
     return t;
 }
 
+/// The lanes from `lane` on, scaled as `hull_cell_weights` does.
+HWY_INLINE Triangles load_triangles(const HullLanes& lanes, size_t lane) {
+    const Doubles d;
+    const Vec3 first = load3(lanes.first, lane);
+    const Vec3 second = load3(lanes.second, lane);
+    const Vec3 to_query = load3(lanes.to_query, lane);
+    const VecD square =
+        hn::Max(hn::Max(dot(first, first), dot(second, second)), dot(to_query, to_query));
+    const VecD unit = hn::Div(hn::Set(d, 1.0), hn::Sqrt(square));
+    const Vec3 third = load3(lanes.rays[2], lane);
+    return {scale(first, unit),
+            scale(second, unit),
+            scale(to_query, unit),
+            subtract(load3(lanes.rays[0], lane), third),
+            subtract(load3(lanes.rays[1], lane), third),
+            third};
+}
+
 /// `hull_cell_weights` of the lanes from `lane` on, where its cubic falls.
 HWY_INLINE void hull_weights_from(HullLanes& lanes, size_t lane) {
     const Doubles d;
     const VecD zero = hn::Zero(d);
-    std::array<Vec3, 3> p{load3(lanes.corners[0], lane), load3(lanes.corners[1], lane),
-                          load3(lanes.corners[2], lane)};
-    const std::array<Vec3, 3> v{load3(lanes.rays[0], lane), load3(lanes.rays[1], lane),
-                                load3(lanes.rays[2], lane)};
-    const VecD square = hn::Max(hn::Max(dot(p[0], p[0]), dot(p[1], p[1])), dot(p[2], p[2]));
-    const VecD unit = hn::Div(hn::Set(d, 1.0), hn::Sqrt(square));
-    for (Vec3& corner : p) corner = scale(corner, unit);
-    const Cubics c = plane_cubics(p, v);
+    const Triangles triangles = load_triangles(lanes, lane);
+    const Cubics c = plane_cubics(triangles);
     const auto is_falling = hn::And(hn::And(hn::Gt(c.c0, zero), hn::Lt(c.c1, zero)),
                                     hn::And(hn::Le(c.c2, zero), hn::Le(c.c3, zero)));
     const VecD t = roots_of_falling(c, is_falling);
-    for (size_t i = 0; i < 3; ++i) p[i] = add(p[i], scale(v[i], t));
-
-    const Vec3 first = subtract(p[1], p[0]);
-    const Vec3 second = subtract(p[2], p[0]);
+    const Vec3 first = add(triangles.first, scale(triangles.first_rate, t));
+    const Vec3 second = add(triangles.second, scale(triangles.second_rate, t));
+    const Vec3 to_query = subtract(triangles.to_query, scale(triangles.third_ray, t));
     const Vec3 normal = cross(first, second);
     const VecD area = dot(normal, normal);
     const VecD longest = hn::Max(dot(first, first), dot(second, second));
     const VecD per_area = hn::Div(hn::Set(d, 1.0), area);
-    const VecD w0 = hn::Mul(dot(cross(p[1], p[2]), normal), per_area);
-    const VecD w1 = hn::Mul(dot(cross(p[2], p[0]), normal), per_area);
+    const VecD w0 = hn::Mul(dot(cross(to_query, second), normal), per_area);
+    const VecD w1 = hn::Mul(dot(cross(first, to_query), normal), per_area);
     hn::Store(w0, d, &lanes.weights[0][lane]);
     hn::Store(w1, d, &lanes.weights[1][lane]);
     hn::Store(hn::Sub(hn::Sub(hn::Set(d, 1.0), w0), w1), d, &lanes.weights[2][lane]);

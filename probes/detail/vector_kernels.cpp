@@ -4,7 +4,7 @@
 namespace tetralight::detail {
 
 const QueryKernels& query_kernels() noexcept {
-    static constexpr QueryKernels kKernels{walk_tetrahedra_in_vectors, hull_weights_in_vectors,
+    static constexpr QueryKernels kKernels{test_tetrahedra_in_vectors, hull_weights_in_vectors,
                                            blend_in_vectors};
     return kKernels;
 }

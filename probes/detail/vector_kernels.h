@@ -9,7 +9,7 @@
 
 namespace tetralight::detail {
 
-void walk_tetrahedra_in_vectors(const ProbeVolumeView& volume, QueryBlock& block);
+void test_tetrahedra_in_vectors(const ProbeVolumeView& volume, QueryBlock& block);
 
 void hull_weights_in_vectors(HullLanes& lanes);
 

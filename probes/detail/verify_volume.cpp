@@ -11,6 +11,7 @@
 #include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/detail/verify_info.h>
 #include <tetralight/probes/detail/verify_layers.h>
+#include <tetralight/probes/detail/verify_seed_grid.h>
 #include <tetralight/probes/detail/verify_text.h>
 #include <tetralight/probes/farthest_position.h>
 #include <tetralight/probes/is_finite.h>
@@ -263,6 +264,7 @@ Status check_tables(const ProbeVolumeView& v) {
     if (!std::ranges::is_sorted(v.seeds, {}, &Seed::hilbert_index)) {
         return detail::section_error("seeds", "is not sorted");
     }
+    if (auto s = detail::check_seed_grid(v); !s) return s;
     const auto in_range = [&](const ProbeSource& source) {
         return source.group < groups &&
                (source.probe < v.positions.size() || source.probe == kNoIndex);

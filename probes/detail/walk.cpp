@@ -10,6 +10,7 @@
 
 #include <tetralight/probes/detail/cell_corners.h>
 #include <tetralight/probes/detail/hull_cell.h>
+#include <tetralight/probes/seed_grid.h>
 
 namespace tetralight::detail {
 namespace {
@@ -54,12 +55,8 @@ int CellWeights::most_negative() const {
 }
 
 CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept {
-    const auto& [a, b, c, d] = corners;
-    const glm::dvec3 cd = glm::cross(c, d);
-    const glm::dvec3 ab = glm::cross(a, b);
     const double square = longest_square(corners, 4);
-    return {{glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)},
-            kSliverRounding * (square * square * square)};
+    return {signed_volumes(corners), kSliverRounding * (square * square * square)};
 }
 
 CellWeights precise_tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept {
@@ -83,10 +80,17 @@ CellLocation finish(uint32_t cell, const CellWeights& cell_weights) noexcept {
     return {cell, 0.0f, weights};
 }
 
-Walk::Walk(const ProbeVolumeView& volume, const glm::vec3& position) noexcept
-    : volume_(volume), position_(local_position(volume.info, position)) {}
+Walk::Walk(const ProbeVolumeView& volume, const glm::vec3& position) noexcept : volume_(volume) {
+    const glm::dvec3 local = glm::dvec3(position) - volume.info.world_origin;
+    position_ = within_reach(volume.info, foot_on_probes(volume, local)).position;
+}
 
 uint32_t Walk::start_cell() const noexcept {
+    if (!volume_.seed_grid.empty()) {
+        const uint64_t word = find_seed_word(volume_.seed_grid, glm::vec3(position_));
+        const uint32_t cell = word < volume_.seed_grid.size() ? volume_.seed_grid[word] : 0u;
+        return cell < volume_.cells.size() ? cell : 0u;
+    }
     const uint64_t index = volume_.info.seed_cube.index(position_);
     const auto next = std::ranges::lower_bound(volume_.seeds, index, {}, &Seed::hilbert_index);
     const uint32_t cell = next != volume_.seeds.end() ? next->cell
@@ -140,9 +144,11 @@ std::optional<CellWeights> Walk::precise_weights(uint32_t index) const {
 }
 
 std::optional<CellWeights> Walk::cell_weights(uint32_t index) const {
+    const bool is_inner = index < volume_.info.inner_cell_count;
+    const glm::dvec3 origin = is_inner ? position_ : glm::dvec3(0.0);
     std::array<glm::dvec3, 4> corners{};
-    if (!find_corners(volume_, index, position_, corners)) return std::nullopt;
-    if (index < volume_.info.inner_cell_count) return inner_weights(corners);
+    if (!find_corners(volume_, index, origin, corners)) return std::nullopt;
+    if (is_inner) return inner_weights(corners);
     const uint32_t hull_index = index - volume_.info.inner_cell_count;
     if (hull_index >= volume_.hull_rays.size()) return std::nullopt;
     return hull_weights(corners, volume_.hull_rays[hull_index]);
@@ -173,16 +179,18 @@ CellWeights Walk::hull_weights(const std::array<glm::dvec3, 4>& corners,
     constexpr CellWeights kGoOnInside{{0.0, 0.0, 0.0, -1.0}};
     switch (volume_.info.dimension) {
         case Dimension::Space: {
-            const auto weights = hull_cell_weights({corners[0], corners[1], corners[2]}, rays);
+            const auto weights = hull_cell_weights(
+                make_hull_triangle({corners[0], corners[1], corners[2]}, position_), rays);
             return weights ? CellWeights{{*weights, 0.0}} : kGoOnInside;
         }
         case Dimension::Plane: {
-            const auto weights =
-                hull_edge_weights({corners[0], corners[1]}, rays, volume_.info.axis);
+            const auto weights = hull_edge_weights({corners[0] - position_, corners[1] - position_},
+                                                   rays, volume_.info.axis);
             return weights ? CellWeights{{*weights, 0.0, 0.0}} : kGoOnInside;
         }
         default: {
-            const bool is_beyond = glm::dot(corners[0], glm::dvec3(rays.rays[0])) <= 0.0;
+            const bool is_beyond =
+                glm::dot(corners[0] - position_, glm::dvec3(rays.rays[0])) <= 0.0;
             return is_beyond ? CellWeights{{1.0, 0.0, 0.0, 0.0}} : kGoOnInside;
         }
     }
@@ -210,13 +218,35 @@ LocationTrace Walk::search_near(uint32_t start) const {
     return {is_found ? best.location : CellLocation{}, static_cast<uint32_t>(found)};
 }
 
-/// The fallback that cannot fail: the cell that is nearest to containing the position.
+/// The fallback that cannot fail: the cell that is nearest to containing the position. Where
+/// rounding leaves no cell with a volume, the nearest probe.
 CellLocation Walk::search_all() const {
     Best best;
     for (uint32_t cell = 0; cell < volume_.cells.size(); ++cell) {
         best.consider(cell, precise_weights(cell));
     }
-    return best.location;
+    return best.location.cell != kNoIndex ? best.location : nearest_corner();
+}
+
+CellLocation Walk::nearest_corner() const {
+    CellLocation nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for (uint32_t cell = 0; cell < volume_.cells.size(); ++cell) {
+        std::array<glm::dvec3, 4> corners{};
+        if (!find_corners(volume_, cell, position_, corners)) continue;
+        for (int i = 0; i < 4; ++i) {
+            const bool is_corner =
+                volume_.cells[cell].vertices[static_cast<size_t>(i)] < volume_.positions.size();
+            const double square =
+                glm::dot(corners[static_cast<size_t>(i)], corners[static_cast<size_t>(i)]);
+            if (!is_corner || !(square < least)) continue;
+            least = square;
+            glm::vec4 weights(0.0f);
+            weights[i] = 1.0f;
+            nearest = {cell, 0.0f, weights};
+        }
+    }
+    return nearest;
 }
 
 }  // namespace tetralight::detail

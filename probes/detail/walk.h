@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
@@ -32,6 +33,15 @@ struct CellWeights {
     [[nodiscard]] int most_negative() const;
 };
 
+/// Signed volumes of the origin with the faces of a tetrahedron: b·(c×d), −a·(c×d), d·(a×b),
+/// −c·(a×b).
+[[nodiscard]] inline glm::dvec4 signed_volumes(const std::array<glm::dvec3, 4>& corners) noexcept {
+    const auto& [a, b, c, d] = corners;
+    const glm::dvec3 cd = glm::cross(c, d);
+    const glm::dvec3 ab = glm::cross(a, b);
+    return {glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)};
+}
+
 /// Weights of the origin in a tetrahedron. `corners` are relative to the queried position.
 [[nodiscard]] CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept;
 
@@ -50,7 +60,8 @@ class Walk {
     /// Precondition: the position is finite.
     Walk(const ProbeVolumeView& volume, const glm::vec3& position) noexcept;
 
-    /// The cell of the seed that comes next along the Hilbert curve.
+    /// The cell of the seed grid; without a grid, that of the seed that comes next along the
+    /// Hilbert curve.
     [[nodiscard]] uint32_t start_cell() const noexcept;
 
     [[nodiscard]] LocationTrace run(uint32_t start) const noexcept;
@@ -63,9 +74,10 @@ class Walk {
                                            const HullCellRays& rays) const;
     [[nodiscard]] LocationTrace search_near(uint32_t start) const;
     [[nodiscard]] CellLocation search_all() const;
+    [[nodiscard]] CellLocation nearest_corner() const;
 
     const ProbeVolumeView& volume_;
-    glm::dvec3 position_;
+    glm::dvec3 position_{0.0};
 };
 
 }  // namespace tetralight::detail

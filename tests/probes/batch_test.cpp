@@ -182,20 +182,21 @@ TEST_F(BatchTest, HintsSaveTheWalk) {
     expect_near(answers, expected, 1e-5f);
     const auto second = interpolate(volume.view(), with_hints);
     ASSERT_TRUE(first && second);
-    EXPECT_GT(first->step_count, 2 * positions.size());
-    // A hull cell is entered through its tetrahedron: two tests.
-    EXPECT_LE(second->step_count, 2 * positions.size() + positions.size() / 50);
+    EXPECT_GT(first->step_count, positions.size() * 3 / 2);
+    EXPECT_LE(second->step_count, positions.size() + positions.size() / 50);
     expect_near(answers, expected, 1e-5f);
 }
 
-TEST_F(BatchTest, SortingChangesTheOrderOfTheWorkAndNotTheAnswers) {
+TEST_F(BatchTest, SortingChangesTheOrderOfTheWorkAndNoBitOfTheAnswers) {
     std::vector<uint64_t> sort_memory(2 * positions.size());
     InterpolationBatch sorted = batch();
     sorted.sort_memory = sort_memory;
     const auto report = interpolate(volume.view(), sorted);
+    const auto sorted_irradiance = answers.irradiance;
     const auto unsorted_report = interpolate(volume.view(), batch());
     ASSERT_TRUE(report && unsorted_report);
-    EXPECT_LT(report->step_count, unsorted_report->step_count * 3 / 4);
+    EXPECT_EQ(report->step_count, unsorted_report->step_count);
+    EXPECT_EQ(answers.irradiance, sorted_irradiance);
     expect_near(answers, expected, 1e-5f);
 }
 
@@ -212,7 +213,7 @@ TEST_F(BatchTest, WalksAreShortWhereQueriesAreFarApart) {
     const InterpolationBatch batch{far_apart, {}, answers.irradiance};
     const auto report = interpolate(large.view(), batch);
     ASSERT_TRUE(report);
-    EXPECT_LT(report->step_count, 15 * far_apart.size());
+    EXPECT_LT(report->step_count, 3 * far_apart.size());
 }
 
 TEST_F(BatchTest, PositionsThatAreNotFiniteAreAmbientAndCounted) {

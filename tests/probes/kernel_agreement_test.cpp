@@ -152,6 +152,28 @@ TEST_P(KernelAgreement, EveryKindOfProcessorGivesTheSameBits) {
     });
 }
 
+TEST_P(KernelAgreement, ASingleQueryGivesTheBitsOfTheBatch) {
+    const ProbeVolumeView view = volume.view();
+    std::vector<CellLocation> locations(positions.size());
+    locate(view, positions, locations);
+    for (size_t i = 0; i < positions.size(); ++i) {
+        ASSERT_EQ(locate(view, positions[i]), locations[i]) << "position " << i;
+    }
+    // Of any part of the batch, too.
+    const auto part = std::span(positions).subspan(positions.size() / 3, positions.size() / 2);
+    std::vector<CellLocation> again(part.size());
+    locate(view, part, again);
+    EXPECT_TRUE(
+        std::ranges::equal(again, std::span(locations).subspan(positions.size() / 3, part.size())));
+}
+
+TEST_P(KernelAgreement, ASeedGridChangesNoLight) {
+    const Answers expected = answers(Way::Plain, detail::query_kernels());
+    ASSERT_EQ(volume.seed_grid.empty(), volume.positions.empty());
+    volume.seed_grid.clear();  // as in files of older versions
+    expect_near(answers(Way::Plain, detail::query_kernels()), expected, 2.0f * kTwoSteps);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, KernelAgreement,
                          testing::Values(Case{"random", 0, 1'000}, Case{"random", 1, 10'000},
                                          Case{"random", 2, 10'000}, Case{"random", 3, 10'000},

@@ -86,12 +86,11 @@ TEST(HullCell, FindsTheWeightsOfPositionsThatItWasExtrudedThrough) {
             glm::dvec3 position(0.0);
             for (int k = 0; k < 3; ++k) position += w[k] * hull.extruded(i, k, t);
             std::array<glm::dvec3, 3> corners;
-            for (int k = 0; k < 3; ++k) corners[k] = hull.extruded(i, k, 0.0) - position;
+            for (int k = 0; k < 3; ++k) corners[k] = hull.extruded(i, k, 0.0);
             // At t = 0 rounding may put the position just behind the triangle.
-            if (t == 0.0)
-                for (auto& corner : corners)
-                    corner -= 1e-12 * glm::dvec3(hull.rays.cells[i].rays[0]);
-            const auto weights = detail::hull_cell_weights(corners, hull.rays.cells[i]);
+            if (t == 0.0) position += 1e-12 * glm::dvec3(hull.rays.cells[i].rays[0]);
+            const auto weights = detail::hull_cell_weights(
+                detail::make_hull_triangle(corners, position), hull.rays.cells[i]);
             ASSERT_TRUE(weights) << i << " " << t;
             EXPECT_LT(glm::distance(*weights, w), 1e-6) << i << " " << t;
         }
@@ -103,7 +102,8 @@ TEST(HullCell, SaysWhenAPositionIsBehindTheTriangle) {
     for (size_t i = 0; i < hull.rays.cells.size(); ++i) {
         std::array<glm::dvec3, 3> corners;
         for (int k = 0; k < 3; ++k) corners[k] = hull.extruded(i, k, 0.0);  // the origin is inside
-        EXPECT_FALSE(detail::hull_cell_weights(corners, hull.rays.cells[i]));
+        const auto triangle = detail::make_hull_triangle(corners, glm::dvec3(0.0));
+        EXPECT_FALSE(detail::hull_cell_weights(triangle, hull.rays.cells[i]));
     }
 }
 

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tetralight/base/result.h>
+#include <tetralight/probes/probe_volume.h>
+
+namespace tetralight::detail {
+
+/// Checks the section "seed_grid": whole grids, each inside one voxel of a grid before it, and
+/// cells in range.
+[[nodiscard]] Status check_seed_grid(const ProbeVolumeView& volume);
+
+}  // namespace tetralight::detail
