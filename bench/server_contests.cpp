@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include <tetralight/bench/plain_queries.h>
@@ -97,10 +98,10 @@ void compare_forms(const ServerProcess& ours, const std::string& volume,
     struct Form {
         std::string figure;
         std::string request;
-        std::vector<double> ratios = {};
+        double cpu = std::numeric_limits<double>::infinity();  ///< of one request, the least
     };
 
-    const std::string plain = binary_query(volume, positions, kFloats, 0);
+    Form plain{"", binary_query(volume, positions, kFloats, 0)};
     Form forms[] = {{"query.cells", binary_query(volume, positions, kFloats, QueryHeader::kCells)},
                     {"query.half", binary_query(volume, positions, kHalves, 0)},
                     {"query.json", json_query(volume, positions)}};
