@@ -37,9 +37,9 @@ struct ValidationReport {
 /// Checks the geometry of a volume whose structure is sound (see `verify`): the Delaunay property
 /// under exact arithmetic on the stored double positions, orientation, convexity of the hull, hull
 /// rays that lead away from it, every probe present, sum of the cells = content of the hull.
-/// Compact probes have to equal the rounded floats, and light the weighted sum of its layers. Flat volumes are checked in their plane. Hull
-/// rays are not checked if there are none. A volume without exact positions is checked on its float
-/// ones.
+/// Compact probes have to equal the rounded floats, and light the weighted sum of its layers. Flat
+/// volumes are checked in their plane. Hull rays are not checked if there are none. A volume
+/// without exact positions is checked on its float ones.
 [[nodiscard]] ValidationReport validate(const ProbeVolumeView& volume);
 
 }  // namespace tetralight
