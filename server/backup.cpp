@@ -33,13 +33,14 @@ class Backup {
 
     /// Throws a `DatabaseProblem`.
     Status add_all(Database& live) {
+        // Before the copy: of a bake that ends in the meantime the copy has its volume.
+        if (auto status = add_folder("bakes"); !status) return status;
         Database copy = live.copy_to_memory();
+        if (auto status = add_new_bakes(live, copy); !status) return status;
         for (const StoredFile& file : read_stored_files(copy)) {
             if (auto status = add_stored(file, live, copy); !status) return status;
         }
-        for (const char* folder : {"bakes", "quarantine"}) {
-            if (auto status = add_folder(folder); !status) return status;
-        }
+        if (auto status = add_folder("quarantine"); !status) return status;
         Json entries = Json::array();
         for (const StoredFile& file : read_stored_files(copy)) entries.push_back(index_entry(file));
         if (auto status = add_text(kIndexName, index_text(entries)); !status) return status;
@@ -50,6 +51,27 @@ class Backup {
     BackupReport report;
 
   private:
+    /// Bakes that were ordered before the copy was made, but after their folders were stored.
+    Status add_new_bakes(Database& live, Database& copy) {
+        constexpr const char* kUnfinished =
+            "SELECT id FROM bakes WHERE state IN ('queued', 'running') AND id LIKE ?";
+        for (const auto& row : copy.run(kUnfinished, {"%"})) {
+            const auto& id = std::get<std::string>(row[0]);
+            const std::string folder = "bakes/" + id;
+            if (holds_any_below(folder)) continue;
+            if (auto status = add_folder(folder); !status) return status;
+            if (holds_any_below(folder)) continue;
+            if (live.run(kUnfinished, {id}).empty()) continue;  // it has ended since
+            report.missing.push_back(shown_path(data_ + "/" + folder) + ": is not there");
+        }
+        return Ok{};
+    }
+
+    [[nodiscard]] bool holds_any_below(const std::string& folder) const {
+        const auto next = list_.lower_bound(folder + "/");
+        return next != list_.end() && next->first.starts_with(folder + "/");
+    }
+
     /// A file that was deleted since the copy was made is no longer part of it.
     Status add_stored(const StoredFile& file, Database& live, Database& copy) {
         if (!file.damage.empty()) return Ok{};  // in quarantine
@@ -66,7 +88,7 @@ class Backup {
     }
 
     /// Files that go away in the meantime belong to bakes that ended or were taken back.
-    Status add_folder(const char* folder) {
+    Status add_folder(const std::string& folder) {
         std::error_code error;
         for (const std::string& name : files_below(folder, error)) {
             const auto source = open_regular(data_ + "/" + name);
@@ -85,7 +107,7 @@ class Backup {
     }
 
     /// By their names relative to the data folder.
-    std::vector<std::string> files_below(const char* folder, std::error_code& error) const {
+    std::vector<std::string> files_below(const std::string& folder, std::error_code& error) const {
         std::vector<std::string> names;
         fs::recursive_directory_iterator entry(data_ + "/" + folder, error);
         for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {

@@ -265,6 +265,18 @@ class BackupOfBakes(test_bakes.BakeTest):
         other = super().start(data=copy)
         self.assertEqual(self.file_of(other, bake), expected)
 
+    def test_an_unfinished_bake_without_its_folder_is_told(self):
+        server = self.start()
+        bake = self.begin(server, **test_bakes.QUICK, priority=1)
+        server.kill()
+        shutil.rmtree(os.path.join(self.data, "bakes", bake))
+        archive = os.path.join(self.folder, "backup.tar")
+        for command in (("backup", self.data, "-o", archive, "--json"),
+                        ("fsck", self.data, "--json")):
+            done = subprocess.run([COMMAND, *command], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("bakes/" + bake, done.stdout)
+
 
 class Quarantine(DataFolder):
     def test_what_is_put_aside_is_listed_and_taken_back_when_it_is_whole(self):
