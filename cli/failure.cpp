@@ -10,7 +10,7 @@
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
-#include <tetralight/cli/progress.h>
+#include <tetralight/cli/interrupt.h>
 
 namespace tetralight::cli {
 namespace {
@@ -21,7 +21,7 @@ bool g_has_checkpoint = false;
 std::optional<std::vector<std::string>> g_warnings;
 
 int exit_code_of(const Error& error) {
-    const int signal = BakeProgressDisplay::interrupting_signal();
+    const int signal = Interrupt::signal();
     if (error.code == ErrorCode::Cancelled && signal != 0) {
         const bool is_checkpoint =
             signal == SIGTERM && g_has_checkpoint && ::isatty(STDERR_FILENO) == 0;

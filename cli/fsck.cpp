@@ -6,6 +6,18 @@
 #include <tetralight/server/fsck.h>
 
 namespace tetralight::cli {
+namespace {
+
+std::string words_of(const server::FolderCheck::Finding& finding) {
+    const std::string_view kind = finding.kind;
+    const char* words = kind == "missing"      ? "is missing"
+                        : kind == "unreadable" ? "cannot be read"
+                        : kind == "unknown"    ? "is unknown"
+                                               : "is damaged";
+    return str_cat(finding.path, " ", words, " (", finding.detail, ")");
+}
+
+}  // namespace
 
 Status run_fsck(const Values& values) {
     const std::string data = values.text("data");
@@ -19,8 +31,7 @@ Status run_fsck(const Values& values) {
               {"findings", Json::array()}};
     std::string message = data + ": ";
     for (const auto& finding : check->findings) {
-        message += str_cat(json["findings"].empty() ? "" : "; ", finding.path, " is ", finding.kind,
-                           " (", finding.detail, ")");
+        message += (json["findings"].empty() ? "" : "; ") + words_of(finding);
         json["findings"].push_back(
             {{"kind", finding.kind}, {"path", finding.path}, {"detail", finding.detail}});
     }

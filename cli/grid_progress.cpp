@@ -34,7 +34,7 @@ bool GridProgressDisplay::show(const AdaptiveProgress& progress) {
             std::cerr << "Progress: " << line << '\n';
         }
     }
-    return BakeProgressDisplay::interrupting_signal() == 0;
+    return Interrupt::signal() == 0;
 }
 
 }  // namespace tetralight::cli

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -18,13 +17,6 @@ namespace {
 constexpr int kBarWidth = 32;
 constexpr double kSecondsBetweenWrites = 0.5;
 
-volatile std::sig_atomic_t g_signal = 0;  // a signal handler can reach nothing else
-
-extern "C" void on_interrupt(int signal) {
-    g_signal = signal;
-    std::signal(signal, SIG_DFL);  // a second one ends the program at once
-}
-
 double ray_rate(const BakeProgress& progress, double seconds) {
     return static_cast<double>(progress.ray_count) / std::max(seconds, 1e-9);
 }
@@ -36,17 +28,10 @@ BakeProgressDisplay::BakeProgressDisplay(bool is_quiet, double time_budget_secon
     : is_quiet_(is_quiet),
       time_budget_seconds_(time_budget_seconds),
       file_(std::move(file)),
-      is_terminal_(::isatty(STDERR_FILENO) == 1) {
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_interrupt);
-}
+      is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 BakeProgressDisplay::~BakeProgressDisplay() {
     if (is_bar_drawn_) std::cerr << '\n';
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-}
-
-int BakeProgressDisplay::interrupting_signal() {
-    return g_signal;
 }
 
 double BakeProgressDisplay::fraction_done(const BakeProgress& progress, double seconds) const {
@@ -84,7 +69,7 @@ bool BakeProgressDisplay::show(const BakeProgress& progress) {
             print_line(progress, elapsed.count());
         }
     }
-    return interrupting_signal() == 0;
+    return Interrupt::signal() == 0;
 }
 
 void BakeProgressDisplay::draw_bar(const BakeProgress& progress, double seconds) {

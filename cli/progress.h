@@ -6,6 +6,7 @@
 #include <string>
 
 #include <tetralight/bake/bake_probes.h>
+#include <tetralight/cli/interrupt.h>
 
 namespace tetralight::cli {
 
@@ -23,9 +24,6 @@ class BakeProgressDisplay {
     /// Called by the bake; false after a signal.
     bool show(const BakeProgress& progress);
 
-    /// SIGINT or SIGTERM if one of them came since the program began, or else 0.
-    [[nodiscard]] static int interrupting_signal();
-
   private:
     /// The finished fraction of a bake `seconds` after it began.
     [[nodiscard]] double fraction_done(const BakeProgress& progress, double seconds) const;
@@ -38,6 +36,7 @@ class BakeProgressDisplay {
     void print_line(const BakeProgress& progress, double seconds);
     void write_file(const BakeProgress& progress, double seconds);
 
+    Interrupt interrupt_;
     bool is_quiet_;
     double time_budget_seconds_;
     std::string file_;

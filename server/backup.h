@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,27 @@ namespace tetralight::server {
 struct BackupReport {
     uint64_t files = 0;
     uint64_t bytes = 0;
-    /// Files that the database names and that could not be stored, with the reason.
+    /// Files that belong to the folder and are not there, each with the reason.
     std::vector<std::string> missing;
+    /// Files that are there, with wrong bytes, each with the reason.
+    std::vector<std::string> damaged;
 };
 
-/// Writes the data folder of a server, which may run, to one tar archive: a copy of the database of
-/// one moment, the files that it names, the unfinished bakes and the quarantine.
-[[nodiscard]] Result<BackupReport> back_up(const std::string& data, const std::string& archive);
+/// Asked between pieces of work; true ends it with the error cancelled, and nothing remains.
+using IsCancelled = std::function<bool()>;
 
-/// Brings a data folder back. It must not exist, or be empty; it appears when all of it is written
-/// and the bytes of every stored file have its id. Returns corrupt if the archive is damaged, or
-/// holds what `back_up` does not write.
-[[nodiscard]] Result<BackupReport> restore(const std::string& archive, const std::string& data);
+/// Writes the data folder of a server, which may run, to one tar archive: the files that the
+/// database names, the unfinished bakes, the quarantine, a copy of the database of one moment and a
+/// list of all with their SHA-256. Files that are missing or damaged do not stop it. The archive
+/// must not lie in the folder.
+[[nodiscard]] Result<BackupReport> back_up(const std::string& data, const std::string& archive,
+                                           const IsCancelled& is_cancelled);
+
+/// Brings a data folder back. It must not exist, or be empty, and appears when all of it is written
+/// and checked. Stored files whose bytes do not have their id come into its quarantine. Returns
+/// corrupt if the archive is cut off, its database is damaged, or it holds what `back_up` does not
+/// write.
+[[nodiscard]] Result<BackupReport> restore(const std::string& archive, const std::string& data,
+                                           const IsCancelled& is_cancelled);
 
 }  // namespace tetralight::server

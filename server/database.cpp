@@ -4,6 +4,10 @@
 #include <sqlite3.h>
 
 #include <array>
+#include <atomic>
+#include <limits>
+#include <new>
+#include <span>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
@@ -210,8 +214,8 @@ Status Database::connect(const std::string& path, const char* locking_mode) {
 }
 
 /// Returns corrupt if its pages or tables are damaged. Throws a `DatabaseProblem`.
-Status Database::check(const std::string& path) {
-    const auto rows = run("PRAGMA quick_check(1)");
+Status Database::check(const std::string& path, const char* pragma) {
+    const auto rows = run(str_cat("PRAGMA ", pragma, "(1)").c_str());
     const auto* verdict = std::get_if<std::string>(&rows.at(0).at(0));
     if (verdict != nullptr && *verdict == "ok") return Ok{};
     return Error{ErrorCode::Corrupt,
@@ -239,8 +243,10 @@ Result<Database> Database::open(const std::string& path) {
 Result<Database> Database::open_to_read(const std::string& path) {
     Database database;
     sqlite3* raw = nullptr;
-    const int flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_FULLMUTEX;
-    const int opened = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
+    // With URIs, of which `copy_to_memory` is one; a path is none.
+    const int flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_FULLMUTEX | SQLITE_OPEN_URI;
+    const std::string plain = path.starts_with("file:") ? "./" + path : path;
+    const int opened = sqlite3_open_v2(plain.c_str(), &raw, flags, nullptr);
     database.handle_.reset(raw);
     if (opened != SQLITE_OK) {
         return Error{error_code_of(raw), str_cat(path, ": ", sqlite3_errmsg(raw))};
@@ -252,6 +258,53 @@ Result<Database> Database::open_to_read(const std::string& path) {
         return Error{problem.reason, str_cat(path, ": ", problem.detail)};
     }
     return database;
+}
+
+Result<Database> Database::open_copy(const std::string& path) {
+    auto database = open_to_read(path);
+    if (!database) return database;
+    try {
+        if (auto status = database->check(path, "integrity_check"); !status) return status.error();
+        const auto version = std::get<int64_t>(database->run("PRAGMA user_version")[0][0]);
+        const auto tables = database->run(
+            "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name IN ('files', "
+            "'bakes', 'bake_inputs')");
+        if (version < 1 || std::get<int64_t>(tables[0][0]) != 3) {
+            return Error{ErrorCode::Corrupt, path + ": is not the database of a server"};
+        }
+    } catch (const DatabaseProblem& problem) {
+        return Error{problem.reason, str_cat(path, ": ", problem.detail)};
+    }
+    database = open(path);
+    return database;
+}
+
+Database Database::copy_to_memory() {
+    // Databases of one name in memory are one database; it goes with its last connection.
+    static std::atomic<uint64_t> count = 0;
+    const std::string name = str_cat("file:/tetralight-copy-", ++count, "?vfs=memdb");
+    Database copy;
+    sqlite3* raw = nullptr;
+    const int flags =
+        SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX | SQLITE_OPEN_URI;
+    const int opened = sqlite3_open_v2(name.c_str(), &raw, flags, nullptr);
+    copy.handle_.reset(raw);
+    if (opened != SQLITE_OK) fail(raw);
+    sqlite3_int64 limit = std::numeric_limits<sqlite3_int64>::max();  // the default is 1 GiB
+    sqlite3_file_control(raw, "main", SQLITE_FCNTL_SIZE_LIMIT, &limit);
+    run("VACUUM INTO ?", {name});
+    copy.run("PRAGMA foreign_keys = ON");
+    return copy;
+}
+
+std::vector<std::byte> Database::bytes() {
+    const std::lock_guard lock(*mutex_);
+    sqlite3_int64 size = 0;
+    const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> memory(
+        sqlite3_serialize(handle_.get(), "main", &size, 0), sqlite3_free);
+    if (memory == nullptr) throw std::bad_alloc();
+    const auto all = std::as_bytes(std::span(memory.get(), static_cast<size_t>(size)));
+    return {all.begin(), all.end()};
 }
 
 }  // namespace tetralight::server

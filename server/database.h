@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -35,6 +36,17 @@ class Database {
     /// Opens one that another program may write to, checks it, and changes nothing.
     [[nodiscard]] static Result<Database> open_to_read(const std::string& path);
 
+    /// Opens one that was copied and that no program writes to: the same as `open`, but it must be
+    /// there, be one of this service, and all its indexes are checked, too.
+    [[nodiscard]] static Result<Database> open_copy(const std::string& path);
+
+    /// A copy of one moment in memory, which leaves nothing on the disk. Throws a
+    /// `DatabaseProblem`.
+    [[nodiscard]] Database copy_to_memory();
+
+    /// The bytes of a database file with the same content. Throws a `DatabaseProblem`.
+    [[nodiscard]] std::vector<std::byte> bytes();
+
     /// Rows of one statement. Throws a `DatabaseProblem`.
     std::vector<Row> run(const char* sql, const Row& values = {});
 
@@ -48,7 +60,7 @@ class Database {
 
     Database() = default;
     [[nodiscard]] Status connect(const std::string& path, const char* locking_mode);
-    [[nodiscard]] Status check(const std::string& path);
+    [[nodiscard]] Status check(const std::string& path, const char* pragma = "quick_check");
     [[nodiscard]] Status migrate();
 
     std::unique_ptr<sqlite3, Close> handle_;

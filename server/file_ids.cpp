@@ -12,6 +12,7 @@
 #include <tetralight/base/descriptor_io.h>
 #include <tetralight/base/hash/sha256.h>
 #include <tetralight/base/hex.h>
+#include <tetralight/base/shown_path.h>
 #include <tetralight/base/system_error.h>
 
 #define XXH_INLINE_ALL
@@ -21,15 +22,6 @@ namespace tetralight::server {
 namespace {
 
 constexpr size_t kPiece = size_t{1} << 20;
-
-Result<Descriptor> open_regular(const std::string& path) {
-    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-    if (!file) return system_error(path, "open");
-    struct stat status = {};
-    if (::fstat(file.value(), &status) != 0) return system_error(path, "read");
-    if (S_ISREG(status.st_mode)) return file;
-    return Error{ErrorCode::InvalidArgument, path + ": is not a regular file"};
-}
 
 /// Fills `memory` as far as the file goes.
 Result<std::span<const std::byte>> read_piece(const Descriptor& file, const std::string& path,
@@ -45,26 +37,50 @@ struct FreeXxh {
 
 }  // namespace
 
+struct FileIdsHash::State {
+    Sha256 sha;
+    std::unique_ptr<XXH3_state_t, FreeXxh> xxh{XXH3_createState()};
+    uint64_t bytes = 0;
+};
+
+FileIdsHash::FileIdsHash() : state_(std::make_unique<State>()) {
+    XXH3_128bits_reset(state_->xxh.get());
+}
+
+FileIdsHash::FileIdsHash(FileIdsHash&&) noexcept = default;
+FileIdsHash::~FileIdsHash() = default;
+
+void FileIdsHash::add(std::span<const std::byte> bytes) {
+    state_->sha.add(bytes);
+    XXH3_128bits_update(state_->xxh.get(), bytes.data(), bytes.size());
+    state_->bytes += bytes.size();
+}
+
+FileIds FileIdsHash::ids() const {
+    const XXH128_hash_t old = XXH3_128bits_digest(state_->xxh.get());
+    return {state_->sha.hex(), hex(old.high64) + hex(old.low64), state_->bytes};
+}
+
+Result<Descriptor> open_regular(const std::string& path) {
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (!file) return system_error(path, "open");
+    struct stat status = {};
+    if (::fstat(file.value(), &status) != 0) return system_error(path, "read");
+    if (S_ISREG(status.st_mode)) return file;
+    return Error{ErrorCode::InvalidArgument, shown_path(path) + ": is not a regular file"};
+}
+
 Result<FileIds> read_file_ids(const std::string& path) {
     const auto file = open_regular(path);
     if (!file) return file.error();
-    Sha256 sha;
-    const std::unique_ptr<XXH3_state_t, FreeXxh> xxh(XXH3_createState());
-    XXH3_128bits_reset(xxh.get());
-    FileIds ids;
+    FileIdsHash hash;
     std::vector<std::byte> memory(kPiece);
     while (true) {
         const auto piece = read_piece(*file, path, memory);
         if (!piece) return piece.error();
-        if (piece->empty()) break;
-        sha.add(*piece);
-        XXH3_128bits_update(xxh.get(), piece->data(), piece->size());
-        ids.bytes += piece->size();
+        if (piece->empty()) return hash.ids();
+        hash.add(*piece);
     }
-    const XXH128_hash_t old = XXH3_128bits_digest(xxh.get());
-    ids.id = sha.hex();
-    ids.old_id = hex(old.high64) + hex(old.low64);
-    return ids;
 }
 
 Status copy_file(const std::string& path, const Descriptor& to) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 
 #include <tetralight/base/descriptor.h>
@@ -20,6 +23,28 @@ struct FileIds {
         return other == id || other == old_id;
     }
 };
+
+/// The ids of bytes that come in pieces.
+class FileIdsHash {
+  public:
+    FileIdsHash();
+    FileIdsHash(FileIdsHash&&) noexcept;
+    FileIdsHash& operator=(FileIdsHash&&) = delete;
+    ~FileIdsHash();
+
+    void add(std::span<const std::byte> bytes);
+
+    /// Of all bytes so far.
+    [[nodiscard]] FileIds ids() const;
+
+  private:
+    struct State;
+
+    std::unique_ptr<State> state_;
+};
+
+/// Opens a file to read. Returns an error, without waiting, if it is a pipe, a device or a folder.
+[[nodiscard]] Result<Descriptor> open_regular(const std::string& path);
 
 /// Reads a file once. The file is not mapped: a disk that fails or a file that shrinks is an error
 /// here, not a signal.

@@ -12,7 +12,7 @@ namespace tetralight::server {
 /// What a check of a data folder found.
 struct FolderCheck {
     struct Finding {
-        /// "missing", "damaged", "unreadable", "unknown" or "database".
+        /// "missing", "damaged", "unreadable", "unknown"; "database" if that is damaged.
         std::string kind;
         /// Below the data folder.
         std::string path;
@@ -27,7 +27,9 @@ struct FolderCheck {
 };
 
 /// Reads the database, all stored files and the quarantine of a server, which may run, and changes
-/// nothing. Every file must be there with the bytes of its id, and nothing else.
+/// nothing. Every file must be there with the bytes of its id, and nothing else. If the database is
+/// missing or damaged, files are held to the ids in their names. Returns not_found if the folder
+/// holds nothing of a server.
 [[nodiscard]] Result<FolderCheck> check_folder(const std::string& data);
 
 }  // namespace tetralight::server

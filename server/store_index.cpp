@@ -13,6 +13,13 @@ std::set<std::string> names_of(const Json& entry) {
     return name.empty() ? std::set<std::string>() : std::set{name};
 }
 
+/// False for numbers that would be converted to others (-1 bytes are 1.8e19), and for facts that
+/// are no object.
+bool has_right_types(const Json& entry) {
+    return entry.at("bytes").is_number_unsigned() && entry.at("created").is_number() &&
+           entry.at("facts").is_object();
+}
+
 StoredFile read_entry(Kind kind, const Json& entry) {
     return {.kind = kind,
             .id = entry.at("id"),
@@ -28,16 +35,18 @@ StoredFile read_entry(Kind kind, const Json& entry) {
 StoreIndex parse_store_index(std::span<const std::byte> bytes) {
     const Json json = object_in(bytes);
     StoreIndex index;
-    if (!json.contains("files")) return index;
+    if (!json.contains("files") || !json["files"].is_array()) return index;
     index.is_whole = true;
     for (const Json& entry : json["files"]) {
         try {
             const auto kind = find_kind(entry.at("kind"));
             if (!kind) continue;  // of a later version
             StoredFile file = read_entry(*kind, entry);
-            index.is_whole &= is_id(file.id);
-            if (!is_id(file.id)) continue;
-            index.files[str_cat(name_of(*kind), "/", file.id)] = std::move(file);
+            const bool is_right = is_id(file.id) && has_right_types(entry);
+            index.is_whole &= is_right;
+            if (!is_right) continue;
+            const std::string key = str_cat(name_of(*kind), "/", file.id);
+            index.is_whole &= index.files.try_emplace(key, std::move(file)).second;
         } catch (const Json::exception&) {
             index.is_whole = false;
         }
@@ -50,6 +59,10 @@ Json index_entry(const StoredFile& file) {
     entry["kind"] = name_of(file.kind);
     entry["facts"] = object_in(file.facts);
     return entry;
+}
+
+std::string index_text(const Json& entries) {
+    return dump({{"files", entries}});
 }
 
 }  // namespace tetralight::server

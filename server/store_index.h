@@ -24,4 +24,7 @@ struct StoreIndex {
 /// One entry of the index.
 [[nodiscard]] Json index_entry(const StoredFile& file);
 
+/// The bytes of an index with these entries.
+[[nodiscard]] std::string index_text(const Json& entries);
+
 }  // namespace tetralight::server

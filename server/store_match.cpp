@@ -17,13 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The id in the name of a file of the store; empty if the store gives no file this name.
-std::string id_in(Kind kind, const std::string& name) {
-    const fs::path path(name);
-    const std::string id = path.stem().string();
-    return is_id(id) && path.extension() == extension_of(kind) ? id : "";
-}
-
 /// When the bytes of a file were written, in seconds since 1970; 0 if it is not there.
 double time_of(const std::string& path) {
     struct stat status = {};
@@ -86,7 +79,7 @@ void Store::heal(StoredFile file) {
 void Store::take_in(Kind kind, const std::string& name, const StoreIndex& index) {
     const std::string place = str_cat(name_of(kind), "/", name);
     const std::string from = settings_.data + "/" + place;
-    const std::string id = id_in(kind, name);
+    const std::string id = id_in_file_name(kind, name);
     if (!id.empty()) {
         if (is_deleted(kind, id, from)) {
             remove_all(from);

@@ -18,7 +18,7 @@ bool Store::write_index() {
             }
         }
     }
-    const std::string bytes = dump({{"files", json}});
+    const std::string bytes = index_text(json);
     const auto write = [&] {
         require_stored(write_file(index_path(), std::as_bytes(std::span(bytes))));
     };

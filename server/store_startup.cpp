@@ -9,6 +9,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/reserve.h>
+#include <tetralight/server/store_rows.h>
 
 namespace tetralight::server {
 namespace {
@@ -108,20 +109,8 @@ void Store::quarantine_database(const std::string& path, const Error& error) {
 
 void Store::load() {
     for (Files& all : files_) all.clear();
-    for (const auto& row :
-         database_->run("SELECT id, kind, bytes, created, facts, damage FROM files")) {
-        StoredFile file;
-        file.id = std::get<std::string>(row[0]);
-        file.kind = find_kind(std::get<std::string>(row[1])).value();
-        file.bytes = static_cast<uint64_t>(std::get<int64_t>(row[2]));
-        file.created = std::get<double>(row[3]);
-        file.facts = std::get<std::string>(row[4]);
-        file.damage = std::get<std::string>(row[5]);
+    for (StoredFile& file : read_stored_files(*database_)) {
         files(file.kind)[file.id] = std::move(file);
-    }
-    for (const auto& row : database_->run("SELECT kind, name, file FROM names")) {
-        const Kind kind = find_kind(std::get<std::string>(row[0])).value();
-        files(kind).at(std::get<std::string>(row[2])).names.insert(std::get<std::string>(row[1]));
     }
     index_names_locked();
 }

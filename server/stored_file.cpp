@@ -56,6 +56,13 @@ bool is_id(const std::string& text) {
                text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
+std::string id_in_file_name(Kind kind, const std::string& name) {
+    const std::string extension = extension_of(kind);
+    if (!name.ends_with(extension)) return "";
+    const std::string id = name.substr(0, name.size() - extension.size());
+    return is_id(id) ? id : "";
+}
+
 void check_name(const std::string& name) {
     constexpr size_t kLongest = 200;
     const bool is_plain = std::ranges::none_of(name, [](char c) {

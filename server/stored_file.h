@@ -49,6 +49,9 @@ struct StoredFile {
 /// True if a text has the form of an id: 64 or 32 hexadecimal digits.
 [[nodiscard]] bool is_id(const std::string& text);
 
+/// The id in the name of a stored file: "ID.probes". Empty if no file of this kind has the name.
+[[nodiscard]] std::string id_in_file_name(Kind kind, const std::string& name);
+
 /// Throws a `Problem` unless the text can be a name: at most 200 bytes of UTF-8 without control
 /// characters and slashes, and not an id.
 void check_name(const std::string& name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,31 +24,49 @@ struct TarEntry {
     int64_t time = 0;
 };
 
-/// Writes an archive, which appears when it is whole.
+/// Writes an archive, which appears when it is whole:
+///
+///     for each file: tar.begin(entry), tar.write(piece)...
+///     tar.commit()
 class TarWriter {
   public:
     [[nodiscard]] static Result<TarWriter> open(const std::string& path);
 
-    /// Appends the file at `path`, which may grow meanwhile: what it held at first is stored.
-    /// Returns not_found if there is none; the archive is as before then.
-    [[nodiscard]] Status add(const std::string& name, const std::string& path);
+    /// True if an archive can hold a file of this name: parts of at most 100 and 155 bytes, split
+    /// at a slash.
+    [[nodiscard]] static bool can_hold(const std::string& name);
 
+    /// Begins the next file. Preconditions: `can_hold(entry.name)`; the file before has all its
+    /// bytes.
+    [[nodiscard]] Status begin(const TarEntry& entry);
+
+    /// Appends bytes to the file. Precondition: no more than its size in all.
+    [[nodiscard]] Status write(std::span<const std::byte> bytes);
+
+    /// Precondition: the last file has all its bytes.
     [[nodiscard]] Status commit();
 
   private:
     explicit TarWriter(FileWriter writer) : writer_(std::move(writer)) {}
 
     FileWriter writer_;
+    uint64_t left_ = 0;     ///< bytes of the file that were not written yet
+    uint64_t padding_ = 0;  ///< bytes after it
 };
 
 /// Reads an archive from its begin to its end.
 class TarReader {
   public:
+    /// Opens a regular file, or for `-` stdin.
     [[nodiscard]] static Result<TarReader> open(const std::string& path);
 
+    /// Called before each read, also while stdin has no bytes; true ends the reading with the error
+    /// cancelled.
+    void set_stop(std::function<bool()> is_stopped) { is_stopped_ = std::move(is_stopped); }
+
     /// The next file; nothing after the last one. Returns corrupt if the archive is damaged, cut
-    /// off, or holds anything but files whose names stay below a folder: links, devices, absolute
-    /// names and ".." are refused.
+    /// off, followed by anything but zeros, or holds anything but files whose names stay below a
+    /// folder: links, devices, absolute names and ".." are refused.
     [[nodiscard]] Result<std::optional<TarEntry>> next();
 
     /// The next bytes of the file; empty at its end.
@@ -57,10 +76,16 @@ class TarReader {
     TarReader(std::string path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
 
     [[nodiscard]] Error corrupt(const std::string& reason) const;
+    [[nodiscard]] Status wait() const;
+    [[nodiscard]] Result<size_t> read_some(std::span<std::byte> memory);
     [[nodiscard]] Status fill(std::span<std::byte> memory);
+    [[nodiscard]] Status skip_padding();
+    [[nodiscard]] Status check_end();
 
     std::string path_;
     Descriptor file_;
+    std::function<bool()> is_stopped_ = [] { return false; };
+    uint64_t offset_ = 0;
     uint64_t left_ = 0;     ///< bytes of the file that were not read yet
     uint64_t padding_ = 0;  ///< bytes after it
 };

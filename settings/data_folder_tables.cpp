@@ -7,9 +7,9 @@ namespace {
 constexpr Setting kData = input_file("data", "Data folder of a server (serve --data)");
 
 constexpr Setting kChecked[] = {kData};
-constexpr Setting kStored[] = {kData, output_file(".tar", "Archive to write (.tar)")};
+constexpr Setting kStored[] = {kData, output_file(".tar", "Archive to write, .tar (- = stdout)")};
 constexpr Setting kRestored[] = {
-    input_file("archive", "Archive of a data folder (tetralight backup)"),
+    input_file("archive", "Archive of a data folder (tetralight backup; - = stdin)"),
     output_file("", "Data folder to create; it must not exist, or be empty")};
 
 constexpr Group kFsckGroups[] = {{"Files", kChecked}, {"Common options", kCommonSettings}};

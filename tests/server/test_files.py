@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import random
+import re
 import shutil
 import sqlite3
 import threading
@@ -480,7 +481,14 @@ class ReadOnly(VolumeTest):
         reader = self.start("--read-only")
         index = os.path.join(self.data, "index.json")
         whole = read(index)
-        damages = (whole[:-20], b"", b"{}", whole.replace(b'"id":"', b'"id":"/'))
+        size = re.compile(rb'"bytes":\d+')
+        entry = json.loads(whole)["files"][0]
+        damages = (whole[:-20], b"", b"{}", whole.replace(b'"id":"', b'"id":"/'),
+                   size.sub(b'"bytes":-1', whole), size.sub(b'"bytes":"7"', whole),
+                   size.sub(b'"bytes":1e300', whole), b'{"files": {}}', b'{"files": null}',
+                   json.dumps({"files": [entry, entry]}).encode(),
+                   json.dumps({"files": [{**entry, "facts": [1]}]}).encode(),
+                   json.dumps({"files": [{**entry, "created": "now"}]}).encode())
         for count, damage in enumerate(damages, 1):
             with open(index, "wb") as file:
                 file.write(damage)
