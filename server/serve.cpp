@@ -125,7 +125,8 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
     Bakes bakes(settings, **store, log);
     const Readiness readiness(settings);
     const Retention retention(**store, bakes, volumes, log);
-    Service service{settings, log, metrics, **store, volumes, bakes, readiness, **tokens};
+    VerifiedFiles files(**store);
+    Service service{settings, log, metrics, **store, volumes, bakes, readiness, **tokens, files};
     const Dispatcher dispatcher(service);
     auto http = HttpServer::bind(
         settings,
