@@ -2,7 +2,6 @@
 #include <tetralight/server/http_server.h>
 
 #include <fcntl.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +23,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
+#include <tetralight/server/detail/descriptors.h>
 #include <tetralight/server/detail/read_request.h>
 #include <tetralight/server/detail/send_response.h>
 #include <tetralight/server/detail/session.h>
@@ -40,20 +40,6 @@ std::string make_request_id() {
     std::snprintf(digits.data(), digits.size(), "%08llx-%llx",
                   static_cast<unsigned long long>(kRun), static_cast<unsigned long long>(++count));
     return digits.data();
-}
-
-bool lacks_descriptors(const error_code& error) {
-    return error_code_of_errno(error.value()) == ErrorCode::OutOfResources;
-}
-
-/// True if few descriptors are left: the system gives the lowest free one. Handlers need some.
-bool is_nearly_the_last(int descriptor) {
-    constexpr rlim_t kSpare = 32;
-    constexpr rlim_t kShare = 4;
-    rlimit limit = {};
-    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return false;
-    const rlim_t spare = std::min(kSpare, limit.rlim_cur / kShare);
-    return static_cast<rlim_t>(descriptor) + spare >= limit.rlim_cur;
 }
 
 /// The state that all sessions share.
@@ -183,7 +169,7 @@ net::awaitable<void> Server::accept() {
         co_await acceptor_.async_accept(socket, net::redirect_error(net::use_awaitable, error));
         if (error == net::error::operation_aborted || !acceptor_.is_open()) break;
         if (error) {  // for example, no descriptor is left
-            if (lacks_descriptors(error)) close_idle_sessions();
+            if (has_no_descriptor(error)) close_idle_sessions();
             net::steady_timer pause(io_, std::chrono::milliseconds(50));
             co_await pause.async_wait(net::redirect_error(net::use_awaitable, error));
             continue;
