@@ -53,26 +53,12 @@ Response submit(Service& service, const Request& request) {
     return response;
 }
 
-/// Newest first. `?limit=` and `?after=` an id.
+/// Newest first. `?limit=`, and `?after=` the `next` of another page or an id.
 Response list_bakes(Service& service, const Request& request) {
     const Page page = page_of(request);
-    Json bakes = Json::array();
-    Json next = nullptr;
-    bool is_before = !page.after.empty();
-    for (Json& bake : service.bakes.list()) {
-        const bool is_last = bake["id"] == page.after;
-        if (!is_before && bakes.size() == page.limit) {
-            next = bakes.back()["id"];
-            break;
-        }
-        if (!is_before) bakes.push_back(std::move(bake));
-        is_before &= !is_last;
-    }
-    if (is_before) {
-        throw Problem{404, "not_found", "there is no such bake", "after",
-                      page.after.substr(0, 200)};
-    }
-    return json_response({{"bakes", bakes}, {"next", next}});
+    Bakes::Part part = service.bakes.list_after(page.after, page.limit);
+    const Json next = part.next.empty() ? Json() : Json(part.next);
+    return json_response({{"bakes", std::move(part.bakes)}, {"next", next}});
 }
 
 /// The bake after each change, and its end.

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
+#include <limits>
 #include <random>
+#include <string_view>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/server/job.h>
@@ -15,6 +18,9 @@ namespace {
 
 /// Before the name of a folder until its bake is accepted.
 constexpr const char* kNew = "new-";
+
+/// Before the number of a bake in a place of their list. Ids are hexadecimal.
+constexpr std::string_view kBefore = "before-";
 
 std::string random_id() {
     std::random_device device;
@@ -134,9 +140,9 @@ Json Bakes::submit(const BakeOrder& order) {
     const std::string folder = store_.bake_folder(bake.id);
     const std::string new_folder = store_.bake_folder(kNew + bake.id);
     try {
-        require_stored(make_folder(new_folder));
+        require_stored(make_subfolder(new_folder));
         for (const auto& [file, name] : order.inputs) store_.link(file, new_folder + "/" + name);
-        require_stored(make_folder(new_folder + "/" + kResults));
+        require_stored(make_subfolder(new_folder + "/" + kResults));
         require_stored(sync_folder(new_folder));
         store_.database().transaction([&] {
             store_.database().run(
@@ -174,14 +180,49 @@ bool Bakes::is_over(const std::string& id) const {
     return found == bakes_.end() || is_final(found->second.state);
 }
 
-Json Bakes::list() const {
-    const std::lock_guard lock(mutex_);
+/// Newest first.
+std::vector<const Bakes::Bake*> Bakes::sorted_locked() const {
     std::vector<const Bake*> all;
     for (const auto& [id, bake] : bakes_) all.push_back(&bake);
     std::ranges::sort(all, std::greater(), &Bake::number);
+    return all;
+}
+
+Json Bakes::list() const {
+    const std::lock_guard lock(mutex_);
     Json json = Json::array();
-    for (const Bake* bake : all) json.push_back(to_json(*bake));
+    for (const Bake* bake : sorted_locked()) json.push_back(to_json(*bake));
     return json;
+}
+
+/// The number of a bake, also of one that was deleted: "before-17".
+int64_t Bakes::number_of_locked(const std::string& place) const {
+    if (const auto found = bakes_.find(place); found != bakes_.end()) return found->second.number;
+    int64_t number = 0;
+    const std::string_view digits =
+        std::string_view(place).substr(place.starts_with(kBefore) ? kBefore.size() : place.size());
+    const char* end = digits.data() + digits.size();
+    const auto [rest, error] = std::from_chars(digits.data(), end, number);
+    if (error == std::errc{} && rest == end && number > 0) return number;
+    throw Problem{404, "not_found", "there is no such bake", "after", place.substr(0, 200)};
+}
+
+Bakes::Part Bakes::list_after(const std::string& place, size_t limit) const {
+    const std::lock_guard lock(mutex_);
+    const int64_t after =
+        place.empty() ? std::numeric_limits<int64_t>::max() : number_of_locked(place);
+    Part part;
+    const Bake* last = nullptr;
+    for (const Bake* bake : sorted_locked()) {
+        if (bake->number >= after) continue;
+        if (part.bakes.size() == limit) {
+            part.next = str_cat(kBefore, last->number);
+            break;
+        }
+        part.bakes.push_back(to_json(*bake));
+        last = bake;
+    }
+    return part;
 }
 
 Json Bakes::unfinished_and_newer(int64_t& number) const {

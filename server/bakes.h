@@ -46,6 +46,17 @@ class Bakes {
     [[nodiscard]] Json get(const std::string& id) const;
     /// Newest first.
     [[nodiscard]] Json list() const;
+
+    /// A part of the list.
+    struct Part {
+        Json bakes = Json::array();
+        /// Where the next part begins; empty: there is none. Deleting a bake does not change it.
+        std::string next;
+    };
+
+    /// At most `limit` bakes that follow a `next`, or the id of a bake; from the newest if it is
+    /// empty. Throws 404 if it is neither.
+    [[nodiscard]] Part list_after(const std::string& place, size_t limit) const;
     /// Cancels a queued or running bake.
     [[nodiscard]] Json cancel(const std::string& id);
     /// Deletes a finished bake.
@@ -88,6 +99,8 @@ class Bakes {
     void load();
     void clear_folders() const;
     [[nodiscard]] const Bake& find_locked(const std::string& id) const;
+    [[nodiscard]] std::vector<const Bake*> sorted_locked() const;
+    [[nodiscard]] int64_t number_of_locked(const std::string& place) const;
     [[nodiscard]] size_t waiting_locked() const;
     [[nodiscard]] Bake* next_locked();
     void run();

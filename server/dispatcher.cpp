@@ -81,8 +81,18 @@ void Dispatcher::plan_route(Request& request, Plan& plan) const {
     plan.body_to = route.body_to;
     plan.run_on = route.run_on;
     plan.handle = [this, &route](Request& r) {
-        return guarded(r, [&] { return route.handle(r); });
+        return guarded(r, [&] { return handle(route, r); });
     };
+}
+
+/// Success means that what was written will be found: not if the database is gone.
+Response Dispatcher::handle(const Route& route, Request& request) const {
+    constexpr unsigned kFailed = 400;
+    const bool writes = route.access == Access::Writes && route.stores;
+    if (writes) service_.readiness.require_database();
+    Response response = route.handle(request);
+    if (writes && response.status < kFailed) service_.readiness.require_database();
+    return response;
 }
 
 /// A client without the token does not learn which paths exist.

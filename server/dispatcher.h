@@ -25,6 +25,7 @@ class Dispatcher {
     void plan_route(Request& request, Plan& plan) const;
     [[nodiscard]] const Route& find(Request& request) const;
     [[nodiscard]] bool is_known(Request& request) const;
+    [[nodiscard]] Response handle(const Route& route, Request& request) const;
     [[nodiscard]] Response guarded(Request& request, const std::function<Response()>& handle) const;
     [[nodiscard]] Response finish(const Request& request, Response response) const;
 

@@ -111,6 +111,10 @@ Response upload(Service& service, Kind kind, Request& request) {
 /// `?limit=` and `?after=` an id; `?name=` one name.
 Response list(Service& service, Kind kind, const Request& request) {
     const Page page = page_of(request);
+    if (!page.after.empty() && !is_id(page.after)) {
+        throw Problem{400, "invalid_value", "after: must be an id", "after",
+                      page.after.substr(0, 200)};
+    }
     const std::string* name = request.parameter("name");
     Json files = Json::array();
     Json next = nullptr;
@@ -136,7 +140,10 @@ std::string tag_of(const StoredFile& file) {
 /// Refuses an edit by a client that has seen an earlier state (`If-Match`).
 Store::Condition condition_of(const Request& request) {
     const std::string known(request.header("if-match"));
-    if (known.empty()) return {};
+    if (known.empty() && !request.has_header("if-match")) return {};
+    if (known.empty()) {
+        throw Problem{400, "invalid_header", "If-Match: is empty", "if-match", ""};
+    }
     return [known](const StoredFile& file) {
         if (has_tag(known, tag_of(file), TagComparison::Strong)) return;
         throw Problem{412, "changed", "the file has changed since this tag was given", "if-match",
@@ -180,15 +187,10 @@ Response remove(Service& service, Kind kind, const Request& request) {
 
 Response download(Service& service, Kind kind, const Request& request) {
     const StoredFile stored = service.store.get(kind, request.captures[0]);
-    const std::string path = service.store.path(kind, stored.id);
-    auto mapping = MappedFile::open(path);
-    if (!mapping) {
-        (void)service.store.get(kind, stored.id);  // throws if it was deleted since
-        throw storage_problem(noun_of(kind), mapping.error(), path);
-    }
-    const auto kept = std::make_shared<const MappedFile>(std::move(*mapping));
+    const auto file = service.files.open(kind, stored.id);
     Response response =
-        bytes_response(request, {kept->bytes(), kept}, content_type_of(kind), stored.id);
+        bytes_response(request, {file->mapping.bytes(), file}, content_type_of(kind), stored.id);
+    response.is_intact = [file] { return file->is_intact(); };
     response.headers.emplace_back(
         "Content-Disposition",
         str_cat("attachment; filename=\"", stored.id, extension_of(kind), "\""));
@@ -204,8 +206,10 @@ Response section(Service& service, const Request& request) {
         if (section.name != request.captures[1]) continue;
         const auto bytes = file.section_bytes(section.name, section.element_size);
         if (!bytes) break;
-        return bytes_response(request, {*bytes, volume}, "application/octet-stream",
-                              stored.id + "-" + section.name);
+        Response response = bytes_response(request, {*bytes, volume}, "application/octet-stream",
+                                           stored.id + "-" + section.name);
+        response.is_intact = [volume] { return volume->is_whole(); };
+        return response;
     }
     Json names = Json::array();
     for (const ProbeFile::Section& section : file.sections()) names.push_back(section.name);
@@ -245,9 +249,10 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
                       .access = Access::Writes,
                       .handle = [&, kind](Request& r) { return remove(service, kind, r); },
                       .run_on = kStorage});
-    routes.push_back({.method = "GET", .pattern = one + "/file", .handle = [&, kind](Request& r) {
-                          return download(service, kind, r);
-                      }});
+    routes.push_back({.method = "GET",
+                      .pattern = one + "/file",
+                      .handle = [&, kind](Request& r) { return download(service, kind, r); },
+                      .run_on = Plan::RunOn::Compute});
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <tetralight/base/descriptor.h>
+
 namespace tetralight::server {
 
 /// Which file is at a path, and when it changed.
@@ -23,5 +25,6 @@ struct FileStamp {
 
 /// Nothing if there is no file or it cannot be reached.
 [[nodiscard]] std::optional<FileStamp> stamp_of(const std::string& path);
+[[nodiscard]] std::optional<FileStamp> stamp_of(const Descriptor& file);
 
 }  // namespace tetralight::server

@@ -18,16 +18,24 @@ Status sync(const std::string& path, int flags) {
     return Ok{};
 }
 
+Status made(const std::string& path, const std::error_code& error) {
+    if (!error) return Ok{};
+    return Error{error_code_of_errno(error.value()),
+                 path + ": cannot create the folder (" + error.message() + ")"};
+}
+
 }  // namespace
 
 Status make_folder(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);
-    if (error) {
-        return Error{error_code_of_errno(error.value()),
-                     path + ": cannot create the folder (" + error.message() + ")"};
-    }
-    return Ok{};
+    return made(path, error);
+}
+
+Status make_subfolder(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directory(path, error);
+    return made(path, error);
 }
 
 Status sync_folder(const std::string& path) {

@@ -13,6 +13,9 @@ namespace tetralight::server {
 /// Creates a folder and its parents. An existing folder is no error.
 [[nodiscard]] Status make_folder(const std::string& path);
 
+/// Creates a folder in one that exists: nothing is made below a mount point whose disk is away.
+[[nodiscard]] Status make_subfolder(const std::string& path);
+
 /// Syncs the names in a folder, so that files created or renamed in it survive a power cut.
 [[nodiscard]] Status sync_folder(const std::string& path);
 

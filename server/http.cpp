@@ -70,6 +70,11 @@ std::string_view Request::header(std::string_view name) const {
     return found == headers.end() ? std::string_view() : found->second;
 }
 
+bool Request::has_header(std::string_view name) const {
+    return std::ranges::find(headers, name, &std::pair<std::string, std::string>::first) !=
+           headers.end();
+}
+
 bool Request::has_type(std::string_view type) const {
     std::string_view own = header("content-type");
     own = own.substr(0, own.find(';'));

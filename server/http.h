@@ -59,6 +59,8 @@ struct Request {
     /// True if the body has this media type; its parameters do not matter.
     [[nodiscard]] bool has_type(std::string_view type) const;
 
+    [[nodiscard]] bool has_header(std::string_view name) const;
+
     /// Null if it was not sent.
     [[nodiscard]] const std::string* parameter(std::string_view name) const;
 };
@@ -84,6 +86,9 @@ struct Response {
     /// If set, the body is server-sent events. Called a few times a second: appends new events and
     /// returns false after the last one.
     std::function<bool(std::string&)> events = {};
+    /// If set, it is called before the last bytes are sent. If it returns false, the connection is
+    /// closed instead, so that the client sees that the answer is not whole.
+    std::function<bool()> is_intact = {};
 };
 
 /// How to handle a request, decided from its head.

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -22,6 +23,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
+#include <tetralight/server/detail/descriptors.h>
 #include <tetralight/server/detail/read_request.h>
 #include <tetralight/server/detail/send_response.h>
 #include <tetralight/server/detail/session.h>
@@ -90,6 +92,7 @@ class Server final : public HttpServer {
     net::awaitable<void> serve(std::shared_ptr<Session> session);
     net::awaitable<bool> serve_one(Session& session);
     void end_idle_sessions();
+    void close_idle_sessions();
 
     [[nodiscard]] SendRule send_rule(bool keeps_open) const {
         return {settings_.transfer_seconds, keeps_open, is_ending_};
@@ -139,6 +142,28 @@ void Server::end_idle_sessions() {
     });
 }
 
+/// Makes room for descriptors: closes the quarter of the idle connections that has waited longest,
+/// each for a second at least.
+void Server::close_idle_sessions() {
+    constexpr size_t kShare = 4;
+    constexpr auto kShortest = std::chrono::seconds(1);
+    using Idle = std::pair<Clock::time_point, std::shared_ptr<Session>>;
+    std::vector<Idle> idle;
+    const auto latest = Clock::now() - kShortest;
+    {
+        const std::lock_guard lock(sessions_mutex_);
+        for (const auto& weak : sessions_) {
+            auto session = weak.lock();
+            if (!session || !session->is_idle || session->idle_since.load() > latest) continue;
+            idle.emplace_back(session->idle_since, std::move(session));
+        }
+    }
+    std::ranges::sort(idle, {}, &Idle::first);
+    idle.resize((idle.size() + kShare - 1) / kShare);
+    for (const auto& [since, session] : idle) session->close_if_idle();
+    application_.lacks_descriptors(idle.size());
+}
+
 net::awaitable<void> Server::accept() {
     constexpr uint32_t kMostRefused = 256;
     while (acceptor_.is_open()) {
@@ -147,11 +172,13 @@ net::awaitable<void> Server::accept() {
         co_await acceptor_.async_accept(socket, net::redirect_error(net::use_awaitable, error));
         if (error == net::error::operation_aborted || !acceptor_.is_open()) break;
         if (error) {  // for example, no descriptor is left
+            if (has_no_descriptor(error)) close_idle_sessions();
             net::steady_timer pause(io_, std::chrono::milliseconds(50));
             co_await pause.async_wait(net::redirect_error(net::use_awaitable, error));
             continue;
         }
         ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
+        if (is_nearly_the_last(socket.native_handle())) close_idle_sessions();
         socket.set_option(tcp::no_delay(true), error);
         const auto executor = socket.get_executor();
         if (connection_count_ >= settings_.max_connections) {
@@ -187,16 +214,11 @@ net::awaitable<void> Server::refuse(std::shared_ptr<Session> session) {
 net::awaitable<void> Server::serve(std::shared_ptr<Session> session) {
     bool keeps_open = true;
     while (keeps_open && !is_ending_) {
-        if (session->buffer.size() == 0) {
-            error_code error;
-            session->stream.expires_after(to_duration(settings_.idle_seconds));
-            const size_t count = co_await session->stream.async_read_some(
-                session->buffer.prepare(kReadSize), net::redirect_error(net::use_awaitable, error));
-            if (error) break;
-            session->buffer.commit(count);
-        }
+        const bool has_begun = co_await session->wait_for_request(settings_.idle_seconds);
+        if (!has_begun) break;
         session->is_idle = false;
         keeps_open = co_await serve_one(*session);
+        session->idle_since = Clock::now();
         session->is_idle = true;
     }
     co_await session->linger();

@@ -19,6 +19,8 @@ struct Application {
     std::function<void(const Exchange&)> answered;
     /// The response to an invalid request, or to one that cannot be handled now.
     std::function<Response(const Problem&, const Request&)> refusal;
+    /// Called when so few descriptors were left that this many idle connections were closed.
+    std::function<void(size_t)> lacks_descriptors;
 };
 
 /// An HTTP/1.1 server on one address: persistent connections, limits on heads, bodies, time and

@@ -66,8 +66,12 @@ Result<LoadedVolume> copy_volume(const std::string& path, const std::string& id)
 
 }  // namespace
 
+bool LoadedVolume::is_whole() const {
+    return is_copy() || (!is_damaged() && !has_changed(stamp_of(path)));
+}
+
 void LoadedVolume::require_whole() const {
-    if (is_copy() || (!is_damaged() && !has_changed(stamp_of(path)))) return;
+    if (is_whole()) return;
     throw Problem{503, "unavailable", "the volume's file changed while it was read"};
 }
 

@@ -33,8 +33,10 @@ struct LoadedVolume {
         return !is_copy() && now && !now->has_same_bytes(stamp);
     }
 
-    /// Throws a `Problem`, 503, if it is damaged or may have changed. Call it before an answer is
-    /// sent.
+    /// False if it is damaged or may have changed.
+    [[nodiscard]] bool is_whole() const;
+
+    /// Throws a `Problem`, 503, unless it is whole. Call it before an answer is sent.
     void require_whole() const;
 };
 

@@ -21,6 +21,8 @@ struct Route {
     /// "/v1/volumes/{volume}/query": each {} captures one part of the path.
     std::string pattern;
     Access access = Access::Reads;
+    /// Of routes that write: false if they only run a program, whose results are the answer.
+    bool stores = true;
     /// May throw a `Problem`.
     std::function<Response(Request&)> handle;
     /// Names of parameters in the query string, each at most once.

@@ -6,8 +6,11 @@
 #include <pthread.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <optional>
 #include <thread>
 
 #include <tetralight/base/landlock.h>
@@ -26,6 +29,14 @@ namespace {
 void keep_memory() {
     ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
     ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
+}
+
+/// A closed standard descriptor would become that of a file or of a client, into which messages
+/// then go.
+void open_standard_descriptors() {
+    for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(file, F_GETFD) < 0) (void)!::open("/dev/null", O_RDWR);
+    }
 }
 
 /// Raises the limit of descriptors as far as allowed: each connection needs one.
@@ -85,6 +96,26 @@ bool has_tokens(const Settings& settings) {
            !settings.read_token_file.empty();
 }
 
+/// Tells the log that descriptors run out, once a minute at most.
+class WarningOfDescriptors {
+  public:
+    explicit WarningOfDescriptors(Log& log) : log_(&log) {}
+
+    void operator()(size_t closed) {
+        constexpr auto kPause = std::chrono::minutes(1);
+        const auto now = std::chrono::steady_clock::now();
+        if (last_ && now - *last_ < kPause) return;
+        last_ = now;
+        log_->write(Log::Level::Warning,
+                    "descriptors run out; the connections that were idle longest are closed",
+                    {{"closed", closed}});
+    }
+
+  private:
+    Log* log_;
+    std::optional<std::chrono::steady_clock::time_point> last_;
+};
+
 Json start_facts(const Settings& settings, const Store& store, uint16_t port) {
     return {{"version", TETRALIGHT_VERSION},
             {"data", settings.data},
@@ -104,6 +135,7 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
         return Error{ErrorCode::InvalidArgument, "listen", settings.address,
                      settings.address + ": can be reached from other machines and needs a token"};
     }
+    open_standard_descriptors();
     ::signal(SIGPIPE, SIG_IGN);
     ::pthread_sigmask(SIG_BLOCK, &SignalWatch::signals(), nullptr);  // threads inherit it
     keep_memory();
@@ -125,7 +157,8 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
     Bakes bakes(settings, **store, log);
     const Readiness readiness(settings);
     const Retention retention(**store, bakes, volumes, log);
-    Service service{settings, log, metrics, **store, volumes, bakes, readiness, **tokens};
+    VerifiedFiles files(**store);
+    Service service{settings, log, metrics, **store, volumes, bakes, readiness, **tokens, files};
     const Dispatcher dispatcher(service);
     auto http = HttpServer::bind(
         settings,
@@ -136,7 +169,8 @@ Status serve(const Settings& settings, const std::function<void(uint16_t port)>&
                  log.request(exchange);
              },
          .refusal = [&](const Problem& problem,
-                        const Request& request) { return dispatcher.refuse(problem, request); }});
+                        const Request& request) { return dispatcher.refuse(problem, request); },
+         .lacks_descriptors = WarningOfDescriptors(log)});
     if (!http) return http.error();
     service.connection_count = [&] { return (*http)->connection_count(); };
     service.waiting_count = [&](Plan::RunOn place) { return (*http)->waiting_count(place); };

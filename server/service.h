@@ -13,6 +13,7 @@
 #include <tetralight/server/settings.h>
 #include <tetralight/server/store.h>
 #include <tetralight/server/tokens.h>
+#include <tetralight/server/verified_files.h>
 
 namespace tetralight::server {
 
@@ -26,6 +27,7 @@ struct Service {
     Bakes& bakes;
     const Readiness& readiness;
     Tokens& tokens;
+    VerifiedFiles& files;
     /// True once no more requests are accepted.
     std::atomic<bool> is_ending = false;
     /// True once jobs of requests must end.

@@ -219,7 +219,7 @@ std::string Store::bake_folder(const std::string& id) const {
 
 WorkFolder Store::make_work_folder() {
     const std::string folder = str_cat(settings_.data, "/work/", ++work_count_);
-    require_stored(make_folder(folder));
+    require_stored(make_subfolder(folder));
     return WorkFolder(folder);
 }
 

@@ -83,6 +83,9 @@ class Store {
     /// `Problem`: 422 if its bytes do not have its id.
     StoredFile take_back(Kind kind, const std::string& id, const std::string& from);
 
+    /// Deletes an entry of the quarantine. Throws if the system refuses.
+    void remove_quarantined(const std::string& name);
+
     [[nodiscard]] std::string quarantine_folder() const { return settings_.data + "/quarantine/"; }
 
     /// Tells the operator of damage that was found at the start.

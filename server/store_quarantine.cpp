@@ -71,6 +71,18 @@ StoredFile Store::take_back(Kind kind, const std::string& id, const std::string&
     return file;
 }
 
+void Store::remove_quarantined(const std::string& name) {
+    const std::lock_guard change(change_mutex_);
+    std::error_code error;
+    fs::remove_all(quarantine_folder() + name, error);
+    if (error) {
+        throw storage_problem({error_code_of_errno(error.value()),
+                               "quarantine: cannot be deleted (" + error.message() + ")"});
+    }
+    log_.write(Log::Level::Info, "an entry of the quarantine was deleted", {{"name", name}});
+    keep_reserve();
+}
+
 void Store::link(const StoredFile& file, const std::string& to) {
     const std::string from = path(file.kind, file.id);
     if (!require_file_ids(from).contains(file.id)) {

@@ -12,7 +12,10 @@ namespace tetralight::server {
 namespace {
 
 Response plain(unsigned status, const std::string& words) {
-    return {.status = status, .content_type = "text/plain; charset=utf-8", .body = words + "\n"};
+    Response response{
+        .status = status, .content_type = "text/plain; charset=utf-8", .body = words + "\n"};
+    if (status == 503) response.headers.emplace_back("Retry-After", "2");
+    return response;
 }
 
 /// Not ready while the server is stopping, or if its folder or database is not usable.

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
 #include <tetralight/server/problem.h>
 
 namespace tetralight::server {
@@ -13,11 +14,15 @@ Result<std::string> parse_token(std::string text, const std::string& field,
                                 const std::string& source) {
     text.erase(text.find_last_not_of(" \t\r\n") + 1);
     if (text.empty()) return Error{ErrorCode::Corrupt, field, source, source + ": is empty"};
-    if (std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; })) return text;
+    if (!std::ranges::all_of(text, [](char c) { return c > ' ' && c <= '~'; })) {
+        return Error{ErrorCode::InvalidArgument, field, "",
+                     source +
+                         ": a token is letters, digits and signs of ASCII, without spaces and line "
+                         "breaks"};
+    }
+    if (text.size() >= kShortestToken) return text;
     return Error{ErrorCode::InvalidArgument, field, "",
-                 source +
-                     ": a token is letters, digits and signs of ASCII, without spaces and line "
-                     "breaks"};
+                 str_cat(source, ": a token has at least ", kShortestToken, " characters")};
 }
 
 bool is_same_secret(std::string_view a, std::string_view b) noexcept {
@@ -29,6 +34,15 @@ bool is_same_secret(std::string_view a, std::string_view b) noexcept {
     return difference == 0;
 }
 
+namespace {
+
+/// One token for both would let every reader change everything.
+bool are_equal(const std::string& admin, const std::string& reader) {
+    return !admin.empty() && is_same_secret(admin, reader);
+}
+
+}  // namespace
+
 Result<std::unique_ptr<Tokens>> Tokens::open(const Settings& settings, Log& log) {
     std::unique_ptr<Tokens> tokens(new Tokens(log));
     tokens->admin_.token = settings.token;
@@ -38,12 +52,17 @@ Result<std::unique_ptr<Tokens>> Tokens::open(const Settings& settings, Log& log)
         if (source->path.empty()) continue;
         if (auto status = read(*source); !status) return status.error();
     }
+    if (are_equal(tokens->admin_.token, tokens->reader_.token)) {
+        return Error{ErrorCode::InvalidArgument, "read_token_file", "",
+                     tokens->reader_.path + ": holds the token that may change everything, too"};
+    }
+    if (tokens->admin_.token.empty() && !tokens->reader_.token.empty()) {
+        log.write(Log::Level::Warning, "no token lets clients change anything");
+    }
     tokens->has_any_ = !tokens->admin_.token.empty() || !tokens->reader_.token.empty();
     if (!tokens->admin_.path.empty() || !tokens->reader_.path.empty()) {
-        tokens->periodic_.start(std::chrono::milliseconds(500), [t = tokens.get()] {
-            t->read_changed_file(t->admin_);
-            t->read_changed_file(t->reader_);
-        });
+        tokens->periodic_.start(std::chrono::milliseconds(500),
+                                [t = tokens.get()] { t->read_changed_files(); });
     }
     return tokens;
 }
@@ -60,16 +79,41 @@ Status Tokens::read(Source& source) {
     return Ok{};
 }
 
-void Tokens::read_changed_file(Source& source) {
-    if (source.path.empty() || stamp_of(source.path) == source.stamp) return;
-    // Requests wait for no file.
-    Source now{.field = source.field, .path = source.path};
-    if (auto status = read(now); !status) {
-        source.stamp = now.stamp;
-        log_.write(Log::Level::Error, "a token could not be read; the last one stays valid",
-                   {{"field", source.field}, {"error", detail_of(status.error())}});
+void Tokens::read_changed_files() {
+    Source admin = read_again(admin_);
+    Source reader = read_again(reader_);
+    if (are_equal(admin.token, reader.token)) {
+        // What has changed is read again at each look: the other one may be replaced next.
+        for (const auto& [last, now] : {std::pair(&admin_, &admin), std::pair(&reader_, &reader)}) {
+            if (last->token == now->token) last->stamp = now->stamp;
+        }
+        if (!were_equal_) {
+            log_.write(Log::Level::Error,
+                       "both token files hold one token; the last ones stay valid",
+                       {{"field", reader.field}});
+        }
+        were_equal_ = true;
         return;
     }
+    were_equal_ = false;
+    replace(admin_, std::move(admin));
+    replace(reader_, std::move(reader));
+}
+
+/// The source with the token that its file has now, or with its last one if that is wrong.
+Tokens::Source Tokens::read_again(const Source& source) {
+    if (source.path.empty() || stamp_of(source.path) == source.stamp) return source;
+    Source now{.field = source.field, .path = source.path};
+    if (auto status = read(now); !status) {
+        now.token = source.token;
+        log_.write(Log::Level::Error, "a token could not be read; the last one stays valid",
+                   {{"field", source.field}, {"error", detail_of(status.error())}});
+    }
+    return now;
+}
+
+/// Requests wait for no file.
+void Tokens::replace(Source& source, Source now) {
     const bool is_new = now.token != source.token;
     {
         const std::lock_guard lock(mutex_);

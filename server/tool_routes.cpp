@@ -160,22 +160,23 @@ Json run_tool(Service& service, const Request& request, const Json& order, Job j
 }
 
 std::vector<Route> tool_routes(Service& service) {
-    const auto route = [&](const char* pattern, Access access,
+    const auto route = [&](const char* pattern, bool stores,
                            Response (*handle)(Service&, const Request&)) {
         return Route{
             .method = "POST",
             .pattern = pattern,
-            .access = access,
+            .access = Access::Writes,
+            .stores = stores,
             .handle = [&service, handle](Request& request) { return handle(service, request); },
             .body_limit = service.settings.max_body_bytes,
             .run_on = Plan::RunOn::Tools};
     };
-    return {route("/v1/grid", Access::Writes, grid),
-            route("/v1/tetrahedralize", Access::Writes, tetrahedralize),
-            route("/v1/volumes/{volume}/validate", Access::Writes, validate),
-            route("/v1/relight", Access::Writes, relight),
-            route("/v1/lppv", Access::Writes, lppv),
-            route("/v1/render", Access::Writes, render)};
+    return {route("/v1/grid", true, grid),
+            route("/v1/tetrahedralize", true, tetrahedralize),
+            route("/v1/volumes/{volume}/validate", false, validate),
+            route("/v1/relight", true, relight),
+            route("/v1/lppv", false, lppv),
+            route("/v1/render", false, render)};
 }
 
 }  // namespace tetralight::server

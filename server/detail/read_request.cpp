@@ -66,6 +66,18 @@ std::optional<Problem> problem_of_head(const Settings& settings, const Session& 
                    beginning(session.buffer)};
 }
 
+/// What a chunked body may have besides its bytes: sizes, extensions and trailers. Each byte of the
+/// body may have a chunk of its own, of six bytes.
+uint64_t framing_limit(const Settings& settings, uint64_t body_size) {
+    constexpr uint64_t kForEachByte = 8;
+    return settings.max_header_bytes + kForEachByte * body_size;
+}
+
+Problem too_much_framing(const std::string& came) {
+    return {431, "header_too_large", "the body has too many chunk extensions or trailers", "body",
+            came};
+}
+
 constexpr size_t kLongestValue = 200;
 constexpr unsigned kHttp11 = 11;
 
@@ -112,10 +124,44 @@ Reading refusal(Problem problem) {
     return {.is_whole = false, .refused = std::move(problem)};
 }
 
+/// The bytes of one step of reading a body, and those of its framing.
+struct Slice {
+    size_t body_bytes = 0;
+    uint64_t framing_bytes = 0;
+    error_code error;
+};
+
+/// Reads until `target` is full or the body ends. Chunks are read one at a time, so that at most
+/// `most_framing` bytes and one buffer come besides the body.
+net::awaitable<Slice> read_slice(Session& session, Parser& parser, std::span<char> target,
+                                 uint64_t most_framing) {
+    auto& body = parser.get().body();
+    body.data = target.data();
+    body.size = target.size();
+    Slice slice;
+    if (!parser.chunked()) {
+        co_await http::async_read(session.stream, session.buffer, parser,
+                                  net::redirect_error(net::use_awaitable, slice.error));
+    } else {
+        uint64_t all = 0;
+        while (!slice.error && !parser.is_done() && slice.framing_bytes <= most_framing) {
+            const size_t count = co_await http::async_read_some(
+                session.stream, session.buffer, parser,
+                net::redirect_error(net::use_awaitable, slice.error));
+            all += count;
+            slice.framing_bytes = all - (target.size() - body.size);
+        }
+    }
+    if (slice.error == http::error::need_buffer) slice.error = {};
+    slice.body_bytes = target.size() - body.size;
+    co_return slice;
+}
+
 }  // namespace
 
 net::awaitable<Reading> read_head(Session& session, Parser& parser, const Settings& settings,
                                   Request& request) {
+    session.buffer.max_size(std::max<size_t>(kReadSize, settings.max_header_bytes));
     parser.header_limit(settings.max_header_bytes);
     parser.body_limit(std::numeric_limits<uint64_t>::max());  // each route has its own
     error_code error;
@@ -154,23 +200,26 @@ net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settin
     }
     const bool is_to_file = plan.body_to == Plan::BodyTo::File;
     std::string& body = request.body;
+    uint64_t framing = 0;
     while (!error && !parser.is_done()) {
         // Allocate for received bytes, not for announced ones.
         const size_t begin = is_to_file ? 0 : body.size();
         const size_t room =
             length ? std::min<uint64_t>(kSliceSize, *length - request.body_size) : kSliceSize;
         body.resize(begin + room);
-        auto& target = parser.get().body();
-        target.data = body.data() + begin;
-        target.size = room;
         session.arm(settings.transfer_seconds);
-        co_await http::async_read(stream, session.buffer, parser,
-                                  net::redirect_error(net::use_awaitable, error));
+        const uint64_t limit = framing_limit(settings, request.body_size + room);
+        const Slice slice =
+            co_await read_slice(session, parser, {body.data() + begin, room}, limit - framing);
         session.disarm();
-        if (error == http::error::need_buffer) error = {};
-        const size_t count = room - parser.get().body().size;
+        error = slice.error;
+        framing += slice.framing_bytes;
+        const size_t count = slice.body_bytes;
         request.body_size += count;
         body.resize(begin + count);
+        if (framing > framing_limit(settings, request.body_size)) {
+            co_return refusal(too_much_framing(str_cat(framing, " bytes")));
+        }
         if (is_to_file &&
             !write_all(request.body_file, std::as_bytes(std::span(body.data(), count)))) {
             co_return refusal({507, "disk_full", "the body could not be stored", "body",
@@ -180,6 +229,9 @@ net::awaitable<Reading> read_body(Session& session, Parser& parser, const Settin
     if (is_to_file) body.clear();
     const std::string came = str_cat(request.body_size, " bytes");
     if (error == http::error::body_limit) co_return too_large("more than " + came);
+    if (error == http::error::buffer_overflow) {
+        co_return refusal(too_much_framing(str_cat("more than ", kReadSize, " bytes")));
+    }
     reading.is_whole = !error;
     if (session.is_late) {
         reading.refused =

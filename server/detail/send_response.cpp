@@ -104,6 +104,8 @@ net::awaitable<Sent> send_response(Session& session, const Request& request,
     error_code error;
     do {
         const auto slice = rest.first(std::min(rest.size(), kSliceSize));
+        const bool is_last = slice.size() == rest.size();
+        if (is_last && response.is_intact && !response.is_intact()) co_return sent;
         const std::array<net::const_buffer, 2> parts{net::buffer(head.data(), head_size),
                                                      net::buffer(slice.data(), slice.size())};
         session.stream.expires_after(to_duration(rule.seconds));

@@ -3,10 +3,20 @@
 
 #include <poll.h>
 
+#include <boost/asio/post.hpp>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <string_view>
 
 namespace tetralight::server {
+namespace {
+
+std::string_view text_of(const beast::flat_buffer& buffer) {
+    const auto bytes = buffer.data();
+    return {static_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
 
 Clock::duration to_duration(double seconds) {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -47,10 +57,36 @@ bool Session::is_abandoned() {
     return ::poll(&end, 1, 0) != 0;
 }
 
+net::awaitable<bool> Session::wait_for_request(double seconds) {
+    constexpr std::string_view kEmptyLine = "\r\n";
+    for (bool may_skip = true; true;) {
+        if (may_skip && text_of(buffer).starts_with(kEmptyLine)) {
+            buffer.consume(kEmptyLine.size());
+            may_skip = false;
+        }
+        const std::string_view text = text_of(buffer);
+        if (!text.empty() && !(may_skip && text == "\r")) co_return true;
+        error_code error;
+        stream.expires_after(to_duration(seconds));
+        const auto target = buffer.prepare(kReadSize - buffer.size());
+        const size_t received =
+            co_await stream.async_read_some(target, net::redirect_error(net::use_awaitable, error));
+        if (error) co_return false;
+        buffer.commit(received);
+    }
+}
+
+void Session::close_if_idle() {
+    net::post(stream.get_executor(), [self = shared_from_this()] {
+        if (self->is_idle) self->stream.close();
+    });
+}
+
 net::awaitable<void> Session::linger() {
     constexpr size_t kMost = size_t{8} << 20;
     constexpr auto kLongest = std::chrono::seconds(2);
     error_code error;
+    if (!stream.socket().is_open()) co_return;
     stream.socket().shutdown(tcp::socket::shutdown_send, error);
     const auto end = Clock::now() + kLongest;
     buffer.consume(buffer.size());

@@ -29,7 +29,8 @@ constexpr size_t kSliceSize = size_t{64} << 10;
 
 [[nodiscard]] Clock::duration to_duration(double seconds);
 
-/// One connection. Everything but `is_idle` and `place` is used on the strand of its stream only.
+/// One connection. Everything but `is_idle`, `idle_since` and `place` is used on the strand of its
+/// stream only.
 struct Session : std::enable_shared_from_this<Session> {
     /// Counts itself in `all` while it lives.
     Session(std::atomic<uint32_t>& all, tcp::socket socket);
@@ -48,6 +49,13 @@ struct Session : std::enable_shared_from_this<Session> {
     /// True if the client has closed its end.
     [[nodiscard]] bool is_abandoned();
 
+    /// Waits until a request begins, after an empty line that may precede it (RFC 9112, section
+    /// 2.2). Returns false if none comes in this time.
+    net::awaitable<bool> wait_for_request(double seconds);
+
+    /// Closes the connection at once if it waits for a request. Any thread may call it.
+    void close_if_idle();
+
     /// Closes the connection after the sent bytes have arrived, even if the client still sends.
     net::awaitable<void> linger();
 
@@ -57,6 +65,7 @@ struct Session : std::enable_shared_from_this<Session> {
     std::string remote;
     bool is_late = false;  ///< the time of the last `arm` has passed
     std::atomic<bool> is_idle = true;
+    std::atomic<Clock::time_point> idle_since = Clock::now();
     std::list<std::weak_ptr<Session>>::iterator place;  ///< in the list of sessions
 
   private:

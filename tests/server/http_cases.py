@@ -70,7 +70,7 @@ def sound_requests(files):
             request("POST", "/v1/bakes/none/cancel"),
             request("POST", "/v1/quarantine/none/restore")]
     change = [request("PATCH", "/v1/groups/few", {"name": "few"}), request("DELETE", "/v1/volumes/fuzzed"),
-              request("DELETE", "/v1/bakes/none"), request("HEAD", "/v1/volumes/level/file"),
+              request("DELETE", "/v1/bakes/none"), request("DELETE", "/v1/quarantine/none"), request("HEAD", "/v1/volumes/level/file"),
               request("OPTIONS", query, fields=[b"Origin: http://example.com",
                                                 b"Access-Control-Request-Method: POST"]),
               request("GET", "/v1/volumes/level/file", fields=[b"Range: bytes=0-9"])]

@@ -306,6 +306,38 @@ class Quarantine(DataFolder):
         server.stop()
         self.assertEqual(self.start().get("/v1/volumes/level").json()["state"], "ready")
 
+    def test_what_is_put_aside_can_be_deleted(self):
+        server = self.start()
+        path = self.volume_file(2)
+        volume = self.upload(server, "volumes", path, "level")
+        folder = os.path.join(self.data, "quarantine")
+        os.makedirs(os.path.join(folder, "bake-0123", "results"))
+        self.damage(self.stored(volume))
+        self.assert_problem(server.get("/v1/volumes/level/file"), 410, "quarantined")
+        self.assertEqual(self.upload(server, "volumes", path), volume)  # leaves the damaged file there
+        name = f"volumes-{volume}.probes"
+        for missing in ("none", "..", "%2e%2e", "..%2Flock", "bake-0123%2Fresults"):
+            self.assert_problem(server.request("DELETE", "/v1/quarantine/" + missing), 404, "not_found")
+        for entry in (name, "bake-0123"):
+            self.assertIn(entry, os.listdir(folder))
+            self.assertEqual(server.request("DELETE", "/v1/quarantine/" + entry).status, 204)
+            self.assertNotIn(entry, os.listdir(folder))
+        self.assertEqual(server.get("/v1/quarantine").json()["quarantine"], [])
+        self.assertEqual(server.post("/v1/volumes/level/query", QUERY).status, 200)
+
+    def test_a_good_copy_counts_in_the_quarantine_only(self):
+        server = self.start()
+        path = self.volume_file(2)
+        volume = self.upload(server, "volumes", path, "level")
+        self.damage(self.stored(volume))
+        self.assert_problem(server.get("/v1/volumes/level/file"), 410, "quarantined")
+        shutil.copy(path, self.stored(volume))
+        self.assert_problem(server.get("/v1/volumes/level/file"), 410, "quarantined")
+        name = f"volumes-{volume}.probes"
+        shutil.copy(path, os.path.join(self.data, "quarantine", name))
+        self.assertEqual(server.post(f"/v1/quarantine/{name}/restore").status, 200)
+        self.assertEqual(server.get("/v1/volumes/level/file").body, read(path))
+
     def test_an_unknown_file_becomes_a_file_of_the_store(self):
         server = self.start()
         volume = self.upload(server, "volumes", self.volume_file(2))

@@ -40,7 +40,7 @@ class Docs(ServiceTest):
 
     @unittest.skipUnless(shutil.which("haproxy"), "there is no haproxy")
     def test_behind_haproxy_a_reader_may_end_while_clients_query(self):
-        token = {"TETRALIGHT_TOKEN": "secret"}
+        token = {"TETRALIGHT_TOKEN": "many-secret-words"}
         writer = self.start(env=token)
         readers = [self.start("--read-only", "--drain-notice-seconds", "5", env=token)
                    for _ in range(2)]
@@ -93,7 +93,7 @@ class Docs(ServiceTest):
     def ask(self, port, method, path, body=None):
         connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
         connection.request(method, path, body, {"Host": "light.example.com",
-                                                "Authorization": "Bearer secret"})
+                                                "Authorization": "Bearer many-secret-words"})
         response = connection.getresponse()
         answer = Answer(response, response.read())
         connection.close()

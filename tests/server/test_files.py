@@ -2,6 +2,7 @@
 """Files come in, go out, get names and survive."""
 import contextlib
 import hashlib
+import http.client
 import json
 import os
 import random
@@ -185,6 +186,26 @@ class Files(VolumeTest):
         self.assertEqual(server.get(path, If_None_Match=tag).status, 200)
         for known, status in (('"other", ' + newer, 204), ("*", 404)):
             self.assertEqual(server.request("DELETE", path, headers={"If-Match": known}).status, status)
+
+    def test_an_empty_condition_is_an_error(self):
+        server = self.start()
+        path = "/v1/volumes/" + self.upload(server, "volumes", self.volume_file(2), "first")
+        for method, body in (("PATCH", {"name": "third"}), ("DELETE", None)):
+            for known in ("", " "):
+                answer = server.request(method, path, body, {"If-Match": known})
+                self.assertEqual(self.assert_problem(answer, 400, "invalid_header")["field"], "if-match")
+        self.assertEqual(server.get(path).json()["names"], ["first"])
+
+    def test_lists_of_files_begin_after_an_id(self):
+        server = self.start()
+        volumes = sorted(self.upload(server, "volumes", self.volume_file(count)) for count in (2, 3, 4))
+        first = server.get("/v1/volumes?limit=1").json()
+        self.assertEqual(first["next"], volumes[0])
+        self.assertEqual(server.request("DELETE", "/v1/volumes/" + volumes[0]).status, 204)
+        rest = server.get("/v1/volumes?after=" + first["next"]).json()
+        self.assertEqual([file["id"] for file in rest["volumes"]], volumes[1:])
+        for after in ("nonsense", volumes[1][:-1], "a/b", "%20"):
+            self.assert_problem(server.get("/v1/volumes?after=" + after), 400, "invalid_value")
 
     def test_scenes_beyond_a_limit_are_refused(self):
         server = self.start("--max-triangles", "10")
@@ -457,6 +478,123 @@ class Damage(VolumeTest):
             again.stop()
         aside = os.listdir(os.path.join(self.data, "quarantine"))
         self.assertTrue(any(name.endswith("tetralight.db") for name in aside))
+
+
+class Downloads(VolumeTest):
+    """Bytes that are served under an id have it."""
+
+    def stored(self, kind, id, extension):
+        return os.path.join(self.data, kind, id + extension)
+
+    def damage_by_zeros(self, path):
+        with open(path, "r+b") as file:
+            file.seek(1000)
+            file.write(bytes(100))
+
+    def damage_by_cutting(self, path):
+        os.truncate(path, os.path.getsize(path) - 1)
+
+    def damage_by_replacing(self, path):
+        with open(path + ".new", "wb") as file:
+            file.write(b"x" * os.path.getsize(path))
+        os.replace(path + ".new", path)
+
+    def damage_with_the_old_time(self, path):
+        before = os.stat(path)
+        self.damage_by_zeros(path)
+        os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+    def check_damage(self, kind, path, extension, damage):
+        server = self.start()
+        id = self.upload(server, kind, path, "name")
+        self.assertEqual(server.get(f"/v1/{kind}/{id}/file").body, read(path))
+        damage(self.stored(kind, id, extension))
+        for reference in (id, "name"):
+            for headers in ({}, {"Range": "bytes=0-9"}, {"If-None-Match": f'"{id}"'}):
+                answer = server.request("GET", f"/v1/{kind}/{reference}/file", headers=headers)
+                self.assert_problem(answer, 410, "quarantined")
+                self.assertNotIn("ETag", answer.headers)
+        self.assertEqual(os.listdir(os.path.join(self.data, "quarantine")), [f"{kind}-{id}{extension}"])
+        self.assertEqual(self.upload(server, kind, path), id)
+        self.assertEqual(server.get(f"/v1/{kind}/name/file").body, read(path))
+        server.stop()
+        shutil.rmtree(self.data)
+
+    def test_damaged_files_are_not_sent(self):
+        for kind, path, extension in (("volumes", self.volume_file(3), ".probes"), ("scenes", COURTYARD, ".glb")):
+            for damage in (self.damage_by_zeros, self.damage_by_cutting, self.damage_by_replacing,
+                           self.damage_with_the_old_time):
+                with self.subTest(kind=kind, damage=damage.__name__):
+                    self.check_damage(kind, path, extension, damage)
+
+    def server_with_bytes(self, data, *options):
+        """A file of any bytes; the start takes it in."""
+        os.makedirs(os.path.join(self.data, "scenes"), exist_ok=True)
+        id = hashlib.sha256(data).hexdigest()
+        path = self.stored("scenes", id, ".glb")
+        with open(path, "wb") as file:
+            file.write(data)
+        long_ago = time.time() - 100
+        os.utime(path, (long_ago, long_ago))
+        return self.start(*options), id, path
+
+    def read_bytes(self, server):
+        """How much the server has read from files and sockets."""
+        with open(f"/proc/{server.process.pid}/io") as file:
+            return int(re.search(r"rchar: (\d+)", file.read())[1])
+
+    def test_a_file_is_hashed_once_until_something_about_it_changes(self):
+        server, id, path = self.server_with_bytes(os.urandom(8 << 20), "--recheck-seconds", "3600")
+        time.sleep(3)  # a file that has just changed is not trusted
+        get = lambda: server.get(f"/v1/scenes/{id}/file", Range="bytes=0-9").status
+        self.assertEqual(get(), 206)
+        before = self.read_bytes(server)
+        self.assertEqual(get(), 206)
+        self.assertLess(self.read_bytes(server) - before, 1 << 20)
+        os.link(path, path + ".link")
+        self.assertEqual(get(), 206)
+        self.assertGreaterEqual(self.read_bytes(server) - before, 8 << 20)
+        time.sleep(3)
+        self.assertEqual(get(), 206)
+        self.damage_with_the_old_time(path)
+        self.assertEqual(get(), 410)
+
+    def test_a_file_is_hashed_again_after_a_time(self):
+        server, id, _ = self.server_with_bytes(os.urandom(8 << 20), "--recheck-seconds", "0.1")
+        time.sleep(3)
+        server.get(f"/v1/scenes/{id}/file", Range="bytes=0-9")
+        before = self.read_bytes(server)
+        time.sleep(0.2)
+        server.get(f"/v1/scenes/{id}/file", Range="bytes=0-9")
+        self.assertGreaterEqual(self.read_bytes(server) - before, 8 << 20)
+
+    def test_a_file_that_is_written_to_while_it_is_sent_ends_early(self):
+        server, id, path = self.server_with_bytes(os.urandom(64 << 20))
+        connection = server.connect()
+        connection.request("GET", f"/v1/scenes/{id}/file")
+        response = connection.getresponse()
+        received = len(response.read(65536))
+        with open(path, "r+b") as file:
+            file.seek(-1, os.SEEK_END)
+            file.write(b"!")
+        with self.assertRaises((http.client.IncompleteRead, ConnectionError)):
+            while piece := response.read(1 << 20):
+                received += len(piece)
+            if received < 64 << 20:
+                raise http.client.IncompleteRead(b"")
+        connection.close()
+        self.assert_problem(server.get(f"/v1/scenes/{id}/file"), 410, "quarantined")
+
+    def test_a_file_that_is_deleted_while_it_is_sent_arrives(self):
+        data = os.urandom(32 << 20)
+        server, id, _ = self.server_with_bytes(data)
+        connection = server.connect()
+        connection.request("GET", f"/v1/scenes/{id}/file")
+        response = connection.getresponse()
+        self.assertEqual(server.request("DELETE", f"/v1/scenes/{id}").status, 204)
+        self.assertTrue(response.read() == data)
+        connection.close()
+        self.assert_problem(server.get(f"/v1/scenes/{id}/file"), 404, "not_found")
 
 
 class ReadOnly(VolumeTest):

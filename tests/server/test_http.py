@@ -101,6 +101,59 @@ class Malformed(ServiceTest):
             [b"POST /v1/grid HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"] +
             [piece] * 10), 413)
 
+    CHUNKED = (b"POST /v1/%s HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n")
+
+    def resident_bytes(self):
+        with open(f"/proc/{self.server.process.pid}/statm") as file:
+            return int(file.read().split()[1]) * 4096
+
+    def test_what_chunks_have_besides_the_body_is_limited(self):
+        megabyte = b"a" * (1 << 20)
+        endless = {"an extension": [b"5;"] + [megabyte] * 40,
+                   "a size": [b"0" * len(megabyte)] * 40,
+                   "extensions": [b"1;" + b"a" * 30000 + b"\r\nx\r\n"] * 1400,
+                   "one trailer": [b"0\r\nA: "] + [megabyte] * 40,
+                   "trailers": [b"0\r\n"] + [b"Trailer: a\r\n" * 100000] * 33}
+        before = self.resident_bytes()
+        for path in (b"grid", b"groups"):
+            for what, pieces in endless.items():
+                with self.subTest(path=path, what=what):
+                    answer = self.server.raw([self.CHUNKED % path] + pieces)
+                    if answer:  # not if the connection was reset before it was read
+                        self.assertTrue(answer.startswith(b"HTTP/1.1 431"), answer[:200])
+                        self.assertIn(b"Connection: close", answer)
+                        self.assertEqual(answer.count(b"HTTP/1.1 "), 1)
+        self.assertLess(self.resident_bytes() - before, 32 << 20)
+
+    def test_small_excesses_of_framing_are_told(self):
+        for framing in (b"5;" + b"a" * 70000, b"1;" + b"a" * 20000 + b"\r\nx\r\n0\r\n\r\n",
+                        b"0\r\nA: " + b"a" * 20000 + b"\r\n\r\n"):
+            answer = self.server.raw(self.CHUNKED % b"grid" + framing)
+            problem = json.loads(answer.split(b"\r\n\r\n", 1)[1])
+            self.assertEqual((problem["status"], problem["code"], problem["field"]),
+                             (431, "header_too_large", "body"), framing[:40])
+
+    def test_every_byte_may_have_a_chunk_of_its_own(self):
+        body = b'{"positions": [[0, 0, 0]]}' + b" " * 100000
+        chunks = b"".join(b"1;a=b\r\n%c\r\n" % byte for byte in body[:1000])
+        chunks += b"".join(b"1\r\n%c\r\n" % byte for byte in body[1000:])
+        data = self.CHUNKED % b"volumes/none/query" + chunks + b"0\r\nTrailer: a\r\n\r\n"
+        answer = self.server.raw(data + b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+        statuses = re.findall(rb"HTTP/1\.1 (\d+)", answer)
+        self.assertEqual(statuses, [b"404", b"200"])
+
+    def test_an_empty_line_before_a_request_is_ignored(self):
+        get = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        last = get.replace(b"\r\n\r\n", b"\r\nConnection: close\r\n\r\n")
+        for data, statuses in (([b"\r\n" + last], [b"200"]), ([b"\r", b"\n", last], [b"200"]),
+                               ([get + b"\r\n", b"\r", b"\n" + last], [b"200", b"400"]),
+                               ([get + b"\r\n" + last], [b"200", b"200"]),
+                               ([b"\r\n\r\n" + last], [b"400"]), ([b"\rGET" + last], [b"400"]),
+                               ([b"\n" + last], [b"400"])):
+            with self.subTest(data=data):
+                answer = self.server.raw(data, pause=0.05)
+                self.assertEqual(re.findall(rb"HTTP/1\.1 (\d+)", answer), statuses)
+
     def test_a_huge_chunk_is_refused_before_it_comes(self):
         for path in (b"/v1/grid", b"/v1/scenes"):
             answer = self.server.raw(b"POST " + path + b" HTTP/1.1\r\nHost: localhost\r\n"
@@ -429,24 +482,24 @@ class Protocol(ServiceTest):
 
 class Access(ServiceTest):
     def test_a_token_is_asked_for_and_never_logged(self):
-        server = self.start(env={"TETRALIGHT_TOKEN": "secret-words"})
+        server = self.start(env={"TETRALIGHT_TOKEN": "many-secret-words"})
         self.assertEqual(server.get("/healthz").status, 200)
-        for wrong in ({}, {"Authorization": "Bearer wrong"}, {"Authorization": "Bearer secret-word"},
-                      {"Authorization": "Basic secret-words"}, {"Authorization": "Bearer "},
-                      {"Authorization": "Bearer secret-wordssecret-words"},
-                      {"Authorization": "Bearer secret-words2"}):
+        for wrong in ({}, {"Authorization": "Bearer wrong"}, {"Authorization": "Bearer many-secret-word"},
+                      {"Authorization": "Basic many-secret-words"}, {"Authorization": "Bearer "},
+                      {"Authorization": "Bearer many-secret-wordsmany-secret-words"},
+                      {"Authorization": "Bearer many-secret-words2"}):
             for path in ("/v1/scenes", "/metrics", "/v1/nothing"):
                 answer = server.request("GET", path, headers=wrong)
                 self.assert_problem(answer, 401, "unauthorized")
                 self.assertEqual(answer.headers["WWW-Authenticate"], "Bearer")
         for scheme in ("Bearer", "bearer"):
-            right = {"Authorization": scheme + " secret-words"}
+            right = {"Authorization": scheme + " many-secret-words"}
             self.assertEqual(server.request("GET", "/v1/scenes", headers=right).status, 200)
         server.stop()
         self.assertNotIn("secret-word", read(server.log_path).decode())
 
     def test_an_upload_without_the_token_is_not_read(self):
-        server = self.start(env={"TETRALIGHT_TOKEN": "secret"})
+        server = self.start(env={"TETRALIGHT_TOKEN": "many-secret-words"})
         answer = server.raw(b"POST /v1/scenes HTTP/1.1\r\nHost: a\r\nContent-Length: 1000000\r\n\r\n")
         self.assertTrue(answer.startswith(b"HTTP/1.1 401"))
 
@@ -457,9 +510,9 @@ class Access(ServiceTest):
     def test_a_token_file_is_read(self):
         path = os.path.join(self.folder, "token")
         with open(path, "w") as file:
-            file.write("from-a-file\n")
+            file.write("token-from-a-file\n")
         server = self.start("--token-file", path, "--listen", "0.0.0.0:0")
-        self.assertEqual(server.get("/v1/scenes", Authorization="Bearer from-a-file").status, 200)
+        self.assertEqual(server.get("/v1/scenes", Authorization="Bearer token-from-a-file").status, 200)
 
     def write_token(self, name, token):
         """A file with a token, replaced as a whole."""
@@ -473,43 +526,91 @@ class Access(ServiceTest):
         return server.request(method, path, headers={"Authorization": "Bearer " + token}).status
 
     def test_a_token_for_reading_changes_nothing(self):
-        server = self.start("--token-file", self.write_token("admin", "all-of-it"),
-                            "--read-token-file", self.write_token("reader", "a-part"))
+        server = self.start("--token-file", self.write_token("admin", "all-that-there-is"),
+                            "--read-token-file", self.write_token("reader", "a-part-of-what-is"))
         for method, path, admin, reader in (
                 ("GET", "/v1/scenes", 200, 200), ("GET", "/metrics", 200, 200),
                 ("POST", "/v1/volumes/x/query", 404, 404), ("DELETE", "/v1/scenes/x", 404, 403),
                 ("POST", "/v1/scenes", 400, 403), ("POST", "/v1/bakes", 400, 403)):
             with self.subTest(method=method, path=path):
-                self.assertEqual(self.status_with(server, method, path, "all-of-it"), admin)
-                self.assertEqual(self.status_with(server, method, path, "a-part"), reader)
+                self.assertEqual(self.status_with(server, method, path, "all-that-there-is"), admin)
+                self.assertEqual(self.status_with(server, method, path, "a-part-of-what-is"), reader)
                 self.assertEqual(self.status_with(server, method, path, "neither"), 401)
-        answer = server.request("DELETE", "/v1/scenes/x", headers={"Authorization": "Bearer a-part"})
+        answer = server.request("DELETE", "/v1/scenes/x", headers={"Authorization": "Bearer a-part-of-what-is"})
         self.assert_problem(answer, 403, "read_only_token")
 
+    @staticmethod
+    def token(name, number):
+        return f"{name}-{number}-of-16-characters"
+
+    def start_with_tokens(self, admin, reader):
+        return self.start("--token-file", self.write_token("admin", admin),
+                          "--read-token-file", self.write_token("reader", reader))
+
+    def assert_token(self, server, token, status=200):
+        self.assertTrue(self.eventually(
+            lambda: self.status_with(server, "GET", "/v1/scenes", token) == status))
+
     def test_tokens_are_replaced_while_the_server_runs(self):
-        files = {"admin": self.write_token("admin", "admin-1"),
-                 "reader": self.write_token("reader", "reader-1")}
-        server = self.start("--token-file", files["admin"], "--read-token-file", files["reader"])
-        for name in files:
-            self.assertEqual(self.status_with(server, "GET", "/v1/scenes", name + "-1"), 200)
-            self.write_token(name, name + "-2")
-            self.assertTrue(self.eventually(
-                lambda: self.status_with(server, "GET", "/v1/scenes", name + "-2") == 200))
-            self.assertEqual(self.status_with(server, "GET", "/v1/scenes", name + "-1"), 401)
-        for count, token in enumerate(("", "two words")):  # mistakes lock nobody out
+        server = self.start_with_tokens(self.token("admin", 1), self.token("reader", 1))
+        for name in ("admin", "reader"):
+            self.assert_token(server, self.token(name, 1))
+            self.write_token(name, self.token(name, 2))
+            self.assert_token(server, self.token(name, 2))
+            self.assert_token(server, self.token(name, 1), 401)
+        for count, token in enumerate(("", "two words of a token", "short")):  # mistakes lock nobody out
             self.write_token("admin", token)
             self.assertTrue(self.eventually(lambda: self.failed_reads(server) > count))
-            self.assertEqual(self.status_with(server, "GET", "/v1/scenes", "admin-2"), 200)
-        os.remove(files["admin"])
-        self.assertTrue(self.eventually(lambda: self.failed_reads(server) > 2))
-        self.assertEqual(self.status_with(server, "GET", "/v1/scenes", "admin-2"), 200)
+            self.assert_token(server, self.token("admin", 2))
+        os.remove(os.path.join(self.folder, "admin"))
+        self.assertTrue(self.eventually(lambda: self.failed_reads(server) > 3))
+        self.assert_token(server, self.token("admin", 2))
         server.stop()
-        self.assertNotRegex(read(server.log_path).decode(), "admin-[12]|reader-[12]|two words")
+        self.assertNotRegex(read(server.log_path).decode(), "admin-[12]-of|reader-[12]-of|two words")
 
     def failed_reads(self, server):
         """How often a token could not be read so far; asks, as files are read for requests."""
         server.get("/v1/scenes")
         return sum("could not be read" in line["message"] for line in server.logged())
+
+    def equal_tokens(self, server):
+        """How often the log said that both files hold one token."""
+        server.get("/v1/scenes")
+        return sum("hold one token" in line["message"] for line in server.logged())
+
+    def test_a_token_for_reading_never_becomes_one_for_everything(self):
+        admin, reader = self.token("admin", 1), self.token("reader", 1)
+        server = self.start_with_tokens(admin, reader)
+        self.write_token("reader", admin)
+        self.assertTrue(self.eventually(lambda: self.equal_tokens(server) == 1))
+        self.assert_token(server, reader)  # the last one
+        self.assertEqual(self.status_with(server, "DELETE", "/v1/scenes/x", reader), 403)
+        self.write_token("admin", reader)  # they have changed places now
+        self.assertTrue(self.eventually(
+            lambda: self.status_with(server, "DELETE", "/v1/scenes/x", reader) == 404))
+        self.assertEqual(self.status_with(server, "DELETE", "/v1/scenes/x", admin), 403)
+        self.assertEqual(self.equal_tokens(server), 1)
+
+    def test_equal_tokens_are_refused(self):
+        with self.assertRaisesRegex(RuntimeError, "holds the token that may change everything"):
+            self.start_with_tokens(self.token("admin", 1), self.token("admin", 1))
+        with self.assertRaisesRegex(RuntimeError, "holds the token that may change everything"):
+            self.start("--read-token-file", self.write_token("reader", self.token("admin", 1)),
+                       env={"TETRALIGHT_TOKEN": self.token("admin", 1)})
+
+    def test_short_tokens_are_refused(self):
+        path = self.write_token("short", "x" * 15)
+        for option in ("--token-file", "--read-token-file"):
+            with self.assertRaisesRegex(RuntimeError, "at least 16 characters"):
+                self.start(option, path)
+        with self.assertRaisesRegex(RuntimeError, "at least 16 characters"):
+            self.start(env={"TETRALIGHT_TOKEN": "x" * 15})
+        self.start("--token-file", self.write_token("short", "x" * 16))
+
+    def test_a_token_for_reading_alone_is_warned_of(self):
+        server = self.start("--read-token-file", self.write_token("reader", self.token("reader", 1)))
+        self.assertTrue(self.eventually(lambda: any(
+            "no token lets clients change" in line["message"] for line in server.logged())))
 
     def test_names_that_lead_here_by_dns_alone_are_refused(self):
         server = self.start()

@@ -5,12 +5,13 @@ import json
 import os
 import re
 import shutil
+import socket
 import subprocess
 import threading
 import unittest
 
 from faults import SHIM, Faults
-from service import COURTYARD, ServiceTest, lattice, write_groups
+from service import COMMAND, COURTYARD, ServiceTest, lattice, write_groups
 
 
 class Log(ServiceTest):
@@ -96,6 +97,45 @@ class Readiness(ServiceTest):
         os.replace(database + ".aside", database)
         self.assert_ready(server)
 
+    def test_each_folder_of_the_store_must_be_there(self):
+        server = self.start()
+        for name in ("scenes", "skies", "groups", "volumes", "bakes", "work", "quarantine"):
+            folder = os.path.join(self.data, name)
+            os.rename(folder, folder + ".aside")
+            self.assert_not_ready(server, name + " cannot be written")
+            with open(folder, "wb"):
+                pass
+            self.assert_not_ready(server, "Not a directory")
+            os.remove(folder)
+            os.rename(folder + ".aside", folder)
+            self.assert_ready(server)
+
+    def test_a_reader_needs_its_volumes(self):
+        self.start()
+        server = self.start("--read-only")
+        folder = os.path.join(self.data, "volumes")
+        os.rename(folder, folder + ".aside")
+        self.assert_not_ready(server, "volumes cannot be read")
+        os.rename(folder + ".aside", folder)
+        self.assert_ready(server)
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can start a server as another user")
+    def test_each_folder_of_the_store_must_be_open_to_the_server(self):
+        os.chmod(self.folder, 0o755)
+        os.mkdir(self.data)
+        os.chown(self.data, 65534, 65534)
+        program = os.path.join(self.folder, "as_nobody")
+        with open(program, "w", encoding="utf-8") as file:
+            file.write(f'#!/bin/sh\nexec setpriv --reuid 65534 --regid 65534 --clear-groups "{COMMAND}" "$@"\n')
+        os.chmod(program, 0o755)
+        server = self.start(program=program)
+        self.assertEqual(server.get("/readyz").status, 200)
+        for mode in (0o000, 0o300, 0o500):
+            os.chmod(os.path.join(self.data, "volumes"), mode)
+            self.assert_not_ready(server, "volumes cannot be written: Permission denied")
+        os.chmod(os.path.join(self.data, "volumes"), 0o700)
+        self.assert_ready(server)
+
     def test_a_reader_is_ready_where_there_is_an_index(self):
         self.start()
         server = self.start("--read-only")
@@ -129,6 +169,34 @@ class Readiness(ServiceTest):
         finally:
             faults.hang(False)
         self.assert_ready(server)
+
+
+class StandardDescriptors(ServiceTest):
+    def test_closed_ones_are_opened(self):
+        for closed in ("<&-", ">&-", "2>&-", "<&- >&- 2>&-"):
+            with self.subTest(closed=closed), socket.create_server(("127.0.0.1", 0)) as free:
+                port = free.getsockname()[1]
+                free.close()
+                process = subprocess.Popen(
+                    ["sh", "-c", f'exec "$0" "$@" {closed}', COMMAND, "serve", "--data", self.data,
+                     "--listen", f"127.0.0.1:{port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                self.addCleanup(process.kill)
+                self.assertTrue(self.eventually(lambda: self.answers(port)))
+                links = [os.readlink(f"/proc/{process.pid}/fd/{file}") for file in range(3)]
+                self.assertFalse([link for link in links if "socket:" in link or self.data in link], links)
+                process.terminate()
+                self.assertEqual(process.wait(timeout=60), 0)
+
+    @staticmethod
+    def answers(port):
+        try:
+            connection = http.client.HTTPConnection("127.0.0.1", port, timeout=5)
+            connection.request("GET", "/healthz")
+            return connection.getresponse().status == 200
+        except OSError:
+            return False
+        finally:
+            connection.close()
 
 
 @unittest.skipUnless(SHIM, "sanitizers reserve more memory than the limits")

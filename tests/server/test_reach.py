@@ -4,11 +4,14 @@ import contextlib
 import errno
 import os
 import resource
+import socket
+import threading
+import time
 import unittest
 
 import test_bakes
 from faults import SHIM, Faults
-from service import BINARY, Answer, read
+from service import BINARY, COURTYARD, Answer, lattice, read
 from test_files import VolumeTest
 
 QUERY = {"positions": [[0.5, 0.5, 0.5]]}
@@ -133,6 +136,124 @@ class Reach(ReachTest):
         with folder_is_away(os.path.join(self.data, "work"), b"a file"):
             self.assert_retry(server.post("/v1/volumes", read(self.volume_file(3)), BINARY))
         self.upload(server, "volumes", self.volume_file(3))
+
+
+class Writes(ReachTest):
+    """Nothing is promised that the database will not know."""
+
+    def writes(self, server):
+        """Answers to requests that store something."""
+        groups = self.groups_file([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+        return [server.post("/v1/groups", read(groups), BINARY),
+                server.request("PATCH", "/v1/volumes/level", {"name": "other"}),
+                server.request("DELETE", "/v1/volumes/level"),
+                server.post("/v1/relight", {"volume": "level"}),
+                server.post("/v1/tetrahedralize", {"groups": ["few"]}),
+                server.post("/v1/bakes", {"scene": "court", "groups": ["few"], "only_given_groups": True,
+                                          "samples": 1})]
+
+    def server_with_files(self):
+        server = self.start()
+        self.upload(server, "volumes", self.volume_file(2), "level")
+        self.upload(server, "groups", self.groups_file([[0, 1, 0], [1, 1, 0]]), "few")
+        self.upload(server, "scenes", COURTYARD, "court")
+        return server
+
+    def assert_no_writes(self, server, words):
+        for answer in self.writes(server):
+            self.assert_retry(answer)
+            self.assertIn(words, answer.json()["detail"])
+        self.assertEqual(server.post("/v1/volumes/level/query", QUERY).status, 200)
+
+    def test_writes_without_the_database_are_refused(self):
+        server = self.server_with_files()
+        for suffix in ("", "-wal"):
+            path = os.path.join(self.data, "tetralight.db" + suffix)
+            os.rename(path, path + ".away")
+            self.assert_no_writes(server, "database")
+            os.rename(path + ".away", path)
+        database = os.path.join(self.data, "tetralight.db")
+        os.rename(database, database + ".away")
+        with open(database, "wb") as file:  # another one in its place
+            file.write(read(database + ".away"))
+        self.assert_no_writes(server, "is not the one that was opened")
+        os.replace(database + ".away", database)
+        for answer in self.writes(server)[:2]:
+            self.assertIn(answer.status, (200, 201))
+
+    def test_writes_without_the_folder_are_refused(self):
+        server = self.server_with_files()
+        server.post("/v1/volumes/level/query", QUERY)  # a copy of the volume is in memory
+        with folder_is_away(self.data):
+            self.assert_no_writes(server, "")
+            self.assertTrue(self.eventually(lambda: server.get("/readyz").status == 503))
+            self.assertGreater(int(server.get("/readyz").headers["Retry-After"]), 0)
+        self.assertIn(self.writes(server)[0].status, (200, 201))
+
+    def test_a_write_that_loses_its_database_is_not_confirmed(self):
+        server = self.start()
+        self.upload(server, "groups", self.groups_file(lattice(25)), "many")
+        database = os.path.join(self.data, "tetralight.db")
+        answers = []
+        thread = threading.Thread(
+            target=lambda: answers.append(server.post("/v1/tetrahedralize", {"groups": ["many"]})))
+        thread.start()
+        self.assertTrue(self.eventually(server.children))
+        os.rename(database, database + ".away")  # while the program runs
+        thread.join()
+        os.rename(database + ".away", database)
+        self.assert_retry(answers[0])
+
+
+class Idle(ReachTest):
+    def test_idle_connections_make_room_for_new_ones(self):
+        server = self.fresh_server_with_a_volume()
+        resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (64, 64))
+        idle = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(100)]
+        try:
+            begin = time.monotonic()
+            self.assertEqual(server.get("/healthz").status, 200)
+            self.assertLess(time.monotonic() - begin, 10)
+            self.assertTrue(self.eventually(lambda: self.is_served(server)))
+            self.assertTrue(self.eventually(lambda: self.warnings(server) == 1))
+            closed = [one for one in idle if self.is_closed(one)]
+            self.assertGreater(len(closed), 10)
+            self.assertIn(idle[0], closed)  # it waited longest
+            self.assertLess(len(closed), len(idle))
+        finally:
+            for one in idle:
+                one.close()
+        self.assert_served(server)
+
+    def test_a_busy_connection_is_not_closed_for_others(self):
+        server = self.fresh_server_with_a_volume()
+        resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (64, 64))
+        with socket.create_connection(("127.0.0.1", server.port)) as busy:
+            busy.settimeout(20)
+            busy.sendall(b"POST /v1/volumes/level/query HTTP/1.1\r\nHost: localhost\r\nContent-Length: 32\r\n\r\n")
+            time.sleep(1.2)
+            idle = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(100)]
+            self.assertEqual(server.get("/healthz").status, 200)
+            busy.sendall(b'{"positions": [[0.5, 0.5, 0.5]]}')
+            self.assertRegex(busy.recv(65536), rb"^HTTP/1.1 (200|503) ")
+            for one in idle:
+                one.close()
+
+    def is_served(self, server):
+        return server.post("/v1/volumes/level/query", QUERY).status == 200
+
+    def warnings(self, server):
+        return sum("descriptors run out" in line["message"] for line in server.logged())
+
+    @staticmethod
+    def is_closed(connection):
+        connection.settimeout(0.01)
+        try:
+            return connection.recv(1) == b""
+        except TimeoutError:
+            return False
+        except ConnectionResetError:
+            return True
 
 
 @unittest.skipUnless(SHIM, "sanitizers do not go with preloaded libraries")

@@ -50,12 +50,20 @@ class Bakes(VolumeTest):
         self.assertEqual([b["id"] for b in first["bakes"]], bakes[:0:-1])
         rest = server.get("/v1/bakes?after=" + first["next"]).json()
         self.assertEqual(([b["id"] for b in rest["bakes"]], rest["next"]), (bakes[:1], None))
-        self.assert_problem(server.get("/v1/bakes?after=none"), 404, "not_found")
+        by_id = server.get("/v1/bakes?after=" + bakes[1]).json()
+        self.assertEqual(by_id, rest)
+        for nonsense in ("none", "before-", "before-x", "before--1", "before-1x", "before-99999999999999999999"):
+            self.assert_problem(server.get("/v1/bakes?after=" + nonsense), 404, "not_found")
         self.assert_problem(server.get("/v1/bakes?limit=1001"), 400, "invalid_value")
+        # The bake at which a page ends may be deleted before the next page is asked for.
+        first = server.get("/v1/bakes?limit=1").json()
+        self.assertEqual(server.request("DELETE", "/v1/bakes/" + bakes[2]).status, 204)
+        rest = server.get("/v1/bakes?after=" + first["next"]).json()
+        self.assertEqual([b["id"] for b in rest["bakes"]], bakes[1::-1])
         server.stop()
         server = self.start("--keep", "1")
         self.assertTrue(self.eventually(
-            lambda: [b["id"] for b in server.get("/v1/bakes").json()["bakes"]] == bakes[2:]))
+            lambda: [b["id"] for b in server.get("/v1/bakes").json()["bakes"]] == bakes[1:2]))
 
 
 if __name__ == "__main__":
