@@ -55,6 +55,9 @@ ProbeVolume volume_of(const LightPool& pool, std::span<const uint32_t> probes) {
     MergedProbes merged;
     for (const uint32_t probe : probes) merged.positions.push_back(pool.position(probe));
     ProbeVolume volume = make_probe_volume(merged);
+    // Positions are not snapped here: probes on a face of the hull make cells without volume, and
+    // walks must come from inside to find them. Without a seed grid they begin at probes.
+    volume.seed_grid.clear();
     for (const uint32_t probe : probes) volume.irradiance.push_back(pool.light(probe));
     return volume;
 }
