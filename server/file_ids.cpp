@@ -31,15 +31,15 @@ Result<std::span<const std::byte>> read_piece(const Descriptor& file, const std:
     return std::span<const std::byte>(memory.first(*count));
 }
 
-struct FreeXxh {
-    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-};
-
 }  // namespace
 
 struct FileIdsHash::State {
+    struct Free {
+        void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+    };
+
     Sha256 sha;
-    std::unique_ptr<XXH3_state_t, FreeXxh> xxh{XXH3_createState()};
+    std::unique_ptr<XXH3_state_t, Free> xxh{XXH3_createState()};
     uint64_t bytes = 0;
 };
 

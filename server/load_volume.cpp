@@ -37,7 +37,8 @@ std::span<const std::byte> mapped_bytes(const ProbeFile& file) {
 }
 
 Result<LoadedVolume> map_volume(const std::string& path, const std::string& id) {
-    const auto stamp = stamp_of(path);
+    Descriptor opened(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    const auto stamp = opened ? stamp_of(opened) : std::nullopt;
     if (!stamp) return system_error(path, "open");
     const auto ids = read_file_ids(path);
     if (!ids) return ids.error();
@@ -47,7 +48,8 @@ Result<LoadedVolume> map_volume(const std::string& path, const std::string& id) 
     if (!file) return file.error();
     auto guard = MapGuard::make(mapped_bytes(*file));
     if (!guard) return guard.error();
-    return LoadedVolume{std::move(*file), ids->bytes, std::move(*guard), path, *stamp};
+    return LoadedVolume{std::move(*file), ids->bytes,       std::move(*guard), path,
+                        *stamp,           std::move(opened)};
 }
 
 Result<LoadedVolume> copy_volume(const std::string& path, const std::string& id) {
@@ -67,7 +69,7 @@ Result<LoadedVolume> copy_volume(const std::string& path, const std::string& id)
 }  // namespace
 
 bool LoadedVolume::is_whole() const {
-    return is_copy() || (!is_damaged() && !has_changed(stamp_of(path)));
+    return is_copy() || (!is_damaged() && !has_changed(stamp_of(opened)));
 }
 
 void LoadedVolume::require_whole() const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <tetralight/base/descriptor.h>
 #include <tetralight/base/result.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/server/file_stamp.h>
@@ -21,6 +22,8 @@ struct LoadedVolume {
     /// Of a volume that is mapped: its file, and what it was before it was verified.
     std::string path = {};
     FileStamp stamp = {};
+    /// The same file, also when it was moved to the quarantine or deleted in the meantime.
+    Descriptor opened = Descriptor();
 
     [[nodiscard]] bool is_copy() const { return !guard; }
 

@@ -52,11 +52,12 @@ TEST_F(Info, TextSaysInAlignedLinesWhatTheVolumeHolds) {
     write("five.json", kFiveProbes);
     succeed({"tetrahedralize", "five.json", "-o", "v.probes"});
     const std::string out = succeed({"info", "v.probes"}).out;
-    for (const char* line : {"v.probes\n", "  probes     5 (0 welded), in 1 group\n",
-                             "  dimension  space\n", "  cells      4 tetrahedra, 4 hull cells\n",
-                             "  slivers    0 of quality < 1e-3 (0.0 %), 0 < 1e-6 (0.0 %)\n",
-                             "  bounds     0 0 0  to  8 8 8\n", "  light      none (not baked)\n",
-                             "probes by group\n  five  5  100.0 %\n", "  exact_positions    120 B"}) {
+    for (const char* line :
+         {"v.probes\n", "  probes     5 (0 welded), in 1 group\n", "  dimension  space\n",
+          "  cells      4 tetrahedra, 4 hull cells\n",
+          "  slivers    0 of quality < 1e-3 (0.0 %), 0 < 1e-6 (0.0 %)\n",
+          "  bounds     0 0 0  to  8 8 8\n", "  light      none (not baked)\n",
+          "probes by group\n  five  5  100.0 %\n", "  exact_positions    120 B"}) {
         EXPECT_TRUE(contains(out, line)) << line << "\n" << out;
     }
     EXPECT_FALSE(Json::accept(out));
