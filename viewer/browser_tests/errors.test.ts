@@ -130,12 +130,12 @@ test('an empty server says what to do', async () => {
 });
 
 test('a server with a token asks for it, and says that a wrong one is wrong', async () => {
-    const other = await new Server('secret').start();
+    const other = await new Server('a-secret-of-20-chars').start();
     await visit(other.url, async page => {
         await page.getByLabel('Token', {exact: true}).fill('wrong');
         await page.getByRole('button', {name: 'Enter'}).click();
         await page.getByText('The token is wrong.').waitFor();
-        await page.getByLabel('Token', {exact: true}).fill('secret');
+        await page.getByLabel('Token', {exact: true}).fill('a-secret-of-20-chars');
         await page.getByRole('button', {name: 'Enter'}).click();
         await page.locator('.empty').waitFor();
         expect(await page.locator('dialog[open]').count()).toBe(0);
