@@ -53,7 +53,8 @@ class FileWriter {
     Descriptor file_;
 };
 
-/// `write_file` of file.h, with a check of what was written (`FileWriter::commit`).
+/// Like `write_file` in file.h, but reads the file back for `check` before it replaces an older
+/// one.
 [[nodiscard]] Status write_file(const std::string& path,
                                 std::span<const std::span<const std::byte>> parts,
                                 const WrittenFileCheck& check);

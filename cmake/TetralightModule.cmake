@@ -72,6 +72,23 @@ function(tetralight_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
+# tetralight_use_highway(TARGET [SOURCE...]): if Highway is found, adds sources of vector code, which is
+# compiled for each kind of processor and chosen at run time. Not for SVE and RVV, whose vectors cannot
+# be members of structs: such processors use the code for NEON or the scalar twin.
+function(tetralight_use_highway target)
+  find_package(hwy CONFIG QUIET)
+  if(NOT hwy_FOUND)
+    return()
+  endif()
+  foreach(source ${ARGN})
+    target_sources(${target} PRIVATE ${source})
+    tetralight_compile_alone(${source})
+  endforeach()
+  target_compile_definitions(${target} PRIVATE TETRALIGHT_HAS_HIGHWAY
+    "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
+  target_link_libraries(${target} PRIVATE hwy::hwy)
+endfunction()
+
 # tetralight_ship(NAME): the module belongs to the ship set, which is built without exceptions and
 # RTTI so that a game can be built without them.
 function(tetralight_ship name)

@@ -10,6 +10,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/detail/batch_queries.h>
 #include <tetralight/probes/detail/blend_probes.h>
+#include <tetralight/probes/edge_visibility.h>
 
 namespace tetralight {
 namespace {
@@ -53,9 +54,10 @@ Status check_outside(const OutsideHull& outside) {
 
 }  // namespace
 
-InterpolatedProbe interpolate(const ProbeVolumeView& volume,
-                              const CellLocation& location) noexcept {
-    return detail::blend_probes(volume, location);
+InterpolatedProbe interpolate(const ProbeVolumeView& volume, const CellLocation& location,
+                              Walls walls) noexcept {
+    if (walls == Walls::Ignore) return detail::blend_probes(volume, location);
+    return detail::blend_probes(volume, visible_location(volume, location));
 }
 
 Status check_batch(const InterpolationBatch& batch) {
@@ -98,7 +100,7 @@ void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
 }
 
 Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
-             const ShOutput& irradiance, const OcclusionOutput& occlusion) {
+             const ShOutput& irradiance, const OcclusionOutput& occlusion, Walls walls) {
     InterpolationBatch batch;
     batch.irradiance = irradiance;
     batch.occlusion = occlusion;
@@ -108,8 +110,9 @@ Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locati
     for (size_t begin = 0; begin < locations.size(); begin += kPart) {
         const size_t count = std::min(kPart, locations.size() - begin);
         std::iota(answers.begin(), answers.end(), static_cast<uint32_t>(begin));
-        detail::query_kernels().blend(volume, locations.subspan(begin, count),
-                                      {std::span(answers).first(count), irradiance, occlusion});
+        detail::query_kernels().blend(
+            volume, locations.subspan(begin, count),
+            {std::span(answers).first(count), irradiance, occlusion, walls});
     }
     return Ok{};
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include <tetralight/base/result.h>
+#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/locate.h>
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/probes/query_output.h>
@@ -30,7 +31,8 @@ struct InterpolatedProbe {
 /// Blends the probes of a located cell. Without a cell, or without baked light, the answer is the
 /// volume's ambient light and occlusion (1, 1, 1, 1). Thread-safe.
 [[nodiscard]] InterpolatedProbe interpolate(const ProbeVolumeView& volume,
-                                            const CellLocation& location) noexcept;
+                                            const CellLocation& location,
+                                            Walls walls = Walls::HideProbes) noexcept;
 
 /// Many positions in one call.
 struct InterpolationBatch {
@@ -46,8 +48,9 @@ struct InterpolationBatch {
     /// Scratch memory of two elements a position. If given, positions are answered along a Morton
     /// curve, which is faster for positions in random order.
     std::span<uint64_t> sort_memory = {};
-    /// Out: the cell and the weights of each position. May be empty.
+    /// Out: the cell and the weights of each position, as `locate` gives them. May be empty.
     std::span<CellLocation> locations = {};
+    Walls walls = Walls::HideProbes;
 };
 
 /// Counters of a batch.
@@ -111,6 +114,7 @@ void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,
 
 /// Blends at known locations: `interpolate` without the walk. Returns the same errors.
 [[nodiscard]] Status blend(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
-                           const ShOutput& irradiance, const OcclusionOutput& occlusion);
+                           const ShOutput& irradiance, const OcclusionOutput& occlusion,
+                           Walls walls = Walls::HideProbes);
 
 }  // namespace tetralight

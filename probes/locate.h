@@ -40,9 +40,10 @@ struct OutsideHull {
 ///
 /// Walks from cell to cell, beginning at `hint`: the cell of a previous query near by, or of the
 /// same object in the last frame. Any value is allowed; if it is not the index of a cell, the walk
-/// begins at the cell that the volume's seed grid names. The walk always ends: after a bounded
-/// number of steps the cells around, and finally all cells, are searched. Cost: the number of cells
-/// between the hint and the position. Thread-safe.
+/// begins at the cell that the volume's seed grid names. The walk always ends: a walk that
+/// cycles goes on with a search of the cells around, then with a second walk from the seed grid,
+/// and finally with a search of all cells. Cost: the number of cells between the hint and the
+/// position. Thread-safe.
 ///
 /// An answer is a function of the position and the hint, to the bit: single queries and batches
 /// give the same. Where cells meet, hints and the GPU may choose another of them, with the same

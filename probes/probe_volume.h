@@ -108,6 +108,27 @@ struct alignas(64) CompactProbe {
 
 static_assert(sizeof(CompactProbe) == 64 && std::is_trivially_copyable_v<CompactProbe>);
 
+/// What the corners of one cell see along its edges, as codes of edge ratios
+/// (probes/edge_visibility.h). codes[4 k + i] is that of the edge from corner i to corner
+/// (i + k + 1) % 4. Codes of places without a vertex are 0.
+struct CellVisibility {
+    std::array<uint8_t, 12> codes{};
+
+    bool operator==(const CellVisibility&) const = default;
+};
+
+static_assert(sizeof(CellVisibility) == 12 && std::is_trivially_copyable_v<CellVisibility>);
+
+/// Which of 32 consecutive cells have an element of `cell_visibility`.
+struct VisibilityBlock {
+    uint32_t first = 0;  ///< index of the element of the first of them
+    uint32_t cells = 0;  ///< bit i: cell 32 · block + i has one
+
+    bool operator==(const VisibilityBlock&) const = default;
+};
+
+static_assert(sizeof(VisibilityBlock) == 8 && std::is_trivially_copyable_v<VisibilityBlock>);
+
 /// Quality of the light of a baked probe.
 struct ProbeHealth {
     /// Relative standard error of its irradiance: root mean square over all normals. 0: not known.
@@ -132,7 +153,7 @@ struct VolumeInfo {
     /// World position of the local origin. Arrays of float positions are relative to it, so that a
     /// volume far from the world's origin keeps its precision.
     glm::dvec3 world_origin{0.0};
-    /// The curve that orders `seeds`, in local positions.
+    /// The curve that orders `seeds`, in local positions; 0 without seeds.
     HilbertCube seed_cube;
     /// Plane: its unit normal; line: its unit direction; otherwise 0. A cell holds all positions
     /// that lie beside it along the normal, or around it across the direction.
@@ -171,9 +192,15 @@ struct ProbeVolumeView {
 
     std::span<const Cell> cells;
     std::span<const HullCellRays> hull_rays;  ///< one a hull cell
-    std::span<const Seed> seeds;              ///< sorted by Hilbert index; may be empty
+    /// Sorted by Hilbert index; of older files. Read only if there is no seed grid.
+    std::span<const Seed> seeds;
     /// Where walks without a hint begin (probes/seed_grid.h). Empty: at one of `seeds`.
     std::span<const uint32_t> seed_grid;
+
+    // Walls between probes (probes/edge_visibility.h). Both empty: not known, no wall hides a
+    // probe.
+    std::span<const VisibilityBlock> visibility_blocks;  ///< one for each 32 cells
+    std::span<const CellVisibility> cell_visibility;     ///< of cells with a blocked edge, in order
 
     std::span<const ProbeSource> sources;  ///< sorted by group, then index
     std::string_view group_names;          ///< sorted, each ended by '\n'
@@ -219,6 +246,8 @@ struct ProbeVolume {
     std::vector<HullCellRays> hull_rays;
     std::vector<Seed> seeds;
     std::vector<uint32_t> seed_grid;
+    std::vector<VisibilityBlock> visibility_blocks;
+    std::vector<CellVisibility> cell_visibility;
     std::vector<ProbeSource> sources;
     std::string group_names;
     std::vector<Light> lights;

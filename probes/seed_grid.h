@@ -51,10 +51,16 @@ inline constexpr uint32_t kSeedGridLongestSide = 1u << 20;
     return header;
 }
 
+/// Words of voxels.
+[[nodiscard]] inline uint64_t seed_voxel_count(const SeedGridHeader& grid) noexcept {
+    return uint64_t{grid.size[0]} * grid.size[1] * grid.size[2];
+}
+
 /// The voxel along one axis that is nearest to a local coordinate; 0 if that is not a number.
 [[nodiscard]] inline uint32_t seed_voxel(float coordinate, float min, float scale,
                                          uint32_t size) noexcept {
-    const uint32_t last = (size < kSeedGridLongestSide ? size : kSeedGridLongestSide) - 1;
+    const uint32_t side = size < kSeedGridLongestSide ? size : kSeedGridLongestSide;
+    const uint32_t last = side > 0 ? side - 1 : 0;  // 0: a corrupt grid
     const float along = (coordinate - min) * scale;
     const auto limit = static_cast<float>(last);
     return static_cast<uint32_t>(along > 0.0f ? (along < limit ? along : limit) : 0.0f);

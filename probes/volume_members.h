@@ -28,6 +28,8 @@ constexpr void for_each_volume_member(Visit&& visit) {
     visit("hull_rays", Query, &Owner::hull_rays, &View::hull_rays);
     visit("seeds", Query, &Owner::seeds, &View::seeds);
     visit("seed_grid", Query, &Owner::seed_grid, &View::seed_grid);
+    visit("visibility_blocks", Query, &Owner::visibility_blocks, &View::visibility_blocks);
+    visit("cell_visibility", Query, &Owner::cell_visibility, &View::cell_visibility);
     visit("irradiance", Query, &Owner::irradiance, &View::irradiance);
     visit("occlusion", Query, &Owner::occlusion, &View::occlusion);
     visit("validity", Offline, &Owner::validity, &View::validity);

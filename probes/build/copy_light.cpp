@@ -5,6 +5,7 @@
 
 #include <tetralight/base/contract.h>
 #include <tetralight/probes/build/detail/position_table.h>
+#include <tetralight/probes/build/store_visibility.h>
 
 namespace tetralight {
 namespace {
@@ -49,6 +50,7 @@ CopiedLight copy_light(const ProbeVolumeView& from, ProbeVolume& to) {
     to.transfer = copy_from_twins(from.transfer, twins, ProbeTransfer());
     to.sky.assign(from.sky.begin(), from.sky.end());
     to.dering = copy_from_twins(from.dering, twins, uint8_t{0});
+    copy_visibility(from, to);
     to.layers.assign(from.layers.begin(), from.layers.end());
     to.layer_names = from.layer_names;
     to.layer_irradiance.clear();

@@ -60,12 +60,42 @@ Hull make_hull(std::span<const glm::dvec3> positions, const Tetrahedralization& 
     return hull;
 }
 
+/// Σ function(distance to `center`) over all vertices.
+template <class Function>
+double sum_over_distances(const Hull& hull, const glm::dvec3& center, Function function) {
+    double sum = 0.0;
+    for (const HullVertex& v : hull.vertices) sum += function(glm::distance(v.position, center));
+    return sum;
+}
+
+/// A point inside the hull and near most of its vertices. Seen from the mean, vertices that are
+/// close together would have equal directions in float, if others are far away. Steps towards the
+/// geometric median (Weiszfeld 1937); each point is a mean with positive weights, thus inside.
+glm::dvec3 find_interior_point(const Hull& hull) {
+    constexpr int kMostSteps = 32;
+    constexpr double kSmallStep = 0.01;
+    const auto count = static_cast<double>(hull.vertices.size());
+    glm::dvec3 center(0.0);
+    for (const HullVertex& v : hull.vertices) center += v.position / count;
+    for (int i = 0; i < kMostSteps; ++i) {
+        const double near =
+            count / sum_over_distances(hull, center, [](double d) { return 1 / d; });
+        const auto weight = [near](double distance) { return 1 / (distance + near); };
+        const double total = sum_over_distances(hull, center, weight);
+        glm::dvec3 step(0.0);
+        for (const HullVertex& v : hull.vertices) {
+            const double share = weight(glm::distance(v.position, center)) / total;
+            step += share * (v.position - center);
+        }
+        if (!(glm::length(step) > kSmallStep * near)) break;
+        center += step;
+    }
+    return center;
+}
+
 /// Moves the interior point to the origin and scales the hull to size 1.
 void normalize(Hull& hull) {
-    glm::dvec3 center(0.0);
-    for (const HullVertex& v : hull.vertices) {
-        center += v.position / static_cast<double>(hull.vertices.size());
-    }
+    const glm::dvec3 center = find_interior_point(hull);
     double size = 0.0;
     for (HullVertex& v : hull.vertices) {
         v.position -= center;

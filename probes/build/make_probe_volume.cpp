@@ -8,7 +8,6 @@
 #include <tetralight/probes/build/detail/local_origin.h>
 #include <tetralight/probes/build/hull_rays.h>
 #include <tetralight/probes/build/make_seed_grid.h>
-#include <tetralight/probes/build/make_seeds.h>
 
 namespace tetralight {
 ProbeVolume make_probe_volume(const MergedProbes& probes) {
@@ -30,10 +29,6 @@ ProbeVolume make_probe_volume(const MergedProbes& probes, Tetrahedralization cel
         volume.positions.push_back(local);
         volume.info.extent = std::max(volume.info.extent, glm::length(local));
     }
-    const auto inner_cells = std::span(cells.cells).first(cells.inner_cell_count);
-    Seeds seeds = make_seeds(volume.positions, inner_cells);
-    volume.info.seed_cube = seeds.cube;
-    volume.seeds = std::move(seeds.seeds);
     volume.exact_positions = probes.positions;
     volume.cells = std::move(cells.cells);
     volume.hull_rays = std::move(hull.cells);

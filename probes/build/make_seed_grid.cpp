@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <tetralight/base/box.h>
+#include <tetralight/probes/build/detail/seed_grid_header.h>
 #include <tetralight/probes/seed_grid.h>
 
 namespace tetralight {
@@ -23,48 +24,8 @@ constexpr double kUnevenShare = 0.25;
 
 constexpr double kVoxelsPerProbeIfUneven = 1.0;
 
-/// Voxels of equal sides, about so many, in a box and in a layer around it: walks of positions
-/// outside the hull begin in that layer, at a hull cell.
-SeedGridHeader make_header(const Box<glm::dvec3>& box, double voxel_count) {
-    const glm::dvec3 size = box.max - box.min;
-    const double longest = std::max({size.x, size.y, size.z});
-    const auto sides = [&](double along) {
-        return glm::max(glm::floor(size * (along / longest)), glm::dvec3(1.0));
-    };
-    const auto with_layer = [&](double inner, double length) {
-        return length > 0.0 ? inner + 2.0 : 1.0;
-    };
-    SeedGridHeader header;
-    header.min = {static_cast<float>(box.min.x), static_cast<float>(box.min.y),
-                  static_cast<float>(box.min.z)};
-    if (!(longest > 0.0) || !std::isfinite(longest)) return header;
-    double coarsest = 1.0;
-    double finest = kSeedGridLongestSide - 2;
-    for (int i = 0; i < 48; ++i) {  // bisection of the voxels along the longest side
-        const double middle = 0.5 * (coarsest + finest);
-        const glm::dvec3 inner = sides(middle);
-        const double count =
-            with_layer(inner.x, size.x) * with_layer(inner.y, size.y) * with_layer(inner.z, size.z);
-        (count > voxel_count ? finest : coarsest) = middle;
-    }
-    const glm::dvec3 inner = sides(coarsest);
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<size_t>(axis);
-        const auto scale = static_cast<float>(inner[axis] / size[axis]);
-        if (!(size[axis] > 0.0) || !std::isfinite(scale)) continue;
-        header.size[a] = static_cast<uint32_t>(inner[axis]) + 2;
-        header.scale[a] = scale;
-        header.min[a] = static_cast<float>(box.min[axis] - 1.0 / static_cast<double>(scale));
-    }
-    return header;
-}
-
 /// The word of a voxel that has no cell yet.
 constexpr uint32_t kNoCell = kFinerGrid - 1;
-
-uint64_t voxel_count(const SeedGridHeader& header) {
-    return uint64_t{header.size[0]} * header.size[1] * header.size[2];
-}
 
 class Maker {
   public:
@@ -104,7 +65,7 @@ class Maker {
             return seed_word(header, 0, volume_.positions[probe]) - kSeedGridHeaderWords;
         };
         Sorted sorted{std::vector<uint32_t>(probes.size()),
-                      std::vector<uint32_t>(voxel_count(header) + 2, 0u)};
+                      std::vector<uint32_t>(seed_voxel_count(header) + 2, 0u)};
         for (const uint32_t probe : probes) ++sorted.begins[voxel_of(probe) + 2];
         std::partial_sum(sorted.begins.begin(), sorted.begins.end(), sorted.begins.begin());
         for (const uint32_t probe : probes) {
@@ -125,40 +86,87 @@ class Maker {
 
     /// Adds the grid of some probes and those inside it; returns its place.
     uint64_t add_grid(std::span<const uint32_t> probes, int level) {
-        auto box = Box<glm::dvec3>::empty();
-        for (const uint32_t probe : probes) {
-            box = union_of(box, glm::dvec3(volume_.positions[probe]));
-        }
+        const Box<glm::dvec3> box = box_of(probes);
         const auto count = static_cast<double>(probes.size());
-        SeedGridHeader header = make_header(box, kVoxelsPerProbe * count);
+        SeedGridHeader header = detail::make_seed_grid_header(box, kVoxelsPerProbe * count);
         Sorted sorted = sort(probes, header);
         if (level < kSeedGridLevels && is_uneven(sorted)) {
-            header = make_header(box, kVoxelsPerProbeIfUneven * count);
+            header = detail::make_seed_grid_header(box, kVoxelsPerProbeIfUneven * count);
             sorted = sort(probes, header);
         }
         const uint64_t place = words_.size();
         grids_.push_back(place);
-        words_.resize(place + kSeedGridHeaderWords + voxel_count(header), kNoCell);
+        words_.resize(place + kSeedGridHeaderWords + seed_voxel_count(header), kNoCell);
         std::memcpy(words_.data() + place, &header, sizeof header);
-        for (size_t voxel = 0; voxel < voxel_count(header); ++voxel) {
-            add_voxel(header, place, voxel, sorted.in(voxel), level);
+        std::vector<size_t> clusters;
+        for (size_t voxel = 0; voxel < seed_voxel_count(header); ++voxel) {
+            const auto inside = sorted.in(voxel);
+            add_voxel(header, place, voxel, inside, level);
+            const bool is_split = (words_[place + kSeedGridHeaderWords + voxel] & kFinerGrid) != 0;
+            if (is_split && is_small(inside, header)) clusters.push_back(voxel);
         }
+        for (const size_t voxel : clusters) share_grid(header, place, voxel);
         return place;
+    }
+
+    /// True if the probes fill a small part of the sides of a voxel.
+    [[nodiscard]] bool is_small(std::span<const uint32_t> probes,
+                                const SeedGridHeader& header) const {
+        constexpr double kSmallShare = 0.125;
+        const glm::dvec3 size = box_of(probes).max - box_of(probes).min;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto scale = static_cast<double>(header.scale[static_cast<size_t>(axis)]);
+            if (size[axis] * scale > kSmallShare) return false;
+        }
+        return true;
+    }
+
+    /// Voxels around one with a finer grid name that grid as well, unless they have their own: a
+    /// cluster may be at the border of its voxel, and the voxel beside it would name a cell far
+    /// away.
+    void share_grid(const SeedGridHeader& header, uint64_t place, size_t voxel) {
+        const auto at = voxel_position(header, voxel);
+        const uint64_t first = place + kSeedGridHeaderWords;
+        for (int code = 0; code < 27; ++code) {
+            const std::array<int, 3> steps{code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
+            std::array<size_t, 3> to{};
+            bool is_inside = true;
+            for (size_t axis = 0; axis < 3; ++axis) {
+                to[axis] = at[axis] + static_cast<size_t>(steps[axis]);  // −1 wraps around
+                is_inside = is_inside && to[axis] < header.size[axis];
+            }
+            if (!is_inside) continue;
+            const size_t other = (to[2] * header.size[1] + to[1]) * header.size[0] + to[0];
+            uint32_t& word = words_[first + other];
+            if ((word & kFinerGrid) == 0) word = words_[first + voxel];
+        }
+    }
+
+    [[nodiscard]] static std::array<size_t, 3> voxel_position(const SeedGridHeader& header,
+                                                              size_t voxel) {
+        return {voxel % header.size[0], voxel / header.size[0] % header.size[1],
+                voxel / header.size[0] / header.size[1]};
+    }
+
+    [[nodiscard]] Box<glm::dvec3> box_of(std::span<const uint32_t> probes) const {
+        auto box = Box<glm::dvec3>::empty();
+        for (const uint32_t probe : probes) {
+            box = union_of(box, glm::dvec3(volume_.positions[probe]));
+        }
+        return box;
     }
 
     void add_voxel(const SeedGridHeader& header, uint64_t place, size_t voxel,
                    std::span<const uint32_t> probes, int level) {
         const uint64_t word = place + kSeedGridHeaderWords + voxel;
         const bool is_split = level < kSeedGridLevels && probes.size() > kMostProbes &&
-                              voxel_count(header) > 1 && words_.size() < kFinerGrid;
+                              seed_voxel_count(header) > 1 && words_.size() < kFinerGrid;
         if (is_split) {
             const uint64_t finer = add_grid(probes, level + 1);
             words_[word] = kFinerGrid | static_cast<uint32_t>(finer);
             return;
         }
-        const std::array<size_t, 3> at{voxel % header.size[0],
-                                       voxel / header.size[0] % header.size[1],
-                                       voxel / header.size[0] / header.size[1]};
+        const std::array<size_t, 3> at = voxel_position(header, voxel);
         glm::dvec3 center(0.0);
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<size_t>(axis);
@@ -211,7 +219,7 @@ class Maker {
     void fill_gaps(uint64_t place) {
         const SeedGridHeader header = seed_grid_header(words_, place);
         const std::span voxels =
-            std::span(words_).subspan(place + kSeedGridHeaderWords, voxel_count(header));
+            std::span(words_).subspan(place + kSeedGridHeaderWords, seed_voxel_count(header));
         const std::array<uint64_t, 3> strides{1, header.size[0],
                                               uint64_t{header.size[0]} * header.size[1]};
         std::vector<uint64_t> filled;
@@ -248,7 +256,8 @@ class Maker {
             for (const Voxel& voxel : part) centers.push_back(voxel.center);
             find_near_cells(view, centers, cells);
             for (size_t i = 0; i < part.size(); ++i) {
-                if (cells[i] < kNoCell) words_[part[i].word] = cells[i];
+                uint32_t& word = words_[part[i].word];
+                if (cells[i] < kNoCell && (word & kFinerGrid) == 0) word = cells[i];
             }
         }
     }

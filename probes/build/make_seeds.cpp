@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <span>
 #include <tuple>
+#include <vector>
 
 #include <tetralight/base/box.h>
+#include <tetralight/probes/hilbert.h>
 
 namespace tetralight {
 namespace {
@@ -26,20 +29,22 @@ std::vector<uint32_t> first_cells(size_t probe_count, std::span<const Cell> cell
 
 }  // namespace
 
-Seeds make_seeds(std::span<const glm::vec3> positions, std::span<const Cell> cells) {
-    if (positions.empty()) return {};
+void make_seeds(ProbeVolume& volume) {
+    volume.seeds.clear();
+    if (volume.positions.empty()) return;
     auto bounds = Box<glm::vec3>::empty();
-    for (const glm::vec3& p : positions) bounds = union_of(bounds, p);
-    Seeds result{make_hilbert_cube(glm::dvec3(bounds.min), glm::dvec3(bounds.max)), {}};
-    const std::vector<uint32_t> cell_of_probe = first_cells(positions.size(), cells);
-    for (size_t i = 0; i < positions.size(); i += kProbesPerSeed) {
-        const uint64_t index = result.cube.index(glm::dvec3(positions[i]));
-        result.seeds.push_back({index, cell_of_probe[i]});
+    for (const glm::vec3& p : volume.positions) bounds = union_of(bounds, p);
+    const HilbertCube cube = make_hilbert_cube(glm::dvec3(bounds.min), glm::dvec3(bounds.max));
+    const std::vector<uint32_t> cell_of_probe = first_cells(
+        volume.positions.size(), std::span(volume.cells).first(volume.info.inner_cell_count));
+    for (size_t i = 0; i < volume.positions.size(); i += kProbesPerSeed) {
+        const uint64_t index = cube.index(glm::dvec3(volume.positions[i]));
+        volume.seeds.push_back({index, cell_of_probe[i]});
     }
-    std::ranges::sort(result.seeds, [](const Seed& a, const Seed& b) {
+    std::ranges::sort(volume.seeds, [](const Seed& a, const Seed& b) {
         return std::tie(a.hilbert_index, a.cell) < std::tie(b.hilbert_index, b.cell);
     });
-    return result;
+    volume.info.seed_cube = cube;
 }
 
 }  // namespace tetralight

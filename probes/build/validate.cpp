@@ -11,6 +11,7 @@
 #include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/build/detail/cgal.h>
 #include <tetralight/probes/build/detail/spread.h>
+#include <tetralight/probes/build/store_visibility.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/recombine.h>
 
@@ -258,6 +259,8 @@ std::vector<std::string> ValidationReport::problems() const {
         "compact probes differ from their floats");
     add(wrong_layer_sums, "probe's light is not the sum of its layers",
         "probes' light is not the sum of their layers");
+    add(torn_edges, "edge has different visibility in the cells around it",
+        "edges have different visibility in the cells around them");
     if (has_bad_metadata) lines.emplace_back("metadata is not a JSON object");
     const double tolerance = 1e-9 * std::abs(hull_measure) + measure_rounding;
     if (std::abs(cell_measure - hull_measure) > tolerance) {
@@ -281,6 +284,9 @@ ValidationReport validate(const ProbeVolumeView& volume) {
     check_probes(volume, positions, report);
     report.wrong_compact_probes = count_wrong_compact_probes(volume);
     report.wrong_layer_sums = count_wrong_sums(volume);
+    if (!volume.visibility_blocks.empty()) {
+        report.torn_edges = static_cast<uint32_t>(visibility_facts(volume).torn_edges);
+    }
     return report;
 }
 

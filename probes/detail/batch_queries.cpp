@@ -5,11 +5,10 @@
 
 #include <tetralight/probes/detail/cell_corners.h>
 #include <tetralight/probes/detail/closest_hull_point.h>
-#include <tetralight/probes/detail/hull_test.h>
+#include <tetralight/probes/detail/query_pass.h>
 #include <tetralight/probes/detail/tetrahedron_test.h>
 #include <tetralight/probes/detail/walk.h>
 #include <tetralight/probes/detail/walk_one.h>
-#include <tetralight/probes/is_finite.h>
 #include <tetralight/probes/morton_order.h>
 #include <tetralight/probes/seed_grid.h>
 
@@ -28,121 +27,128 @@ BatchQueries::BatchQueries(const ProbeVolumeView& volume, const Input& input,
     : volume_(volume),
       input_(input),
       kernels_(kernels),
-      has_tetrahedra_(detail::has_tetrahedra(volume)) {}
+      has_tetrahedra_(detail::has_tetrahedra(volume)) {
+    block_.world_origin = volume.info.world_origin;
+}
 
 bool BatchQueries::locate_block() {
     if (done_ >= input_.positions.size()) return false;
-    fill();
-    find_words();
+    load_positions();
+    place();
     find_starts();
     begin_walks();
     walk();
     resolve_doubtful();
     apply_policy();
     write_hints();
-    done_ += count_;
+    done_ += block_.count;
     return true;
 }
 
-/// Positions that are not finite do not walk; those that were moved walk in double.
-void BatchQueries::fill() {
-    count_ = std::min(QueryBlock::kSize, input_.positions.size() - done_);
-    walking_count_ = 0;
-    block_.doubtful_count = 0;
-    for (size_t query = 0; query < count_; ++query) {
+void BatchQueries::load_positions() {
+    block_.count = std::min(kBlockSize, input_.positions.size() - done_);
+    const bool is_ordered = !input_.order.empty();
+    for (size_t query = 0; query < block_.count; ++query) {
         const size_t next = done_ + query;
-        source_[query] = static_cast<uint32_t>(input_.order.empty() ? next : input_.order[next]);
-        const glm::vec3& position = position_of(query);
-        if (volume_.cells.empty() || !is_finite(position)) {
-            block_.location[query] = {};
-            report_.not_finite_count += !is_finite(position);
-            continue;
-        }
-        const LocalPosition local = find_local(volume_.info, position);
-        if (!has_tetrahedra_ || local.is_moved) {
-            const uint32_t hint = hint_of(query);
-            block_.doubtful[block_.doubtful_count] = static_cast<uint32_t>(query);
-            block_.doubtful_cell[block_.doubtful_count++] =
-                hint < volume_.cells.size() ? hint : start_cell(volume_, position);
-            continue;
-        }
-        local_[walking_count_] = local.position;
-        walking_[walking_count_++] = static_cast<uint32_t>(query);
+        source_[query] = static_cast<uint32_t>(is_ordered ? input_.order[next] : next);
     }
+    const bool has_room = done_ + block_.count + kMostLanes <= input_.positions.size();
+    if (!is_ordered && has_room) {
+        block_.position = &input_.positions[done_];
+        return;
+    }
+    for (size_t query = 0; query < block_.count; ++query) position_[query] = position_of(query);
+    block_.position = position_.data();
 }
 
-uint32_t BatchQueries::hint_of(size_t query) const {
-    return input_.hints.empty() ? kNoIndex : input_.hints[source_[query]];
-}
-
-/// Each read of what may not be in a cache is a loop of its own that only fetches.
-void BatchQueries::find_words() {
+/// Afterwards `block_.start` has the places of words in the seed grid.
+void BatchQueries::place() {
     const std::span<const uint32_t> words = volume_.seed_grid;
     const bool has_grid = words.size() >= kSeedGridHeaderWords;
-    const SeedGridHeader grid = has_grid ? seed_grid_header(words, 0) : SeedGridHeader{};
-    for (size_t i = 0; i < walking_count_; ++i) {
-        word_[i] = has_grid ? seed_word(grid, 0, glm::vec3(local_[i])) : words.size();
-        if (word_[i] < words.size()) __builtin_prefetch(&words[word_[i]]);
+    kernels_.place_queries(has_grid ? seed_grid_header(words, 0) : SeedGridHeader{}, volume_.info,
+                           block_);
+    if (!has_tetrahedra_) block_.start.fill(kNoIndex);
+    for (size_t query = 0; has_grid && query < block_.count; ++query) {
+        __builtin_prefetch(words.data() + block_.start[query]);
     }
 }
 
+/// Memory that may not be in a cache is prefetched by the loop before the one that reads it.
 void BatchQueries::find_starts() {
     const std::span<const uint32_t> words = volume_.seed_grid;
-    for (size_t i = 0; i < walking_count_; ++i) {
-        uint32_t start = hint_of(walking_[i]);
-        if (start >= volume_.cells.size()) {
-            if (words.empty()) {
-                start = start_cell(volume_, position_of(walking_[i]));
-            } else {
-                start = seed_cell(words, word_[i], glm::vec3(local_[i]));
-                if (start >= volume_.cells.size()) start = 0;
-            }
+    const auto cell_count = static_cast<uint32_t>(volume_.cells.size());
+    const bool has_hints = !input_.hints.empty();
+    for (size_t query = 0; query < block_.count; ++query) {
+        uint32_t start = has_hints ? input_.hints[source_[query]] : kNoIndex;
+        if (start >= cell_count) {
+            const uint32_t word = block_.start[query];
+            start = word < words.size() ? words[word] : kNoIndex;
+            if (start >= cell_count) start = seed_of(query);
         }
-        start_[i] = start;
-        __builtin_prefetch(&volume_.cells[start]);
+        block_.start[query] = start;
+        __builtin_prefetch(volume_.cells.data() + start);
     }
+}
+
+/// The cell where a walk begins if no word of the outermost grid names it; 0 if there is none.
+uint32_t BatchQueries::seed_of(size_t query) const {
+    const uint32_t word = block_.start[query];
+    uint32_t cell = 0;
+    if (word < volume_.seed_grid.size()) {
+        cell = seed_cell(volume_.seed_grid, word, glm::vec3(block_.local(query)));
+    } else if (block_.course[query] != Course::NotFinite) {
+        cell = start_cell(volume_, position_of(query));
+    }
+    return cell < volume_.cells.size() ? cell : 0;
 }
 
 void BatchQueries::begin_walks() {
-    block_.tetrahedra.count = 0;
-    block_.hull_cells.count = 0;
-    for (size_t i = 0; i < walking_count_; ++i) {
-        auto& list =
-            start_[i] < volume_.info.inner_cell_count ? block_.tetrahedra : block_.hull_cells;
-        list.add(local_[i], walking_[i], start_[i]);
-        for (const uint32_t probe : volume_.cells[start_[i]].vertices) {
-            if (probe < volume_.positions.size()) __builtin_prefetch(&volume_.positions[probe]);
+    CellList& tetrahedra = block_.tetrahedra;
+    for (auto* list : {&tetrahedra, &block_.precise, &block_.hull_cells, &block_.doubtful}) {
+        list->count = 0;
+    }
+    for (size_t query = 0; query < block_.count; ++query) {
+        const bool is_finite = block_.course[query] != Course::NotFinite;
+        report_.not_finite_count += !is_finite;
+        if (!has_tetrahedra_ && is_finite) block_.course[query] = Course::Alone;
+        if (volume_.cells.empty()) block_.course[query] = Course::NotFinite;
+    }
+    fetch_corners();
+    kernels_.begin_walks(volume_.info, block_);
+}
+
+void BatchQueries::fetch_corners() const {
+    constexpr size_t kNearCache = 256 * 1024;  // bytes that are in a near cache anyway
+    if (!has_tetrahedra_ || volume_.positions.size_bytes() <= kNearCache) return;
+    for (size_t query = 0; query < block_.count; ++query) {
+        for (const uint32_t probe : volume_.cells[block_.start[query]].vertices) {
+            __builtin_prefetch(volume_.positions.data() + probe);
         }
     }
 }
 
 void BatchQueries::walk() {
-    auto& [tetrahedra, hull_cells, doubtful, doubtful_cell, doubtful_count, location] = block_;
     for (uint32_t pass = 0; pass < input_.pass_limit; ++pass) {
-        report_.step_count += tetrahedra.count + hull_cells.count;
-        if (tetrahedra.count + hull_cells.count == 0) return;
-        const size_t hull_count = hull_cells.count;
-        const size_t doubtful_before = doubtful_count;
-        if (tetrahedra.count > 0) kernels_.test_tetrahedra(volume_, block_);
-        if (hull_count > 0) test_hull_cells(volume_, kernels_, block_, hull_count);
-        report_.step_count -= doubtful_count - doubtful_before;  // `Walk` begins with these cells
+        const size_t count =
+            block_.tetrahedra.count + block_.precise.count + block_.hull_cells.count;
+        if (count == 0) return;
+        const size_t doubtful_before = block_.doubtful.count;
+        run_pass(volume_, kernels_, block_);
+        // `Walk` begins with the cells of doubtful queries.
+        report_.step_count += count - (block_.doubtful.count - doubtful_before);
     }
-    for (const auto* list : {&tetrahedra, &hull_cells}) {
-        for (size_t i = 0; i < list->count; ++i) {
-            doubtful[doubtful_count] = list->query[i];
-            doubtful_cell[doubtful_count++] = list->cell[i];
-        }
-    }
+    block_.give_up();
 }
 
 void BatchQueries::resolve_doubtful() {
-    for (size_t i = 0; i < block_.doubtful_count; ++i) {
-        const size_t query = block_.doubtful[i];
+    const CellList& list = block_.doubtful;
+    for (size_t i = 0; i < list.count; ++i) {
+        const uint32_t query = list.query[i], cell = list.cell[i];
         if (has_tetrahedra_ && input_.unresolved == Unresolved::KeepCell) {
-            block_.location[query] = {block_.doubtful_cell[i]};
+            block_.location[query] = {cell};
             continue;
         }
-        const LocationTrace trace = Walk(volume_, position_of(query)).run(block_.doubtful_cell[i]);
+        const LocationTrace trace = Walk(volume_, position_of(query)).run(cell);
         report_.step_count += trace.step_count;
         report_.fallback_count += trace.is_fallback;
         block_.location[query] = trace.location;
@@ -151,7 +157,7 @@ void BatchQueries::resolve_doubtful() {
 
 void BatchQueries::apply_policy() {
     if (input_.outside.policy == OutsidePolicy::Extrapolate) return;
-    for (size_t query = 0; query < count_; ++query) {
+    for (size_t query = 0; query < block_.count; ++query) {
         CellLocation& location = block_.location[query];
         location = clamp_to_hull(volume_, position_of(query), location, input_.outside);
     }
@@ -159,7 +165,7 @@ void BatchQueries::apply_policy() {
 
 void BatchQueries::write_hints() {
     if (input_.hints.empty()) return;
-    for (size_t query = 0; query < count_; ++query) {
+    for (size_t query = 0; query < block_.count; ++query) {
         input_.hints[source_[query]] = block_.location[query].cell;
     }
 }
@@ -188,7 +194,8 @@ BatchReport answer(const ProbeVolumeView& volume, const InterpolationBatch& batc
             locations[queries.source()[i]] = queries.locations()[i];
         }
         if (!is_blended) continue;
-        kernels.blend(volume, queries.locations(), {queries.source(), irradiance, occlusion});
+        kernels.blend(volume, queries.locations(),
+                      {queries.source(), irradiance, occlusion, batch.walls});
     }
     return queries.report();
 }

@@ -16,7 +16,7 @@ namespace tetralight::detail {
 ///     BatchQueries queries(volume, {positions, hints, order, outside}, query_kernels());
 ///     while (queries.locate_block()) ... // queries.locations(), queries.source()
 ///
-/// Each answer is that of `walk_one`, to the bit. A block takes about 36 KiB of the stack.
+/// Each answer is that of `walk_one`, to the bit. A block takes about 60 KiB of the stack.
 class BatchQueries {
   public:
     enum class Unresolved : uint8_t {
@@ -43,26 +43,27 @@ class BatchQueries {
     [[nodiscard]] bool locate_block();
 
     [[nodiscard]] std::span<const CellLocation> locations() const {
-        return std::span(block_.location).first(count_);
+        return std::span(block_.location).first(block_.count);
     }
 
     /// For each query of the block the index of its position.
     [[nodiscard]] std::span<const uint32_t> source() const {
-        return std::span(source_).first(count_);
+        return std::span(source_).first(block_.count);
     }
 
     [[nodiscard]] const BatchReport& report() const { return report_; }
 
   private:
-    void fill();
-    void find_words();
+    void load_positions();
+    void place();
     void find_starts();
     void begin_walks();
+    void fetch_corners() const;
     void walk();
     void resolve_doubtful();
     void apply_policy();
     void write_hints();
-    [[nodiscard]] uint32_t hint_of(size_t query) const;
+    [[nodiscard]] uint32_t seed_of(size_t query) const;
 
     [[nodiscard]] const glm::vec3& position_of(size_t query) const {
         return input_.positions[source_[query]];
@@ -73,17 +74,11 @@ class BatchQueries {
     const QueryKernels& kernels_;
     bool has_tetrahedra_;
     size_t done_ = 0;
-    size_t count_ = 0;  ///< of this block
     BatchReport report_;
     QueryBlock block_;
-    std::array<uint32_t, QueryBlock::kSize> source_;
-    /// Local positions of the queries that walk, and their index in the block.
-    std::array<glm::dvec3, QueryBlock::kSize> local_;
-    std::array<uint32_t, QueryBlock::kSize> walking_;
-    size_t walking_count_ = 0;
-    /// Places of the words in the seed grid, then the cells where walks begin.
-    std::array<uint64_t, QueryBlock::kSize> word_;
-    std::array<uint32_t, QueryBlock::kSize> start_;
+    std::array<uint32_t, kBlockSize> source_;
+    /// Positions of the block, where those of the input are in another order.
+    BlockArray<glm::vec3> position_;
 };
 
 /// Answers positions [begin, begin + count) of a checked batch.

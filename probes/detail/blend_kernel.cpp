@@ -3,6 +3,7 @@
 #include <tetralight/probes/detail/vector_kernels.h>
 
 #include <algorithm>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE <tetralight/probes/detail/blend_kernel.cpp>
@@ -12,6 +13,7 @@
 
 #include <tetralight/probes/detail/blend_probes.h>
 #include <tetralight/probes/detail/write_answer.h>
+#include <tetralight/probes/edge_visibility.h>
 
 HWY_BEFORE_NAMESPACE();
 
@@ -62,6 +64,65 @@ HWY_INLINE void blend_halves(const std::array<const CompactProbe*, 4>& from, con
     }
 }
 
+#if HWY_TARGET == HWY_SCALAR
+
+HWY_INLINE void hide_probes(const CellVisibility& cell, std::array<float, 4>& weights) {
+    const auto& [a, b, c, d] = weights;
+    const glm::vec4 visible = visible_weights(cell, {a, b, c, d});
+    std::copy_n(&visible.x, 4, weights.begin());
+}
+
+#else
+
+using Four = hn::FixedTag<float, 4>;
+using VecFour = hn::Vec<Four>;
+
+/// r − 1 of four codes: `edge_excess`.
+HWY_INLINE VecFour edge_excesses(const uint8_t* codes) {
+    const hn::Rebind<int32_t, Four> integers;
+    const hn::Rebind<uint8_t, Four> bytes;
+    const auto steps =
+        hn::Sub(hn::PromoteTo(integers, hn::LoadU(bytes, codes)), hn::Set(integers, kUnknownEdge));
+    const auto squares = hn::Mul(steps, hn::Abs(steps));
+    return hn::Mul(hn::ConvertTo(Four(), squares), hn::Set(Four(), kEdgeCodeUnit));
+}
+
+/// `visible_share`.
+HWY_INLINE VecFour visible_shares(VecFour excess) {
+    const Four four;
+    const auto number = [&](float value) HWY_ATTR { return hn::Set(four, value); };
+    const VecFour beyond = hn::IfThenElseZero(hn::Gt(excess, hn::Zero(four)), excess);
+    const VecFour t = hn::Min(hn::Mul(beyond, number(1.0f / kVisibilityRamp)), number(1.0f));
+    const VecFour step = hn::Mul(hn::Mul(t, t), hn::Sub(number(3.0f), hn::Mul(number(2.0f), t)));
+    const VecFour ratio = hn::Add(number(1.0f), beyond);
+    const VecFour hidden = hn::Div(number(kHiddenShare), hn::Mul(ratio, ratio));
+    return hn::Add(hn::Sub(number(1.0f), step), hn::Mul(step, hidden));
+}
+
+HWY_INLINE float sum_of(const std::array<float, 4>& v) {
+    return (v[0] + v[1]) + (v[2] + v[3]);
+}
+
+/// `visible_weights`, a corner a lane.
+HWY_INLINE void hide_probes(const CellVisibility& cell, std::array<float, 4>& weights) {
+    const Four four;
+    constexpr float kLeast = std::numeric_limits<float>::min();
+    const float sum = sum_of(weights);
+    const VecFour w = hn::LoadU(four, weights.data());
+    const uint8_t* codes = cell.codes.data();
+    const VecFour first = hn::Mul(hn::Shuffle0321(w), edge_excesses(codes));
+    const VecFour second = hn::Mul(hn::Shuffle1032(w), edge_excesses(codes + 4));
+    const VecFour third = hn::Mul(hn::Shuffle2103(w), edge_excesses(codes + 8));
+    const VecFour excess = hn::Mul(hn::Sub(hn::Add(hn::Add(first, second), third), w),
+                                   hn::Set(four, 1.0f / std::max(sum, kLeast)));
+    const VecFour visible = hn::Mul(w, visible_shares(excess));
+    hn::StoreU(visible, four, weights.data());
+    const float seen = sum_of(weights);
+    hn::StoreU(hn::Mul(visible, hn::Set(four, sum / std::max(seen, kLeast))), four, weights.data());
+}
+
+#endif
+
 /// Blends and writes the answers of located queries, whose cells exist.
 class Blender {
   public:
@@ -70,7 +131,8 @@ class Blender {
           target_(target),
           is_compact_(volume.compact.size() == volume.positions.size()),
           has_floats_(volume.irradiance.size() == volume.positions.size()),
-          has_occlusion_(volume.occlusion.size() == volume.positions.size()) {
+          has_occlusion_(volume.occlusion.size() == volume.positions.size()),
+          has_walls_(target.walls == Walls::HideProbes && !volume.visibility_blocks.empty()) {
         scales_.floats.fill(1.0f);
         std::fill_n(scales_.irradiance(), 27, volume.info.compact_scale);
     }
@@ -80,10 +142,13 @@ class Blender {
 
     HWY_INLINE void prefetch_cell(const CellLocation& location) const {
         if (location.cell < volume_.cells.size()) hwy::Prefetch(&volume_.cells[location.cell]);
+        if (has_walls_) hwy::Prefetch(volume_.visibility_blocks.data() + location.cell / 32);
     }
 
     HWY_INLINE void prefetch_probes(const CellLocation& location) const {
         if (location.cell >= volume_.cells.size()) return;
+        const uint32_t walls = has_walls_ ? find_visibility(volume_, location.cell) : kNoIndex;
+        if (walls != kNoIndex) hwy::Prefetch(&volume_.cell_visibility[walls]);
         for (const uint32_t probe : volume_.cells[location.cell].vertices) {
             if (probe >= volume_.positions.size()) continue;
             if (is_compact_) {
@@ -113,7 +178,14 @@ class Blender {
         const std::array<uint32_t, 4> probes{
             vertex_at(volume_, cell, 0), vertex_at(volume_, cell, 1), vertex_at(volume_, cell, 2),
             vertex_at(volume_, cell, 3)};
+        std::array<float, 4> visible;
         const float* weights = &location.weights.x;
+        const uint32_t walls = has_walls_ ? find_visibility(volume_, location.cell) : kNoIndex;
+        if (walls != kNoIndex) {
+            std::copy_n(weights, 4, visible.begin());
+            hide_probes(volume_.cell_visibility[walls], visible);
+            weights = visible.data();
+        }
         if (is_compact_) {
             const CompactProbe* first = volume_.compact.data();
             return blend_halves(
@@ -145,6 +217,7 @@ class Blender {
     bool is_compact_;
     bool has_floats_;
     bool has_occlusion_;
+    bool has_walls_;
     Values scales_;
 };
 
@@ -166,7 +239,7 @@ void blend(const ProbeVolumeView& volume, std::span<const CellLocation> location
         if (HWY_UNLIKELY(locations[i].cell >= volume.cells.size())) {
             scalar_kernels().blend(
                 volume, locations.subspan(i, 1),
-                {target.answers.subspan(i, 1), target.irradiance, target.occlusion});
+                {target.answers.subspan(i, 1), target.irradiance, target.occlusion, target.walls});
         } else {
             blender.write(locations[i], target.answers[i]);
         }

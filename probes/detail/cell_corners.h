@@ -18,10 +18,14 @@ struct LocalPosition {
 };
 
 /// Far away only the direction matters, and double could not distinguish the hull's corners:
-/// positions beyond `kFarthestExtents` are moved to it.
-inline LocalPosition within_reach(const VolumeInfo& info, const glm::dvec3& local) noexcept {
+/// positions farther away than this are moved to it. Not for volumes without an extent.
+inline double farthest_reach(const VolumeInfo& info) noexcept {
     constexpr double kFarthestExtents = 65536.0;
-    const double farthest = kFarthestExtents * static_cast<double>(info.extent);
+    return kFarthestExtents * static_cast<double>(info.extent);
+}
+
+inline LocalPosition within_reach(const VolumeInfo& info, const glm::dvec3& local) noexcept {
+    const double farthest = farthest_reach(info);
     const double square = glm::dot(local, local);
     if (!(farthest > 0.0) || !(square > farthest * farthest)) return {local, false};
     return {local * (farthest / std::sqrt(square)), true};

@@ -125,17 +125,21 @@ std::optional<glm::dvec3> weights_of_query(const HullTriangle& triangle) {
     return glm::dvec3(w0, w1, 1 - w0 - w1);
 }
 
-/// The first t ≥ 0 where the cubic is zero; none where it is negative from the beginning. A hull
-/// triangle that is thinner than steps of its float positions may face inwards and turn outwards as
-/// it grows: there the cubic rises above zero first.
-std::optional<double> first_crossing(const Cubic& cubic) {
-    if (cubic[0] > 0) return first_root(cubic);
-    if (cubic[0] == 0) return 0.0;
+/// Where a cubic that is not positive at 0 falls to zero after it has risen above it. A hull
+/// triangle that is thinner than steps of its float positions may face inwards, or have no area,
+/// and turn outwards as it grows.
+std::optional<double> crossing_after_rise(const Cubic& cubic) {
     const double top = extrema(cubic)[1];
     if (!(evaluate(cubic, top) > kRisen)) return std::nullopt;
     double high = std::max(1.0, 2 * top);
     while (high <= kFarthestRoot && evaluate(cubic, high) > 0) high *= 2;
     return high <= kFarthestRoot ? std::optional(bracketed_root(cubic, top, high)) : std::nullopt;
+}
+
+/// The first t ≥ 0 where the cubic is zero; none where it is negative from the beginning.
+std::optional<double> first_crossing(const Cubic& cubic) {
+    if (cubic[0] > 0) return first_root(cubic);
+    return cubic[0] == 0 ? std::optional(0.0) : crossing_after_rise(cubic);
 }
 
 /// Length of the longest vector; none if it is 0 or not finite.
@@ -159,7 +163,13 @@ std::optional<glm::dvec3> hull_cell_weights(const HullTriangle& triangle,
         glm::dvec3(rays.rays[0]) - third,
         glm::dvec3(rays.rays[1]) - third,
         third};
-    const std::optional<double> t = first_crossing(plane_cubic(moving));
+    const Cubic cubic = plane_cubic(moving);
+    std::optional<double> t = first_crossing(cubic);
+    if (t == 0.0) {
+        const auto weights = weights_of_query(moving.at);
+        if (weights) return weights;
+        t = crossing_after_rise(cubic);  // the corners are collinear
+    }
     return t ? weights_of_query(moving.after(*t)) : std::nullopt;
 }
 

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include <glm/vec3.hpp>
 
-#include <tetralight/probes/detail/query_kernels.h>
 #include <tetralight/probes/detail/tetrahedron_test.h>
 
 namespace tetralight::detail {
 
-/// One step of a walk in a hull cell, in double. Precondition: `cell` is in range.
+/// What follows from the weights of a query in a hull cell.
+[[nodiscard]] inline CellTest judge_hull_weights(const ProbeVolumeView& volume, uint32_t cell,
+                                                 const glm::dvec3& weights) noexcept {
+    int face = weights.x <= weights.y ? 0 : 1;
+    if (weights.z < weights[face]) face = 2;
+    const double least = weights[face];
+    if (least >= 0.0) {
+        return {Verdict::Inside, kNoIndex, {cell, 0.0f, glm::vec4(glm::dvec4(weights + 0.0, 0.0))}};
+    }
+    return least < -kHullRounding ? leave_cell(volume, cell, static_cast<size_t>(face))
+                                  : CellTest{};
+}
+
+/// One step of a walk in a hull cell, in double. A query without weights is behind the hull
+/// triangle. Precondition: `cell` is in range.
 [[nodiscard]] CellTest test_hull_cell(const ProbeVolumeView& volume, uint32_t cell,
                                       const glm::dvec3& local) noexcept;
-
-/// `test_hull_cell` of the first `count` queries of `block.hull_cells`. Those that go on stay in
-/// the list, or move to `block.tetrahedra`.
-void test_hull_cells(const ProbeVolumeView& volume, const QueryKernels& kernels, QueryBlock& block,
-                     size_t count) noexcept;
 
 }  // namespace tetralight::detail

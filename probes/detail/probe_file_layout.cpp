@@ -102,8 +102,9 @@ Status verify_checksums(std::span<const std::byte> file, std::span<const Section
                                                      "\" are not zero")};
         }
         if (checksum(file.subspan(entry.offset, entry.size())) != entry.checksum) {
-            return Error{ErrorCode::Corrupt, str_cat("section \"", section_name(entry),
-                                                     "\" is corrupt (wrong checksum)")};
+            const std::string name = section_name(entry);
+            return Error{ErrorCode::Corrupt, name, "",
+                         str_cat("section \"", name, "\" is corrupt (wrong checksum)")};
         }
         end = entry.offset + entry.size();
     }

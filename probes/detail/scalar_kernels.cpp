@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/detail/blend_probes.h>
-#include <tetralight/probes/detail/hull_cell.h>
 #include <tetralight/probes/detail/query_kernels.h>
-#include <tetralight/probes/detail/tetrahedron_test.h>
+#include <tetralight/probes/detail/query_pass.h>
+#include <tetralight/probes/detail/query_place.h>
 #include <tetralight/probes/detail/write_answer.h>
+#include <tetralight/probes/interpolate.h>
 
 namespace tetralight::detail {
 namespace {
+
+void place_queries(const SeedGridHeader& grid, const VolumeInfo& info, QueryBlock& block) {
+    for (size_t query = 0; query < block.count; ++query) {
+        const QueryPlace place = find_place(info, block.position[query]);
+        const glm::vec3 local(place.local);
+        block.tetrahedra.set_position(query, local);
+        block.course[query] = place.course;
+        const bool is_near = place.course >= Course::InDouble;
+        block.start[query] = is_near ? static_cast<uint32_t>(seed_word(grid, 0, local)) : kNoIndex;
+    }
+}
+
+void begin_walks(const VolumeInfo& info, QueryBlock& block) {
+    for (uint32_t query = 0; query < block.count; ++query) begin_walk(info, block, query);
+}
 
 void test_tetrahedra(const ProbeVolumeView& volume, QueryBlock& block) {
     size_t kept = 0;
@@ -14,21 +29,10 @@ void test_tetrahedra(const ProbeVolumeView& volume, QueryBlock& block) {
     block.tetrahedra.count = kept;
 }
 
-void hull_weights(HullLanes& lanes) {
-    const auto vector_at = [](const HullLanes::Vectors& from, size_t lane) {
-        return glm::dvec3(from[0][lane], from[1][lane], from[2][lane]);
-    };
-    for (size_t lane = 0; lane < HullLanes::kCount; ++lane) {
-        const HullTriangle triangle{vector_at(lanes.first, lane), vector_at(lanes.second, lane),
-                                    vector_at(lanes.to_query, lane)};
-        HullCellRays rays;
-        for (size_t i = 0; i < 3; ++i) rays.rays[i] = glm::vec3(vector_at(lanes.rays[i], lane));
-        const auto weights = hull_cell_weights(triangle, rays);
-        lanes.is_known[lane] = weights.has_value();
-        for (int i = 0; weights && i < 3; ++i) {
-            lanes.weights[static_cast<size_t>(i)][lane] = (*weights)[i];
-        }
-    }
+/// No values: each query is tested alone.
+void measure_cells(const ProbeVolumeView&, const QueryBlock&, const CellList&, size_t,
+                   CellLanes& lanes) {
+    lanes.is_known.fill(false);
 }
 
 void blend(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
@@ -36,7 +40,7 @@ void blend(const ProbeVolumeView& volume, std::span<const CellLocation> location
     const bool has_irradiance = !target.irradiance.memory.empty();
     const bool has_occlusion = !target.occlusion.memory.empty();
     for (size_t i = 0; i < locations.size(); ++i) {
-        const InterpolatedProbe probe = blend_probes(volume, locations[i]);
+        const InterpolatedProbe probe = interpolate(volume, locations[i], target.walls);
         const size_t answer = target.answers[i];
         if (has_irradiance) {
             write_irradiance(target.irradiance, answer, &probe.irradiance.coefficients[0].x);
@@ -47,28 +51,9 @@ void blend(const ProbeVolumeView& volume, std::span<const CellLocation> location
 
 }  // namespace
 
-size_t test_query(const ProbeVolumeView& volume, QueryBlock& block, size_t from,
-                  size_t kept) noexcept {
-    auto& list = block.tetrahedra;
-    const uint32_t query = list.query[from];
-    const glm::dvec3 local(list.x[from], list.y[from], list.z[from]);
-    const CellTest test = test_tetrahedron(volume, list.cell[from], local);
-    if (test.verdict == Verdict::Inside) {
-        block.location[query] = test.location;
-    } else if (test.verdict == Verdict::Doubtful) {
-        block.doubtful[block.doubtful_count] = query;
-        block.doubtful_cell[block.doubtful_count++] = list.cell[from];
-    } else if (test.next >= volume.info.inner_cell_count) {
-        block.hull_cells.add(local, query, test.next);
-    } else {
-        list.move(from, kept);
-        list.cell[kept++] = test.next;
-    }
-    return kept;
-}
-
 const QueryKernels& scalar_kernels() noexcept {
-    static constexpr QueryKernels kKernels{test_tetrahedra, hull_weights, blend};
+    static constexpr QueryKernels kKernels{place_queries, begin_walks,   test_tetrahedra,
+                                           measure_cells, measure_cells, blend};
     return kKernels;
 }
 

@@ -9,9 +9,18 @@
 
 namespace tetralight::detail {
 
+void place_queries_in_vectors(const SeedGridHeader& grid, const VolumeInfo& info,
+                              QueryBlock& block);
+
+void begin_walks_in_vectors(const VolumeInfo& info, QueryBlock& block);
+
 void test_tetrahedra_in_vectors(const ProbeVolumeView& volume, QueryBlock& block);
 
-void hull_weights_in_vectors(HullLanes& lanes);
+void measure_tetrahedra_in_vectors(const ProbeVolumeView& volume, const QueryBlock& block,
+                                   const CellList& list, size_t begin, CellLanes& lanes);
+
+void measure_hull_cells_in_vectors(const ProbeVolumeView& volume, const QueryBlock& block,
+                                   const CellList& list, size_t begin, CellLanes& lanes);
 
 void blend_in_vectors(const ProbeVolumeView& volume, std::span<const CellLocation> locations,
                       const BlendTarget& target);

@@ -54,7 +54,7 @@ class Check {
         if (place + kSeedGridHeaderWords > words_.size()) return error(place, "is cut off");
         const SeedGridHeader header = seed_grid_header(words_, place);
         if (auto problem = header_problem(header); !problem.empty()) return error(place, problem);
-        const uint64_t count = uint64_t{header.size[0]} * header.size[1] * header.size[2];
+        const uint64_t count = seed_voxel_count(header);
         const uint64_t room = words_.size() - place - kSeedGridHeaderWords;
         if (count > room) return error(place, str_cat("has ", count, " voxels, room for ", room));
         const uint64_t first = place + kSeedGridHeaderWords;
@@ -75,9 +75,9 @@ class Check {
         if (finer <= place || level == kSeedGridLevels) {
             return element_error("seed_grid", place, "names a grid out of place");
         }
-        const bool is_first = levels_.emplace(finer, level + 1).second;
-        if (is_first) return Ok{};
-        return element_error("seed_grid", place, "names a grid that has a voxel already");
+        const auto named = levels_.emplace(finer, level + 1).first;
+        if (named->second == level + 1) return Ok{};
+        return element_error("seed_grid", place, "names a grid of another level");
     }
 
     std::span<const uint32_t> words_;

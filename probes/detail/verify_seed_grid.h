@@ -6,7 +6,7 @@
 
 namespace tetralight::detail {
 
-/// Checks the section "seed_grid": whole grids, each inside one voxel of a grid before it, and
+/// Checks the section "seed_grid": whole grids, each named by voxels of grids before it, and
 /// cells in range.
 [[nodiscard]] Status check_seed_grid(const ProbeVolumeView& volume);
 

@@ -13,6 +13,7 @@
 #include <tetralight/probes/detail/verify_layers.h>
 #include <tetralight/probes/detail/verify_seed_grid.h>
 #include <tetralight/probes/detail/verify_text.h>
+#include <tetralight/probes/detail/verify_visibility.h>
 #include <tetralight/probes/farthest_position.h>
 #include <tetralight/probes/is_finite.h>
 #include <tetralight/probes/probe_file.h>
@@ -265,6 +266,7 @@ Status check_tables(const ProbeVolumeView& v) {
         return detail::section_error("seeds", "is not sorted");
     }
     if (auto s = detail::check_seed_grid(v); !s) return s;
+    if (auto s = detail::check_visibility(v); !s) return s;
     const auto in_range = [&](const ProbeSource& source) {
         return source.group < groups &&
                (source.probe < v.positions.size() || source.probe == kNoIndex);

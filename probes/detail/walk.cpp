@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <random>
 
 #include <tetralight/probes/detail/cell_corners.h>
 #include <tetralight/probes/detail/hull_cell.h>
@@ -20,6 +21,11 @@ double longest_square(const std::array<glm::dvec3, 4>& corners, int count) {
     for (int i = 0; i < count; ++i) square = std::max(square, glm::dot(corners[i], corners[i]));
     return square;
 }
+
+/// Cells that are searched around the end of a walk that failed: of the first walk, and of the
+/// last.
+constexpr size_t kCellsNear = 128;
+constexpr size_t kMostCellsNear = 1024;
 
 /// If two neighbors send the walk to each other by more than this, it is a cycle, not rounding.
 constexpr double kSettleTolerance = 1e-9;
@@ -37,48 +43,6 @@ struct Best {
 };
 
 }  // namespace
-
-double CellWeights::inside_measure() const {
-    const double total = sum();
-    if (!(total > 0.0) || !(total * total > rounding)) {
-        return -std::numeric_limits<double>::infinity();
-    }
-    return std::min({weights.x, weights.y, weights.z, weights.w}) / total;
-}
-
-int CellWeights::most_negative() const {
-    int lowest = 0;
-    for (int i = 1; i < 4; ++i) {
-        if (weights[i] < weights[lowest]) lowest = i;
-    }
-    return lowest;
-}
-
-CellWeights tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept {
-    const double square = longest_square(corners, 4);
-    return {signed_volumes(corners), kSliverRounding * (square * square * square)};
-}
-
-CellWeights precise_tetrahedron_weights(const std::array<glm::dvec3, 4>& corners) noexcept {
-    using Vector = glm::vec<3, long double>;
-    constexpr double kFinerSteps =
-        static_cast<double>(std::numeric_limits<long double>::epsilon()) /
-        std::numeric_limits<double>::epsilon();
-    const Vector a(corners[0]), b(corners[1]), c(corners[2]), d(corners[3]);
-    const Vector cd = glm::cross(c, d);
-    const Vector ab = glm::cross(a, b);
-    const double square = longest_square(corners, 4);
-    return {glm::dvec4(glm::dot(b, cd), -glm::dot(a, cd), glm::dot(d, ab), -glm::dot(c, ab)),
-            kSliverRounding * kFinerSteps * kFinerSteps * (square * square * square)};
-}
-
-CellLocation finish(uint32_t cell, const CellWeights& cell_weights) noexcept {
-    const CellWeights clamped{glm::max(cell_weights.weights, glm::dvec4(0.0))};
-    // + 0 changes −0 into 0.
-    const glm::vec4 weights(clamped.weights / clamped.sum() + 0.0);
-    if (!std::isfinite(weights.x + weights.y + weights.z + weights.w)) return {};
-    return {cell, 0.0f, weights};
-}
 
 Walk::Walk(const ProbeVolumeView& volume, const glm::vec3& position) noexcept : volume_(volume) {
     const glm::dvec3 local = glm::dvec3(position) - volume.info.world_origin;
@@ -99,10 +63,49 @@ uint32_t Walk::start_cell() const noexcept {
     return cell < volume_.cells.size() ? cell : 0u;
 }
 
+LocationTrace Walk::run(uint32_t start) const noexcept {
+    const LocationTrace first = walk_from(start, kCellsNear);
+    if (first.location.cell != kNoIndex) return first;
+    uint32_t steps = first.step_count;
+    const LocationTrace wandering = wander_from(start_cell());
+    steps += wandering.step_count;
+    if (wandering.location.cell != kNoIndex) return {wandering.location, steps, false};
+    const LocationTrace second = walk_from(start_cell(), kMostCellsNear);
+    steps += second.step_count;
+    if (second.location.cell != kNoIndex) return {second.location, steps, false};
+    return {search_all(), steps, true};
+}
+
+/// A walk that leaves each cell by any of the faces that the position lies beyond, and so cannot
+/// cycle for long (the stochastic walk of Devillers, Pion & Teillaud 2002). One step in eight is by
+/// any face: hull cells that fold over each other can send it in a circle.
+LocationTrace Walk::wander_from(uint32_t start) const {
+    constexpr uint32_t kMostSteps = 2048;
+    constexpr uint32_t kStray = 8;
+    std::minstd_rand random;  // the same numbers for each position
+    uint32_t cell = start;
+    for (uint32_t step = 1; step <= kMostSteps; ++step) {
+        const auto weights = cell_weights(cell);
+        if (!weights) return {{}, step, false};
+        if (weights->inside_measure() >= 0.0) return {finish(cell, *weights), step, false};
+        std::array<uint32_t, 4> beyond{};
+        uint32_t count = 0;
+        for (int i = 0; i < 4; ++i) {
+            if (weights->weights[i] < 0.0) {
+                beyond[count++] = volume_.cells[cell].neighbors[static_cast<size_t>(i)];
+            }
+        }
+        const auto& neighbors = volume_.cells[cell].neighbors;
+        const bool is_lost = count == 0 || random() % kStray == 0;
+        cell = is_lost ? neighbors[random() % neighbors.size()] : beyond[random() % count];
+    }
+    return {{}, kMostSteps, false};
+}
+
 /// The next cell of a walk depends only on the current one: a walk that returns to a cell cycles
 /// for ever. It is detected by comparing with a cell that is replaced after 1, 2, 4... steps (Brent
 /// 1980, "An Improved Monte Carlo Factorization Algorithm").
-LocationTrace Walk::run(uint32_t start) const noexcept {
+LocationTrace Walk::walk_from(uint32_t start, size_t cells_near) const {
     uint32_t cell = start;
     uint32_t landmark = kNoIndex;
     uint32_t previous = kNoIndex;
@@ -122,16 +125,14 @@ LocationTrace Walk::run(uint32_t start) const noexcept {
             if (std::max(measure, previous_measure) < -kSettleTolerance) break;
             return {measure >= previous_measure ? finish(cell, *weights)
                                                 : finish(previous, previous_weights),
-                    steps};
+                    steps, false};
         }
         previous = cell;
         previous_weights = *weights;
         cell = next;
     }
-    const LocationTrace near = search_near(cell);
-    steps += near.step_count;
-    if (near.location.cell != kNoIndex) return {near.location, steps, false};
-    return {search_all(), steps, true};
+    const LocationTrace near = search_near(cell, cells_near);
+    return {near.location, steps + near.step_count, false};
 }
 
 std::optional<CellWeights> Walk::precise_weights(uint32_t index) const {
@@ -145,10 +146,15 @@ std::optional<CellWeights> Walk::precise_weights(uint32_t index) const {
 
 std::optional<CellWeights> Walk::cell_weights(uint32_t index) const {
     const bool is_inner = index < volume_.info.inner_cell_count;
-    const glm::dvec3 origin = is_inner ? position_ : glm::dvec3(0.0);
     std::array<glm::dvec3, 4> corners{};
-    if (!find_corners(volume_, index, origin, corners)) return std::nullopt;
-    if (is_inner) return inner_weights(corners);
+    if (!find_corners(volume_, index, glm::dvec3(0.0), corners)) return std::nullopt;
+    if (is_inner) {
+        if (volume_.info.dimension == Dimension::Space && is_far(corners, position_)) {
+            return CellWeights{far_signed_volumes(corners, position_)};
+        }
+        for (glm::dvec3& corner : corners) corner -= position_;
+        return inner_weights(corners);
+    }
     const uint32_t hull_index = index - volume_.info.inner_cell_count;
     if (hull_index >= volume_.hull_rays.size()) return std::nullopt;
     return hull_weights(corners, volume_.hull_rays[hull_index]);
@@ -179,8 +185,7 @@ CellWeights Walk::hull_weights(const std::array<glm::dvec3, 4>& corners,
     constexpr CellWeights kGoOnInside{{0.0, 0.0, 0.0, -1.0}};
     switch (volume_.info.dimension) {
         case Dimension::Space: {
-            const auto weights = hull_cell_weights(
-                make_hull_triangle({corners[0], corners[1], corners[2]}, position_), rays);
+            const auto weights = weights_from_nearest_corner(corners, rays, position_);
             return weights ? CellWeights{{*weights, 0.0}} : kGoOnInside;
         }
         case Dimension::Plane: {
@@ -199,10 +204,10 @@ CellWeights Walk::hull_weights(const std::array<glm::dvec3, 4>& corners,
 /// Walks go around where cells are too flat for double, and where probes that stand apart by less
 /// than steps of their floats make cells that fold over their neighbors. However they fold, some
 /// cell that faces the right way holds the position, and it is near.
-LocationTrace Walk::search_near(uint32_t start) const {
-    constexpr size_t kCellCount = 128;
+LocationTrace Walk::search_near(uint32_t start, size_t count) const {
     if (start >= volume_.cells.size()) return {};  // a broken file
-    std::array<uint32_t, kCellCount> cells{start};
+    std::array<uint32_t, kMostCellsNear> cells;
+    cells[0] = start;
     size_t found = 1;
     Best best;
     for (size_t next = 0; next < found; ++next) {
@@ -210,7 +215,7 @@ LocationTrace Walk::search_near(uint32_t start) const {
         if (best.measure >= 0.0) break;
         for (const uint32_t neighbor : volume_.cells[cells[next]].neighbors) {
             const auto end = cells.begin() + static_cast<std::ptrdiff_t>(found);
-            if (found == kCellCount || neighbor >= volume_.cells.size()) continue;
+            if (found == count || neighbor >= volume_.cells.size()) continue;
             if (std::find(cells.begin(), end, neighbor) == end) cells[found++] = neighbor;
         }
     }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <tetralight/probes/build/store_visibility.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/probe_file.h>
 #include "tests/support/layered_volume.h"
@@ -27,6 +28,10 @@ ProbeVolume make_volume(size_t kind) {
         volume.validity.assign(24, 1.0f);
         volume.health.resize(24);
         make_compact_probes(volume);
+        const ProbeEdges edges(volume.view());
+        std::vector<uint8_t> codes(edges.size(), 0);
+        for (size_t edge = 0; edge < codes.size(); edge += 5) codes[edge] = 200;
+        store_visibility(edges, codes, volume);
         return volume;
     }
     std::vector<glm::dvec3> positions = test::random_positions(kind == 3 ? 1 : 12, kind);

@@ -45,6 +45,7 @@ std::vector<std::vector<glm::dvec3>> sets() {
             test::far_clusters(1),
             test::joined(cube, {{1e9, 1e8, -3e8}}),
             test::joined(cube, {{1e8, 1e8, 1e8}}),
+            test::joined(cube, {{1e12, 3e11, -2e11}}),
             test::joined(square, {{1e9, 1e8, 0}})};
 }
 
@@ -56,7 +57,9 @@ TEST(FarPositions, HaveACellAndFiniteLight) {
             const double distance = exponent == 39 ? 3e38 : std::pow(10.0, exponent);
             for (const glm::dvec3& direction : directions(volume)) {
                 const glm::vec3 p(distance * direction);
-                const CellLocation location = locate(view, p);
+                const LocationTrace trace = trace_location(view, p);
+                const CellLocation& location = trace.location;
+                ASSERT_FALSE(trace.is_fallback) << positions.size() << " " << distance;
                 ASSERT_LT(location.cell, volume.cells.size())
                     << positions.size() << " " << distance;
                 const glm::vec4 w = location.weights;
@@ -72,7 +75,9 @@ TEST(FarPositions, HaveACellNearTheProbesOfASetWithAnOutlier) {
     const auto cube = test::random_positions(300, 1, 50.0);
     const ProbeVolume volume = test::make_lit_volume(test::joined(cube, {{1e9, 1e8, -3e8}}));
     for (const glm::dvec3& p : test::random_positions(500, 2, 60.0)) {
-        ASSERT_LT(locate(volume.view(), glm::vec3(p)).cell, volume.cells.size());
+        const LocationTrace trace = trace_location(volume.view(), glm::vec3(p));
+        ASSERT_LT(trace.location.cell, volume.cells.size());
+        ASSERT_FALSE(trace.is_fallback);
     }
 }
 

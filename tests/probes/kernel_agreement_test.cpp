@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <string>
 
+#include <tetralight/probes/build/make_seeds.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/detail/batch_queries.h>
 #include "tests/support/adversarial_positions.h"
 #include "tests/support/property_volume.h"
+#include "tests/support/random_walls.h"
 #include "tests/support/sized_families.h"
 
 #ifdef TETRALIGHT_HAS_HIGHWAY
@@ -133,6 +135,22 @@ TEST_P(KernelAgreement, EveryPathGivesOneAnswer) {
     }
 }
 
+TEST_P(KernelAgreement, WallsHideProbesWithTheTwinsBits) {
+    if (volume.cells.empty()) return;
+    test::add_random_walls(volume, 5);
+    for (const bool is_compact : {false, true}) {
+        if (is_compact) make_compact_probes(volume);
+        const Answers expected = answers(Way::Plain, detail::scalar_kernels());
+        EXPECT_TRUE(answers(Way::Plain, detail::query_kernels()) == expected) << "the twin's bits";
+        EXPECT_TRUE(answers(Way::Sorted, detail::query_kernels()) == expected);
+        for (size_t i = 0; i < positions.size(); i += 997) {
+            const InterpolatedProbe probe =
+                interpolate(volume.view(), locate(volume.view(), positions[i]));
+            EXPECT_EQ(probe.irradiance, expected.irradiance[i]) << i;
+        }
+    }
+}
+
 TEST_P(KernelAgreement, CompactProbesGiveTheSameToHalfPrecision) {
     const Answers expected = answers(Way::Plain, detail::query_kernels());
     make_compact_probes(volume);
@@ -171,6 +189,7 @@ TEST_P(KernelAgreement, ASeedGridChangesNoLight) {
     const Answers expected = answers(Way::Plain, detail::query_kernels());
     ASSERT_EQ(volume.seed_grid.empty(), volume.positions.empty());
     volume.seed_grid.clear();  // as in files of older versions
+    make_seeds(volume);
     expect_near(answers(Way::Plain, detail::query_kernels()), expected, 2.0f * kTwoSteps);
 }
 

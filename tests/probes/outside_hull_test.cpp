@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tetralight/probes/detail/hull_cell.h>
 #include <tetralight/probes/interpolate.h>
 #include "tests/support/probe_families.h"
+#include "tests/support/property_volume.h"
 
 namespace tetralight {
 namespace {
@@ -159,6 +161,32 @@ TEST(OutsideHull, InsideEveryPolicyIsTheSame) {
         const CellLocation location = locate(volume.view(), glm::vec3(p));
         ASSERT_LT(location.cell, volume.info.inner_cell_count);
         EXPECT_EQ(locate(volume.view(), glm::vec3(p), kNoIndex, kClamp), location);
+    }
+}
+
+TEST(HullCell, OfCollinearCornersHoldsWhatTheyGrowInto) {
+    // At t the corners are (∓1 ∓ 0.6 t, 0, 0.8 t) and (0, 0.6 t, 0.8 t).
+    const std::array<glm::dvec3, 3> corners{{{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}}};
+    const HullCellRays rays{{{{-0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0, 0.6f, 0.8f}}}};
+    const auto weights = [&](const glm::dvec3& query) {
+        return detail::hull_cell_weights(detail::make_hull_triangle(corners, query), rays);
+    };
+    const auto inside = weights({0, 0.1, 1});  // t = 1.25, where the third corner is at y = 0.75
+    ASSERT_TRUE(inside);
+    EXPECT_NEAR(inside->z, 0.1 / 0.75, 1e-6);  // of rays in floats
+    EXPECT_NEAR(inside->x, inside->y, 1e-12);
+    const auto beyond = weights({0, -0.1, 1});
+    ASSERT_TRUE(beyond);
+    EXPECT_NEAR(beyond->z, -0.1 / 0.75, 1e-6);
+}
+
+TEST(HullCell, OfCollinearCornersOfATurnedLatticeIsNoGap) {
+    std::vector<glm::dvec3> positions = test::lattice(3, 0.0, 10);
+    positions.resize(21);
+    const ProbeVolume volume = test::make_random_volume(test::turned(positions, 1.0), 10);
+    for (const glm::vec3& p : {glm::vec3(2.35138416f, 2.13306379f, -0.659502506f),
+                               glm::vec3(1.86248076f, 1.81753826f, -0.743337691f)}) {
+        EXPECT_FALSE(trace_location(volume.view(), p).is_fallback);
     }
 }
 

@@ -166,6 +166,7 @@ TEST_F(ProbeFileTest, NamesThePathAndTheSection) {
     const auto file = open_probe_file(path);
     ASSERT_FALSE(file);
     EXPECT_EQ(error_text(file.error()), path + ": section \"sky\" is corrupt (wrong checksum)");
+    EXPECT_EQ(file.error().field, "sky");
 }
 
 TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include <tetralight/probes/build/make_seeds.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/probe_file.h>
 #include "tests/support/random_probes.h"
@@ -97,6 +98,15 @@ TEST_F(VerifySeedGrid, AcceptsAVolumeWithAndWithoutOne) {
     EXPECT_EQ(field(), "");
 }
 
+TEST_F(VerifySeedGrid, AcceptsSeedsBesideItAndReadsNone) {
+    make_seeds(volume);
+    EXPECT_EQ(field(), "");
+    const glm::vec3 position(0.1f, 0.2f, 0.3f);
+    const LocationTrace trace = trace_location(volume.view(), position);
+    for (Seed& seed : volume.seeds) seed.cell = 0;
+    EXPECT_EQ(trace_location(volume.view(), position).step_count, trace.step_count);
+}
+
 TEST_F(VerifySeedGrid, RefusesACellOutOfRange) {
     volume.seed_grid.back() = static_cast<uint32_t>(volume.cells.size());
     EXPECT_EQ(field(), "seed_grid[" + std::to_string(volume.seed_grid.size() - 1) + "]");
@@ -120,6 +130,19 @@ TEST_F(VerifySeedGrid, RefusesEachBadWordOfAHeader) {
         volume.seed_grid[word] = 0xffffffffu;  // as a float not a number
         EXPECT_EQ(field(), "seed_grid") << word;
     }
+}
+
+TEST(SeedGrid, MayBeNamedBySeveralVoxelsOfOneLevel) {
+    const ProbeVolume sound = test::make_lit_volume(test::random_positions(100, 4));
+    ProbeVolume volume = sound;
+    volume.seed_grid = make_grid(kLine, {7, kFinerGrid | 13, kFinerGrid | 13});
+    const auto finer = make_grid({{1, 0, 0}, {2, 0, 0}, {2, 1, 1}}, {20, kFinerGrid | 25});
+    const auto finest = make_grid({{1, 0, 0}, {2, 0, 0}, {1, 1, 1}}, {21});
+    volume.seed_grid.insert(volume.seed_grid.end(), finer.begin(), finer.end());
+    volume.seed_grid.insert(volume.seed_grid.end(), finest.begin(), finest.end());
+    EXPECT_TRUE(verify(volume.view()));
+    volume.seed_grid[10] = kFinerGrid | 25;  // of the third level
+    EXPECT_FALSE(verify(volume.view()));
 }
 
 TEST_F(VerifySeedGrid, RefusesLinksBackAndLinksToNothing) {

@@ -75,6 +75,18 @@ TEST(HullRays, TakeNoMoreOfTheRadialDirectionThanNeeded) {
     EXPECT_EQ(Hull(box).rays.radial_fraction, 0.0f);
 }
 
+TEST(HullRays, OfCloseVerticesDifferWhenAnotherVertexIsFarAway) {
+    auto positions = test::random_positions(200, 7);
+    positions.emplace_back(1e9, 3e8, -2e8);
+    const Hull hull(positions);
+    for (size_t i = 0; i < hull.rays.cells.size(); ++i) {
+        const auto& rays = hull.rays.cells[i].rays;
+        for (size_t k = 0; k < 3; ++k) {
+            EXPECT_GT(glm::distance(rays[k], rays[(k + 1) % 3]), 1e-3f) << i;
+        }
+    }
+}
+
 TEST(HullCell, FindsTheWeightsOfPositionsThatItWasExtrudedThrough) {
     const Hull hull(test::random_positions(60, 3));
     std::mt19937_64 engine(4);

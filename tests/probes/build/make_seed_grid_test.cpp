@@ -36,6 +36,18 @@ TEST(MakeSeedGrid, HasFinerGridsWhereProbesAreDense) {
         4.0);
 }
 
+TEST(MakeSeedGrid, WalksBesideAClusterBeginAtIt) {
+    // The cluster ends at the border of its voxel: that of the box of all probes.
+    const glm::dvec3 far(1000, 300, -200);
+    const ProbeVolume volume = test::make_lit_volume(
+        test::joined(test::random_positions(2000, 4, 0.05),
+                     test::moved(test::random_positions(2000, 5, 0.05), glm::dvec3(1), far)));
+    EXPECT_LT(mean_steps(volume, test::random_positions(2000, 6, 0.06)), 4.0);
+    EXPECT_LT(
+        mean_steps(volume, test::moved(test::random_positions(2000, 7, 0.06), glm::dvec3(1), far)),
+        4.0);
+}
+
 TEST(MakeSeedGrid, TakesSevenWordsAProbeAtMost) {
     for (const test::ProbeFamily& family : test::probe_families()) {
         const ProbeVolume volume = test::make_lit_volume(family.make(1));

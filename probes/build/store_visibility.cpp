@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/probes/build/store_visibility.h>
+
+#include <algorithm>
+#include <optional>
+
+#include <tetralight/base/contract.h>
+#include <tetralight/probes/build/detail/position_table.h>
+#include <tetralight/probes/edge_visibility.h>
+
+namespace tetralight {
+namespace {
+
+/// Calls `use(edge, code)` for each edge of each cell, with `kFreeEdge` where it stores nothing.
+template <class Use>
+void for_each_code(const ProbeEdges& edges, const ProbeVolumeView& volume, Use use) {
+    for (uint32_t index = 0; index < volume.cells.size(); ++index) {
+        const Cell& cell = volume.cells[index];
+        const uint32_t element = find_visibility(volume, index);
+        for_each_edge(cell, [&](size_t i, size_t j) {
+            const uint8_t code = element == kNoIndex
+                                     ? kFreeEdge
+                                     : volume.cell_visibility[element].codes[edge_place(i, j)];
+            use(edges.find(cell.vertices[i], cell.vertices[j]), code, element != kNoIndex);
+        });
+    }
+}
+
+/// None if all of the cell's edges are free.
+std::optional<CellVisibility> cell_codes(const ProbeEdges& edges, std::span<const uint8_t> codes,
+                                         const Cell& cell) {
+    CellVisibility visibility;
+    bool is_stored = false;
+    for_each_edge(cell, [&](size_t i, size_t j) {
+        const uint8_t code = codes[edges.find(cell.vertices[i], cell.vertices[j])];
+        visibility.codes[edge_place(i, j)] = code;
+        is_stored |= code >= kUnknownEdge;
+    });
+    return is_stored ? std::optional(visibility) : std::nullopt;
+}
+
+}  // namespace
+
+void store_visibility(const ProbeEdges& edges, std::span<const uint8_t> codes,
+                      ProbeVolume& volume) {
+    TETRALIGHT_ASSERT(codes.size() == edges.size(), "one code an edge");
+    volume.visibility_blocks.clear();
+    volume.cell_visibility.clear();
+    for (size_t index = 0; index < volume.cells.size(); ++index) {
+        if (index % 32 == 0) {
+            const auto first = static_cast<uint32_t>(volume.cell_visibility.size());
+            volume.visibility_blocks.push_back({first, 0});
+        }
+        const auto stored = cell_codes(edges, codes, volume.cells[index]);
+        if (!stored) continue;
+        volume.visibility_blocks.back().cells |= uint32_t{1} << (index % 32);
+        volume.cell_visibility.push_back(*stored);
+    }
+}
+
+std::vector<uint8_t> edge_codes(const ProbeEdges& edges, const ProbeVolumeView& volume) {
+    if (volume.visibility_blocks.empty()) return std::vector<uint8_t>(edges.size(), kUnknownEdge);
+    std::vector<uint8_t> codes(edges.size(), kFreeEdge);
+    for_each_code(edges, volume, [&](size_t edge, uint8_t code, bool is_stored) {
+        if (is_stored) codes[edge] = code;
+    });
+    return codes;
+}
+
+void copy_visibility(const ProbeVolumeView& from, ProbeVolume& to) {
+    to.visibility_blocks.clear();
+    to.cell_visibility.clear();
+    if (from.visibility_blocks.empty()) return;
+    const detail::PositionTable table(from.exact_positions);
+    std::vector<uint32_t> twins;
+    for (const glm::dvec3& position : to.exact_positions) twins.push_back(table.find(position));
+    const ProbeEdges old_edges(from), edges(to.view());
+    const std::vector<uint8_t> old_codes = edge_codes(old_edges, from);
+    std::vector<uint8_t> codes;
+    for (uint32_t probe = 0; probe < twins.size(); ++probe) {
+        for (const uint32_t target : edges.targets(probe)) {
+            const uint32_t a = twins[probe], b = twins[target];
+            const bool is_old = a != kNoIndex && b != kNoIndex && old_edges.contains(a, b);
+            codes.push_back(is_old ? old_codes[old_edges.find(a, b)] : uint8_t{kUnknownEdge});
+        }
+    }
+    store_visibility(edges, codes, to);
+}
+
+VisibilityFacts visibility_facts(const ProbeVolumeView& volume) {
+    const ProbeEdges edges(volume);
+    const std::vector<uint8_t> codes = edge_codes(edges, volume);
+    VisibilityFacts facts;
+    facts.marked_cells = volume.cell_visibility.size();
+    facts.edges = edges.size();
+    facts.unknown_edges = static_cast<uint64_t>(std::ranges::count(codes, kUnknownEdge));
+    facts.blocked_edges = static_cast<uint64_t>(
+        std::ranges::count_if(codes, [](uint8_t code) { return code > kUnknownEdge; }));
+    std::vector<bool> is_torn(edges.size(), false);
+    for_each_code(edges, volume, [&](size_t edge, uint8_t code, bool is_stored) {
+        const bool agrees = is_stored ? codes[edge] == code : codes[edge] < kUnknownEdge;
+        if (!agrees) is_torn[edge] = true;
+    });
+    facts.torn_edges = static_cast<uint64_t>(std::ranges::count(is_torn, true));
+    return facts;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tetralight/probes/build/probe_edges.h>
+#include <tetralight/probes/probe_volume.h>
+
+// The codes of a volume's edges (probes/edge_visibility.h), by edge and by cell.
+
+namespace tetralight {
+
+/// Stores the code of each edge in the cells around it. Cells whose edges are all free store
+/// nothing. Precondition: one code an edge of the volume.
+void store_visibility(const ProbeEdges& edges, std::span<const uint8_t> codes, ProbeVolume& volume);
+
+/// The code of each edge: those of cells that store nothing are `kFreeEdge`. All edges are
+/// `kUnknownEdge` if the volume knows no walls. Precondition: the volume passes `verify`.
+[[nodiscard]] std::vector<uint8_t> edge_codes(const ProbeEdges& edges,
+                                              const ProbeVolumeView& volume);
+
+/// Copies what a volume knows of walls to another one: the codes of edges between probes of exactly
+/// the same world positions. Other edges are unknown, which counts as free. Precondition: both have
+/// their exact positions.
+void copy_visibility(const ProbeVolumeView& from, ProbeVolume& to);
+
+/// What a volume knows of walls.
+struct VisibilityFacts {
+    uint64_t marked_cells = 0;  ///< cells with an edge that is blocked or unknown
+    uint64_t edges = 0;         ///< directed
+    uint64_t blocked_edges = 0;
+    uint64_t unknown_edges = 0;
+    /// Edges that have different codes in the cells around them; 0 in a valid volume.
+    uint64_t torn_edges = 0;
+
+    bool operator==(const VisibilityFacts&) const = default;
+};
+
+/// Precondition: the volume passes `verify` and knows walls.
+[[nodiscard]] VisibilityFacts visibility_facts(const ProbeVolumeView& volume);
+
+}  // namespace tetralight

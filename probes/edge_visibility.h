@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
+
+#include <tetralight/probes/locate.h>
+#include <tetralight/probes/no_index.h>
+#include <tetralight/probes/probe_volume.h>
+
+// Weights that know walls. Each directed edge i → j of a volume has an edge ratio r_ij: the length
+// of the edge divided by the distance from probe i at which a surface blocks it, > 1 if one does.
+// Corner i of a cell sees the position with barycentric weights b if
+//
+//     L_i = Σ_j b_j r_ij ≤ 1
+//
+// which is exact for planar walls, because planes are linear in barycentric coordinates. The ratios
+// of edges that nothing blocks are fitted in [−4, 1], so that the plane L_i = 1 follows the wall.
+// Cells share the ratios of their common edges, so that weights are continuous. A cell whose ratios
+// are all < 1 stores nothing: all of its corners see all of it.
+
+namespace tetralight {
+
+/// Whether walls of the scene hide probes behind them. A volume that
+/// knows no walls gives the same light with both.
+enum class Walls : uint8_t { HideProbes, Ignore };
+
+/// The code of ratio 1: of an edge about which nothing is known. Larger codes are blocked edges,
+/// smaller ones are free.
+inline constexpr int kUnknownEdge = 67;
+
+/// The code of a free edge whose plane is not fitted.
+inline constexpr uint8_t kFreeEdge = kUnknownEdge - 1;
+
+/// Codes c stand for r = 1 + (c − 67) · |c − 67| / 896: from −4.01 to 40.45.
+inline constexpr float kEdgeCodeUnit = 1.0f / 896.0f;
+
+/// Where corners are hidden their weights are multiplied by 0.01 / L², so that weights are defined
+/// where no corner sees the position.
+inline constexpr float kHiddenShare = 0.01f;
+
+/// Weights fall from 1 to the share of hidden corners over L = 1 … 1.03.
+inline constexpr float kVisibilityRamp = 0.03f;
+
+/// r − 1 of a code. Every code > 67 gives a number > 0, every other one a number ≤ 0.
+[[nodiscard]] inline float edge_excess(uint8_t code) noexcept {
+    const int steps = int{code} - kUnknownEdge;
+    return static_cast<float>(steps * std::abs(steps)) * kEdgeCodeUnit;
+}
+
+/// The edge ratio of a code.
+[[nodiscard]] inline float decode_edge_ratio(uint8_t code) noexcept {
+    return 1.0f + edge_excess(code);
+}
+
+/// The nearest code of a ratio. Ratios > 1 get a code > 67, ratios ≤ 1 one below: rounding neither
+/// opens nor closes an edge. Precondition: not a NaN.
+[[nodiscard]] inline uint8_t encode_edge_ratio(double ratio) noexcept {
+    const double excess = ratio - 1.0;
+    const double steps = std::round(std::sqrt(std::abs(excess) / double{kEdgeCodeUnit}));
+    const double least = kUnknownEdge, most = 255 - kUnknownEdge;
+    const double code =
+        excess > 0.0 ? std::clamp(steps, 1.0, most) : -std::clamp(steps, 1.0, least);
+    return static_cast<uint8_t>(kUnknownEdge + static_cast<int>(code));
+}
+
+/// The place in `CellVisibility::codes` of the edge from one corner to another.
+[[nodiscard]] constexpr size_t edge_place(size_t from, size_t to) noexcept {
+    return 4 * ((to - from - 1) & 3) + from;
+}
+
+/// The index of a cell's element of `cell_visibility`. kNoIndex: it has none, its weights are as
+/// they are. Any number of the volume may be corrupt.
+[[nodiscard]] inline uint32_t find_visibility(const ProbeVolumeView& volume,
+                                              uint32_t cell) noexcept {
+    const size_t index = cell / 32;
+    if (index >= volume.visibility_blocks.size()) return kNoIndex;
+    const VisibilityBlock& block = volume.visibility_blocks[index];
+    const uint32_t bit = uint32_t{1} << (cell % 32);
+    if ((block.cells & bit) == 0) return kNoIndex;
+    const auto before = static_cast<uint32_t>(std::popcount(block.cells & (bit - 1)));
+    const uint32_t element = block.first + before;
+    return element < volume.cell_visibility.size() ? element : kNoIndex;
+}
+
+/// What remains of the weight of a corner whose L is 1 + `excess`: 1, then a ramp to the share of
+/// hidden corners. Continuous.
+[[nodiscard]] float visible_share(float excess) noexcept;
+
+/// The weights of a position in a cell, each multiplied by what its corner sees of the position,
+/// with the sum that they had. Where all corners see the position they are the same to the bit.
+/// Kernels repeat its order of operations. Precondition: weights are ≥ 0.
+[[nodiscard]] glm::vec4 visible_weights(const CellVisibility& cell,
+                                        const glm::vec4& weights) noexcept;
+
+/// The location with weights that know the walls of the volume.
+[[nodiscard]] CellLocation visible_location(const ProbeVolumeView& volume,
+                                            CellLocation location) noexcept;
+
+/// The same for each of many locations, for reports of the weights that light was blended with.
+/// Nothing with `Walls::Ignore`.
+void hide_probes(const ProbeVolumeView& volume, std::span<CellLocation> locations,
+                 Walls walls) noexcept;
+
+}  // namespace tetralight
