@@ -7,6 +7,7 @@
 #include <tetralight/bake/placement/free_space.h>
 #include <tetralight/bake/placement/light_difference.h>
 #include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/build/make_seeds.h>
 #include <tetralight/probes/interpolate.h>
 
 namespace tetralight {
@@ -56,8 +57,9 @@ ProbeVolume volume_of(const LightPool& pool, std::span<const uint32_t> probes) {
     for (const uint32_t probe : probes) merged.positions.push_back(pool.position(probe));
     ProbeVolume volume = make_probe_volume(merged);
     // Positions are not snapped here: probes on a face of the hull make cells without volume, and
-    // walks must come from inside to find them. Without a seed grid they begin at probes.
+    // walks must come from inside to find them. From seeds they begin at probes.
     volume.seed_grid.clear();
+    make_seeds(volume);
     for (const uint32_t probe : probes) volume.irradiance.push_back(pool.light(probe));
     return volume;
 }

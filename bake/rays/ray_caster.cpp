@@ -22,6 +22,7 @@ RTCRay embree_ray(const Ray& ray) {
     result.dir_x = ray.direction.x;
     result.dir_y = ray.direction.y;
     result.dir_z = ray.direction.z;
+    result.tnear = ray.min_distance;
     result.tfar = ray.max_distance;
     result.mask = 0xffffffffu;
     return result;
@@ -31,8 +32,21 @@ RayHit hit_from(const RTCHit& hit, float distance) {
     return {distance, hit.geomID, hit.primID, {hit.u, hit.v}, {hit.Ng_x, hit.Ng_y, hit.Ng_z}};
 }
 
+/// What Embree hands to callbacks; its own part comes first.
+struct RayContext {
+    RTCIntersectContext embree;
+    bool ignores_filter = false;
+};
+
+RayContext make_context(bool ignores_filter) {
+    RayContext context{{}, ignores_filter};
+    rtcInitIntersectContext(&context.embree);
+    return context;
+}
+
 /// Embree's callback for one candidate hit of a single ray.
 void filter_hit(const RTCFilterFunctionNArguments* arguments) {
+    if (reinterpret_cast<const RayContext*>(arguments->context)->ignores_filter) return;
     const auto& filter = *static_cast<const HitFilter*>(arguments->geometryUserPtr);
     const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
     const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
@@ -169,11 +183,18 @@ void RayCaster::listen(RayListener listener) {
 }
 
 std::optional<RayHit> RayCaster::intersect(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    return intersect(ray, Filter::Applied);
+}
+
+std::optional<RayHit> RayCaster::intersect_unfiltered(const Ray& ray) const {
+    return intersect(ray, Filter::Ignored);
+}
+
+std::optional<RayHit> RayCaster::intersect(const Ray& ray, Filter filter) const {
+    RayContext context = make_context(filter == Filter::Ignored);
     RTCRayHit ray_hit{embree_ray(ray), {}};
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(handles_->scene, &context, &ray_hit);
+    rtcIntersect1(handles_->scene, &context.embree, &ray_hit);
     const bool is_hit = ray_hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     handles_->notify(ray, RayKind::Nearest,
                      is_hit ? std::optional(ray_hit.ray.tfar) : std::nullopt);
@@ -182,10 +203,9 @@ std::optional<RayHit> RayCaster::intersect(const Ray& ray) const {
 }
 
 bool RayCaster::occluded(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    RayContext context = make_context(false);
     RTCRay embree = embree_ray(ray);
-    rtcOccluded1(handles_->scene, &context, &embree);
+    rtcOccluded1(handles_->scene, &context.embree, &embree);
     const bool is_hit = embree.tfar < 0.0f;
     handles_->notify(ray, RayKind::Shadow, is_hit ? std::optional(0.0f) : std::nullopt);
     return is_hit;

@@ -19,6 +19,7 @@ struct Ray {
     /// Of any length except 0. Distances along the ray are in units of this length.
     glm::vec3 direction{0.0f};
     float max_distance = std::numeric_limits<float>::infinity();
+    float min_distance = 0.0f;  ///< nearer hits do not count
 };
 
 struct RayHit {
@@ -76,11 +77,18 @@ class RayCaster {
     [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray) const;
     [[nodiscard]] bool occluded(const Ray& ray) const;
 
+    /// `intersect` without the filter: every surface stops the ray.
+    [[nodiscard]] std::optional<RayHit> intersect_unfiltered(const Ray& ray) const;
+
     /// The point on any triangle that is nearest to a position; none without triangles. Ignores
     /// filters and spheres.
     [[nodiscard]] std::optional<glm::vec3> nearest_point(glm::vec3 position) const;
 
   private:
+    enum class Filter : bool { Applied, Ignored };
+
+    [[nodiscard]] std::optional<RayHit> intersect(const Ray& ray, Filter filter) const;
+
     struct Handles;
     std::unique_ptr<Handles> handles_;
 };

@@ -259,6 +259,14 @@ std::optional<SurfaceSide> TraceScene::intersect_side(const Ray& ray) const {
     return side;
 }
 
+std::optional<Crossing> TraceScene::nearest_crossing(const Ray& ray) const {
+    const std::optional<RayHit> hit = caster_.intersect_unfiltered(ray);
+    if (!hit) return std::nullopt;
+    const Geometry& geometry = state_->geometries[hit->geometry];
+    const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, *hit);
+    return Crossing{hit->distance, opacity(*state_->scene, point)};
+}
+
 uint32_t TraceScene::triangle_count(uint32_t geometry_index) const {
     return static_cast<uint32_t>(state_->geometries[geometry_index].mesh->indices.size() / 3);
 }

@@ -53,6 +53,13 @@ struct SurfaceSide {
     bool is_back_face = false;
 };
 
+/// A surface on the way of a ray.
+struct Crossing {
+    float distance = 0.0f;
+    /// Fraction of rays that stop there, in [0, 1].
+    float opacity = 1.0f;
+};
+
 /// The triangles of a scene, ready for ray queries. Rays and surfaces are in render space: world
 /// space translated in double precision so that the center of the scene is the origin, because rays
 /// are float.
@@ -100,6 +107,9 @@ class TraceScene {
     [[nodiscard]] std::optional<SurfaceSide> intersect_side(const Ray& ray) const;
 
     [[nodiscard]] bool occluded(const Ray& ray) const { return caster_.occluded(ray); }
+
+    /// The nearest surface that a ray meets, transparent or not.
+    [[nodiscard]] std::optional<Crossing> nearest_crossing(const Ray& ray) const;
 
     /// The ray queries on the triangles, in render space.
     [[nodiscard]] const RayCaster& caster() const { return caster_; }
