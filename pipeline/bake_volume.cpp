@@ -138,22 +138,26 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     report.largest_snap = merged->largest_snap;
     report.merge_seconds = watch.lap();
 
-    auto probes =
-        prepare_probes(scene, std::move(*merged), settings.health, settings.bake.thread_count);
-    if (!probes) return probes.error();
-    report.virtual_offset_count = probes->virtual_offset_count;
-    report.left_out_count = probes->left_out_count;
-    report.warnings = std::move(probes->warnings);
+    const auto traced = TraceScene::make_static(scene);
+    if (!traced) return traced.error();
+    const uint32_t thread_count = settings.bake.thread_count;
+    PreparedProbes probes =
+        prepare_probes(scene, *traced, std::move(*merged), settings.health, thread_count);
+    report.virtual_offset_count = probes.virtual_offset_count;
+    report.left_out_count = probes.left_out_count;
+    report.warnings = std::move(probes.warnings);
     report.warnings.insert(report.warnings.end(), plan->warnings.begin(), plan->warnings.end());
-    prepared.merged = std::move(probes->merged);
-    prepared.capture_positions = std::move(probes->capture_positions);
-    prepared.is_invalid = std::move(probes->is_invalid);
+    prepared.merged = std::move(probes.merged);
+    prepared.capture_positions = std::move(probes.capture_positions);
+    prepared.is_invalid = std::move(probes.is_invalid);
     prepared.overrides = find_overrides(scene.probe_adjustments, prepared.merged.positions);
     report.prepare_seconds = watch.lap();
 
     prepared.volume = make_probe_volume(prepared.merged);
-    prepared.volume.health = std::move(probes->health);
+    prepared.volume.health = std::move(probes.health);
     report.tetrahedralize_seconds = watch.lap();
+    report.visibility =
+        bake_visibility(*traced, prepared.capture_positions, thread_count, prepared.volume);
 
     store_lights(scene, *plan, prepared);
     prepared.key = bake_key(prepared);

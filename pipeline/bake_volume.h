@@ -10,6 +10,7 @@
 #include <tetralight/bake/bake_statistics.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/result.h>
+#include <tetralight/pipeline/bake_visibility.h>
 #include <tetralight/pipeline/dering_probes.h>
 #include <tetralight/pipeline/lighting_plan.h>
 #include <tetralight/pipeline/override_probes.h>
@@ -22,7 +23,7 @@
 // The offline chain in one function:
 //
 //     groups → merge → prepare_probes → bake_probes → dilate, dering ┐
-//                             └→ make_probe_volume ──────────────────┴→ ProbeVolume
+//                             └→ make_probe_volume → bake_visibility ┴→ ProbeVolume
 //
 // and in its three steps, for bakes that are interrupted and resumed, or split between machines:
 //
@@ -55,6 +56,7 @@ struct BakeReport {
     size_t reused_count = 0;
     /// Of all runs of the bake.
     uint64_t ray_count = 0;
+    VisibilityReport visibility;
     BakeStatistics statistics;
     double merge_seconds = 0.0;
     double prepare_seconds = 0.0;

@@ -8,7 +8,6 @@
 
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/probe_visibility.h>
-#include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/scene/scene_bounds.h>
 #include <tetralight/bake/virtual_offset.h>
 #include <tetralight/base/str_cat.h>
@@ -125,11 +124,9 @@ const char* name_of(InvalidProbes policy) {
     return kNames[static_cast<size_t>(policy)];
 }
 
-Result<PreparedProbes> prepare_probes(const Scene& scene, MergedProbes merged,
-                                      const HealthSettings& settings, uint32_t thread_count) {
-    const auto traced = TraceScene::make_static(scene);
-    if (!traced) return traced.error();
-    HealthSearch search{*traced, merged, settings, thread_count};
+PreparedProbes prepare_probes(const Scene& scene, const TraceScene& traced, MergedProbes merged,
+                              const HealthSettings& settings, uint32_t thread_count) {
+    HealthSearch search{traced, merged, settings, thread_count};
     search.find_inside();
     search.apply(scene.probe_adjustments);
     if (settings.virtual_offset > 0.0) search.find_virtual_offsets(scene_size(scene));

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/scene/scene.h>
-#include <tetralight/base/result.h>
 #include <tetralight/probes/build/merge.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -57,10 +57,10 @@ struct PreparedProbes {
 };
 
 /// Finds which merged probes are inside geometry, and their virtual offsets. A pure function; the
-/// result of a probe depends on the probe and its groups alone. Returns out_of_resources if the
-/// memory is not enough.
-[[nodiscard]] Result<PreparedProbes> prepare_probes(const Scene& scene, MergedProbes merged,
-                                                    const HealthSettings& settings,
-                                                    uint32_t thread_count = 0);
+/// result of a probe depends on the probe and its groups alone. `traced` holds the static geometry
+/// of the scene.
+[[nodiscard]] PreparedProbes prepare_probes(const Scene& scene, const TraceScene& traced,
+                                            MergedProbes merged, const HealthSettings& settings,
+                                            uint32_t thread_count = 0);
 
 }  // namespace tetralight
