@@ -67,6 +67,7 @@ InterpolationBatch without_arrays(const InstanceBatch& batch) {
     all.irradiance = batch.packed;
     all.occlusion = batch.occlusion;
     all.outside = batch.outside;
+    all.walls = batch.walls;
     return all;
 }
 

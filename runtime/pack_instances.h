@@ -47,6 +47,7 @@ struct InstanceBatch {
     /// `strided_occlusion`.
     OcclusionOutput occlusion = {};
     OutsideHull outside = {};
+    Walls walls = Walls::HideProbes;
 };
 
 /// Locates every instance, blends its probes and writes irradiance / π as `pack_sh` does. Returns

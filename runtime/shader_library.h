@@ -35,7 +35,7 @@ enum class ShaderLanguage {
 enum class ShaderPart {
     Sh,     ///< tetralight_sample_sh9, _sample_sh4, _probe_occlusion, _add_layer, _instance_normal
     Lppv,   ///< tetralight_sample_lppv_4, _sample_lppv_7, their atlas forms and occlusion
-    Query,  ///< tetralight_locate, tetralight_interpolate
+    Query,  ///< tetralight_locate, tetralight_interpolate, tetralight_blend
 };
 
 /// A composed shader.

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include <tetralight/probes/seed_grid.h>
+
 namespace tetralight {
 namespace {
 
@@ -27,6 +29,7 @@ struct Shader {
 #include <tetralight/runtime/shaders/begin.glsl>
 #include <tetralight/runtime/shaders/sh.glsl>
 #include <tetralight/runtime/shaders/query_volume.glsl>
+#include <tetralight/runtime/shaders/query_walls.glsl>
 #include <tetralight/runtime/shaders/query_hull.glsl>
 #include <tetralight/runtime/shaders/query.glsl>
 #include <tetralight/runtime/shaders/end.glsl>
@@ -39,7 +42,8 @@ struct Shader {
           tetralight_light(vectors_of<vec4>(volume.light)),
           tetralight_cells(vectors_of<uvec4>(volume.cells)),
           tetralight_hull_rays(volume.hull_rays),
-          tetralight_seeds(volume.seeds) {}
+          tetralight_seeds(volume.seeds),
+          tetralight_walls(volume.walls) {}
 
     TetralightVolumeConstants tetralight_volume;
     std::span<const vec4> tetralight_positions;
@@ -47,7 +51,17 @@ struct Shader {
     std::span<const uvec4> tetralight_cells;
     std::span<const vec4> tetralight_hull_rays;
     std::span<const uvec4> tetralight_seeds;
+    std::span<const uvec4> tetralight_walls;
 };
+
+static_assert(Shader::tetralight_finer_grid == kFinerGrid);
+static_assert(Shader::tetralight_seed_header_words == kSeedGridHeaderWords);
+static_assert(Shader::tetralight_seed_levels == kSeedGridLevels);
+static_assert(Shader::tetralight_seed_longest_side == kSeedGridLongestSide);
+static_assert(Shader::tetralight_unknown_edge == float{kUnknownEdge});
+static_assert(Shader::tetralight_edge_code_unit == kEdgeCodeUnit);
+static_assert(Shader::tetralight_hidden_share == kHiddenShare);
+static_assert(Shader::tetralight_visibility_ramp == kVisibilityRamp);
 
 }  // namespace
 
@@ -58,9 +72,23 @@ CellLocation locate(const ShaderVolume& volume, glm::vec3 position, uint32_t hin
     return {location.cell, is_ambient ? 1.0f : 0.0f, location.weights};
 }
 
-PackedProbe interpolate(const ShaderVolume& volume, const CellLocation& location) noexcept {
-    return std::bit_cast<PackedProbe>(
-        Shader(volume).tetralight_interpolate({location.cell, location.weights}));
+uint32_t seed_cell(const ShaderVolume& volume, glm::vec3 local) noexcept {
+    return Shader(volume).tetralight_seed_cell(local);
+}
+
+CellLocation visible_location(const ShaderVolume& volume, CellLocation location) noexcept {
+    location.weights =
+        Shader(volume).tetralight_visible_location({location.cell, location.weights}).weights;
+    return location;
+}
+
+PackedProbe interpolate(const ShaderVolume& volume, const CellLocation& location,
+                        Walls walls) noexcept {
+    Shader shader(volume);
+    const Shader::TetralightCellLocation where{location.cell, location.weights};
+    return std::bit_cast<PackedProbe>(walls == Walls::Ignore
+                                          ? shader.tetralight_blend(where)
+                                          : shader.tetralight_interpolate(where));
 }
 
 }  // namespace tetralight

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/locate.h>
 #include <tetralight/runtime/shader_volume.h>
 
@@ -19,8 +20,17 @@ namespace tetralight {
 [[nodiscard]] CellLocation locate(const ShaderVolume& volume, glm::vec3 position,
                                   uint32_t hint = kNoIndex) noexcept;
 
-/// Blends the probes of a located cell. Thread-safe.
-[[nodiscard]] PackedProbe interpolate(const ShaderVolume& volume,
-                                      const CellLocation& location) noexcept;
+/// The cell where a walk without a hint starts; `local` is relative to the volume's origin.
+/// Thread-safe.
+[[nodiscard]] uint32_t seed_cell(const ShaderVolume& volume, glm::vec3 local) noexcept;
+
+/// The location with weights that know the walls of the volume. Thread-safe.
+[[nodiscard]] CellLocation visible_location(const ShaderVolume& volume,
+                                            CellLocation location) noexcept;
+
+/// Blends the probes of a located cell: `tetralight_interpolate`, or `tetralight_blend` if walls
+/// are ignored. Thread-safe.
+[[nodiscard]] PackedProbe interpolate(const ShaderVolume& volume, const CellLocation& location,
+                                      Walls walls = Walls::HideProbes) noexcept;
 
 }  // namespace tetralight

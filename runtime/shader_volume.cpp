@@ -2,10 +2,14 @@
 #include <tetralight/runtime/shader_volume.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
 #include <glm/common.hpp>
 
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/seed_grid.h>
 
 namespace tetralight {
 namespace {
@@ -23,8 +27,9 @@ struct TwoFloats {
     }
 };
 
-/// A regular grid over the bounding box of the probes, with about one voxel per probe.
-struct SeedGrid {
+/// For a volume without a seed grid: voxels over the bounding box of the probes, about one per
+/// probe.
+struct SeedVoxels {
     glm::vec3 min{0.0f};
     glm::vec3 voxel{0.0f};
     glm::uvec3 size{1};
@@ -35,10 +40,21 @@ struct SeedGrid {
         const glm::uvec3 place(index % size.x, index / size.x % size.y, index / size.x / size.y);
         return min + voxel * (glm::vec3(place) + 0.5f);
     }
+
+    [[nodiscard]] SeedGridHeader header() const {
+        SeedGridHeader header;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto place = static_cast<size_t>(axis);
+            header.min[place] = min[axis];
+            header.scale[place] = voxel[axis] > 0.0f ? 1.0f / voxel[axis] : 0.0f;
+            header.size[place] = size[axis];
+        }
+        return header;
+    }
 };
 
-SeedGrid make_seed_grid(std::span<const glm::vec3> positions) {
-    SeedGrid grid;
+SeedVoxels make_seed_voxels(std::span<const glm::vec3> positions) {
+    SeedVoxels grid;
     grid.min = positions[0];
     glm::vec3 high = positions[0];
     for (const glm::vec3& position : positions) {
@@ -56,28 +72,72 @@ SeedGrid make_seed_grid(std::span<const glm::vec3> positions) {
     return grid;
 }
 
-float voxels_a_metre(float voxel) {
-    return voxel > 0.0f ? 1.0f / voxel : 0.0f;
-}
-
-void add_seeds(const ProbeVolumeView& volume, ShaderVolume& shader) {
-    const SeedGrid grid = make_seed_grid(volume.positions);
-    std::vector<glm::vec3> centers(grid.count());
+/// A seed grid of one level.
+std::vector<uint32_t> make_seed_words(const ProbeVolumeView& volume) {
+    const SeedVoxels voxels = make_seed_voxels(volume.positions);
+    std::vector<glm::vec3> centers(voxels.count());
     for (size_t i = 0; i < centers.size(); ++i) {
-        centers[i] = glm::vec3(glm::dvec3(grid.center(i)) + volume.info.world_origin);
+        centers[i] = glm::vec3(glm::dvec3(voxels.center(i)) + volume.info.world_origin);
     }
     std::vector<CellLocation> locations(centers.size());
     locate(volume, centers, locations);
-    shader.seeds.assign((centers.size() + 3) / 4, glm::uvec4(0));
-    for (size_t i = 0; i < centers.size(); ++i) {
-        const uint32_t cell = locations[i].cell;
-        shader.seeds[i / 4][static_cast<int>(i % 4)] = cell < volume.cells.size() ? cell : 0;
+    std::vector<uint32_t> words(kSeedGridHeaderWords);
+    const SeedGridHeader header = voxels.header();
+    std::memcpy(words.data(), &header, sizeof header);
+    words.reserve(words.size() + locations.size());
+    for (const CellLocation& location : locations) {
+        words.push_back(location.cell < volume.cells.size() ? location.cell : 0);
     }
-    shader.constants.seed_min = glm::vec4(grid.min, 0.0f);
-    shader.constants.seed_scale =
-        glm::vec4(voxels_a_metre(grid.voxel.x), voxels_a_metre(grid.voxel.y),
-                  voxels_a_metre(grid.voxel.z), 0.0f);
-    shader.constants.seed_size = glm::uvec4(grid.size, 0);
+    return words;
+}
+
+/// Shaders begin their walks where the queries of the CPU do, if the volume has a seed grid.
+bool has_seed_grid(const ProbeVolumeView& volume) {
+    return volume.seed_grid.size() >= kSeedGridHeaderWords;
+}
+
+void add_seeds(const ProbeVolumeView& volume, ShaderVolume& shader) {
+    std::vector<uint32_t> made;
+    if (!has_seed_grid(volume)) made = make_seed_words(volume);
+    const std::span<const uint32_t> words = made.empty() ? volume.seed_grid : std::span(made);
+    shader.seeds.assign((words.size() + 3) / 4, glm::uvec4(0));
+    std::memcpy(static_cast<void*>(shader.seeds.data()), words.data(), words.size_bytes());
+    const SeedGridHeader header = seed_grid_header(words, 0);
+    shader.constants.seed_min = {header.min[0], header.min[1], header.min[2], 0.0f};
+    shader.constants.seed_scale = {header.scale[0], header.scale[1], header.scale[2], 0.0f};
+    shader.constants.seed_size = {header.size[0], header.size[1], header.size[2],
+                                  static_cast<uint32_t>(words.size())};
+}
+
+/// Blocks of cells that exist.
+std::span<const VisibilityBlock> wall_blocks(const ProbeVolumeView& volume) {
+    const size_t count = volume.cell_visibility.empty() ? 0 : (volume.cells.size() + 31) / 32;
+    return volume.visibility_blocks.first(std::min(count, volume.visibility_blocks.size()));
+}
+
+/// Elements of `ShaderVolume::walls`.
+size_t wall_element_count(const ProbeVolumeView& volume) {
+    const size_t block_count = wall_blocks(volume).size();
+    return block_count == 0 ? 1 : (block_count + 1) / 2 + volume.cell_visibility.size();
+}
+
+void add_walls(const ProbeVolumeView& volume, ShaderVolume& shader) {
+    const std::span<const VisibilityBlock> blocks = wall_blocks(volume);
+    shader.walls.reserve(wall_element_count(volume));
+    shader.walls.resize(std::max<size_t>(1, (blocks.size() + 1) / 2), glm::uvec4(0));
+    if (blocks.empty()) return;
+    for (size_t i = 0; i < blocks.size(); ++i) {
+        const int place = i % 2 == 0 ? 0 : 2;
+        shader.walls[i / 2][place] = blocks[i].first;
+        shader.walls[i / 2][place + 1] = blocks[i].cells;
+    }
+    shader.constants.walls = {static_cast<uint32_t>(blocks.size()),
+                              static_cast<uint32_t>(shader.walls.size()),
+                              static_cast<uint32_t>(volume.cell_visibility.size()), 0};
+    for (const CellVisibility& cell : volume.cell_visibility) {
+        const auto words = std::bit_cast<std::array<uint32_t, 3>>(cell);
+        shader.walls.emplace_back(words[0], words[1], words[2], 0);
+    }
 }
 
 bool has_cells(const ProbeVolumeView& volume) {
@@ -136,16 +196,22 @@ void add_probes(const ProbeVolumeView& volume, ShaderVolume& shader) {
     }
 }
 
+size_t seed_memory(const ProbeVolumeView& volume) {
+    if (has_seed_grid(volume)) return volume.seed_grid.size_bytes() + sizeof(glm::uvec4);
+    const size_t voxels = make_seed_voxels(volume.positions).count();
+    return sizeof(SeedGridHeader) + 2 * sizeof(glm::uvec4) +
+           voxels * (2 * sizeof(uint32_t) + sizeof(glm::vec3) + sizeof(CellLocation));
+}
+
 }  // namespace
 
 size_t shader_volume_memory(const ProbeVolumeView& volume) {
     if (!has_cells(volume)) return sizeof(ShaderVolume) + 256;
     const size_t probes = volume.positions.size(), cells = volume.cells.size();
-    const size_t seeds = make_seed_grid(volume.positions).count();
     return sizeof(ShaderVolume) + probes * (sizeof(glm::vec4) + sizeof(PackedProbe)) +
            cells * sizeof(ShaderCell) +
-           (3 * (cells - inner_cell_count(volume)) + 1) * sizeof(glm::vec4) +
-           (seeds + 3) * sizeof(uint32_t) + seeds * (sizeof(glm::vec3) + sizeof(CellLocation));
+           (3 * (cells - inner_cell_count(volume)) + 1) * sizeof(glm::vec4) + seed_memory(volume) +
+           wall_element_count(volume) * sizeof(glm::uvec4);
 }
 
 ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
@@ -162,6 +228,7 @@ ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
         shader.cells.resize(1);
         shader.hull_rays.resize(1);
         shader.seeds.resize(1);
+        shader.walls.resize(1);
         return shader;
     }
     const auto cell_count = static_cast<uint32_t>(volume.cells.size());
@@ -171,6 +238,7 @@ ShaderVolume make_shader_volume(const ProbeVolumeView& volume) {
     add_probes(volume, shader);
     add_cells(volume, shader);
     add_seeds(volume, shader);
+    add_walls(volume, shader);
     return shader;
 }
 

@@ -11,7 +11,7 @@
 #include <tetralight/probes/packed_sh.h>
 #include <tetralight/probes/probe_volume.h>
 
-// A probe volume for shaders: one uniform block and five arrays of 16-byte elements, ready to
+// A probe volume for shaders: one uniform block and six arrays of 16-byte elements, ready to
 // upload. runtime/shaders/query_volume.glsl declares them as storage buffers (std430), structured
 // buffers, or textures with 2048 texels per row.
 //
@@ -26,16 +26,17 @@ struct ShaderVolumeConstants {
     glm::vec4 origin{0.0f};       ///< xyz: world position of the local origin; w: `extent`
     glm::vec4 origin_rest{0.0f};  ///< xyz: rounding error of `origin`
     glm::vec4 axis{0.0f};         ///< xyz: `VolumeInfo::axis`
-    glm::vec4 seed_min{0.0f};     ///< xyz: minimum corner of the seed grid, local
-    glm::vec4 seed_scale{0.0f};   ///< xyz: voxels of the seed grid per metre
-    glm::uvec4 seed_size{1};      ///< xyz: voxels along each axis
+    glm::vec4 seed_min{0.0f};     ///< xyz: `SeedGridHeader::min` of the outermost seed grid
+    glm::vec4 seed_scale{0.0f};   ///< xyz: its `scale`
+    glm::uvec4 seed_size{1};      ///< xyz: its `size`; w: words in `seeds`
     glm::uvec4 counts{0};         ///< probes, cells, inner cells, `Dimension`
+    glm::uvec4 walls{0};          ///< in `walls`: blocks, place of the first codes, marked cells
     PackedSh ambient{};
 
     bool operator==(const ShaderVolumeConstants&) const = default;
 };
 
-static_assert(sizeof(ShaderVolumeConstants) == 224 &&
+static_assert(sizeof(ShaderVolumeConstants) == 240 &&
               std::is_trivially_copyable_v<ShaderVolumeConstants>);
 static_assert(offsetof(ShaderVolumeConstants, origin_rest) == 16);
 static_assert(offsetof(ShaderVolumeConstants, axis) == 32);
@@ -43,7 +44,8 @@ static_assert(offsetof(ShaderVolumeConstants, seed_min) == 48);
 static_assert(offsetof(ShaderVolumeConstants, seed_scale) == 64);
 static_assert(offsetof(ShaderVolumeConstants, seed_size) == 80);
 static_assert(offsetof(ShaderVolumeConstants, counts) == 96);
-static_assert(offsetof(ShaderVolumeConstants, ambient) == 112);
+static_assert(offsetof(ShaderVolumeConstants, walls) == 112);
+static_assert(offsetof(ShaderVolumeConstants, ambient) == 128);
 
 /// One probe in `ShaderVolume::light`.
 struct PackedProbe {
@@ -74,7 +76,10 @@ struct ShaderVolume {
     std::vector<PackedProbe> light;    ///< one per probe
     std::vector<ShaderCell> cells;
     std::vector<glm::vec4> hull_rays;  ///< xyz, three per hull cell
-    std::vector<glm::uvec4> seeds;     ///< four voxels each: the cell at the voxel's center
+    std::vector<glm::uvec4> seeds;     ///< the seed grid (probes/seed_grid.h), four words each
+    /// Walls between probes (probes/edge_visibility.h): the blocks, two each, then the codes of
+    /// each marked cell in three words.
+    std::vector<glm::uvec4> walls;
 
     bool operator==(const ShaderVolume&) const = default;
 };
@@ -83,7 +88,8 @@ struct ShaderVolume {
 inline constexpr size_t kShaderTextureWidth = 2048;
 
 /// Makes the arrays of a volume. The light is the light that queries read: `compact` if the volume
-/// has it. The volume may be an unverified file. Cost: about one query per probe.
+/// has it. The volume may be an unverified file. Cost: one copy; for a volume without a seed grid
+/// also a query per probe.
 [[nodiscard]] ShaderVolume make_shader_volume(const ProbeVolumeView& volume);
 
 /// Bytes that `make_shader_volume` allocates, for the result and for temporary data.

@@ -93,6 +93,9 @@ CallError check_batch(const tetralight_batch& batch) {
         return {TETRALIGHT_BAD_VALUE, str_cat("sh_format is out of range: ", batch.sh_format)};
     }
     if (auto wrong = check_outside(batch)) return wrong;
+    if (batch.walls > TETRALIGHT_IGNORE_WALLS) {
+        return {TETRALIGHT_BAD_VALUE, str_cat("walls is out of range: ", batch.walls)};
+    }
     if (batch.count == 0) return {};
     if (!batch.sh.data && !batch.occlusion.data) {
         return {TETRALIGHT_BAD_POINTER, "sh and occlusion are both NULL"};
@@ -125,6 +128,7 @@ InterpolationBatch part_of(const tetralight_batch& batch, size_t begin,
     part.positions = positions;
     part.hints = hints_of(batch.hints, begin, positions.size());
     part.outside = outside_of(batch);
+    part.walls = static_cast<Walls>(batch.walls);
     const auto format = static_cast<ShFormat>(batch.sh_format);
     if (batch.sh.data) {
         const size_t size = value_count(format) * value_size(format);
@@ -356,6 +360,9 @@ tetralight_status tetralight_get_shader_array(const tetralight_shader_volume* ma
             return succeed(error);
         case 5:
             *array = bytes_of(volume.seeds);
+            return succeed(error);
+        case 6:
+            *array = bytes_of(volume.walls);
             return succeed(error);
         default:
             break;

@@ -126,6 +126,13 @@ typedef enum tetralight_outside {
     TETRALIGHT_AMBIENT = 2
 } tetralight_outside;
 
+/** Whether walls of the scene hide probes behind them (probes/edge_visibility.h). A volume that
+ * knows no walls gives the same light with both. */
+typedef enum tetralight_walls {
+    TETRALIGHT_HIDE_PROBES = 0,
+    TETRALIGHT_IGNORE_WALLS = 1
+} tetralight_walls;
+
 /** The format of irradiance in an array. */
 typedef enum tetralight_sh_format {
     /** 27 floats: nine RGB coefficients, E(n) = sum of E_i Y_i(n). */
@@ -145,7 +152,7 @@ typedef struct tetralight_light {
     float packed[28];
     /** Four channels, 1 = lit. */
     float occlusion[4];
-    /** Barycentric weights of the cell's probes, >= 0; they sum to 1. */
+    /** Barycentric weights of the cell's probes, >= 0; they sum to 1. Walls do not change them. */
     float weights[4];
     /** The cell that contains the position, or TETRALIGHT_NO_CELL if the light is ambient. */
     uint32_t cell;
@@ -184,6 +191,8 @@ typedef struct tetralight_batch {
     uint32_t outside;
     /** Metres, > 0; read only if `outside` is TETRALIGHT_AMBIENT. */
     float fade_distance;
+    /** A tetralight_walls. */
+    uint32_t walls;
 } tetralight_batch;
 
 /** Counts of a batch. */
@@ -242,9 +251,9 @@ TETRALIGHT_API tetralight_status tetralight_recombine(tetralight_volume* volume,
                                                       const float* weights, size_t weight_count,
                                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** The light at one position (three floats). `hint`, which may be NULL, gives the cell where the
- * search starts and receives the cell found. A position that is not finite receives the ambient
- * light and no cell. */
+/** The light at one position (three floats), of the probes that no wall hides. `hint`, which may be
+ * NULL, gives the cell where the search starts and receives the cell found. A position that is not
+ * finite receives the ambient light and no cell. */
 TETRALIGHT_API tetralight_status tetralight_query(const tetralight_volume* volume,
                                                   const float* position, uint32_t* hint,
                                                   tetralight_light* light,
@@ -255,7 +264,7 @@ TETRALIGHT_API tetralight_status
 tetralight_query_batch(const tetralight_volume* volume, const tetralight_batch* batch,
                        tetralight_report* report, tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** The light of instances. `report` may be NULL. */
+/** The light of instances, of the probes that no wall hides. `report` may be NULL. */
 TETRALIGHT_API tetralight_status
 tetralight_pack_instances(const tetralight_volume* volume, const tetralight_instances* instances,
                           tetralight_report* report, tetralight_error* error) TETRALIGHT_NOEXCEPT;
@@ -338,8 +347,9 @@ TETRALIGHT_API tetralight_status tetralight_fill_lppv(const tetralight_volume* v
 /** A volume for queries by shaders (runtime/shader_volume.h): arrays that are ready to upload. */
 typedef struct tetralight_shader_volume tetralight_shader_volume;
 
-/** In the order of their bindings: the uniform block, positions, light, cells, hull rays, seeds. */
-#define TETRALIGHT_SHADER_ARRAY_COUNT 6
+/** The uniform block, then in the order of their bindings: positions, light, cells, hull rays,
+ * seeds, walls. */
+#define TETRALIGHT_SHADER_ARRAY_COUNT 7
 
 /** Makes the arrays. Free `*made` after use. It does not refer to the volume. */
 TETRALIGHT_API tetralight_status

@@ -10,10 +10,10 @@ namespace tetralight {
 enum RendererBinding : uint32_t {
     kFrameBinding = 1,  // uniform blocks
     kProxyBinding = 2,
-    kInstanceBinding = 5,  // storage buffers
-    kMaterialBinding = 6,
-    kLightBinding = 7,
-    kLayerBinding = 8,
+    kInstanceBinding = 6,  // storage buffers
+    kMaterialBinding = 7,
+    kLightBinding = 8,
+    kLayerBinding = 9,
     kBaseColorUnit = 0,  // texture units
     kFactorsUnit = 1,
     kEmissionUnit = 2,

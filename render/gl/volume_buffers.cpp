@@ -27,7 +27,8 @@ uint32_t make_buffer(const std::vector<Element>& elements) {
 VolumeBuffers::VolumeBuffers(const ShaderVolume& volume)
     : constants_(make_buffer(std::as_bytes(std::span(&volume.constants, 1)))),
       arrays_{make_buffer(volume.positions), make_buffer(volume.light), make_buffer(volume.cells),
-              make_buffer(volume.hull_rays), make_buffer(volume.seeds)} {}
+              make_buffer(volume.hull_rays), make_buffer(volume.seeds), make_buffer(volume.walls)} {
+}
 
 VolumeBuffers::VolumeBuffers(VolumeBuffers&& other) noexcept
     : constants_(std::exchange(other.constants_, 0)), arrays_(std::exchange(other.arrays_, {})) {}
@@ -38,7 +39,7 @@ VolumeBuffers::~VolumeBuffers() {
 }
 
 void VolumeBuffers::bind() const {
-    glBindBufferBase(GL_UNIFORM_BUFFER, 5, constants_);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 6, constants_);
     for (size_t i = 0; i < arrays_.size(); ++i) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(i), arrays_[i]);
     }

@@ -21,7 +21,7 @@ class VolumeBuffers {
 
   private:
     uint32_t constants_ = 0;
-    std::array<uint32_t, 5> arrays_{};
+    std::array<uint32_t, 6> arrays_{};
 };
 
 }  // namespace tetralight

@@ -22,6 +22,7 @@
 #define mix lerp
 #define inversesqrt rsqrt
 #define floatBitsToUint asuint
+#define uintBitsToFloat asfloat
 #define TETRALIGHT_MUL(matrix, vector) mul(matrix, vector)
 #define TETRALIGHT_TEXTURE_3D(name) Texture3D<float4> name, SamplerState name##_sampler
 #define TETRALIGHT_PASS_3D(name) name, name##_sampler

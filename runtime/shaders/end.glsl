@@ -8,5 +8,6 @@
 #undef mix
 #undef inversesqrt
 #undef floatBitsToUint
+#undef uintBitsToFloat
 #endif
 #undef TETRALIGHT_CONST

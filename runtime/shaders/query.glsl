@@ -229,8 +229,17 @@ TetralightPackedSh tetralight_add_probe(TetralightPackedSh sum, uint probe, floa
     return sum;
 }
 
-// Blends the probes of a located cell.
-TetralightPackedProbe tetralight_interpolate(TetralightCellLocation location) {
+// The location with weights that know the walls of the volume.
+TetralightCellLocation tetralight_visible_location(TetralightCellLocation location) {
+    uint place = tetralight_find_walls(location.cell);
+    if (place == tetralight_no_walls) return location;
+    uvec4 codes = TETRALIGHT_AT(tetralight_walls, place);
+    location.weights = tetralight_visible_weights(codes, location.weights);
+    return location;
+}
+
+// Blends the probes of a cell with weights as they are: for queries that ignore walls.
+TetralightPackedProbe tetralight_blend(TetralightCellLocation location) {
     TetralightPackedProbe blend;
     blend.sh = tetralight_volume.ambient;
     blend.occlusion = vec4(1.0f, 1.0f, 1.0f, 1.0f);
@@ -253,4 +262,9 @@ TetralightPackedProbe tetralight_interpolate(TetralightCellLocation location) {
         blend.occlusion = blend.occlusion + tetralight_probe_light(probe, 7u) * weight;
     }
     return blend;
+}
+
+// Blends the probes of a located cell that no wall hides from the position.
+TetralightPackedProbe tetralight_interpolate(TetralightCellLocation location) {
+    return tetralight_blend(tetralight_visible_location(location));
 }

@@ -150,6 +150,23 @@ TEST(PackInstances, KeepsHintsAndTheChoiceOutsideTheHull) {
     }
 }
 
+TEST(PackInstances, WallsHideProbesUnlessIgnored) {
+    ProbeVolume volume = make_volume();
+    volume.visibility_blocks = {{0, 1}};
+    volume.cell_visibility.resize(1);
+    volume.cell_visibility[0].codes = {255, 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255};
+    const std::vector<glm::vec3> positions{{0.2f, 0.3f, 0.1f}};
+    const CellLocation location = locate(volume.view(), positions[0]);
+    std::vector<PackedSh> light(1);
+    for (const Walls walls : {Walls::HideProbes, Walls::Ignore}) {
+        ASSERT_TRUE(pack_instances(volume.view(),
+                                   {.positions = positions, .packed = light, .walls = walls}));
+        EXPECT_EQ(light[0], pack_sh(interpolate(volume.view(), location, walls).irradiance));
+    }
+    EXPECT_NE(interpolate(volume.view(), location),
+              interpolate(volume.view(), location, Walls::Ignore));
+}
+
 TEST(PackInstances, CountsPositionsThatAreNotFiniteInEveryBlock) {
     const ProbeVolume volume = make_volume();
     auto positions = make_positions(400);

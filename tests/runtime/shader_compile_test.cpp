@@ -225,12 +225,14 @@ TEST_P(ShaderBindings, DifferFromEachOther) {
     ASSERT_TRUE(compiled.is_right) << compiled.log;
     const bool is_hlsl = GetParam().language == ShaderLanguage::Hlsl;
     const std::vector<std::string> names =
-        is_hlsl ? std::vector<std::string>{"tetralight_positions", "tetralight_light",
-                                           "tetralight_cells",     "tetralight_hull_rays",
-                                           "tetralight_seeds",     "TetralightVolume"}
-                : std::vector<std::string>{"TetralightPositions", "TetralightLight",
-                                           "TetralightCells",     "TetralightHullRays",
-                                           "TetralightSeeds",     "TetralightVolume"};
+        is_hlsl
+            ? std::vector<std::string>{"tetralight_positions", "tetralight_light",
+                                       "tetralight_cells",     "tetralight_hull_rays",
+                                       "tetralight_seeds",     "tetralight_walls",
+                                       "TetralightVolume"}
+            : std::vector<std::string>{"TetralightPositions", "TetralightLight", "TetralightCells",
+                                       "TetralightHullRays",  "TetralightSeeds", "TetralightWalls",
+                                       "TetralightVolume"};
     for (size_t i = 0; i < names.size(); ++i) {
         EXPECT_EQ(binding_of(compiled.log, names[i]), static_cast<int>(i)) << compiled.log;
     }
@@ -256,10 +258,12 @@ TEST_F(ShaderBindings, AreThoseThatTheShaderChooses) {
     source.text =
         "#define TETRALIGHT_POSITIONS_BINDING 20\n#define TETRALIGHT_LIGHT_BINDING 21\n"
         "#define TETRALIGHT_CELLS_BINDING 22\n#define TETRALIGHT_HULL_RAYS_BINDING 23\n"
-        "#define TETRALIGHT_SEEDS_BINDING 24\n#define TETRALIGHT_VOLUME_BINDING 9\n" +
+        "#define TETRALIGHT_SEEDS_BINDING 24\n#define TETRALIGHT_WALLS_BINDING 25\n"
+        "#define TETRALIGHT_VOLUME_BINDING 9\n" +
         source.text;
     const Compiled compiled = compile(hlsl, source);
     EXPECT_EQ(binding_of(compiled.log, "tetralight_seeds"), 24) << compiled.log;
+    EXPECT_EQ(binding_of(compiled.log, "tetralight_walls"), 25) << compiled.log;
     EXPECT_EQ(binding_of(compiled.log, "TetralightVolume"), 9) << compiled.log;
 }
 

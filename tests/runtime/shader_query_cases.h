@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/probes/build/store_visibility.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/runtime/shader_volume.h>
 #include "tests/support/property_volume.h"
+#include "tests/support/random_walls.h"
 #include "tests/support/sized_families.h"
 
 namespace tetralight::test {
@@ -50,6 +52,22 @@ struct ShaderQueryVolume {
         volume.info.ambient = random_light(engine, 1.0f, 2.0f);
     }
 
+    void add_random_walls() { test::add_random_walls(volume, 6); }
+
+    /// A wall across the x axis between two rooms. An edge i → j meets it after d_i / (d_i - d_j)
+    /// of its length, where d are the distances of its probes from the wall.
+    void add_wall(double x) {
+        const ProbeEdges edges(volume.view());
+        std::vector<uint8_t> codes;
+        for (uint32_t from = 0; from < volume.positions.size(); ++from) {
+            for (const uint32_t to : edges.targets(from)) {
+                const double d = volume.exact_positions[from].x - x;
+                codes.push_back(encode_edge_ratio((d - (volume.exact_positions[to].x - x)) / d));
+            }
+        }
+        store_visibility(edges, codes, volume);
+    }
+
     /// Uniform in the box of the probes, grown by a fifth of its size and never flat.
     [[nodiscard]] std::vector<glm::vec3> make_positions(size_t count) const {
         glm::dvec3 low = volume.exact_positions[0], high = low;
@@ -64,6 +82,18 @@ struct ShaderQueryVolume {
         for (size_t i = 0; i < count; ++i) {
             const double x = share(engine), y = share(engine), z = share(engine);
             positions.emplace_back(low + size * glm::dvec3(x, y, z));
+        }
+        return positions;
+    }
+
+    /// Local positions, half of them near probes, where a seed grid is fine.
+    [[nodiscard]] std::vector<glm::vec3> make_seed_positions(size_t count) const {
+        std::mt19937_64 engine(5);
+        std::vector<glm::vec3> positions;
+        for (const glm::vec3& position : make_positions(count)) {
+            const glm::vec3 probe = volume.positions[engine() % volume.positions.size()];
+            const glm::vec3 local(glm::dvec3(position) - volume.info.world_origin);
+            positions.push_back(engine() % 2 ? local : probe + 1e-5f * local);
         }
         return positions;
     }

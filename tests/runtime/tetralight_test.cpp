@@ -12,6 +12,7 @@
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/runtime/shader_volume.h>
 #include "tests/runtime/c_api_consumer.h"
+#include "tests/runtime/shader_query_cases.h"
 #include "tests/support/property_volume.h"
 #include "tests/support/temp_folder.h"
 
@@ -217,6 +218,8 @@ const BadBatch kBadBatches[] = {
      [](tetralight_batch& b) { b.sh_format = 3; }},
     {"Outside", TETRALIGHT_BAD_VALUE, "outside is out of range: 77",
      [](tetralight_batch& b) { b.outside = 77; }},
+    {"Walls", TETRALIGHT_BAD_VALUE, "walls is out of range: 2",
+     [](tetralight_batch& b) { b.walls = 2; }},
     {"Fade", TETRALIGHT_BAD_VALUE, "fade_distance is not positive and finite: 0",
      [](tetralight_batch& b) { b.outside = TETRALIGHT_AMBIENT; }},
     {"FadeNan", TETRALIGHT_BAD_VALUE, "fade_distance is not positive and finite: nan",
@@ -228,6 +231,35 @@ const BadBatch kBadBatches[] = {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CApiBadBatch, testing::ValuesIn(kBadBatches),
                          [](const auto& kind) { return std::string(kind.param.name); });
+
+TEST_F(CApi, WallsHideProbesInEveryQueryUnlessABatchIgnoresThem) {
+    test::ShaderQueryVolume subject({"random", 300});
+    subject.add_random_walls();
+    const ProbeVolumeView view = subject.volume.view();
+    const std::string walled_path = folder.write("walled.probes", probe_file_bytes(view));
+    tetralight_volume* walled = nullptr;
+    ASSERT_EQ(tetralight_open(walled_path.c_str(), &walled, &error), TETRALIGHT_OK);
+    const std::vector<glm::vec3> positions = subject.make_positions(100);
+    std::vector<PackedSh> light(positions.size());
+    tetralight_batch batch{};
+    batch.count = positions.size();
+    batch.positions = {positions.data(), sizeof(glm::vec3) * positions.size(), 0};
+    batch.sh = {light.data(), sizeof(PackedSh) * light.size(), 0};
+    batch.sh_format = TETRALIGHT_SH_PACKED;
+    for (const Walls walls : {Walls::HideProbes, Walls::Ignore}) {
+        batch.walls = static_cast<uint32_t>(walls);
+        EXPECT_EQ(tetralight_query_batch(walled, &batch, nullptr, &error), TETRALIGHT_OK);
+        for (size_t i = 0; i < positions.size(); ++i) {
+            const auto probe = interpolate(view, locate(view, positions[i]), walls);
+            EXPECT_EQ(light[i], pack_sh(probe.irradiance));
+            if (walls == Walls::Ignore) continue;
+            tetralight_light single{};
+            tetralight_query(walled, &positions[i].x, nullptr, &single, &error);
+            EXPECT_EQ(std::memcmp(single.packed, &light[i], sizeof light[i]), 0);
+        }
+    }
+    tetralight_close(walled);
+}
 
 TEST_F(CApi, AnEmptyBatchNeedsNoBuffers) {
     tetralight_batch batch{};

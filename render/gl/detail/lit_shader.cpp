@@ -12,12 +12,12 @@ struct Light {
     ivec4 shadow;
     ivec4 lights_moving;
 };
-layout(std430, binding = 7) readonly buffer PunctualLights { Light lights[]; };
+layout(std430, binding = 8) readonly buffer PunctualLights { Light lights[]; };
 struct ShadowLayer {
     mat4 clip_from_space;
     vec4 texel;
 };
-layout(std430, binding = 8) readonly buffer ShadowLayers { ShadowLayer shadow_layers[]; };
+layout(std430, binding = 9) readonly buffer ShadowLayers { ShadowLayer shadow_layers[]; };
 layout(std140, binding = 2) uniform Proxy { TetralightLppvConstants proxy; };
 layout(binding = 3) uniform sampler2DArrayShadow shadow_maps;
 layout(binding = 4) uniform sampler3D proxy_light;

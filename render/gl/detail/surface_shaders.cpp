@@ -15,7 +15,7 @@ struct Instance {
     vec4 occlusion;
     TetralightPackedSh light;
 };
-layout(std430, binding = 5) readonly buffer Instances { Instance instances[]; };
+layout(std430, binding = 6) readonly buffer Instances { Instance instances[]; };
 
 struct Material {
     vec4 base_color;
@@ -25,7 +25,7 @@ struct Material {
     vec4 uv_rows[6];
     uvec4 alpha_mode;
 };
-layout(std430, binding = 6) readonly buffer Materials { Material materials[]; };
+layout(std430, binding = 7) readonly buffer Materials { Material materials[]; };
 
 layout(binding = 0) uniform sampler2D base_color_texture;
 layout(binding = 1) uniform sampler2D factors_texture;

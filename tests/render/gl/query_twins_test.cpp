@@ -87,6 +87,28 @@ TEST_P(QueryTwinsOnVolumes, AgreeInGlslEs300) {
     expect_twin(volume, inputs, run_fragment(task, ShaderPart::Query, &volume));
 }
 
+TEST_P(QueryTwinsOnVolumes, HideProbesBehindWalls) {
+    test::ShaderQueryVolume subject(GetParam());
+    subject.add_random_walls();
+    const ShaderVolume volume = make_shader_volume(subject.volume.view());
+    const auto inputs = make_inputs(subject, 4000);
+    const test::ShaderTask task{kShader, inputs, static_cast<uint32_t>(inputs.size()), kParts};
+    for (const auto& results : {run_compute(task, ShaderPart::Query, &volume),
+                                run_fragment(task, ShaderPart::Query, &volume)}) {
+        ASSERT_EQ(results.size(), kParts * inputs.size());
+        size_t hidden_count = 0;
+        for (size_t i = 0; i < inputs.size() && !HasFailure(); ++i) {
+            const auto cell = static_cast<uint32_t>(results[kParts * i + 8].x);
+            const CellLocation location{cell, 0.0f, results[kParts * i + 9]};
+            EXPECT_LE(test::difference(probe_at(results, i), interpolate(volume, location)),
+                      test::kShaderTolerance)
+                << "position " << i;
+            hidden_count += visible_location(volume, location) != location;
+        }
+        EXPECT_EQ(hidden_count > 500, subject.volume.info.dimension > Dimension::Point);
+    }
+}
+
 class QueryTwinsOnFaces : public QueryTwins,
                           public testing::WithParamInterface<test::ShaderQueryCase> {};
 
@@ -117,6 +139,26 @@ INSTANTIATE_TEST_SUITE_P(Volumes, QueryTwinsOnFaces,
 INSTANTIATE_TEST_SUITE_P(Volumes, QueryTwinsOnVolumes,
                          testing::ValuesIn(test::shader_query_cases()),
                          [](const auto& param) { return param.param.family; });
+
+TEST_F(QueryTwins, StartAtTheCellThatTheSeedGridNames) {
+    const test::ShaderQueryVolume subject({"clusters", 2000});  // grids inside each other
+    const ShaderVolume volume = make_shader_volume(subject.volume.view());
+    std::vector<glm::vec4> inputs;
+    for (const glm::vec3& local : subject.make_seed_positions(4000)) inputs.emplace_back(local, 0);
+    const char* const shader = R"(
+vec4 result(uint index, uint part) {
+    return vec4(float(tetralight_seed_cell(input_at(index).xyz)), 0.0, 0.0, 0.0);
+}
+)";
+    const test::ShaderTask task{shader, inputs, static_cast<uint32_t>(inputs.size()), 1};
+    for (const auto& results : {run_compute(task, ShaderPart::Query, &volume),
+                                run_fragment(task, ShaderPart::Query, &volume)}) {
+        ASSERT_EQ(results.size(), inputs.size());
+        for (size_t i = 0; i < inputs.size(); ++i) {
+            EXPECT_EQ(results[i].x, static_cast<float>(seed_cell(volume, glm::vec3(inputs[i]))));
+        }
+    }
+}
 
 TEST_F(QueryTwins, AgreeWithTheCpuAtAHundredThousandPositions) {
     const test::ShaderQueryVolume subject({"random", 5000});
@@ -232,6 +274,7 @@ TEST_F(QueryTwins, StructsLieInMemoryAsTheDriverSays) {
     EXPECT_EQ(fact("seed_scale"), GLint{offsetof(Facts, seed_scale)});
     EXPECT_EQ(fact("seed_size"), GLint{offsetof(Facts, seed_size)});
     EXPECT_EQ(fact("counts"), GLint{offsetof(Facts, counts)});
+    EXPECT_EQ(fact("walls"), GLint{offsetof(Facts, walls)});
     EXPECT_EQ(fact("ambient.sha_r"), GLint{offsetof(Facts, ambient.sha_r)});
     EXPECT_EQ(fact("ambient.shc"), GLint{offsetof(Facts, ambient.shc)});
     const auto buffer = [&](const char* name) {

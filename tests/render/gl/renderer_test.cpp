@@ -13,6 +13,7 @@
 #include <optional>
 
 #include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/bake_visibility.h>
 #include <tetralight/render/gl/gl_pictures.h>
 #include <tetralight/render/render_gizmos.h>
 #include <tetralight/render/render_scene.h>
@@ -46,6 +47,14 @@ ProbeVolume varied_volume() {
     }
     volume.info.ambient = irradiance_from_radiance(constant_radiance({0.2f, 0.3f, 0.5f}));
     return volume;
+}
+
+/// A floor and a thin wall that stands on it at x = 0.5, so that the camera sees both sides.
+Scene wall_on_floor() {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(kAlbedo), 6.0f);
+    test::add_quad(scene, test::diffuse(kAlbedo), {0.5f, 0, -6}, {0, 1.5f, 0}, {0, 0, 12});
+    return scene;
 }
 
 /// A floor, and a box on it.
@@ -116,6 +125,25 @@ TEST_F(GlRenderer, SurfaceUnderConstantLightShowsAlbedoTimesRadiance) {
 
 TEST_F(GlRenderer, AgreesWithRaysOnProbesAndSky) {
     EXPECT_LE(difference(box_on_floor(), varied_volume()), kEdges);
+}
+
+TEST_F(GlRenderer, AgreesOnWallsThatHideProbes) {
+    const Scene scene = wall_on_floor();
+    ProbeVolume volume = varied_volume();
+    for (size_t i = 0; i < volume.irradiance.size(); ++i) {
+        const float light = volume.exact_positions[i].x > 0.5 ? 4.0f : 0.25f;
+        volume.irradiance[i] = irradiance_from_radiance(constant_radiance(glm::vec3(light)));
+    }
+    const ImageF plain = draw(scene, volume, kCamera);
+    bake_visibility(*TraceScene::make_static(scene), volume.exact_positions, 0, volume);
+    EXPECT_LE(difference(scene, volume), kEdges);
+    const ImageF walls = draw(scene, volume, kCamera);
+    ASSERT_EQ(walls.pixels.size(), plain.pixels.size());
+    size_t changed_count = 0;
+    for (size_t i = 0; i < walls.pixels.size(); ++i) {
+        changed_count += glm::distance(walls.pixels[i], plain.pixels[i]) > 0.1f;
+    }
+    EXPECT_GT(changed_count, walls.pixels.size() / 20);
 }
 
 TEST_F(GlRenderer, AgreesFarFromTheWorldsOrigin) {

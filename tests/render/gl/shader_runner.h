@@ -181,11 +181,13 @@ void main() {
         const auto cells = ElementTexture::of_integers(std::span(volume->cells));
         const auto hull_rays = ElementTexture::of_floats(std::span(volume->hull_rays));
         const auto seeds = ElementTexture::of_integers(std::span(volume->seeds));
+        const auto walls = ElementTexture::of_integers(std::span(volume->walls));
         positions.bind(program, "tetralight_positions", 0);
         light.bind(program, "tetralight_light", 1);
         cells.bind(program, "tetralight_cells", 2);
         hull_rays.bind(program, "tetralight_hull_rays", 3);
         seeds.bind(program, "tetralight_seeds", 4);
+        walls.bind(program, "tetralight_walls", 5);
         GLuint constants = 0;
         glCreateBuffers(1, &constants);
         glNamedBufferStorage(constants, sizeof volume->constants, &volume->constants, 0);

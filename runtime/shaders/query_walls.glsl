@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walls between probes on the GPU: the weights of probes/edge_visibility.h, with the same float
+// operations in the same order. A volume that knows no walls keeps its weights to the bit.
+
+// As in probes/edge_visibility.h.
+TETRALIGHT_CONST float tetralight_unknown_edge = 67.0f;
+TETRALIGHT_CONST float tetralight_edge_code_unit = 1.0f / 896.0f;
+TETRALIGHT_CONST float tetralight_hidden_share = 0.01f;
+TETRALIGHT_CONST float tetralight_visibility_ramp = 0.03f;
+TETRALIGHT_CONST float tetralight_least_weight = 1.17549435e-38f;
+
+TETRALIGHT_CONST uint tetralight_no_walls = 4294967295u;
+
+// The number of bits that are set. GLSL ES 3.00 has no function for it.
+uint tetralight_bit_count(uint bits) {
+    uint pairs = bits - ((bits >> 1u) & 0x55555555u);
+    uint fours = (pairs & 0x33333333u) + ((pairs >> 2u) & 0x33333333u);
+    return (((fours + (fours >> 4u)) & 0x0f0f0f0fu) * 0x01010101u) >> 24u;
+}
+
+// The place of a cell's codes in tetralight_walls; tetralight_no_walls: all corners see all of it.
+// Blocks may be corrupt: no element beyond the last is read.
+uint tetralight_find_walls(uint cell) {
+    uint block = cell >> 5u;
+    if (block >= tetralight_volume.walls.x) return tetralight_no_walls;
+    uvec4 two = TETRALIGHT_AT(tetralight_walls, block >> 1u);
+    bool is_second = (block & 1u) == 1u;
+    uint cells = is_second ? two.w : two.y;
+    uint bit = 1u << (cell & 31u);
+    if ((cells & bit) == 0u) return tetralight_no_walls;
+    uint element = (is_second ? two.z : two.x) + tetralight_bit_count(cells & (bit - 1u));
+    if (element >= tetralight_volume.walls.z) return tetralight_no_walls;
+    return tetralight_volume.walls.y + element;
+}
+
+// r - 1 of the four codes in a word, one of each corner.
+vec4 tetralight_edge_excess(uint codes) {
+    vec4 steps = vec4(float(codes & 255u), float((codes >> 8u) & 255u),
+                      float((codes >> 16u) & 255u), float(codes >> 24u)) -
+                 tetralight_unknown_edge;
+    return (steps * abs(steps)) * tetralight_edge_code_unit;
+}
+
+// What remains of the weights of corners whose L is 1 + `excess`.
+vec4 tetralight_visible_share(vec4 excess) {
+    vec4 beyond = max(excess, vec4(0.0f, 0.0f, 0.0f, 0.0f));
+    vec4 one = vec4(1.0f, 1.0f, 1.0f, 1.0f);
+    vec4 t = min(beyond * (1.0f / tetralight_visibility_ramp), one);
+    vec4 fall = (t * t) * (3.0f - 2.0f * t);
+    vec4 ratio = 1.0f + beyond;
+    return (1.0f - fall) + fall * (tetralight_hidden_share / (ratio * ratio));
+}
+
+// Weights that know the walls inside a cell, from its three words of codes.
+vec4 tetralight_visible_weights(uvec4 codes, vec4 weights) {
+    float sum = (weights.x + weights.y) + (weights.z + weights.w);
+    float unit = 1.0f / max(sum, tetralight_least_weight);
+    vec4 to_next = vec4(weights.y, weights.z, weights.w, weights.x);
+    vec4 to_second = vec4(weights.z, weights.w, weights.x, weights.y);
+    vec4 to_third = vec4(weights.w, weights.x, weights.y, weights.z);
+    vec4 beyond = (to_next * tetralight_edge_excess(codes.x) +
+                   to_second * tetralight_edge_excess(codes.y)) +
+                  to_third * tetralight_edge_excess(codes.z);
+    vec4 visible = weights * tetralight_visible_share((beyond - weights) * unit);
+    float seen = (visible.x + visible.y) + (visible.z + visible.w);
+    return visible * (sum / max(seen, tetralight_least_weight));
+}
