@@ -39,12 +39,14 @@ void AnswerWriter::answer(std::span<const glm::vec3> positions, Slice& slice) co
     batch.occlusion =
         strided_occlusion(memory.subspan(offsetof(RawAnswer, occlusion)), sizeof(RawAnswer));
     batch.outside = settings_.outside;
+    batch.walls = settings_.walls;
     // Raw answers and CSV have no weights.
     const bool has_weights =
         settings_.format == AnswerFormat::Text || settings_.format == AnswerFormat::JsonLines;
     if (has_weights) batch.locations = slice.locations;
     const auto report = interpolate(volume_, batch);
     slice.status = report ? Status(Ok{}) : Status(report.error());
+    if (has_weights) hide_probes(volume_, slice.locations, settings_.walls);
     slice.not_finite_count = report ? report->not_finite_count : 0;
     for (size_t i = 0; i < positions.size(); ++i) slice.answers[i].cell = slice.cells[i];
 }

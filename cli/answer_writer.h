@@ -11,6 +11,7 @@
 #include <tetralight/base/result.h>
 #include <tetralight/cli/answer.h>
 #include <tetralight/cli/query_formats.h>
+#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/locate.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -19,6 +20,7 @@ namespace tetralight::cli {
 struct AnswerSettings {
     AnswerFormat format = AnswerFormat::Text;
     OutsideHull outside;
+    Walls walls = Walls::HideProbes;
     uint32_t thread_count = 0;  ///< 0 = all
 };
 

@@ -31,6 +31,7 @@ struct Query {
         settings.format = answer_format(values);
         settings.outside.policy = choice<OutsidePolicy>(values, "outside");
         settings.outside.fade_distance = values.number32("fade");
+        settings.walls = choice<Walls>(values, "walls");
         settings.thread_count = common.thread_count;
         if (values.is_given("fade") && settings.outside.policy != OutsidePolicy::Ambient) {
             refuse(values, "fade", "needs " + values.shown("outside") + " ambient");

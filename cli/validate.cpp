@@ -24,6 +24,7 @@ Json report_json(const ValidationReport& report) {
             {"misplaced_float_probes", report.misplaced_float_probes},
             {"wrong_compact_probes", report.wrong_compact_probes},
             {"wrong_layer_sums", report.wrong_layer_sums},
+            {"torn_edges", report.torn_edges},
             {"cell_measure", report.cell_measure},
             {"hull_measure", report.hull_measure}};
 }

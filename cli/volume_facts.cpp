@@ -6,6 +6,7 @@
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/light_words.h>
 #include <tetralight/probes/build/quality.h>
+#include <tetralight/probes/seed_grid.h>
 #include <tetralight/probes/volume_members.h>
 
 namespace tetralight::cli {
@@ -106,6 +107,24 @@ Json slivers_json(const VolumeFacts& facts) {
             {"share_below_1e-6", per(slivers.below_1e6, cells)}};
 }
 
+/// Cells at which walks can start: of each voxel of the seed grid; without one, seeds.
+uint64_t seed_count(const ProbeVolumeView& volume) {
+    const std::span<const uint32_t> words = volume.seed_grid;
+    if (words.empty()) return volume.seeds.size();
+    uint64_t count = 0;
+    uint64_t place = 0;
+    while (place + kSeedGridHeaderWords <= words.size()) {
+        const uint64_t voxel_count = seed_voxel_count(seed_grid_header(words, place));
+        place += kSeedGridHeaderWords;
+        const uint64_t voxels = std::min<uint64_t>(voxel_count, words.size() - place);
+        const auto is_cell = [](uint32_t word) { return (word & kFinerGrid) == 0; };
+        count +=
+            static_cast<uint64_t>(std::ranges::count_if(words.subspan(place, voxels), is_cell));
+        place += voxels;
+    }
+    return count;
+}
+
 Json seeds_json(const VolumeFacts& facts) {
     if (!facts.walks) return nullptr;
     return {{"count", facts.seed_count},
@@ -121,6 +140,14 @@ Json walks_json(const VolumeFacts& facts) {
             {"p99_steps", facts.walks->p99_steps},
             {"max_steps", facts.walks->most_steps},
             {"fallbacks", facts.walks->fallback_count}};
+}
+
+Json visibility_json(const VolumeFacts& facts) {
+    if (!facts.visibility) return nullptr;
+    return {{"marked_cells", facts.visibility->marked_cells},
+            {"edges", facts.visibility->edges},
+            {"blocked_edges", facts.visibility->blocked_edges},
+            {"unknown_edges", facts.visibility->unknown_edges}};
 }
 
 }  // namespace
@@ -153,7 +180,8 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.radial_fraction = static_cast<double>(volume.info.radial_fraction);
     facts.slivers = count_slivers(volume);
     if (volume.info.inner_cell_count > 0) facts.walks = measure_walks(volume);
-    facts.seed_count = volume.seeds.size();
+    if (!volume.visibility_blocks.empty()) facts.visibility = visibility_facts(volume);
+    facts.seed_count = seed_count(volume);
     facts.sections = section_facts(file);
     return facts;
 }
@@ -167,6 +195,7 @@ Json to_json(const VolumeFacts& facts) {
                  {"slivers", slivers_json(facts)},
                  {"seeds", seeds_json(facts)},
                  {"walks", walks_json(facts)},
+                 {"visibility", visibility_json(facts)},
                  {"group_list", facts.groups},
                  {"lights", facts.lights},
                  {"layers", facts.layers},

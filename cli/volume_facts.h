@@ -8,6 +8,7 @@
 
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/walk_facts.h>
+#include <tetralight/probes/build/store_visibility.h>
 #include <tetralight/probes/probe_file.h>
 
 namespace tetralight::cli {
@@ -42,6 +43,8 @@ struct VolumeFacts {
     std::optional<Slivers> slivers;
     /// None in volumes without probes.
     std::optional<WalkFacts> walks;
+    /// None in volumes that know no walls.
+    std::optional<VisibilityFacts> visibility;
     uint64_t seed_count = 0;
     std::vector<SectionFacts> sections;
 

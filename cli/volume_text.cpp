@@ -44,6 +44,17 @@ Rows walk_rows(const VolumeFacts& facts) {
                               grouped(walks.position_count))}};
 }
 
+/// "123 of 4 567 cells partly hidden (2.7 %), 89 edges blocked (1.2 %), 3 not known".
+std::string walls_text(const VolumeFacts& facts, size_t cell_count) {
+    if (!facts.visibility) return "not known";
+    const VisibilityFacts& walls = *facts.visibility;
+    return str_cat(grouped(walls.marked_cells), " of ", counted(cell_count, "cell"),
+                   " partly hidden (", percent(walls.marked_cells, cell_count), "), ",
+                   grouped(walls.blocked_edges), " of ", counted(walls.edges, "edge"), " blocked (",
+                   percent(walls.blocked_edges, walls.edges), "), ", grouped(walls.unknown_edges),
+                   " not known");
+}
+
 /// "1.5 2 3", at most six digits each.
 std::string corner_text(const Json& corner) {
     std::string line;
@@ -114,6 +125,7 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
         rows.push_back({"bounds", str_cat(corner_text(facts.bounds["min"]), "  to  ",
                                           corner_text(facts.bounds["max"]))});
     }
+    rows.push_back({"walls", walls_text(facts, volume.cells.size())});
     rows.push_back({"light", facts.is_baked ? "baked" : "none (not baked)"});
     rows.push_back({"lights", lights_text(facts.lights)});
     rows.push_back({"layers", layers_text(facts)});

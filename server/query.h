@@ -18,6 +18,7 @@ struct Query {
     std::span<const glm::vec3> positions;
     OutsideHull outside = {};
     bool is_half_precision = false;
+    Walls walls = Walls::HideProbes;
 };
 
 /// Throws a `Problem` if there are too many positions, or one is not finite.

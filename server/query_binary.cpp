@@ -42,8 +42,9 @@ QueryHeader read_header(const Request& request) {
                       "count", str_cat(header.count)};
     }
     check(header.sh <= kShHalf, "sh", header.sh);
-    check(header.wants <= (QueryHeader::kOcclusion | QueryHeader::kCells), "wants", header.wants);
-    check(header.sh != 0 || header.wants != 0, "wants", header.wants);
+    constexpr uint8_t kAnswers = QueryHeader::kOcclusion | QueryHeader::kCells;
+    check(header.wants <= (kAnswers | QueryHeader::kIgnoreWalls), "wants", header.wants);
+    check(header.sh != 0 || (header.wants & kAnswers) != 0, "wants", header.wants);
     check(header.outside <= static_cast<uint8_t>(OutsidePolicy::Ambient), "outside",
           header.outside);
     check(header.precision <= 1, "precision", header.precision);
@@ -106,6 +107,7 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
     Query query{.positions = positions, .is_half_precision = header.precision == 1};
     query.outside.policy = static_cast<OutsidePolicy>(header.outside);
     if (header.fade_distance > 0.0f) query.outside.fade_distance = header.fade_distance;
+    if ((header.wants & QueryHeader::kIgnoreWalls) != 0) query.walls = Walls::Ignore;
     const ProbeVolumeView volume = view_for(file, query);
 
     const AnswerLayout layout(header);
@@ -119,7 +121,9 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
                                  .irradiance = sh_output(header, layout, bytes),
                                  .occlusion = occlusion_output(header, layout, bytes),
                                  .outside = query.outside,
-                                 .locations = location_output(header, layout, bytes)}));
+                                 .locations = location_output(header, layout, bytes),
+                                 .walls = query.walls}));
+    hide_probes(volume, location_output(header, layout, bytes), query.walls);
     service.metrics.positions += header.count;
     return {.content_type = "application/octet-stream", .body = Body(bytes, memory)};
 }

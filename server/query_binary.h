@@ -20,12 +20,13 @@ struct QueryHeader {
 
     static constexpr uint8_t kOcclusion = 1;
     static constexpr uint8_t kCells = 2;
+    static constexpr uint8_t kIgnoreWalls = 4;
 
     uint32_t magic = kRequest;
     uint32_t count = 0;
     /// 0 = none, 1 = 27 floats (`IrradianceSh`), 2 = 28 floats (`PackedSh`), 3 = 27 halves.
     uint8_t sh = 1;
-    /// Any of the two bits.
+    /// Any of the three bits, not kIgnoreWalls alone.
     uint8_t wants = 0;
     /// `OutsidePolicy`.
     uint8_t outside = 0;

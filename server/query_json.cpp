@@ -38,6 +38,7 @@ Query read_settings(const Json& json, Query query) {
     if (outside == "clamp") query.outside.policy = OutsidePolicy::Clamp;
     if (outside == "ambient") query.outside.policy = OutsidePolicy::Ambient;
     if (values.is_given("fade")) query.outside.fade_distance = values.number32("fade");
+    if (values.text("walls") == "ignore") query.walls = Walls::Ignore;
     query.is_half_precision = values.text("precision") == "half";
     return query;
 }
@@ -125,7 +126,9 @@ class JsonAnswers {
                                       .irradiance = irradiance_,
                                       .occlusion = occlusion_,
                                       .outside = query_.outside,
-                                      .locations = locations_}));
+                                      .locations = locations_,
+                                      .walls = query_.walls}));
+        hide_probes(volume_, std::span(locations_).first(count), query_.walls);
         char text[kAnswerJsonSize];
         for (size_t i = 0; i < count; ++i) {
             char* const end = write_json(

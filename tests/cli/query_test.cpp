@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include <tetralight/probes/build/store_visibility.h>
+#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/probe_file.h>
 #include "tests/cli/query_fixture.h"
 
@@ -117,6 +121,34 @@ TEST_F(Query, GivesAProbeAllWeightAtItsPosition) {
         EXPECT_EQ(file->view().exact_positions[probe["probe"].get<size_t>()], glm::dvec3(1.0));
     }
     EXPECT_EQ(found, 1);
+}
+
+TEST_F(Query, HidesProbesBehindWallsOnRequestOnly) {
+    const auto file = open_probe_file(path("v.probes"));
+    ASSERT_TRUE(file);
+    ProbeVolume volume = copy_volume(file->view());
+    const ProbeEdges edges(volume.view());
+    std::vector<uint8_t> codes(edges.size(), kFreeEdge);
+    for (size_t i = 0; i < codes.size(); i += 2) codes[i] = 255;  // blocked beside the probe
+    store_visibility(edges, codes, volume);
+    ASSERT_TRUE(write_probe_file(path("walls.probes"), volume.view()));
+    const std::string position = "1.25 1.5 1.75\n";
+    const auto ask = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"query", "walls.probes", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return Json::parse(succeed(arguments, position).out);
+    };
+    const Json plain = answers(position, {"--walls", "ignore"})[0];
+    EXPECT_EQ(ask({"--walls", "ignore"}), plain);
+    const Json hidden = ask({});
+    EXPECT_NE(hidden["probes"], plain["probes"]);
+    EXPECT_NEAR(weight_sum(hidden), 1.0, 1e-6);
+    double light = 0.0;
+    for (const Json& probe : hidden["probes"]) {
+        light += probe["weight"].get<double>() *
+                 double{volume.irradiance[probe["probe"].get<size_t>()].coefficients[0].x};
+    }
+    EXPECT_NEAR(hidden["irradiance_sh"][0][0].get<double>(), light, 1e-5 * light);
 }
 
 TEST_F(Query, StaysFiniteFarOutside) {

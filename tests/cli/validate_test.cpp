@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
+#include <vector>
 
+#include <tetralight/probes/build/make_seeds.h>
+#include <tetralight/probes/build/store_visibility.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/probe_file.h>
 #include "tests/cli/command_fixture.h"
@@ -76,6 +79,12 @@ const Corruption kCorruptions[] = {
          make_compact_probes(v);
          v.irradiance[3].coefficients[4].y += 0.01f * v.info.compact_scale * 4096.0f;
      }},
+    {"torn_edges",
+     [](ProbeVolume& v) {
+         const ProbeEdges edges(v.view());
+         store_visibility(edges, std::vector<uint8_t>(edges.size(), 100), v);
+         ++v.cell_visibility[0].codes[0];
+     }},
     {"wrong_layer_sums", [](ProbeVolume& v) {
          v.layers.resize(2);
          v.layer_names = "sun\nsky\n";
@@ -96,7 +105,11 @@ const Corruption kUnusable[] = {
     {"cells", [](ProbeVolume& v) { v.cells[0].vertices[0] = 1000; }},
     {"cells", [](ProbeVolume& v) { std::swap(v.cells[0], v.cells[1]); }},
     {"hull_rays", [](ProbeVolume& v) { v.hull_rays[0].rays[0] *= 2.0f; }},
-    {"seeds", [](ProbeVolume& v) { v.seeds.at(0).cell = 1000; }},
+    {"seeds",
+     [](ProbeVolume& v) {
+         make_seeds(v);
+         v.seeds.at(0).cell = 1000;
+     }},
     {"exact_positions", [](ProbeVolume& v) { v.exact_positions[0].x = NAN; }},
     {"sources", [](ProbeVolume& v) { v.sources[0].group = 7; }},
     {"info", [](ProbeVolume& v) { v.info.dimension = Dimension::Plane; }},
@@ -104,7 +117,14 @@ const Corruption kUnusable[] = {
     {"info", [](ProbeVolume& v) { v.info.seed_cube.scale = -1.0; }},
     {"seeds",
      [](ProbeVolume& v) {
+         make_seeds(v);
          v.seeds.insert(v.seeds.begin(), {1ull << 63, 0, 0});
+     }},
+    {"visibility_blocks", [](ProbeVolume& v) { v.visibility_blocks.resize(2); }},
+    {"cell_visibility",
+     [](ProbeVolume& v) {
+         v.visibility_blocks.resize(1);
+         v.cell_visibility.resize(1);
      }},
     {"group_names", [](ProbeVolume& v) { v.group_names.pop_back(); }},
     {"group_names", [](ProbeVolume& v) { v.group_names = "a\xff\n"; }},

@@ -129,7 +129,7 @@ class OpenApi(ServiceTest):
         self.assertEqual((bake["scene"]["x-stored"], bake["reuse"]["x-stored"]), ("scenes", "volumes"))
         self.assertIn("scene", schemas["BakeOrder"]["required"])
         self.assertEqual(set(schemas["Query"]["properties"]),
-                         {"positions", "outside", "fade", "precision"})
+                         {"positions", "outside", "fade", "walls", "precision"})
         text = json.dumps(schemas)
         self.assertNotIn("x-settings", text)
         self.assertNotIn("--", text)

@@ -63,6 +63,7 @@ class Query(ServiceTest):
     def test_json_is_what_the_command_prints(self):
         # Walks begin elsewhere, so that weights may differ in their last bits.
         for options, members in (((), {}), (("--outside", "clamp"), {"outside": "clamp"}),
+                                 (("--walls", "ignore"), {"walls": "ignore"}),
                                  (("--outside", "ambient", "--fade", "3"),
                                   {"outside": "ambient", "fade": 3})):
             for ours, theirs in zip(self.query(positions=self.positions, **members),
@@ -194,7 +195,7 @@ class Query(ServiceTest):
     def test_headers_that_are_none(self):
         good = [[0, 0, 0]]
         for body in (b"", b"TLQ1", binary_query(good, magic=b"TLQ2"), binary_query(good, sh=4),
-                     binary_query(good, wants=4), binary_query(good, sh=0),
+                     binary_query(good, wants=8), binary_query(good, sh=0), binary_query(good, sh=0, wants=4),
                      binary_query(good, outside=3), binary_query(good, precision=2),
                      binary_query(good, fade=math.nan), binary_query(good, count=2),
                      binary_query(good, count=0xffffffff), binary_query(good)[:-1]):
