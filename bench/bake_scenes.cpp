@@ -12,33 +12,20 @@
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/bake/scene/scene_bounds.h>
 #include <tetralight/base/error_text.h>
+#include <tetralight/bench/scene_parts.h>
 
 namespace tetralight::bench {
 namespace {
 
 constexpr size_t kProbeCount = 64;
 
-/// Appends a quad whose front faces along u × v.
-void append_quad(Mesh& mesh, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
-    const auto first = static_cast<uint32_t>(mesh.positions.size());
-    for (const glm::vec3& p : {corner, corner + u, corner + u + v, corner + v}) {
-        mesh.positions.push_back(p);
-    }
-    for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
-}
-
-void add_mesh(Scene& scene, Mesh mesh, glm::vec3 albedo, glm::vec3 emission) {
+void add_two_sided(Scene& scene, Mesh mesh, glm::vec3 albedo, glm::vec3 emission) {
     Material material;
     material.base_color = glm::vec4(albedo, 1.0f);
     material.metallic = 0.0f;
     material.emission = emission;
     material.is_double_sided = true;
-    mesh.material = static_cast<uint32_t>(scene.materials.size());
-    scene.materials.push_back(material);
-    MeshInstance instance;
-    instance.mesh = static_cast<uint32_t>(scene.meshes.size());
-    scene.meshes.push_back(std::move(mesh));
-    scene.instances.push_back(instance);
+    add_mesh(scene, std::move(mesh), material);
 }
 
 Mesh room_walls(glm::vec3 size) {
@@ -125,7 +112,7 @@ Scene emitter_room() {
     constexpr glm::vec3 kSize(20.0f, 6.0f, 20.0f);
     constexpr size_t kColors = 10;
     Scene scene;
-    add_mesh(scene, room_walls(kSize), glm::vec3(0.6f), glm::vec3(0.0f));
+    add_two_sided(scene, room_walls(kSize), glm::vec3(0.6f), glm::vec3(0.0f));
     const std::vector<glm::dvec3> places = random_positions(10'000, 2, 1.0);
     std::array<Mesh, kColors> emitters;
     for (size_t i = 0; i < places.size(); ++i) {
@@ -134,8 +121,8 @@ Scene emitter_room() {
     }
     for (size_t i = 0; i < kColors; ++i) {
         const auto t = static_cast<float>(i + 1) / kColors;
-        add_mesh(scene, std::move(emitters[i]), glm::vec3(0.0f),
-                 100.0f * t * t * glm::vec3(1.0f, t, 1.5f - t));
+        add_two_sided(scene, std::move(emitters[i]), glm::vec3(0.0f),
+                      100.0f * t * t * glm::vec3(1.0f, t, 1.5f - t));
     }
     return scene;
 }

@@ -8,6 +8,7 @@
 
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/error_text.h>
+#include <tetralight/bench/scene_parts.h>
 
 namespace tetralight::bench {
 namespace {
@@ -53,12 +54,7 @@ class HouseBuilder {
         material.base_color = glm::vec4(glm::vec3(albedo), 1.0f);
         material.metallic = 0.0f;
         material.emission = emission;
-        MeshInstance instance;
-        instance.mesh = static_cast<uint32_t>(scene_.meshes.size());
-        scene_.meshes.push_back(box_mesh(box));
-        scene_.meshes.back().material = static_cast<uint32_t>(scene_.materials.size());
-        scene_.materials.push_back(material);
-        scene_.instances.push_back(instance);
+        add_mesh(scene_, box_mesh(box), material);
     }
 
     /// A wall from `begin` to `end` along an axis (0 or 2), with one opening at its center.

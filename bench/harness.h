@@ -68,6 +68,8 @@ void bench_direction_sets();
 /// Adding and removing a group, as fractions of a full build.
 void bench_groups(const Options& options);
 void bench_grid(const Options& options);
+/// Light that leaks through walls.
+void bench_leaks(const Options& options);
 /// Proxy volumes: filling, refreshing, accuracy, files.
 void bench_lppv(const Options& options);
 void bench_query(const Options& options);

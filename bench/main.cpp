@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
         {"query", bench_query},
         {"relight", bench_relight},
         {"grid", bench_grid},
+        {"leaks", bench_leaks},
         {"lppv", bench_lppv},
         {"runtime", bench_runtime},
 #ifdef TETRALIGHT_HAS_SERVER

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <tetralight/bench/harness.h>
+#include <tetralight/bench/matrix_walk.h>
 #include <tetralight/bench/query_subject.h>
 #include <tetralight/bench/query_worst.h>
 #include <tetralight/probes/compact_probes.h>
@@ -151,6 +152,35 @@ void moving(Subject& subject, const std::string& figure, size_t count, const Opt
     race.compare(figure);
 }
 
+/// What walls cost: the same batch with them and without.
+void walls(Subject& subject, const Options& options) {
+    add_random_walls(subject.volume, 0.044);  // marks 42 % of the cells, as in Sponza
+    for (const bool is_hinted : {false, true}) {
+        const size_t count = is_hinted ? 100'000 : kMillion;
+        Race race(subject, subject.volume.view(), count);
+        if (is_hinted) race.hints.assign(count, kNoIndex);
+        const std::string kind = is_hinted ? "hinted." : "sorted.";
+        Contest contest =
+            contest_of("query.walls." + kind + subject.name, count, "the same, walls ignored");
+        const auto run_with = [&](Walls walls) {
+            const InterpolationBatch batch{.positions = race.positions,
+                                           .hints = race.hints,
+                                           .irradiance = race.answers,
+                                           .walls = walls};
+            return seconds([&] { require(bool(interpolate(race.view, batch)), "walls"); });
+        };
+        contest.ours = [&] {
+            race.positions = is_hinted ? subject.positions(count) : subject.sorted_positions(count);
+            require(run_with(Walls::Ignore) > 0.0, "hints of the last frame");
+            return run_with(Walls::HideProbes);
+        };
+        contest.baseline = [&] { return run_with(Walls::Ignore); };
+        run(contest, options);
+    }
+    subject.volume.visibility_blocks.clear();
+    subject.volume.cell_visibility.clear();
+}
+
 void location_alone(Subject& subject, const std::string& figure, size_t count,
                     const Options& options) {
     std::vector<Kernel::Point_3> points;
@@ -183,6 +213,27 @@ void location_alone(Subject& subject, const std::string& figure, size_t count,
     const auto difference = static_cast<double>(ours_outside) - static_cast<double>(theirs_outside);
     require(std::abs(difference) <= 1e-5 * static_cast<double>(count),
             figure + ": CGAL finds other positions outside");
+}
+
+/// Sorted positions inside the hull, against the walk that engines ship and the same blend.
+void against_matrices(Subject& subject, const Options& options) {
+    const MatrixWalk matrices(subject.volume.view());
+    Race race(subject, subject.volume.view(), kMillion);
+    const std::string figure = "query.matrix." + subject.name;
+    Contest contest = contest_of(figure, kMillion, "a matrix a cell, the last cell as hint");
+    const glm::vec3 margin = 0.1f * (subject.max - subject.min);
+    Subject inside{subject.name, {}, subject.min + margin, subject.max - margin};
+    contest.ours = [&] {
+        inside.seed = ++subject.seed;
+        race.positions = inside.sorted_positions(kMillion);
+        return race.run_batch();
+    };
+    contest.baseline = [&] {
+        return seconds([&] { matrices.locate(race.positions, race.locations); }) +
+               race.run_gather();
+    };
+    run(contest, options);
+    race.compare(figure);
 }
 
 void steps(Subject& subject, size_t count) {
@@ -264,7 +315,9 @@ void ask(Subject subject, const Options& options) {
     sorted(subject, "query.sorted_float." + name, half.without_compact(), kMillion, options);
     unsorted(subject, "query.unsorted." + name, kMillion, options);
     moving(subject, "query.moving." + name, 100'000, options);
+    if (name != "scene") walls(subject, options);
     location_alone(subject, "query.locate." + name, kMillion, options);
+    if (name == "20k") against_matrices(subject, options);
     steps(subject, kMillion);
     if (name != "1m" && !(options.is_quick && name == "20k")) return;
     threads(subject, options);

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <random>
 #include <utility>
 
 #include <tetralight/bake/placement/probe_grid.h>
@@ -13,7 +14,9 @@
 #include <tetralight/base/error_text.h>
 #include <tetralight/pipeline/bake_volume.h>
 #include <tetralight/probes/build/make_probe_volume.h>
+#include <tetralight/probes/build/store_visibility.h>
 #include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/morton_order.h>
 
 namespace tetralight::bench {
@@ -67,6 +70,18 @@ Subject make_lit_subject(const std::string& name, std::vector<glm::dvec3> positi
 }
 
 }  // namespace
+
+void add_random_walls(ProbeVolume& volume, double blocked_share) {
+    const ProbeEdges edges(volume.view());
+    std::mt19937 engine(9);
+    std::bernoulli_distribution is_blocked(blocked_share);
+    std::uniform_int_distribution<int> free(0, kFreeEdge), blocked(kUnknownEdge + 1, 255);
+    std::vector<uint8_t> codes(edges.size());
+    for (uint8_t& code : codes) {
+        code = static_cast<uint8_t>(is_blocked(engine) ? blocked(engine) : free(engine));
+    }
+    store_visibility(edges, codes, volume);
+}
 
 Subject make_random_subject(const std::string& name, size_t probe_count) {
     return make_lit_subject(name, random_positions(probe_count, 1, 100.0),

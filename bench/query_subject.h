@@ -28,6 +28,9 @@ struct Subject {
     [[nodiscard]] std::vector<glm::vec3> sorted_positions(size_t count);
 };
 
+/// Gives a volume walls: about this share of its directed edges is blocked, all numbers are random.
+void add_random_walls(ProbeVolume& volume, double blocked_share);
+
 /// Uniform random probes in a box of 100 m.
 [[nodiscard]] Subject make_random_subject(const std::string& name, size_t probe_count);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <sstream>
 #include <string>
 
 #include <tetralight/bench/harness.h>
@@ -104,6 +105,7 @@ ProbeVolume make_volume(const Positions& probes) {
 struct Tests {
     double mean = 0.0;
     double most = 0.0;
+    double fallbacks = 0.0;  ///< share of the queries
 };
 
 Tests count_tests(const ProbeVolume& volume, const Positions& queries) {
@@ -112,6 +114,7 @@ Tests count_tests(const ProbeVolume& volume, const Positions& queries) {
         const LocationTrace trace = trace_location(volume.view(), glm::vec3(query));
         const double all = trace.is_fallback ? static_cast<double>(volume.cells.size()) : 0.0;
         const double count = trace.step_count + all;
+        tests.fallbacks += trace.is_fallback / static_cast<double>(queries.size());
         tests.mean += count / static_cast<double>(queries.size());
         tests.most = std::max(tests.most, count);
     }
@@ -138,6 +141,40 @@ void report_batch(const Shape& shape, const ProbeVolume& volume, const Options& 
     require(batch == single, contest.figure + ": answers differ from those of single calls");
 }
 
+/// Positions around the probes, so many extents of the volume away.
+Positions around(const ProbeVolume& volume, double extents) {
+    Positions queries = random_positions(kQueryCount, 9, 2.0);
+    for (glm::dvec3& q : queries) {
+        const double distance = extents * static_cast<double>(volume.info.extent);
+        q = volume.info.world_origin + distance * glm::normalize(q - 1.0);
+    }
+    return queries;
+}
+
+/// Sets of two scales, from far away: tests a query, and the share of queries that search all
+/// cells.
+void report_far_queries() {
+    const auto report_set = [](const std::string& name, const Positions& probes) {
+        const ProbeVolume volume = make_volume(probes);
+        for (const double extents : {2.0, 1e4, 1e6}) {
+            const Tests tests = count_tests(volume, around(volume, extents));
+            std::ostringstream figure;
+            figure << "query.far." << name << "." << extents;
+            report(figure.str(), tests.mean, "tests/query");
+            report(figure.str() + ".most", tests.most, "tests/query");
+            report(figure.str() + ".fallbacks", tests.fallbacks, "of the queries");
+        }
+    };
+    report_set("clusters", in_clusters(20'000));
+    for (const double distance : {1e6, 1e8, 1e10, 1e12}) {
+        Positions probes = random_positions(20'000, 6, 100.0);
+        probes.emplace_back(distance * glm::dvec3(1.0, 0.3, -0.2));
+        std::ostringstream name;
+        name << "outlier_" << distance;
+        report_set(name.str(), probes);
+    }
+}
+
 }  // namespace
 
 void report_worst_queries(const Options& options) {
@@ -151,8 +188,10 @@ void report_worst_queries(const Options& options) {
         report_contest(figure, ours.mean, usual.mean, "tests/query", "as many random probes");
         report_contest(figure + ".most", ours.most, usual.most, "tests/query",
                        "as many random probes");
+        report(figure + ".fallbacks", ours.fallbacks, "of the queries");
         report_batch(shape, volume, options);
     }
+    report_far_queries();
 }
 
 }  // namespace tetralight::bench

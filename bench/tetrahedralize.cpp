@@ -60,8 +60,7 @@ void bytes_per_probe() {
     const ProbeVolume volume = make_probe_volume(*merge(std::span(&group, 1)));
     const auto count = static_cast<double>(volume.positions.size());
     const size_t resident = byte_count(volume.positions) + byte_count(volume.cells) +
-                            byte_count(volume.hull_rays) + byte_count(volume.seeds) +
-                            byte_count(volume.seed_grid);
+                            byte_count(volume.hull_rays) + byte_count(volume.seed_grid);
     const size_t cold = byte_count(volume.exact_positions) + byte_count(volume.sources);
     const size_t cold_light = sizeof(IrradianceSh) + sizeof(glm::vec4) + sizeof(float);
     report("tetrahedralize.bytes_per_probe",
