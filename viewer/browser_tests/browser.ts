@@ -47,6 +47,16 @@ export async function ready(page: Page): Promise<void> {
     await page.waitForFunction(() => document.body.dataset.state === 'ready');
 }
 
+/** What the page itself has in its address: `page.url()` hears of a change only later. */
+export function addressOf(page: Page): Promise<string> {
+    return page.evaluate(() => location.href);
+}
+
+/** One value of the link that the address holds. */
+export async function inLink(page: Page, key: string): Promise<string | null> {
+    return new URLSearchParams(new URL(await addressOf(page)).hash.slice(1)).get(key);
+}
+
 export interface Place {
     x: number;
     y: number;

@@ -3,7 +3,7 @@
 import type {Page} from 'playwright-core';
 import {afterAll, beforeAll, expect, test} from 'vitest';
 
-import {canvasMiddle, close, colorAt, ready, typeInto} from './browser';
+import {canvasMiddle, close, colorAt, inLink, ready, typeInto} from './browser';
 import {Server} from './server';
 import {visit} from './visit';
 
@@ -26,10 +26,9 @@ async function named(page: Page, name: string, probes: RegExp): Promise<void> {
     const volume = page.getByLabel('Probe volume');
     await expect.poll(() => volume.locator('option:checked').textContent()).toBe(name);
     await page.locator('#status', {hasText: new RegExp(`courtyard · ${name}: ${probes.source}`)}).waitFor();
-    const inAddress = () => new URLSearchParams(new URL(page.url()).hash.slice(1)).get('volume');
-    expect(inAddress()).toBe(await volume.inputValue());
+    expect(await inLink(page, 'volume')).toBe(await volume.inputValue());
     await button(page, 'Copy link').click();
-    expect(inAddress()).toBe(await volume.inputValue());
+    expect(await inLink(page, 'volume')).toBe(await volume.inputValue());
 }
 const edited = (page: Page, words: string | RegExp) => page.locator('#panel-groups .facts', {hasText: words}).waitFor();
 /** Nothing but probes, seen from below (green, where the sky behind is blue) at a place that has none yet. */
