@@ -46,7 +46,7 @@ void AnswerWriter::answer(std::span<const glm::vec3> positions, Slice& slice) co
     if (has_weights) batch.locations = slice.locations;
     const auto report = interpolate(volume_, batch);
     slice.status = report ? Status(Ok{}) : Status(report.error());
-    if (has_weights) hide_probes(volume_, slice.locations, settings_.walls);
+    if (has_weights) hide_probes(volume_, slice.locations, {settings_.walls});
     slice.not_finite_count = report ? report->not_finite_count : 0;
     for (size_t i = 0; i < positions.size(); ++i) slice.answers[i].cell = slice.cells[i];
 }

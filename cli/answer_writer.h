@@ -11,9 +11,9 @@
 #include <tetralight/base/result.h>
 #include <tetralight/cli/answer.h>
 #include <tetralight/cli/query_formats.h>
-#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/locate.h>
 #include <tetralight/probes/probe_volume.h>
+#include <tetralight/probes/receiver.h>
 
 namespace tetralight::cli {
 

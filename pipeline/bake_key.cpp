@@ -109,8 +109,8 @@ void add(Hash& hash, const Environment& environment) {
 /// The name decides between volumes of the same size.
 template <class Hash>
 void add(Hash& hash, const ProbeAdjustment& adjustment) {
-    const auto& [name, shape, world_from_volume, forbids_probes, spacing, validity, intensity] =
-        adjustment;
+    const auto& [name, shape, world_from_volume, forbids_probes, spacing, validity, intensity,
+                 rendering_layers] = adjustment;
     hash.add(std::vector<char>(name.begin(), name.end()));
     hash.add(shape);
     hash.add(world_from_volume);

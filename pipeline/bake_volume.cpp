@@ -154,6 +154,7 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
     report.prepare_seconds = watch.lap();
 
     prepared.volume = make_probe_volume(prepared.merged);
+    override_rendering_layers(scene.probe_adjustments, prepared.volume);
     prepared.volume.health = std::move(probes.health);
     report.tetrahedralize_seconds = watch.lap();
     report.visibility =

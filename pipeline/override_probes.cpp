@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <tetralight/probes/rendering_layers.h>
+
 namespace tetralight {
 
 std::vector<ProbeOverride> find_overrides(std::span<const ProbeAdjustment> adjustments,
@@ -16,6 +18,18 @@ std::vector<ProbeOverride> find_overrides(std::span<const ProbeAdjustment> adjus
     const auto is_default = [](const ProbeOverride& o) { return o == ProbeOverride{}; };
     if (std::ranges::all_of(overrides, is_default)) overrides.clear();
     return overrides;
+}
+
+void override_rendering_layers(std::span<const ProbeAdjustment> adjustments, ProbeVolume& volume) {
+    if (adjustments.empty()) return;
+    for (size_t i = 0; i < volume.exact_positions.size(); ++i) {
+        const auto layers = adjustment_at(adjustments, volume.exact_positions[i]).rendering_layers;
+        if (!layers) continue;
+        if (volume.rendering_layers.empty()) {
+            volume.rendering_layers.assign(volume.exact_positions.size(), kAllRenderingLayers);
+        }
+        volume.rendering_layers[i] = *layers;
+    }
 }
 
 namespace {

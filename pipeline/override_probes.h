@@ -28,6 +28,9 @@ static_assert(sizeof(ProbeOverride) == 8 && std::is_trivially_copyable_v<ProbeOv
 [[nodiscard]] std::vector<ProbeOverride> find_overrides(
     std::span<const ProbeAdjustment> adjustments, std::span<const glm::dvec3> positions);
 
+/// Sets the rendering layers of the probes that adjustment volumes give others than their groups.
+void override_rendering_layers(std::span<const ProbeAdjustment> adjustments, ProbeVolume& volume);
+
 /// Changes the light (with layers and transfer) and the validity of a baked volume. Precondition:
 /// one override for each probe, or none.
 void override_probes(std::span<const ProbeOverride> overrides, ProbeVolume& volume);

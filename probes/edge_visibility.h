@@ -6,9 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/vec4.hpp>
-#include <span>
 
-#include <tetralight/probes/locate.h>
 #include <tetralight/probes/no_index.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -24,10 +22,6 @@
 // are all < 1 stores nothing: all of its corners see all of it.
 
 namespace tetralight {
-
-/// Whether walls of the scene hide probes behind them. A volume that
-/// knows no walls gives the same light with both.
-enum class Walls : uint8_t { HideProbes, Ignore };
 
 /// The code of ratio 1: of an edge about which nothing is known. Larger codes are blocked edges,
 /// smaller ones are free.
@@ -87,9 +81,9 @@ inline constexpr float kVisibilityRamp = 0.03f;
     return element < volume.cell_visibility.size() ? element : kNoIndex;
 }
 
-/// What remains of the weight of a corner whose L is 1 + `excess`: 1, then a ramp to the share of
-/// hidden corners. Continuous.
-[[nodiscard]] float visible_share(float excess) noexcept;
+/// What remains of the weight of a corner whose L is 1 + `excess`: 1, then a ramp over L = 1 … 1 +
+/// `ramp` to the share of hidden corners. Continuous. Precondition: ramp > 0.
+[[nodiscard]] float visible_share(float excess, float ramp = kVisibilityRamp) noexcept;
 
 /// The weights of a position in a cell, each multiplied by what its corner sees of the position,
 /// with the sum that they had. Where all corners see the position they are the same to the bit.
@@ -97,13 +91,10 @@ inline constexpr float kVisibilityRamp = 0.03f;
 [[nodiscard]] glm::vec4 visible_weights(const CellVisibility& cell,
                                         const glm::vec4& weights) noexcept;
 
-/// The location with weights that know the walls of the volume.
-[[nodiscard]] CellLocation visible_location(const ProbeVolumeView& volume,
-                                            CellLocation location) noexcept;
-
-/// The same for each of many locations, for reports of the weights that light was blended with.
-/// Nothing with `Walls::Ignore`.
-void hide_probes(const ProbeVolumeView& volume, std::span<CellLocation> locations,
-                 Walls walls) noexcept;
+/// The same for an object of a size: the weight of a hidden corner falls over `radius` metres
+/// behind the wall, measured along the line from the corner, if that is longer than the ramp.
+/// `distances` are those from the position to the corners, metres. Precondition: radius ≥ 0.
+[[nodiscard]] glm::vec4 visible_weights(const CellVisibility& cell, const glm::vec4& weights,
+                                        const glm::vec4& distances, float radius) noexcept;
 
 }  // namespace tetralight

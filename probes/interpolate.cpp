@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <tetralight/base/contract.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/detail/batch_queries.h>
 #include <tetralight/probes/detail/blend_probes.h>
-#include <tetralight/probes/edge_visibility.h>
 
 namespace tetralight {
 namespace {
@@ -52,12 +52,36 @@ Status check_outside(const OutsideHull& outside) {
         str_cat("fade_distance is ", outside.fade_distance, "; it must be positive and finite")};
 }
 
+Status check_receivers(const InterpolationBatch& batch, size_t count) {
+    const std::pair<const char*, size_t> lengths[] = {
+        {"rendering_layers", batch.rendering_layers.size()},
+        {"radii", batch.radii.size()},
+        {"normals", batch.normals.size()}};
+    for (const auto& [name, length] : lengths) {
+        if (length == 0) continue;
+        if (length >= count) continue;
+        return Error{
+            ErrorCode::InvalidArgument, name, str_cat(length),
+            str_cat(name, " has ", length, " elements, but there are ", count, " positions")};
+    }
+    const auto is_length = [](float x) { return std::isfinite(x) && x >= 0.0f; };
+    for (size_t i = 0; i < batch.radii.size(); ++i) {
+        const float radius = batch.radii[i];
+        if (is_length(radius)) continue;
+        return Error{ErrorCode::InvalidArgument, str_cat("radii[", i, "]"), str_cat(radius),
+                     str_cat("radius ", i, " is ", radius, "; it must be finite and not negative")};
+    }
+    if (is_length(batch.normal_offset)) return Ok{};
+    return Error{
+        ErrorCode::InvalidArgument, "normal_offset", str_cat(batch.normal_offset),
+        str_cat("normal_offset is ", batch.normal_offset, "; it must be finite and not negative")};
+}
+
 }  // namespace
 
 InterpolatedProbe interpolate(const ProbeVolumeView& volume, const CellLocation& location,
-                              Walls walls) noexcept {
-    if (walls == Walls::Ignore) return detail::blend_probes(volume, location);
-    return detail::blend_probes(volume, visible_location(volume, location));
+                              const Receiver& receiver) noexcept {
+    return detail::blend_probes(volume, visible_location(volume, location, receiver));
 }
 
 Status check_batch(const InterpolationBatch& batch) {
@@ -71,13 +95,14 @@ Status check_batch(const InterpolationBatch& batch) {
         if (!status) return status;
     }
     if (auto status = check_outside(batch.outside); !status) return status;
+    if (auto status = check_receivers(batch, count); !status) return status;
     return check_outputs(batch, count);
 }
 
 void detail::BatchTasks::run(size_t task) noexcept {
     const size_t begin = task * kBatchTaskSize;
     const size_t count = std::min(kBatchTaskSize, batch.positions.size() - begin);
-    const BatchReport report = detail::answer(volume, batch, begin, count);
+    const BatchReport report = answer(volume, part_of(batch, begin, count));
     not_finite_count += report.not_finite_count;
     step_count += report.step_count;
     fallback_count += report.fallback_count;
@@ -85,7 +110,7 @@ void detail::BatchTasks::run(size_t task) noexcept {
 
 Result<BatchReport> interpolate(const ProbeVolumeView& volume, const InterpolationBatch& batch) {
     if (auto status = check_batch(batch); !status) return status.error();
-    return detail::answer(volume, batch, 0, batch.positions.size());
+    return detail::answer(volume, batch);
 }
 
 void locate(const ProbeVolumeView& volume, std::span<const glm::vec3> positions,

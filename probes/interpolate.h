@@ -7,10 +7,10 @@
 #include <span>
 
 #include <tetralight/base/result.h>
-#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/locate.h>
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/probes/query_output.h>
+#include <tetralight/probes/receiver.h>
 
 // Interpolates the light at positions: of one object, or of a million instances in one call.
 //
@@ -32,7 +32,7 @@ struct InterpolatedProbe {
 /// volume's ambient light and occlusion (1, 1, 1, 1). Thread-safe.
 [[nodiscard]] InterpolatedProbe interpolate(const ProbeVolumeView& volume,
                                             const CellLocation& location,
-                                            Walls walls = Walls::HideProbes) noexcept;
+                                            const Receiver& receiver = {}) noexcept;
 
 /// Many positions in one call.
 struct InterpolationBatch {
@@ -51,6 +51,17 @@ struct InterpolationBatch {
     /// Out: the cell and the weights of each position, as `locate` gives them. May be empty.
     std::span<CellLocation> locations = {};
     Walls walls = Walls::HideProbes;
+    /// `Receiver::rendering_layers` of each position. Empty: all layers.
+    std::span<const uint32_t> rendering_layers = {};
+    /// `Receiver::radius` of each position. Empty: 0.
+    std::span<const float> radii = {};
+    /// Unit normals of surfaces that the positions lie on: each is pushed off along its normal
+    /// (`push_off_surface`), and cell, weights and light are those of the place there. Such a batch
+    /// takes about twice the time, and is answered in the order of its positions. Empty: positions
+    /// stay where they are.
+    std::span<const glm::vec3> normals = {};
+    /// The share of the mean distance to the probes that positions with normals are pushed by, ≥ 0.
+    float normal_offset = kNormalOffset;
 };
 
 /// Counters of a batch.
@@ -69,8 +80,9 @@ struct BatchReport {
 /// `locate` documents what may differ between calls.
 ///
 /// Returns invalid_argument if no output is set, a span is too short for `positions` (the
-/// message holds both lengths), answers overlap or are not aligned, or the fade distance is not
-/// positive and finite. `Error::field` is the member of the batch.
+/// message holds both lengths), answers overlap or are not aligned, the fade distance is not
+/// positive and finite, or a radius or the normal offset is negative or not finite. `Error::field`
+/// is the member of the batch.
 [[nodiscard]] Result<BatchReport> interpolate(const ProbeVolumeView& volume,
                                               const InterpolationBatch& batch);
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
+
+#include <tetralight/probes/rendering_layers.h>
 
 namespace tetralight {
 
@@ -16,6 +19,8 @@ struct ProbeGroup {
     std::vector<glm::dvec3> positions;
     /// Remove ringing (negative irradiance) from this group's probes after the bake.
     bool dering = false;
+    /// Bit i: the probes light objects on rendering layer i.
+    uint32_t rendering_layers = kAllRenderingLayers;
 
     bool operator==(const ProbeGroup&) const = default;
 };

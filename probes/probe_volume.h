@@ -202,6 +202,9 @@ struct ProbeVolumeView {
     std::span<const VisibilityBlock> visibility_blocks;  ///< one for each 32 cells
     std::span<const CellVisibility> cell_visibility;     ///< of cells with a blocked edge, in order
 
+    /// One a probe, bit i: it lights objects on rendering layer i. Empty: all of them.
+    std::span<const uint32_t> rendering_layers;
+
     std::span<const ProbeSource> sources;  ///< sorted by group, then index
     std::string_view group_names;          ///< sorted, each ended by '\n'
     std::span<const Light> lights;         ///< the lights of the bake; world space
@@ -248,6 +251,7 @@ struct ProbeVolume {
     std::vector<uint32_t> seed_grid;
     std::vector<VisibilityBlock> visibility_blocks;
     std::vector<CellVisibility> cell_visibility;
+    std::vector<uint32_t> rendering_layers;
     std::vector<ProbeSource> sources;
     std::string group_names;
     std::vector<Light> lights;

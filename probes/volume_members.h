@@ -30,6 +30,7 @@ constexpr void for_each_volume_member(Visit&& visit) {
     visit("seed_grid", Query, &Owner::seed_grid, &View::seed_grid);
     visit("visibility_blocks", Query, &Owner::visibility_blocks, &View::visibility_blocks);
     visit("cell_visibility", Query, &Owner::cell_visibility, &View::cell_visibility);
+    visit("rendering_layers", Query, &Owner::rendering_layers, &View::rendering_layers);
     visit("irradiance", Query, &Owner::irradiance, &View::irradiance);
     visit("occlusion", Query, &Owner::occlusion, &View::occlusion);
     visit("validity", Offline, &Owner::validity, &View::validity);

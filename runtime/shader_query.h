@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/locate.h>
+#include <tetralight/probes/receiver.h>
 #include <tetralight/runtime/shader_volume.h>
 
 // The functions of runtime/shaders/query.glsl on the CPU, for tests and for engines that check

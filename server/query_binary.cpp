@@ -123,7 +123,7 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
                                  .outside = query.outside,
                                  .locations = location_output(header, layout, bytes),
                                  .walls = query.walls}));
-    hide_probes(volume, location_output(header, layout, bytes), query.walls);
+    hide_probes(volume, location_output(header, layout, bytes), {query.walls});
     service.metrics.positions += header.count;
     return {.content_type = "application/octet-stream", .body = Body(bytes, memory)};
 }

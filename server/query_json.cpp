@@ -128,7 +128,7 @@ class JsonAnswers {
                                       .outside = query_.outside,
                                       .locations = locations_,
                                       .walls = query_.walls}));
-        hide_probes(volume_, std::span(locations_).first(count), query_.walls);
+        hide_probes(volume_, std::span(locations_).first(count), {query_.walls});
         char text[kAnswerJsonSize];
         for (size_t i = 0; i < count; ++i) {
             char* const end = write_json(

@@ -62,9 +62,13 @@ Status check_settings(const ProbeAdjustment& a) {
     if (a.intensity && !(*a.intensity >= 0.0f && std::isfinite(*a.intensity))) {
         return setting_error("intensity", *a.intensity, " is negative or not finite");
     }
-    if (!a.forbids_probes && !a.spacing && !a.validity && !a.intensity) {
+    if (a.rendering_layers && *a.rendering_layers == 0) {
+        return setting_error("rendering_layers", "[]", " names no layer");
+    }
+    if (!a.forbids_probes && !a.spacing && !a.validity && !a.intensity && !a.rendering_layers) {
         return Error{ErrorCode::InvalidArgument,
-                     "it adjusts nothing (forbid, spacing, validity, intensity)"};
+                     "it adjusts nothing (forbid, spacing, validity, intensity, "
+                     "rendering_layers)"};
     }
     return Ok{};
 }
@@ -106,6 +110,9 @@ AdjustmentAt adjustment_at(std::span<const ProbeAdjustment> adjustments,
     const auto intensity =
         smallest(adjustments, position, [](const A& a) { return a.intensity.has_value(); });
     if (intensity != nullptr) at.intensity = *intensity->intensity;
+    const auto layers =
+        smallest(adjustments, position, [](const A& a) { return a.rendering_layers.has_value(); });
+    if (layers != nullptr) at.rendering_layers = layers->rendering_layers;
     return at;
 }
 

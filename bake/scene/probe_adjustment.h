@@ -36,6 +36,8 @@ struct ProbeAdjustment {
     std::optional<float> validity;
     /// Factor on the light of probes, ≥ 0.
     std::optional<float> intensity;
+    /// Rendering layers of probes, in place of those of their groups; not 0.
+    std::optional<uint32_t> rendering_layers;
 
     bool operator==(const ProbeAdjustment&) const = default;
 };
@@ -48,6 +50,7 @@ struct AdjustmentAt {
     const ProbeAdjustment* spacing = nullptr;
     std::optional<float> validity;
     float intensity = 1.0f;
+    std::optional<uint32_t> rendering_layers;
 };
 
 [[nodiscard]] AdjustmentAt adjustment_at(std::span<const ProbeAdjustment> adjustments,
@@ -64,7 +67,8 @@ struct AdjustmentAt {
 
 /// Returns invalid_argument, with the setting as the field, if the transform is not affine, finite
 /// and invertible, the spacing is not positive, the validity is outside of [0, 1], the intensity is
-/// negative or not finite, or no setting has a value. The message names the volume.
+/// negative or not finite, there are no rendering layers, or no setting has a value. The message
+/// names the volume.
 [[nodiscard]] Status check_adjustment(const ProbeAdjustment& adjustment);
 
 }  // namespace tetralight

@@ -87,6 +87,11 @@ Status read_settings(const json& object, ProbeAdjustment& adjustment) {
     }
     if (auto s = read_number(object, "spacing", adjustment.spacing); !s) return s;
     if (auto s = read_number(object, "validity", adjustment.validity); !s) return s;
+    if (const auto layers = object.find("rendering_layers"); layers != object.end()) {
+        const auto mask = detail::read_rendering_layers(*layers, "rendering_layers");
+        if (!mask) return mask.error();
+        adjustment.rendering_layers = *mask;
+    }
     return read_number(object, "intensity", adjustment.intensity);
 }
 
@@ -102,7 +107,7 @@ Result<ProbeAdjustment> read_adjustment(const json& object, size_t index) {
     ProbeAdjustment adjustment;
     adjustment.name = name->get<std::string>();
     Status status = check_keys(object, {"name", "shape", "center", "size", "radius", "forbid",
-                                        "spacing", "validity", "intensity"});
+                                        "spacing", "validity", "intensity", "rendering_layers"});
     if (status) status = read_place(object, adjustment);
     if (status) status = read_settings(object, adjustment);
     if (!status) return status.error().in(str_cat("adjustment volume \"", adjustment.name, "\""));

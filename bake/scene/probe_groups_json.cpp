@@ -152,11 +152,17 @@ Status read_optional_parts(const json& value, ProbeGroup& group) {
         if (!dering->is_boolean()) return detail::wrong_type(*dering, "dering", "a boolean");
         group.dering = dering->get<bool>();
     }
+    if (const auto layers = value.find("rendering_layers"); layers != value.end()) {
+        const auto mask = detail::read_rendering_layers(*layers, "rendering_layers");
+        if (!mask) return mask.error();
+        group.rendering_layers = *mask;
+    }
     return Ok{};
 }
 
 Result<ProbeGroup> read_named_group(const json& value, std::string name) {
-    const auto keys = detail::check_keys(value, {"name", "transform", "dering", "positions"});
+    const auto keys =
+        detail::check_keys(value, {"name", "transform", "dering", "rendering_layers", "positions"});
     if (!keys) return keys.error();
     ProbeGroup group;
     group.name = std::move(name);

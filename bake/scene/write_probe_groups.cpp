@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/bake/scene/detail/probe_group_check.h>
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/base/file.h>
@@ -28,6 +29,10 @@ void append_group(std::string& out, const ProbeGroup& group) {
     out += str_cat("    {\n      \"name\": ", nlohmann::json(group.name).dump(), ",\n");
     append_transform(out, group.world_from_group);
     out += str_cat("      \"dering\": ", group.dering ? "true" : "false", ",\n");
+    if (group.rendering_layers != kAllRenderingLayers) {
+        const nlohmann::json layers = detail::rendering_layer_list(group.rendering_layers);
+        out += str_cat("      \"rendering_layers\": ", layers.dump(), ",\n");
+    }
     out += "      \"positions\": [\n";
     for (const glm::dvec3& position : group.positions) {
         const bool is_last = &position == &group.positions.back();

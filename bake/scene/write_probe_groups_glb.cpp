@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/bake/scene/detail/probe_group_check.h>
 #include <tetralight/bake/scene/probe_groups_gltf.h>
 #include <tetralight/base/file.h>
@@ -50,6 +51,10 @@ class Document {
                      {"matrix", array(glm::translate(group.world_from_group, first))},
                      {"extras", {{"light_probe_group", true}}}};
         if (group.dering) node["extras"]["dering"] = true;
+        if (group.rendering_layers != kAllRenderingLayers) {
+            node["extras"]["rendering_layers"] =
+                detail::rendering_layer_list(group.rendering_layers);
+        }
         if (!group.positions.empty()) node["mesh"] = add_points(group, first);
         json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
         json_["nodes"].push_back(node);

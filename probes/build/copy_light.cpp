@@ -6,6 +6,7 @@
 #include <tetralight/base/contract.h>
 #include <tetralight/probes/build/detail/position_table.h>
 #include <tetralight/probes/build/store_visibility.h>
+#include <tetralight/probes/rendering_layers.h>
 
 namespace tetralight {
 namespace {
@@ -51,6 +52,9 @@ CopiedLight copy_light(const ProbeVolumeView& from, ProbeVolume& to) {
     to.sky.assign(from.sky.begin(), from.sky.end());
     to.dering = copy_from_twins(from.dering, twins, uint8_t{0});
     copy_visibility(from, to);
+    if (to.rendering_layers.empty()) {
+        to.rendering_layers = copy_from_twins(from.rendering_layers, twins, kAllRenderingLayers);
+    }
     to.layers.assign(from.layers.begin(), from.layers.end());
     to.layer_names = from.layer_names;
     to.layer_irradiance.clear();

@@ -10,6 +10,22 @@
 #include <tetralight/probes/build/make_seed_grid.h>
 
 namespace tetralight {
+namespace {
+
+/// One a probe; empty if all probes are on all layers.
+std::vector<uint32_t> rendering_layers(const MergedProbes& probes) {
+    const auto& groups = probes.group_rendering_layers;
+    const auto is_all = [](uint32_t layers) { return layers == kAllRenderingLayers; };
+    if (std::ranges::all_of(groups, is_all)) return {};
+    std::vector<uint32_t> layers(probes.positions.size(), 0);
+    for (const ProbeSource& source : probes.sources) {
+        if (source.probe != kNoIndex) layers[source.probe] |= groups[source.group];
+    }
+    return layers;
+}
+
+}  // namespace
+
 ProbeVolume make_probe_volume(const MergedProbes& probes) {
     return make_probe_volume(probes, tetrahedralize(probes.positions, flat_tolerance(probes)));
 }
@@ -33,6 +49,7 @@ ProbeVolume make_probe_volume(const MergedProbes& probes, Tetrahedralization cel
     volume.cells = std::move(cells.cells);
     volume.hull_rays = std::move(hull.cells);
     volume.seed_grid = make_seed_grid(volume.view());
+    volume.rendering_layers = rendering_layers(probes);
     volume.sources = probes.sources;
     for (const std::string& name : probes.group_names) volume.group_names += name + "\n";
     return volume;

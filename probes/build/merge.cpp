@@ -125,6 +125,7 @@ Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettin
         merged.largest_snap = std::max(merged.largest_snap, snap.value_or(0.0));
         merged.group_names.push_back(group.name);
         merged.group_dering.push_back(group.dering);
+        merged.group_rendering_layers.push_back(group.rendering_layers);
         for (uint32_t i = 0; i < group_positions->size(); ++i) {
             merged.sources.push_back({g, i, 0});
             positions.push_back((*group_positions)[i]);

@@ -38,6 +38,9 @@ struct MergedProbes {
     double weld_radius = 0.0;
     /// One a group: true if its light is to be deringed.
     std::vector<bool> group_dering;
+    /// One a group: the rendering layers of its probes. A welded probe is on those of all its
+    /// sources.
+    std::vector<uint32_t> group_rendering_layers;
     /// One a group: true if its probes are part of a lattice. They were moved exactly onto it.
     std::vector<bool> group_is_lattice;
     /// The longest of these moves, metres: a few float steps of the group's largest coordinate, and

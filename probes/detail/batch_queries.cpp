@@ -9,19 +9,9 @@
 #include <tetralight/probes/detail/tetrahedron_test.h>
 #include <tetralight/probes/detail/walk.h>
 #include <tetralight/probes/detail/walk_one.h>
-#include <tetralight/probes/morton_order.h>
 #include <tetralight/probes/seed_grid.h>
 
 namespace tetralight::detail {
-namespace {
-
-template <class T>
-std::span<T> part_of(std::span<T> elements, size_t begin, size_t count) {
-    return elements.empty() ? elements : elements.subspan(begin, count);
-}
-
-}  // namespace
-
 BatchQueries::BatchQueries(const ProbeVolumeView& volume, const Input& input,
                            const QueryKernels& kernels)
     : volume_(volume),
@@ -168,36 +158,6 @@ void BatchQueries::write_hints() {
     for (size_t query = 0; query < block_.count; ++query) {
         input_.hints[source_[query]] = block_.location[query].cell;
     }
-}
-
-BatchReport answer(const ProbeVolumeView& volume, const InterpolationBatch& batch, size_t begin,
-                   size_t count, const QueryKernels& kernels) {
-    BatchQueries::Input input;
-    input.positions = batch.positions.subspan(begin, count);
-    input.hints = part_of(batch.hints, begin, count);
-    input.outside = batch.outside;
-    if (!batch.sort_memory.empty()) {
-        input.order = morton_order(input.positions, batch.sort_memory.subspan(2 * begin));
-    }
-    ShOutput irradiance = batch.irradiance;
-    irradiance.memory =
-        part_of(irradiance.memory, begin * irradiance.answer_stride, std::dynamic_extent);
-    OcclusionOutput occlusion = batch.occlusion;
-    occlusion.memory =
-        part_of(occlusion.memory, begin * occlusion.answer_stride, std::dynamic_extent);
-
-    BatchQueries queries(volume, input, kernels);
-    const auto locations = part_of(batch.locations, begin, count);
-    const bool is_blended = !irradiance.memory.empty() || !occlusion.memory.empty();
-    while (queries.locate_block()) {
-        for (size_t i = 0; !locations.empty() && i < queries.source().size(); ++i) {
-            locations[queries.source()[i]] = queries.locations()[i];
-        }
-        if (!is_blended) continue;
-        kernels.blend(volume, queries.locations(),
-                      {queries.source(), irradiance, occlusion, batch.walls});
-    }
-    return queries.report();
 }
 
 }  // namespace tetralight::detail

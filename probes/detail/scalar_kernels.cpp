@@ -40,7 +40,7 @@ void blend(const ProbeVolumeView& volume, std::span<const CellLocation> location
     const bool has_irradiance = !target.irradiance.memory.empty();
     const bool has_occlusion = !target.occlusion.memory.empty();
     for (size_t i = 0; i < locations.size(); ++i) {
-        const InterpolatedProbe probe = interpolate(volume, locations[i], target.walls);
+        const InterpolatedProbe probe = interpolate(volume, locations[i], {target.walls});
         const size_t answer = target.answers[i];
         if (has_irradiance) {
             write_irradiance(target.irradiance, answer, &probe.irradiance.coefficients[0].x);

@@ -78,6 +78,7 @@ Status check_counts(const ProbeVolumeView& v) {
           check_count("health", v.health.size(), probes, true),
           check_count("compact", v.compact.size(), probes, true),
           check_count("exact_positions", v.exact_positions.size(), probes, true),
+          check_count("rendering_layers", v.rendering_layers.size(), probes, true),
           check_count("hull_rays", v.hull_rays.size(), hull_cells, false)}) {
         if (!status) return status;
     }

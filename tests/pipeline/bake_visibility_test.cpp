@@ -12,6 +12,7 @@
 #include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/receiver.h>
 #include "tests/support/probe_groups.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"

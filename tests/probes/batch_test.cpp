@@ -95,7 +95,7 @@ TEST_P(BatchFamilies, EveryKernelAnswersAsSingleQueriesDo) {
             Answers answers(positions.size());
             const InterpolationBatch batch{positions,         {}, answers.irradiance,
                                            answers.occlusion, {}, {}};
-            const auto report = detail::answer(volume.view(), batch, 0, positions.size(), *kernels);
+            const auto report = detail::answer(volume.view(), batch, *kernels);
             EXPECT_GE(report.step_count, positions.size());
             expect_near(answers, expected, 1e-4f);
         }
@@ -116,7 +116,7 @@ TEST(Batch, VectorCodeGivesTheBitsOfItsScalarTwin) {
             const auto& kernels = k == 0 ? detail::scalar_kernels() : detail::query_kernels();
             const InterpolationBatch batch{
                 positions, hints[k], answers[k].irradiance, answers[k].occlusion, {}, {}};
-            static_cast<void>(detail::answer(volume.view(), batch, 0, positions.size(), kernels));
+            static_cast<void>(detail::answer(volume.view(), batch, kernels));
         }
         EXPECT_EQ(hints[0], hints[1]);
         EXPECT_EQ(answers[0].irradiance, answers[1].irradiance);

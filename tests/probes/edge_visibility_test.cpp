@@ -328,8 +328,8 @@ TEST(Interpolate, HidesProbesBehindWallsUnlessToldToIgnoreThem) {
     CellLocation visible = location;
     visible.weights = visible_weights(cell, location.weights);
     EXPECT_NE(lit, plain);
-    EXPECT_EQ(lit, interpolate(volume.view(), visible, Walls::Ignore));
-    EXPECT_EQ(plain, interpolate(volume.view(), location, Walls::Ignore));
+    EXPECT_EQ(lit, interpolate(volume.view(), visible, {Walls::Ignore}));
+    EXPECT_EQ(plain, interpolate(volume.view(), location, {Walls::Ignore}));
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ class KernelAgreement : public testing::TestWithParam<Case> {
         }
         if (way == Way::Sorted) sort_memory.resize(2 * positions.size());
         batch.sort_memory = sort_memory;
-        static_cast<void>(detail::answer(volume.view(), batch, 0, positions.size(), kernels));
+        static_cast<void>(detail::answer(volume.view(), batch, kernels));
         return result;
     }
 

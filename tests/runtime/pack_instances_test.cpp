@@ -161,10 +161,10 @@ TEST(PackInstances, WallsHideProbesUnlessIgnored) {
     for (const Walls walls : {Walls::HideProbes, Walls::Ignore}) {
         ASSERT_TRUE(pack_instances(volume.view(),
                                    {.positions = positions, .packed = light, .walls = walls}));
-        EXPECT_EQ(light[0], pack_sh(interpolate(volume.view(), location, walls).irradiance));
+        EXPECT_EQ(light[0], pack_sh(interpolate(volume.view(), location, {walls}).irradiance));
     }
     EXPECT_NE(interpolate(volume.view(), location),
-              interpolate(volume.view(), location, Walls::Ignore));
+              interpolate(volume.view(), location, {Walls::Ignore}));
 }
 
 TEST(PackInstances, CountsPositionsThatAreNotFiniteInEveryBlock) {

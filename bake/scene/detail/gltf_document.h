@@ -144,6 +144,7 @@ struct GltfAdjustment {
     std::optional<double> spacing;
     std::optional<double> validity;
     std::optional<double> intensity;
+    std::optional<uint32_t> rendering_layers;
 };
 
 struct GltfNode {
@@ -163,6 +164,7 @@ struct GltfNode {
     GltfLightExtras light_extras;
     bool is_probe_group = false;
     bool dering = false;
+    std::optional<uint32_t> rendering_layers;
     std::optional<GltfAdjustment> probe_adjustment;
 };
 

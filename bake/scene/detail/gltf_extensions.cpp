@@ -76,6 +76,16 @@ std::optional<std::string> bake_emission_from(const tinygltf::Value& extras) {
     return extras.Get(kKey).Get<bool>() ? "baked" : "none";
 }
 
+std::optional<uint32_t> rendering_layers_extra(const tinygltf::Value& extras) {
+    if (!extras.Has("rendering_layers")) return std::nullopt;
+    const tinygltf::Value& layers = extras.Get("rendering_layers");
+    uint32_t mask = 0;
+    for (size_t i = 0; i < layers.ArrayLen(); ++i) {
+        mask |= uint32_t{1} << layers.Get(static_cast<int>(i)).GetNumberAsInt();
+    }
+    return mask;
+}
+
 std::optional<GltfAdjustment> adjustment_from(const tinygltf::Value& extras) {
     if (!extras.Has("probe_adjustment")) return std::nullopt;
     const tinygltf::Value& value = extras.Get("probe_adjustment");
@@ -91,6 +101,7 @@ std::optional<GltfAdjustment> adjustment_from(const tinygltf::Value& extras) {
     result.spacing = number_extra(value, "spacing");
     result.validity = number_extra(value, "validity");
     result.intensity = number_extra(value, "intensity");
+    result.rendering_layers = rendering_layers_extra(value);
     return result;
 }
 

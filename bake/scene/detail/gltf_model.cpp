@@ -147,6 +147,7 @@ GltfNode converted(const tinygltf::Node& node) {
     result.probe_anchor = string_extra(node.extras, "probe_anchor");
     result.is_probe_group = boolean_extra(node.extras, "light_probe_group").value_or(false);
     result.dering = boolean_extra(node.extras, "dering").value_or(false);
+    result.rendering_layers = rendering_layers_extra(node.extras);
     result.probe_adjustment = adjustment_from(node.extras);
     return result;
 }

@@ -42,6 +42,7 @@ Result<ProbeAdjustment> converted(const GltfAdjustment& extras, const glm::dmat4
     adjustment.spacing = extras.spacing;
     adjustment.validity = to_float(extras.validity);
     adjustment.intensity = to_float(extras.intensity);
+    adjustment.rendering_layers = extras.rendering_layers;
     return adjustment;
 }
 

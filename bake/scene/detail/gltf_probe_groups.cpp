@@ -76,7 +76,8 @@ Result<ProbeGroup> read_group(const GltfDocument& document, const GltfWorldNode&
     auto positions = read_mesh_points(document, node.mesh);
     if (!positions) return positions.error();
     if (positions->empty()) *positions = take_children(document, node, is_probe);
-    return ProbeGroup{node.name, placed.world_from_node, std::move(*positions), node.dering};
+    return ProbeGroup{node.name, placed.world_from_node, std::move(*positions), node.dering,
+                      node.rendering_layers.value_or(kAllRenderingLayers)};
 }
 
 }  // namespace

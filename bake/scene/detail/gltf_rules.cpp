@@ -105,8 +105,18 @@ class Checker {
                 return checked(value.is_object(), value, name, "an object");
             case GltfKind::PrimitiveList:
                 return check_primitives(value, name);
+            case GltfKind::RenderingLayers:
+                return check_rendering_layers(value, name);
         }
         return Ok{};
+    }
+
+    [[nodiscard]] static Status check_rendering_layers(const json& value, std::string_view name) {
+        const auto mask = read_rendering_layers(value, name);
+        if (mask) return Ok{};
+        Error error = mask.error();
+        error.field = "." + member_path(name);
+        return error;
     }
 
     [[nodiscard]] Status check_primitives(const json& value, std::string_view name) const {

@@ -29,6 +29,7 @@ constexpr GltfRule kNodes[] = {
     {"extras/contribute_gi", Boolean},
     {"extras/light_probe_group", Boolean},
     {"extras/dering", Boolean},
+    {"extras/rendering_layers", RenderingLayers},
     {"extras/probe_adjustment/shape", String, "", 0, kRequired},
     {"extras/probe_adjustment/size", Numbers, "", 3},
     {"extras/probe_adjustment/radius", Number},
@@ -36,6 +37,7 @@ constexpr GltfRule kNodes[] = {
     {"extras/probe_adjustment/spacing", Number},
     {"extras/probe_adjustment/validity", Number},
     {"extras/probe_adjustment/intensity", Number},
+    {"extras/probe_adjustment/rendering_layers", RenderingLayers},
 };
 
 constexpr GltfRule kMeshes[] = {{"name", String}, {"primitives", PrimitiveList, "", 0, kRequired}};

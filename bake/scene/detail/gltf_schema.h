@@ -19,7 +19,8 @@ enum class GltfKind {
     Boolean,
     String,
     Object,
-    PrimitiveList,  ///< a mesh's primitives
+    PrimitiveList,    ///< a mesh's primitives
+    RenderingLayers,  ///< array of integers 0 .. 31, not empty
 };
 
 enum class GltfNeed { Optional, Required };

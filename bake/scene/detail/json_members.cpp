@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/rendering_layers.h>
 
 namespace tetralight::detail {
 
@@ -27,6 +28,26 @@ Status check_keys(const nlohmann::json& object, std::initializer_list<std::strin
                      str_cat("unknown key \"", key, "\"")};
     }
     return Ok{};
+}
+
+Result<uint32_t> read_rendering_layers(const nlohmann::json& value, std::string_view name) {
+    const auto is_layer = [](const nlohmann::json& layer) {
+        return layer.is_number_unsigned() && layer.get<uint64_t>() < kRenderingLayerCount;
+    };
+    if (!value.is_array() || value.empty() || !std::ranges::all_of(value, is_layer)) {
+        return wrong_type(value, name, "a list of rendering layers, 0 to 31");
+    }
+    uint32_t mask = 0;
+    for (const nlohmann::json& layer : value) mask |= uint32_t{1} << layer.get<uint32_t>();
+    return mask;
+}
+
+std::vector<uint32_t> rendering_layer_list(uint32_t mask) {
+    std::vector<uint32_t> layers;
+    for (uint32_t i = 0; i < kRenderingLayerCount; ++i) {
+        if ((mask >> i & 1) != 0) layers.push_back(i);
+    }
+    return layers;
 }
 
 }  // namespace tetralight::detail

@@ -38,6 +38,10 @@ Status check_transform(const glm::dmat4& world_from_group) {
 }
 
 Status check_group(const ProbeGroup& group) {
+    if (group.rendering_layers == 0) {
+        return Error{ErrorCode::Corrupt, ".rendering_layers", "[]",
+                     "rendering_layers names no layer"};
+    }
     const auto transform = check_transform(group.world_from_group);
     if (!transform) return transform;
     for (size_t probe = 0; probe < group.positions.size(); ++probe) {
