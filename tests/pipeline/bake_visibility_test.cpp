@@ -218,7 +218,7 @@ double leak(const ProbeVolumeView& volume, float thickness, Walls walls) {
         const glm::vec3 position(x(engine) + 0.5f * thickness, y(engine), x(engine));
         for (const float side : {-1.0f, 1.0f}) {
             const auto location = locate(volume, position * glm::vec3(side, 1, 1));
-            const float light = interpolate(volume, location, walls).irradiance.coefficients[0].x;
+            const float light = interpolate(volume, location, {walls}).irradiance.coefficients[0].x;
             (side < 0.0f ? lit : dark) += light;
         }
     }

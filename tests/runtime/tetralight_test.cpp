@@ -250,7 +250,7 @@ TEST_F(CApi, WallsHideProbesInEveryQueryUnlessABatchIgnoresThem) {
         batch.walls = static_cast<uint32_t>(walls);
         EXPECT_EQ(tetralight_query_batch(walled, &batch, nullptr, &error), TETRALIGHT_OK);
         for (size_t i = 0; i < positions.size(); ++i) {
-            const auto probe = interpolate(view, locate(view, positions[i]), walls);
+            const auto probe = interpolate(view, locate(view, positions[i]), {walls});
             EXPECT_EQ(light[i], pack_sh(probe.irradiance));
             if (walls == Walls::Ignore) continue;
             tetralight_light single{};
