@@ -15,6 +15,11 @@
 namespace tetralight {
 namespace {
 
+template <class T>
+std::span<T> elements(std::span<T> all, size_t begin, size_t count) {
+    return all.empty() ? all : all.subspan(begin, count);
+}
+
 Status check_outputs(const InterpolationBatch& batch, size_t count) {
     const bool has_irradiance = !batch.irradiance.memory.empty();
     const bool has_occlusion = !batch.occlusion.memory.empty();
@@ -52,7 +57,15 @@ Status check_outside(const OutsideHull& outside) {
         str_cat("fade_distance is ", outside.fade_distance, "; it must be positive and finite")};
 }
 
-Status check_receivers(const InterpolationBatch& batch, size_t count) {
+}  // namespace
+
+InterpolatedProbe interpolate(const ProbeVolumeView& volume, const CellLocation& location,
+                              const Receiver& receiver) noexcept {
+    return detail::blend_probes(volume, visible_location(volume, location, receiver));
+}
+
+Status check_receivers(const InterpolationBatch& batch) {
+    const size_t count = batch.positions.size();
     const std::pair<const char*, size_t> lengths[] = {
         {"rendering_layers", batch.rendering_layers.size()},
         {"radii", batch.radii.size()},
@@ -77,11 +90,20 @@ Status check_receivers(const InterpolationBatch& batch, size_t count) {
         str_cat("normal_offset is ", batch.normal_offset, "; it must be finite and not negative")};
 }
 
-}  // namespace
-
-InterpolatedProbe interpolate(const ProbeVolumeView& volume, const CellLocation& location,
-                              const Receiver& receiver) noexcept {
-    return detail::blend_probes(volume, visible_location(volume, location, receiver));
+InterpolationBatch part_of(const InterpolationBatch& batch, size_t begin, size_t count) noexcept {
+    InterpolationBatch part = batch;
+    part.positions = elements(batch.positions, begin, count);
+    part.hints = elements(batch.hints, begin, count);
+    part.sort_memory = elements(batch.sort_memory, 2 * begin, 2 * count);
+    part.locations = elements(batch.locations, begin, count);
+    part.rendering_layers = elements(batch.rendering_layers, begin, count);
+    part.radii = elements(batch.radii, begin, count);
+    part.normals = elements(batch.normals, begin, count);
+    part.irradiance.memory = elements(batch.irradiance.memory,
+                                      begin * batch.irradiance.answer_stride, std::dynamic_extent);
+    part.occlusion.memory = elements(batch.occlusion.memory, begin * batch.occlusion.answer_stride,
+                                     std::dynamic_extent);
+    return part;
 }
 
 Status check_batch(const InterpolationBatch& batch) {
@@ -95,7 +117,7 @@ Status check_batch(const InterpolationBatch& batch) {
         if (!status) return status;
     }
     if (auto status = check_outside(batch.outside); !status) return status;
-    if (auto status = check_receivers(batch, count); !status) return status;
+    if (auto status = check_receivers(batch); !status) return status;
     return check_outputs(batch, count);
 }
 

@@ -89,8 +89,15 @@ struct BatchReport {
 /// Positions of one task of a parallel batch.
 inline constexpr size_t kBatchTaskSize = 16384;
 
+/// The positions [begin, begin + count) of a checked batch.
+[[nodiscard]] InterpolationBatch part_of(const InterpolationBatch& batch, size_t begin,
+                                         size_t count) noexcept;
+
 /// Returns the errors that `interpolate` returns for a batch.
 [[nodiscard]] Status check_batch(const InterpolationBatch& batch);
+
+/// Those about `rendering_layers`, `radii`, `normals` and `normal_offset`.
+[[nodiscard]] Status check_receivers(const InterpolationBatch& batch);
 
 namespace detail {
 

@@ -15,9 +15,12 @@ namespace {
 /// Limit of back faces that a ray passes, so that a ray that is stuck ends.
 constexpr int kMaxCulledFaces = 64;
 
-PackedSh light_at(const ProbeVolumeView& volume, const glm::dvec3& position) {
-    const CellLocation location = locate(volume, glm::vec3(position));
-    return pack_sh(interpolate(volume, location).irradiance);
+/// The light of a place on a surface with this unit normal.
+PackedSh light_on(const ProbeVolumeView& volume, const glm::vec3& position,
+                  const glm::vec3& normal) {
+    const CellLocation location = locate(volume, position);
+    const glm::vec3 pushed = push_off_surface(volume, position, normal, location);
+    return pack_sh(interpolate(volume, locate(volume, pushed, location.cell)).irradiance);
 }
 
 }  // namespace
@@ -64,9 +67,8 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
             return pack_sh(sample_lppv(lppv, world).irradiance);
         }
         case ProbeUse::EachPoint:
-            return light_at(volume_,
-                            traced_.world_from_render(surface.position +
-                                                      kProbeNormalBias * surface.geometric_normal));
+            return light_on(volume_, glm::vec3(traced_.world_from_render(surface.position)),
+                            surface.geometric_normal);
     }
     return {};
 }

@@ -32,10 +32,6 @@ enum class ProbeUse : uint32_t {
     EachPoint,    ///< by a query at each point of its surface
 };
 
-/// Offset along the normal, metres, at which static surfaces query the probes, so that a wall takes
-/// less of the light behind it.
-inline constexpr float kProbeNormalBias = 0.4f;
-
 /// How one instance of the scene is lit.
 struct InstanceLight {
     ProbeUse use = ProbeUse::EachPoint;

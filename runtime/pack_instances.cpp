@@ -68,20 +68,9 @@ InterpolationBatch without_arrays(const InstanceBatch& batch) {
     all.occlusion = batch.occlusion;
     all.outside = batch.outside;
     all.walls = batch.walls;
+    all.rendering_layers = batch.rendering_layers;
+    all.radii = batch.radii;
     return all;
-}
-
-/// Writes the light of the instances [begin, begin + answers.size()) to `answers`.
-InterpolationBatch part_of(const InterpolationBatch& all, size_t begin,
-                           std::span<PackedSh> answers) {
-    InterpolationBatch part = all;
-    part.positions = all.positions.subspan(begin, answers.size());
-    part.irradiance = answers;
-    if (!all.hints.empty()) part.hints = all.hints.subspan(begin, answers.size());
-    if (!all.occlusion.memory.empty()) {
-        part.occlusion.memory = all.occlusion.memory.subspan(begin * all.occlusion.answer_stride);
-    }
-    return part;
 }
 
 void add(BatchReport& sum, const BatchReport& part) {
@@ -99,7 +88,9 @@ Result<BatchReport> pack_arrays(const ProbeVolumeView& volume, const Interpolati
     for (size_t begin = 0; begin < all.positions.size(); begin += kBlockSize) {
         const size_t count = std::min(kBlockSize, all.positions.size() - begin);
         const std::span answers = std::span(block).first(count);
-        const auto report = interpolate(volume, part_of(all, begin, answers));
+        InterpolationBatch part = part_of(all, begin, count);
+        part.irradiance = answers;
+        const auto report = interpolate(volume, part);
         if (!report) return report.error();
         add(sum, *report);
         scatter(answers, arrays, begin);
@@ -118,6 +109,7 @@ Result<BatchReport> pack_instances(const ProbeVolumeView& volume, const Instance
     if (auto status = check(batch); !status) return status.error();
     const InterpolationBatch all = without_arrays(batch);
     if (batch.arrays.empty()) return interpolate(volume, all);
+    if (auto status = check_receivers(all); !status) return status.error();
     return pack_arrays(volume, all, batch.arrays);
 }
 

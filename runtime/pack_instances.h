@@ -48,6 +48,9 @@ struct InstanceBatch {
     OcclusionOutput occlusion = {};
     OutsideHull outside = {};
     Walls walls = Walls::HideProbes;
+    /// As in `InterpolationBatch`.
+    std::span<const uint32_t> rendering_layers = {};
+    std::span<const float> radii = {};
 };
 
 /// Locates every instance, blends its probes and writes irradiance / π as `pack_sh` does. Returns

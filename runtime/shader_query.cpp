@@ -62,6 +62,7 @@ static_assert(Shader::tetralight_unknown_edge == float{kUnknownEdge});
 static_assert(Shader::tetralight_edge_code_unit == kEdgeCodeUnit);
 static_assert(Shader::tetralight_hidden_share == kHiddenShare);
 static_assert(Shader::tetralight_visibility_ramp == kVisibilityRamp);
+static_assert(Shader::tetralight_normal_offset == kNormalOffset);
 
 }  // namespace
 
@@ -80,6 +81,12 @@ CellLocation visible_location(const ShaderVolume& volume, CellLocation location)
     location.weights =
         Shader(volume).tetralight_visible_location({location.cell, location.weights}).weights;
     return location;
+}
+
+glm::vec3 push_off_surface(const ShaderVolume& volume, glm::vec3 position, glm::vec3 normal,
+                           const CellLocation& location, float normal_offset) noexcept {
+    return Shader(volume).tetralight_push_off_surface(
+        position, normal, {location.cell, location.weights}, normal_offset);
 }
 
 PackedProbe interpolate(const ShaderVolume& volume, const CellLocation& location,

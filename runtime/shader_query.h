@@ -28,6 +28,11 @@ namespace tetralight {
 [[nodiscard]] CellLocation visible_location(const ShaderVolume& volume,
                                             CellLocation location) noexcept;
 
+/// A position moved off the surface that it lies on (probes/receiver.h). Thread-safe.
+[[nodiscard]] glm::vec3 push_off_surface(const ShaderVolume& volume, glm::vec3 position,
+                                         glm::vec3 normal, const CellLocation& location,
+                                         float normal_offset = kNormalOffset) noexcept;
+
 /// Blends the probes of a located cell: `tetralight_interpolate`, or `tetralight_blend` if walls
 /// are ignored. Thread-safe.
 [[nodiscard]] PackedProbe interpolate(const ShaderVolume& volume, const CellLocation& location,

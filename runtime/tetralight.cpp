@@ -7,6 +7,7 @@
 
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/runtime/detail/c_arrays.h>
+#include <tetralight/runtime/detail/c_receivers.h>
 #include <tetralight/runtime/detail/c_volume.h>
 #include <tetralight/runtime/pack_instances.h>
 #include <tetralight/runtime/shader_volume.h>
@@ -23,7 +24,11 @@ using detail::check_aligned;
 using detail::check_array;
 using detail::check_floats;
 using detail::check_memory;
+using detail::check_normals;
 using detail::check_pointer;
+using detail::check_receivers;
+using detail::check_walls;
+using detail::elements_of;
 using detail::finish;
 using detail::output_of;
 using detail::PositionBlocks;
@@ -93,9 +98,7 @@ CallError check_batch(const tetralight_batch& batch) {
         return {TETRALIGHT_BAD_VALUE, str_cat("sh_format is out of range: ", batch.sh_format)};
     }
     if (auto wrong = check_outside(batch)) return wrong;
-    if (batch.walls > TETRALIGHT_IGNORE_WALLS) {
-        return {TETRALIGHT_BAD_VALUE, str_cat("walls is out of range: ", batch.walls)};
-    }
+    if (auto wrong = check_walls(batch.walls)) return wrong;
     if (batch.count == 0) return {};
     if (!batch.sh.data && !batch.occlusion.data) {
         return {TETRALIGHT_BAD_POINTER, "sh and occlusion are both NULL"};
@@ -104,6 +107,10 @@ CallError check_batch(const tetralight_batch& batch) {
         return wrong;
     }
     if (auto wrong = check_hints(batch.hints, batch.count)) return wrong;
+    if (auto wrong = check_receivers(batch.rendering_layers, batch.radii, batch.count)) {
+        return wrong;
+    }
+    if (auto wrong = check_normals(batch.normals, batch.normal_offset, batch.count)) return wrong;
     const auto format = static_cast<ShFormat>(batch.sh_format);
     if (batch.sh.data) {
         const size_t value = value_size(format);
@@ -129,6 +136,11 @@ InterpolationBatch part_of(const tetralight_batch& batch, size_t begin,
     part.hints = hints_of(batch.hints, begin, positions.size());
     part.outside = outside_of(batch);
     part.walls = static_cast<Walls>(batch.walls);
+    const size_t count = positions.size();
+    part.rendering_layers = elements_of<uint32_t>(batch.rendering_layers, begin, count);
+    part.radii = elements_of<float>(batch.radii, begin, count);
+    part.normals = elements_of<glm::vec3>(batch.normals, begin, count);
+    part.normal_offset = batch.normal_offset;
     const auto format = static_cast<ShFormat>(batch.sh_format);
     if (batch.sh.data) {
         const size_t size = value_count(format) * value_size(format);
@@ -143,6 +155,7 @@ InterpolationBatch part_of(const tetralight_batch& batch, size_t begin,
 }
 
 CallError check_instances(const tetralight_instances& instances) {
+    if (auto wrong = check_walls(instances.walls)) return wrong;
     if (instances.count == 0) return {};
     constexpr const char* kNames[] = {"sh[0]", "sh[1]", "sh[2]", "sh[3]",
                                       "sh[4]", "sh[5]", "sh[6]"};
@@ -155,6 +168,10 @@ CallError check_instances(const tetralight_instances& instances) {
                                      detail::Gaps::Refused)) {
             return wrong;
         }
+    }
+    if (auto wrong =
+            check_receivers(instances.rendering_layers, instances.radii, instances.count)) {
+        return wrong;
     }
     if (!instances.occlusion.data) return {};
     return check_array("occlusion", instances.occlusion, instances.count, kVector);
@@ -170,6 +187,10 @@ InstanceBatch part_of(const tetralight_instances& instances, size_t begin,
     part.hints = hints_of(instances.hints, begin, positions.size());
     part.arrays = {vectors(0), vectors(1), vectors(2), vectors(3),
                    vectors(4), vectors(5), vectors(6)};
+    part.walls = static_cast<Walls>(instances.walls);
+    part.rendering_layers =
+        elements_of<uint32_t>(instances.rendering_layers, begin, positions.size());
+    part.radii = elements_of<float>(instances.radii, begin, positions.size());
     if (instances.occlusion.data) {
         const detail::ByteRows rows = output_of(instances.occlusion, kVector.size, begin);
         part.occlusion = strided_occlusion(rows.memory, rows.stride);

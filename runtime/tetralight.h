@@ -146,6 +146,9 @@ typedef enum tetralight_sh_format {
 /** No cell. As a hint: the search starts at the nearest seed. */
 #define TETRALIGHT_NO_CELL 0xffffffffu
 
+/** A good share for `tetralight_batch.normal_offset` (probes/receiver.h). */
+#define TETRALIGHT_NORMAL_OFFSET 0.1f
+
 /** The light at one position. */
 typedef struct tetralight_light {
     /** As TETRALIGHT_SH_PACKED: SHAr, SHAg, SHAb, SHBr, SHBg, SHBb, SHC. */
@@ -193,6 +196,18 @@ typedef struct tetralight_batch {
     float fade_distance;
     /** A tetralight_walls. */
     uint32_t walls;
+    /** uint32_t each, without gaps; bit i: what is lit is on rendering layer i, and probes on none
+     * of its layers do not light it. NULL or 0 = all layers. */
+    tetralight_const_array rendering_layers;
+    /** float each, without gaps, metres, >= 0: light of probes behind a wall fades over this
+     * distance. NULL = 0. */
+    tetralight_const_array radii;
+    /** Three floats each, without gaps: unit normals of surfaces that the positions lie on, along
+     * which they are pushed off. Such a batch takes about twice the time. May be NULL. */
+    tetralight_const_array normals;
+    /** The share of the mean distance to the probes that positions with normals are pushed by, >=
+     * 0; TETRALIGHT_NORMAL_OFFSET is a good one. */
+    float normal_offset;
 } tetralight_batch;
 
 /** Counts of a batch. */
@@ -212,6 +227,10 @@ typedef struct tetralight_instances {
     tetralight_array sh[7];
     /** float4 each; may be NULL. */
     tetralight_array occlusion;
+    /** As in tetralight_batch. */
+    uint32_t walls;
+    tetralight_const_array rendering_layers;
+    tetralight_const_array radii;
 } tetralight_instances;
 
 /** The version of the library: major * 10000 + minor * 100 + patch. Thread-safe. */
@@ -251,9 +270,9 @@ TETRALIGHT_API tetralight_status tetralight_recombine(tetralight_volume* volume,
                                                       const float* weights, size_t weight_count,
                                                       tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** The light at one position (three floats), of the probes that no wall hides. `hint`, which may be
- * NULL, gives the cell where the search starts and receives the cell found. A position that is not
- * finite receives the ambient light and no cell. */
+/** The light at one position (three floats), of the probes that no wall hides; a batch of one has
+ * more options. `hint`, which may be NULL, gives the cell where the search starts and receives the
+ * cell found. A position that is not finite receives the ambient light and no cell. */
 TETRALIGHT_API tetralight_status tetralight_query(const tetralight_volume* volume,
                                                   const float* position, uint32_t* hint,
                                                   tetralight_light* light,
@@ -264,7 +283,7 @@ TETRALIGHT_API tetralight_status
 tetralight_query_batch(const tetralight_volume* volume, const tetralight_batch* batch,
                        tetralight_report* report, tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
-/** The light of instances, of the probes that no wall hides. `report` may be NULL. */
+/** The light of instances. `report` may be NULL. */
 TETRALIGHT_API tetralight_status
 tetralight_pack_instances(const tetralight_volume* volume, const tetralight_instances* instances,
                           tetralight_report* report, tetralight_error* error) TETRALIGHT_NOEXCEPT;

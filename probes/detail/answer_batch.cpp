@@ -10,11 +10,6 @@
 namespace tetralight::detail {
 namespace {
 
-template <class T>
-std::span<T> elements(std::span<T> all, size_t begin, size_t count) {
-    return all.empty() ? all : all.subspan(begin, count);
-}
-
 void add(BatchReport& sum, const BatchReport& part) {
     sum.not_finite_count += part.not_finite_count;
     sum.step_count += part.step_count;
@@ -120,22 +115,6 @@ BatchReport answer_off_surfaces(const ProbeVolumeView& volume, const Interpolati
 }
 
 }  // namespace
-
-InterpolationBatch part_of(const InterpolationBatch& batch, size_t begin, size_t count) {
-    InterpolationBatch part = batch;
-    part.positions = elements(batch.positions, begin, count);
-    part.hints = elements(batch.hints, begin, count);
-    part.sort_memory = elements(batch.sort_memory, 2 * begin, 2 * count);
-    part.locations = elements(batch.locations, begin, count);
-    part.rendering_layers = elements(batch.rendering_layers, begin, count);
-    part.radii = elements(batch.radii, begin, count);
-    part.normals = elements(batch.normals, begin, count);
-    part.irradiance.memory = elements(batch.irradiance.memory,
-                                      begin * batch.irradiance.answer_stride, std::dynamic_extent);
-    part.occlusion.memory = elements(batch.occlusion.memory, begin * batch.occlusion.answer_stride,
-                                     std::dynamic_extent);
-    return part;
-}
 
 BatchReport answer(const ProbeVolumeView& volume, const InterpolationBatch& batch,
                    const QueryKernels& kernels) {

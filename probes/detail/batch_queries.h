@@ -81,10 +81,6 @@ class BatchQueries {
     BlockArray<glm::vec3> position_;
 };
 
-/// The positions [begin, begin + count) of a checked batch.
-[[nodiscard]] InterpolationBatch part_of(const InterpolationBatch& batch, size_t begin,
-                                         size_t count);
-
 /// Answers a checked batch.
 [[nodiscard]] BatchReport answer(const ProbeVolumeView& volume, const InterpolationBatch& batch,
                                  const QueryKernels& kernels = query_kernels());

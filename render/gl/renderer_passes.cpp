@@ -46,7 +46,6 @@ void Renderer::write_frame(const Camera& camera, const RenderTarget& target) {
     frame.up = glm::vec4(camera.world_from_camera[1] * height);
     frame.ahead = glm::vec4(-camera.world_from_camera[2]);
     frame.counts.x = shadows_.light_count();
-    frame.numbers.x = kProbeNormalBias;
     frame.sky = sky_;
     glNamedBufferSubData(frame_.name(), 0, sizeof frame, &frame);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());

@@ -218,6 +218,45 @@ TetralightCellLocation tetralight_locate(vec3 position, uint hint) {
     return location;
 }
 
+// As in probes/receiver.h.
+TETRALIGHT_CONST float tetralight_normal_offset = 0.1f;
+
+// The place that the weights of a location stand for, relative to the volume's origin.
+vec3 tetralight_weighted_place(TetralightCellLocation location) {
+    uvec4 vertices = tetralight_cell_vertices(location.cell);
+    vec3 place = vec3(0.0f, 0.0f, 0.0f);
+    for (int i = 0; i < 4; ++i) {
+        float weight = location.weights[i];
+        uint probe = vertices[i];
+        if (weight > 0.0f) place = place + tetralight_probe_position(probe) * weight;
+    }
+    return place;
+}
+
+// The mean distance, metres, from a position to the probes of its cell, weighted as they light it.
+float tetralight_mean_probe_distance(TetralightCellLocation location) {
+    float mean = 0.0f;
+    if (location.cell >= tetralight_volume.counts.y) return mean;
+    vec3 place = tetralight_weighted_place(location);
+    uvec4 vertices = tetralight_cell_vertices(location.cell);
+    for (int i = 0; i < 4; ++i) {
+        float weight = location.weights[i];
+        uint probe = vertices[i];
+        if (!(weight > 0.0f)) continue;
+        vec3 away = tetralight_probe_position(probe) - place;
+        mean += weight * sqrt(dot(away, away));
+    }
+    return mean;
+}
+
+// A position on a surface moved off along its unit normal, so that a wall takes the light of its
+// own side. `location` is that of the position; normal_offset is the share of the mean distance to
+// the probes.
+vec3 tetralight_push_off_surface(vec3 position, vec3 normal, TetralightCellLocation location,
+                                 float normal_offset) {
+    return position + normal * (normal_offset * tetralight_mean_probe_distance(location));
+}
+
 TetralightPackedSh tetralight_add_probe(TetralightPackedSh sum, uint probe, float weight) {
     sum.sha_r = sum.sha_r + tetralight_probe_light(probe, 0u) * weight;
     sum.sha_g = sum.sha_g + tetralight_probe_light(probe, 1u) * weight;

@@ -167,6 +167,34 @@ TEST(PackInstances, WallsHideProbesUnlessIgnored) {
               interpolate(volume.view(), location, {Walls::Ignore}));
 }
 
+TEST(PackInstances, HaveRenderingLayersAndRadiiAsBatchesDo) {
+    ProbeVolume volume = make_volume();
+    for (size_t i = 0; i < volume.positions.size(); ++i) {
+        volume.rendering_layers.push_back(i % 2 == 0 ? 0b01 : 0b10);
+    }
+    const auto positions = make_positions(400);  // more than a block
+    std::vector<uint32_t> layers(positions.size());
+    for (size_t i = 0; i < layers.size(); ++i) layers[i] = static_cast<uint32_t>(i % 4);
+    const std::vector<float> radii(positions.size(), 0.1f);
+    std::vector<PackedSh> expected(positions.size());
+    ASSERT_TRUE(interpolate(volume.view(), {.positions = positions,
+                                            .irradiance = expected,
+                                            .rendering_layers = layers,
+                                            .radii = radii}));
+    ShaderArrays light(positions.size());
+    ASSERT_TRUE(pack_instances(volume.view(), {.positions = positions,
+                                               .arrays = light.spans(),
+                                               .rendering_layers = layers,
+                                               .radii = radii}));
+    for (size_t i = 0; i < positions.size(); ++i) EXPECT_EQ(light.packed(i), expected[i]);
+    const auto report =
+        pack_instances(volume.view(), {.positions = positions,
+                                       .arrays = light.spans(),
+                                       .rendering_layers = std::span(layers).first(399)});
+    ASSERT_FALSE(report);
+    EXPECT_EQ(report.error().field, "rendering_layers");
+}
+
 TEST(PackInstances, CountsPositionsThatAreNotFiniteInEveryBlock) {
     const ProbeVolume volume = make_volume();
     auto positions = make_positions(400);

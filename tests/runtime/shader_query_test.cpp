@@ -81,6 +81,20 @@ TEST_P(ShaderQuery, HidesProbesBehindWallsWithTheWeightsOfTheCpu) {
     EXPECT_EQ(hidden_count > 1000, subject.volume.info.dimension > Dimension::Point);
 }
 
+TEST_P(ShaderQuery, PushesPositionsOffSurfacesAsTheCpuDoes) {
+    const test::ShaderQueryVolume subject(GetParam());
+    const ProbeVolumeView view = subject.volume.view();
+    const ShaderVolume shader = make_shader_volume(view);
+    const glm::vec3 normal(0, 1, 0);
+    for (const glm::vec3& position : subject.make_positions(1000)) {
+        const CellLocation location = locate(shader, position);
+        const glm::vec3 gpu = push_off_surface(shader, position, normal, location);
+        const glm::vec3 cpu = push_off_surface(view, position, normal, location);
+        const float rounding = 1e-6f * (view.info.extent + glm::length(position));
+        EXPECT_LE(glm::distance(gpu, cpu), rounding);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Volumes, ShaderQuery, testing::ValuesIn(test::shader_query_cases()),
                          [](const auto& param) { return param.param.family; });
 

@@ -261,6 +261,77 @@ TEST_F(CApi, WallsHideProbesInEveryQueryUnlessABatchIgnoresThem) {
     tetralight_close(walled);
 }
 
+TEST_F(CApi, BatchesAndInstancesSayWhatIsLit) {
+    test::ShaderQueryVolume subject({"random", 300});
+    subject.add_random_walls();
+    for (size_t i = 0; i < subject.volume.positions.size(); ++i) {
+        subject.volume.rendering_layers.push_back(i % 2 == 0 ? 0b01 : 0b10);
+    }
+    const ProbeVolumeView view = subject.volume.view();
+    const std::string path = folder.write("layers.probes", probe_file_bytes(view));
+    tetralight_volume* layered = nullptr;
+    ASSERT_EQ(tetralight_open(path.c_str(), &layered, &error), TETRALIGHT_OK);
+    const size_t count = 3000;  // more than a block
+    const std::vector<glm::vec3> positions = subject.make_positions(count);
+    std::vector<uint32_t> layers(count);
+    std::vector<float> radii(count);
+    std::vector<glm::vec3> normals(count, glm::vec3(0, 1, 0));
+    for (size_t i = 0; i < count; ++i) {
+        layers[i] = static_cast<uint32_t>(i % 4);
+        radii[i] = 0.1f * static_cast<float>(i % 3);
+    }
+    std::vector<PackedSh> light(count), expected(count);
+    tetralight_batch batch{};
+    batch.count = count;
+    batch.positions = {positions.data(), sizeof(glm::vec3) * count, 0};
+    batch.sh = {light.data(), sizeof(PackedSh) * count, 0};
+    batch.sh_format = TETRALIGHT_SH_PACKED;
+    batch.rendering_layers = {layers.data(), sizeof(uint32_t) * count, 0};
+    batch.radii = {radii.data(), sizeof(float) * count, 0};
+    batch.normals = {normals.data(), sizeof(glm::vec3) * count, 0};
+    batch.normal_offset = TETRALIGHT_NORMAL_OFFSET;
+    EXPECT_EQ(tetralight_query_batch(layered, &batch, nullptr, &error), TETRALIGHT_OK);
+    ASSERT_TRUE(interpolate(view, {.positions = positions,
+                                   .irradiance = expected,
+                                   .rendering_layers = layers,
+                                   .radii = radii,
+                                   .normals = normals}));
+    EXPECT_EQ(light, expected);
+
+    std::vector<glm::vec4> sh[7];
+    tetralight_instances instances{};
+    instances.count = count;
+    instances.positions = batch.positions;
+    instances.rendering_layers = batch.rendering_layers;
+    instances.radii = batch.radii;
+    for (size_t i = 0; i < 7; ++i) {
+        sh[i].resize(count);
+        instances.sh[i] = {sh[i].data(), sizeof(glm::vec4) * count, 0};
+    }
+    EXPECT_EQ(tetralight_pack_instances(layered, &instances, nullptr, &error), TETRALIGHT_OK);
+    ASSERT_TRUE(interpolate(view, {.positions = positions,
+                                   .irradiance = expected,
+                                   .rendering_layers = layers,
+                                   .radii = radii}));
+    for (size_t i = 0; i < count; ++i) EXPECT_EQ(sh[0][i], expected[i].sha_r);
+
+    batch.normal_offset = -1.0f;
+    EXPECT_EQ(tetralight_query_batch(layered, &batch, nullptr, &error), TETRALIGHT_BAD_VALUE);
+    EXPECT_STREQ(error.message, "normal_offset is -1; it must be finite and not negative");
+    radii[2000] = NAN;
+    EXPECT_EQ(tetralight_query_batch(layered, &batch, nullptr, &error), TETRALIGHT_BAD_VALUE);
+    EXPECT_STREQ(error.message, "radii[2000] is nan; it must be finite and not negative");
+    instances.walls = 2;
+    EXPECT_EQ(tetralight_pack_instances(layered, &instances, nullptr, &error),
+              TETRALIGHT_BAD_VALUE);
+    instances.walls = TETRALIGHT_IGNORE_WALLS;
+    instances.radii = {};
+    instances.rendering_layers.size -= 4;
+    EXPECT_EQ(tetralight_pack_instances(layered, &instances, nullptr, &error),
+              TETRALIGHT_SHORT_BUFFER);
+    tetralight_close(layered);
+}
+
 TEST_F(CApi, AnEmptyBatchNeedsNoBuffers) {
     tetralight_batch batch{};
     tetralight_report report{9, 9};

@@ -14,10 +14,9 @@ struct Frame {
     glm::vec4 up;     ///< length: half the height of the picture at distance 1
     glm::vec4 ahead;
     glm::uvec4 counts;  ///< x: number of lights
-    glm::vec4 numbers;  ///< x: probe normal bias
     PackedSh sky;
 };
 
-static_assert(sizeof(Frame) == 96 + sizeof(PackedSh));
+static_assert(sizeof(Frame) == 80 + sizeof(PackedSh));
 
 }  // namespace tetralight::detail

@@ -152,8 +152,10 @@ TetralightPackedSh probe_light(vec3 flat_normal, out vec4 occlusion) {
         return tetralight_sample_lppv_7(proxy_light, proxy, position);
     }
     if (use == 3u) {
-        vec3 biased = position + numbers.x * flat_normal;
-        return tetralight_interpolate(tetralight_locate(biased, 0xffffffffu)).sh;
+        TetralightCellLocation location = tetralight_locate(position, 0xffffffffu);
+        vec3 pushed = tetralight_push_off_surface(position, flat_normal, location,
+                                                  tetralight_normal_offset);
+        return tetralight_interpolate(tetralight_locate(pushed, location.cell)).sh;
     }
     return no_light();
 }

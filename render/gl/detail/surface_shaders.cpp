@@ -106,7 +106,6 @@ layout(std140, binding = 1) uniform Frame {
     vec4 up;
     vec4 ahead;
     uvec4 counts;  // lights
-    vec4 numbers;  // probe normal bias
     TetralightPackedSh sky;
 };
 )";
