@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/seed_grid.h>
 
 namespace tetralight {

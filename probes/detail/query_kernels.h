@@ -7,9 +7,9 @@
 #include <span>
 
 #include <tetralight/probes/detail/query_block.h>
-#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/probes/query_output.h>
+#include <tetralight/probes/receiver.h>
 #include <tetralight/probes/seed_grid.h>
 
 // The inner loops of a batch. Each exists as plain C++ (the scalar twin) and, where Highway is

@@ -268,9 +268,9 @@ TEST_F(CApi, BatchesAndInstancesSayWhatIsLit) {
         subject.volume.rendering_layers.push_back(i % 2 == 0 ? 0b01 : 0b10);
     }
     const ProbeVolumeView view = subject.volume.view();
-    const std::string path = folder.write("layers.probes", probe_file_bytes(view));
+    const std::string layered_path = folder.write("layers.probes", probe_file_bytes(view));
     tetralight_volume* layered = nullptr;
-    ASSERT_EQ(tetralight_open(path.c_str(), &layered, &error), TETRALIGHT_OK);
+    ASSERT_EQ(tetralight_open(layered_path.c_str(), &layered, &error), TETRALIGHT_OK);
     const size_t count = 3000;  // more than a block
     const std::vector<glm::vec3> positions = subject.make_positions(count);
     std::vector<uint32_t> layers(count);
