@@ -26,6 +26,7 @@ struct Bake {
     BakeVolumeSettings settings;
     BakeStoring storing;
     bool is_explained = false;
+    bool checks_leaks = false;
     CommonOptions common;
 
     explicit Bake(const Values& values)
@@ -36,6 +37,7 @@ struct Bake {
           settings(bake_settings(values)),
           storing(values),
           is_explained(values.flag("explain")),
+          checks_leaks(values.flag("check_leaks")),
           common(values) {
         if (output.empty() && !is_explained) require(values, "output");
     }
@@ -91,9 +93,9 @@ struct Bake {
         if (!baked) return baked.error();
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         storing.warn(*baked, common);
-        const Status status = storing.probes
-                                  ? write_range(prepared, *baked, seconds.count())
-                                  : write_whole(std::move(prepared), *baked, seconds.count());
+        const Status status =
+            storing.probes ? write_range(prepared, *baked, seconds.count())
+                           : write_whole(scene, std::move(prepared), *baked, seconds.count());
         if (status) storing.finish(*baked);
         return status;
     }
@@ -113,12 +115,21 @@ struct Bake {
         return Ok{};
     }
 
-    Status write_whole(PreparedBake prepared, const RangeBake& baked, double seconds) const {
+    Status write_whole(const Scene& scene, PreparedBake prepared, const RangeBake& baked,
+                       double seconds) const {
         const BakedVolume result =
             finish_bake(std::move(prepared), baked.partial.accumulators, baked.partial.split_rows);
         common.warn(result.report.warnings);
         if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
-        report_volume(common, {output, settings.bake, seconds, baked.earlier_ray_count}, result);
+        const BakeRun run{output, settings.bake, seconds, baked.earlier_ray_count};
+        if (!checks_leaks) {
+            report_volume(common, run, result);
+            return Ok{};
+        }
+        const auto leaks =
+            check_leaks(scene, result.volume.view(), {.thread_count = settings.bake.thread_count});
+        if (!leaks) common.warn("light through walls could not be checked: ", leaks.error(), "");
+        report_volume(common, run, result, leaks ? &*leaks : nullptr);
         return Ok{};
     }
 };

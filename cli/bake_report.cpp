@@ -3,6 +3,8 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
+#include <tetralight/cli/leak_report.h>
+#include <tetralight/cli/walls_report.h>
 
 namespace tetralight::cli {
 namespace {
@@ -53,33 +55,10 @@ std::string errors_text(const BakeStatistics& statistics) {
                    percent(statistics.p99_error), ", worst ", percent(statistics.worst_error));
 }
 
-/// null: of a volume without edges, and of merged parts.
-Json visibility_json(const VisibilityReport& walls) {
-    if (walls.edge_count == 0) return nullptr;
-    return {{"edges", walls.edge_count},
-            {"blocked_edges", walls.blocked_edge_count},
-            {"marked_cells", walls.marked_cell_count},
-            {"unclear_cells", walls.unclear_cell_count},
-            {"left_out_probes", walls.left_out_count},
-            {"rays", walls.ray_count}};
-}
-
-/// A line: "walls block 12 of 345 edges; 6 cells with surfaces that edges do not show (0.1 s)".
-std::string visibility_text(const VisibilityReport& walls) {
-    if (walls.edge_count == 0) return "";
-    return str_cat("\n  ", "walls block ", grouped(walls.blocked_edge_count), " of ",
-                   counted(walls.edge_count, "edge"), "; ",
-                   counted(walls.unclear_cell_count, "cell"),
-                   " with surfaces that edges do not show",
-                   walls.left_out_count > 0 ? str_cat("; ", counted(walls.left_out_count, "probe"),
-                                                      " moved through a wall, which nothing hides")
-                                            : "",
-                   " (", duration(walls.seconds), ")");
-}
-
 }  // namespace
 
-void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked) {
+void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked,
+                   const LeakReport* leaks) {
     const ProbeVolumeView volume = baked.volume.view();
     const BakeReport& report = baked.report;
     Json json{{"output", run.output}};
@@ -90,14 +69,17 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
                  {"left_out", report.left_out_count},
                  {"dilated", report.dilated_count},
                  {"reused", report.reused_count}});
-    json["walls"] = visibility_json(report.visibility);
+    json["walls"] = to_json(report.visibility);
+    json["unseen"] = to_json(report.unseen);
     json.update(work(report.ray_count, run));
     json.update(to_json(report.statistics));
     json["seconds"] = {{"merge", report.merge_seconds},
                        {"prepare", report.prepare_seconds},
                        {"tetrahedralize", report.tetrahedralize_seconds},
                        {"walls", report.visibility.seconds},
+                       {"unseen", report.unseen_seconds},
                        {"bake", run.seconds}};
+    if (leaks != nullptr) json["leaks"] = to_json(*leaks);
     common.report(run.output, json,
                   str_cat(run.output, ": ", counted(volume.probe_count(), "probe"), " (",
                           merged_text(report.welded_count, report.lattice_group_names.size(),
@@ -106,7 +88,7 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
                           duration(report.merge_seconds), ", tetrahedralize ",
                           duration(report.tetrahedralize_seconds), ", bake ",
                           work_text(report.ray_count, run), "\n  ", to_text(report.statistics),
-                          visibility_text(report.visibility)));
+                          walls_text(report), leaks == nullptr ? "" : "\n" + to_text(*leaks)));
 }
 
 void report_range(const CommonOptions& common, const BakeRun& run, const PartialBake& part,

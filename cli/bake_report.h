@@ -7,6 +7,7 @@
 #include <tetralight/bake/bake_statistics.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/pipeline/check_leaks.h>
 #include <tetralight/pipeline/partial_bake.h>
 
 namespace tetralight::cli {
@@ -21,8 +22,9 @@ struct BakeRun {
     uint64_t earlier_ray_count = 0;
 };
 
-/// Reports a bake of all probes.
-void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked);
+/// Reports a bake of all probes. `leaks`: null if they were not checked.
+void report_volume(const CommonOptions& common, const BakeRun& run, const BakedVolume& baked,
+                   const LeakReport* leaks = nullptr);
 
 /// Reports a bake of a range; `probe_count` is that of the volume.
 void report_range(const CommonOptions& common, const BakeRun& run, const PartialBake& part,

@@ -19,6 +19,7 @@ constexpr Command kCommands[] = {
     {&settings::kMeshball, run_meshball},
     {&settings::kInfo, run_info},
     {&settings::kValidate, run_validate},
+    {&settings::kCheckLeaks, run_check_leaks},
 #ifdef TETRALIGHT_HAS_SERVER
     {&settings::kServe, run_serve},
     {&settings::kFsck, run_fsck},

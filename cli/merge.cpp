@@ -3,6 +3,7 @@
 #include <tetralight/cli/bake_report.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/walls_report.h>
 #include <tetralight/pipeline/merge_parts.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -28,11 +29,13 @@ struct Merge {
         Json json{{"output", output}, {"parts", parts.size()}};
         json.update(counts(volume));
         json.update({{"rays", merged->report.ray_count}});
+        json["walls"] = to_json(merged->report.visibility);
+        json["unseen"] = to_json(merged->report.unseen);
         json.update(to_json(merged->report.statistics));
         common.report(output, json,
                       str_cat(output, ": ", counted(volume.probe_count(), "probe"), " of ",
                               counted(parts.size(), "part"), ", ", cells_text(volume), "\n  ",
-                              to_text(merged->report.statistics)));
+                              to_text(merged->report.statistics), walls_text(merged->report)));
         return Ok{};
     }
 };

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/probes/build/validate.h>
 
+#include <optional>
+
+#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/failure.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/walls_report.h>
+#include <tetralight/pipeline/bake_metadata.h>
+#include <tetralight/pipeline/unseen_places.h>
 #include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -31,9 +37,12 @@ Json report_json(const ValidationReport& report) {
 
 struct Validate {
     std::string path;
+    /// Empty: unseen space is not measured.
+    std::string scene_path;
     CommonOptions common;
 
-    explicit Validate(const Values& values) : path(values.text("volume")), common(values) {}
+    explicit Validate(const Values& values)
+        : path(values.text("volume")), scene_path(values.text("scene")), common(values) {}
 
     Status run() {
         const auto file = open_volume();
@@ -44,15 +53,18 @@ struct Validate {
             const std::string problem = error_json(file.error())["message"];
             return with_report(file.error(), verdict({problem}));
         }
+        const auto unseen = find_unseen_places(file->view());
+        if (!unseen) return unseen.error();
         const ValidationReport report = validate(file->view());
         const std::vector<std::string> problems = report.problems();
         Json json = verdict(problems);
         json.update(counts(file->view()));
         json.update(report_json(report));
-        const std::string line =
-            str_cat(printable(path), problems.empty() ? ": valid, " : ": not valid, ",
-                    counted(file->view().probe_count(), "probe"), ", ",
-                    problems.empty() ? "Delaunay " : "", cells_text(file->view()));
+        if (*unseen) json["unseen"] = to_json(**unseen);
+        const std::string line = str_cat(
+            printable(path), problems.empty() ? ": valid, " : ": not valid, ",
+            counted(file->view().probe_count(), "probe"), ", ", problems.empty() ? "Delaunay " : "",
+            cells_text(file->view()), *unseen ? "\n  " + to_text(**unseen) : "");
         if (problems.empty() || !common.is_json) common.print(json, line);
         if (problems.empty()) return Ok{};
         std::string message = path + ": ";
@@ -60,6 +72,21 @@ struct Validate {
             message += (&problem == &problems[0] ? "" : "; ") + problem;
         }
         return with_report({ErrorCode::Corrupt, message}, json);
+    }
+
+    /// None without a scene.
+    [[nodiscard]] Result<std::optional<UnseenPlaces>> find_unseen_places(
+        const ProbeVolumeView& volume) const {
+        if (scene_path.empty()) return std::optional<UnseenPlaces>();
+        const auto scene = read_gltf(scene_path);
+        if (!scene) return scene.error();
+        common.warn(scene->warnings);
+        const auto recorded = recorded_settings(volume.metadata);
+        if (!recorded) return recorded.error().in(path);
+        auto unseen =
+            measure_unseen(*scene, volume, recorded->health.min_validity, common.thread_count);
+        if (!unseen) return unseen.error().in(scene_path);
+        return std::optional(std::move(*unseen));
     }
 
     /// The volume with its metadata checked.

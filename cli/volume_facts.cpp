@@ -5,6 +5,7 @@
 
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/light_words.h>
+#include <tetralight/cli/walls_report.h>
 #include <tetralight/probes/build/quality.h>
 #include <tetralight/probes/seed_grid.h>
 #include <tetralight/probes/volume_members.h>
@@ -144,10 +145,17 @@ Json walks_json(const VolumeFacts& facts) {
 
 Json visibility_json(const VolumeFacts& facts) {
     if (!facts.visibility) return nullptr;
-    return {{"marked_cells", facts.visibility->marked_cells},
-            {"edges", facts.visibility->edges},
-            {"blocked_edges", facts.visibility->blocked_edges},
-            {"unknown_edges", facts.visibility->unknown_edges}};
+    Json json{{"marked_cells", facts.visibility->marked_cells},
+              {"edges", facts.visibility->edges},
+              {"blocked_edges", facts.visibility->blocked_edges},
+              {"unknown_edges", facts.visibility->unknown_edges},
+              {"unclear_cells", nullptr},
+              {"left_out_probes", nullptr}};
+    if (facts.walls) {
+        json["unclear_cells"] = facts.walls->unclear_cell_count;
+        json["left_out_probes"] = facts.walls->left_out_count;
+    }
+    return json;
 }
 
 }  // namespace
@@ -181,6 +189,7 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.slivers = count_slivers(volume);
     if (volume.info.inner_cell_count > 0) facts.walks = measure_walks(volume);
     if (!volume.visibility_blocks.empty()) facts.visibility = visibility_facts(volume);
+    facts.walls = read_walls(volume.metadata);
     facts.seed_count = seed_count(volume);
     facts.sections = section_facts(file);
     return facts;
@@ -196,6 +205,7 @@ Json to_json(const VolumeFacts& facts) {
                  {"seeds", seeds_json(facts)},
                  {"walks", walks_json(facts)},
                  {"visibility", visibility_json(facts)},
+                 {"unseen", facts.walls ? to_json(facts.walls->unseen) : Json(nullptr)},
                  {"group_list", facts.groups},
                  {"lights", facts.lights},
                  {"layers", facts.layers},

@@ -8,6 +8,7 @@
 
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/walk_facts.h>
+#include <tetralight/pipeline/walls_metadata.h>
 #include <tetralight/probes/build/store_visibility.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -45,6 +46,8 @@ struct VolumeFacts {
     std::optional<WalkFacts> walks;
     /// None in volumes that know no walls.
     std::optional<VisibilityFacts> visibility;
+    /// None in volumes whose bake did not record it.
+    std::optional<WallsMetadata> walls;
     uint64_t seed_count = 0;
     std::vector<SectionFacts> sections;
 

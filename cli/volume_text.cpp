@@ -9,6 +9,7 @@
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/table.h>
 #include <tetralight/cli/volume_facts.h>
+#include <tetralight/cli/walls_report.h>
 
 namespace tetralight::cli {
 namespace {
@@ -44,6 +45,13 @@ Rows walk_rows(const VolumeFacts& facts) {
                               grouped(walks.position_count))}};
 }
 
+/// ", 5 cells with surfaces that edges do not show, 2 probes moved through a wall".
+std::string unclear_text(const WallsMetadata& walls) {
+    return str_cat(", ", counted(walls.unclear_cell_count, "cell"),
+                   " with surfaces that edges do not show, ",
+                   counted(walls.left_out_count, "probe"), " moved through a wall");
+}
+
 /// "123 of 4 567 cells partly hidden (2.7 %), 89 edges blocked (1.2 %), 3 not known".
 std::string walls_text(const VolumeFacts& facts, size_t cell_count) {
     if (!facts.visibility) return "not known";
@@ -52,7 +60,7 @@ std::string walls_text(const VolumeFacts& facts, size_t cell_count) {
                    " partly hidden (", percent(walls.marked_cells, cell_count), "), ",
                    grouped(walls.blocked_edges), " of ", counted(walls.edges, "edge"), " blocked (",
                    percent(walls.blocked_edges, walls.edges), "), ", grouped(walls.unknown_edges),
-                   " not known");
+                   " not known", facts.walls ? unclear_text(*facts.walls) : "");
 }
 
 /// "1.5 2 3", at most six digits each.
@@ -98,6 +106,7 @@ std::string layers_text(const VolumeFacts& facts) {
 std::string made_with_text(const Json& made_with) {
     std::string line;
     for (const auto& [key, value] : made_with.items()) {
+        if (key == "walls") continue;  // in rows of their own
         const std::string shown = value.is_string() ? value.get<std::string>() : dump(value);
         line += (line.empty() ? "" : ", ") + (key == "generator" ? shown : key + " " + shown);
     }
@@ -126,6 +135,7 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
                                           corner_text(facts.bounds["max"]))});
     }
     rows.push_back({"walls", walls_text(facts, volume.cells.size())});
+    rows.push_back({"unseen", facts.walls ? to_text(facts.walls->unseen) : "not known"});
     rows.push_back({"light", facts.is_baked ? "baked" : "none (not baked)"});
     rows.push_back({"lights", lights_text(facts.lights)});
     rows.push_back({"layers", layers_text(facts)});

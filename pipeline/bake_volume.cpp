@@ -16,6 +16,7 @@
 #include <tetralight/pipeline/dilate_probes.h>
 #include <tetralight/pipeline/probe_warnings.h>
 #include <tetralight/pipeline/split_light.h>
+#include <tetralight/pipeline/walls_metadata.h>
 #include <tetralight/probes/build/make_probe_volume.h>
 #include <tetralight/probes/build/merge_warnings.h>
 #include <tetralight/probes/compact_probes.h>
@@ -63,6 +64,29 @@ void store_lights(const Scene& scene, const LightingPlan& plan, PreparedBake& pr
     const bool has_dering = settings.dering.is_for_all_groups ||
                             std::ranges::find(group_dering, true) != group_dering.end();
     volume.metadata = bake_metadata(scene, settings, !prepared.overrides.empty(), has_dering);
+}
+
+/// Measures the free space that sees no probe of its cell, and stores it with what else the bake
+/// found of walls.
+void store_unseen(const TraceScene& traced, PreparedBake& prepared) {
+    ProbeVolume& volume = prepared.volume;
+    BakeReport& report = prepared.report;
+    if (volume.positions.empty()) return;
+    const Stopwatch watch;
+    ProbeEyes eyes;
+    for (const glm::dvec3& position : prepared.capture_positions) {
+        eyes.positions.push_back(traced.render_from_world(position));
+    }
+    eyes.is_inside.assign(prepared.is_invalid.begin(), prepared.is_invalid.end());
+    const FreePlaceSettings settings{.count = kUnseenPlaceCount,
+                                     .min_validity = prepared.settings.health.min_validity,
+                                     .thread_count = prepared.settings.bake.thread_count};
+    report.unseen =
+        find_unseen(find_free_places(traced, eyes, std::as_const(volume).view(), settings));
+    volume.metadata = with_walls(
+        volume.metadata,
+        {report.visibility.unclear_cell_count, report.visibility.left_out_count, report.unseen});
+    report.unseen_seconds = watch.seconds();
 }
 
 void store_light(const BakedProbes& baked, ProbeVolume& volume) {
@@ -161,6 +185,7 @@ Result<PreparedBake> prepare_bake(const Scene& scene, std::span<const ProbeGroup
         bake_visibility(*traced, prepared.capture_positions, thread_count, prepared.volume);
 
     store_lights(scene, *plan, prepared);
+    store_unseen(*traced, prepared);
     prepared.key = bake_key(prepared);
     return prepared;
 }

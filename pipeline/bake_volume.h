@@ -16,6 +16,7 @@
 #include <tetralight/pipeline/override_probes.h>
 #include <tetralight/pipeline/prepare_probes.h>
 #include <tetralight/pipeline/reused_light.h>
+#include <tetralight/pipeline/unseen_places.h>
 #include <tetralight/probes/build/merge.h>
 #include <tetralight/probes/probe_group.h>
 #include <tetralight/probes/probe_volume.h>
@@ -57,10 +58,13 @@ struct BakeReport {
     /// Of all runs of the bake.
     uint64_t ray_count = 0;
     VisibilityReport visibility;
+    /// Free space that sees none of its cell's probes.
+    UnseenPlaces unseen;
     BakeStatistics statistics;
     double merge_seconds = 0.0;
     double prepare_seconds = 0.0;
     double tetrahedralize_seconds = 0.0;
+    double unseen_seconds = 0.0;
     double bake_seconds = 0.0;
     /// One line for each group with probes inside geometry or without light.
     std::vector<std::string> warnings;

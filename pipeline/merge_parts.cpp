@@ -8,6 +8,7 @@
 #include <tetralight/base/contract.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/partial_bake.h>
+#include <tetralight/pipeline/walls_metadata.h>
 
 namespace tetralight {
 namespace {
@@ -88,6 +89,9 @@ Result<BakedVolume> merge_parts(const std::vector<std::string>& paths) {
         rows.insert(rows.end(), some_rows.begin(), some_rows.end());
         bake->reused.append(piece.partial.reused);
     }
+    const ProbeVolume& volume = bake->volume;
+    bake->report.visibility = stored_visibility(volume.view());
+    if (const auto walls = read_walls(volume.metadata)) bake->report.unseen = walls->unseen;
     return finish_bake(std::move(*bake), accumulators, rows);
 }
 

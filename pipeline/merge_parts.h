@@ -12,7 +12,8 @@ namespace tetralight {
 /// Joins parts of one bake, in any order. The volume has the bytes of one bake of all probes. Each
 /// probe has to be in exactly one part. Returns invalid_argument, with the names of files and
 /// ranges, for a file that is not a part, parts of different bakes, overlaps and
-/// gaps. Precondition: at least one path.
+/// gaps. The report has what the parts keep of the bake's: no times, and no rays of walls.
+/// Precondition: at least one path.
 [[nodiscard]] Result<BakedVolume> merge_parts(const std::vector<std::string>& paths);
 
 }  // namespace tetralight

@@ -55,7 +55,8 @@ Error difference(const std::string& member, const Json& old, const Json& fresh) 
             difference_text(member, old, fresh)};
 }
 
-/// Compares how both volumes were baked. Dering is compared for each probe instead.
+/// Compares how both volumes were baked. Dering is compared for each probe instead, and what was
+/// found of walls is no setting.
 Status check_metadata(std::string_view old, std::string_view fresh) {
     Json old_json = Json::parse(old, nullptr, false);
     Json fresh_json = Json::parse(fresh, nullptr, false);
@@ -63,8 +64,10 @@ Status check_metadata(std::string_view old, std::string_view fresh) {
         return Error{ErrorCode::InvalidArgument, "scene", "",
                      "its metadata has no hash of its scene"};
     }
-    old_json.erase("dering");
-    fresh_json.erase("dering");
+    for (const char* member : {"dering", "walls"}) {
+        old_json.erase(member);
+        fresh_json.erase(member);
+    }
     if (old_json == fresh_json) return Ok{};
     Json all = fresh_json;
     all.update(old_json);

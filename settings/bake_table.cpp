@@ -168,6 +168,12 @@ constexpr Setting kStoring[] = {
      .help = "Write the progress to this file as JSON, twice a second",
      .without = "no file",
      .access = Access::Command},
+    {.name = "check_leaks",
+     .type = Type::Flag,
+     .help = "After the bake compare its light with traced light at 1000 random places, as "
+             "`tetralight check-leaks` does, and report light that comes through walls",
+     .excludes = "probes",
+     .access = Access::Command},
     {.name = "explain",
      .type = Type::Flag,
      .help = "Bake nothing; print what a bake takes from each light of the scene, and what the "

@@ -4,7 +4,14 @@
 namespace tetralight::settings {
 namespace {
 
-constexpr Setting kFiles[] = {input_file("volume", "Probe volume (.probes)")};
+constexpr Setting kFiles[] = {
+    input_file("volume", "Probe volume (.probes)"),
+    {.name = "scene",
+     .type = Type::Path,
+     .help = "glTF 2.0 scene of the volume: also measure the free space that sees no probe of its "
+             "cell",
+     .without = "not measured",
+     .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
 
@@ -12,7 +19,9 @@ constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettin
 
 const Table kValidate{.command = "validate",
                       .summary = "Check a probe volume: checksums, structure, Delaunay property",
-                      .examples = "tetralight validate courtyard.probes --json",
+                      .examples =
+                          "tetralight validate courtyard.probes --json\n"
+                          "tetralight validate courtyard.probes --scene courtyard.glb",
                       .groups = kGroups};
 
 }  // namespace tetralight::settings
