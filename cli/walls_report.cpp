@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/cli/walls_report.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <tetralight/base/str_cat.h>
@@ -43,9 +44,9 @@ Json to_json(const UnseenPlaces& unseen) {
 std::string to_text(const UnseenPlaces& unseen) {
     if (unseen.place_count == 0) return "no free space was found around the probes";
     std::string line = str_cat(percent(unseen.share()), " of free space sees no probe of its cell");
-    for (const glm::dvec3& position : unseen.positions) {
-        line += str_cat(&position == &unseen.positions[0] ? ", for example at " : ", ",
-                        position_text(position));
+    constexpr size_t kMostShown = 3;
+    for (size_t i = 0; i < std::min(unseen.positions.size(), kMostShown); ++i) {
+        line += (i == 0 ? ", for example at " : ", ") + position_text(unseen.positions[i]);
     }
     return line;
 }

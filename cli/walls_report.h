@@ -20,7 +20,8 @@ namespace tetralight::cli {
 /// null: no free place was looked at.
 [[nodiscard]] Json to_json(const UnseenPlaces& unseen);
 
-/// "1.2 % of free space sees no probe of its cell, for example at (1, 0.5, 2), (4, 0.5, 2)".
+/// "1.2 % of free space sees no probe of its cell, for example at (1, 0.5, 2), (4, 0.5, 2)": three
+/// positions at most.
 [[nodiscard]] std::string to_text(const UnseenPlaces& unseen);
 
 /// Both as lines of a bake's report, each after a line break, with the time that they took.

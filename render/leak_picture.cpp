@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include <tetralight/bake/image/draw_text.h>
@@ -22,10 +22,11 @@ namespace tetralight {
 namespace {
 
 /// Sides of the views together, pixels.
-constexpr double kWidth = 1000.0, kHeight = 1000.0;
+constexpr double kWidth = 960.0, kHeight = 900.0;
 /// Height of the line of text over each view, and of the legend below them.
 constexpr uint32_t kTextHeight = 26;
-constexpr uint32_t kSamplesPerAxis = 3;
+constexpr uint32_t kLegendWidth = 700;
+constexpr uint32_t kSamplesPerAxis = 2;
 /// Marks rays that start in a wall or meet nothing.
 constexpr float kCutWall = -1.0f, kNothing = -2.0f;
 
@@ -122,7 +123,7 @@ class LeakPicture {
             bounds,
             scale,
             2 * kTextHeight + plan_.height()};
-        image_.width = std::max(plan_.width(), 520u);
+        image_.width = std::max(plan_.width(), kLegendWidth);
         image_.height = section_.top + section_.height() + kTextHeight;
         image_.pixels.assign(size_t{image_.width} * image_.height, {38, 40, 44, 255});
     }
@@ -141,11 +142,23 @@ class LeakPicture {
     /// Radiance seen from the cut, or kCutWall or kNothing in all channels.
     [[nodiscard]] glm::vec3 look(const Panel& panel, double x, double y) const {
         const glm::dvec3 origin = panel.position(x, y);
-        const auto side =
-            traced_.intersect_side({traced_.render_from_world(origin), panel.sight()});
-        if (side && side->is_from_behind) return glm::vec3(kCutWall);
+        if (is_in_wall(traced_.render_from_world(origin))) return glm::vec3(kCutWall);
         const auto shaded = shader_.shade(origin, panel.sight());
         return shaded ? shaded->radiance : glm::vec3(kNothing);
+    }
+
+    /// True if along some axis surfaces on both sides show their backs. One side does not suffice:
+    /// where walls stand on a floor, either may be hit.
+    [[nodiscard]] bool is_in_wall(glm::vec3 position) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 direction(0.0f);
+            direction[axis] = 1.0f;
+            const auto side = traced_.intersect_side({position, direction});
+            if (!side || !side->is_from_behind) continue;
+            const auto other = traced_.intersect_side({position, -direction});
+            if (other && other->is_from_behind) return true;
+        }
+        return false;
     }
 
     void draw_scene(const Panel& panel, uint32_t thread_count) {
@@ -247,12 +260,13 @@ class LeakPicture {
         const double y = image_.height - 0.5 * kTextHeight;
         const auto text_y = static_cast<float>(y - 7.0);
         draw_text(image_, 8.0f, text_y, "light through walls:");
-        double x = 190.0;
+        double x = 250.0;
+        constexpr double kLetter = 11.0;
         for (const auto& [share, name] :
-             {std::pair{0.0, "none"}, {0.01, "1 %"}, {0.1, "10 %"}, {1.0, "mean light"}}) {
+             {std::pair{0.0, "none"}, {0.01, "1 %"}, {0.1, "10 %"}, {1.0, "100 % of the mean"}}) {
             draw_ball({x, y}, 6.0, leak_color(share));
             draw_text(image_, static_cast<float>(x) + 12.0f, text_y, name);
-            x += 76.0;
+            x += 40.0 + kLetter * static_cast<double>(std::string_view(name).size());
         }
     }
 

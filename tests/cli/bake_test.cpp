@@ -83,8 +83,8 @@ TEST_F(Bake, JsonHasTheDocumentedFields) {
                                             "moved",        "output",         "over_target",
                                             "probes",       "rays",           "rays_per_second",
                                             "reused",       "samples",        "samples_per_probe",
-                                            "seconds",      "standard_error", "walls",
-                                            "welded"};  // sorted
+                                            "seconds",      "standard_error", "unseen",
+                                            "walls",        "welded"};  // sorted
     EXPECT_EQ(keys, expected);
 }
 

@@ -117,6 +117,20 @@ TEST_F(Info, SaysWhatIsKnownOfWalls) {
     EXPECT_TRUE(contains(succeed({"info", "unlit.probes"}).out, "  walls      not known\n"));
 }
 
+TEST_F(Info, SaysWhatTheBakeFoundOfWalls) {
+    const Json baked = run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
+    const Json info = run_json({"info", "v.probes"});
+    EXPECT_EQ(info["visibility"]["unclear_cells"], baked["walls"]["unclear_cells"]);
+    EXPECT_EQ(info["visibility"]["left_out_probes"], baked["walls"]["left_out_probes"]);
+    EXPECT_EQ(info["unseen"], baked["unseen"]);
+    EXPECT_EQ(info["unseen"]["places"], 4096);
+    EXPECT_TRUE(contains(succeed({"info", "v.probes"}).out, "of free space sees no probe of its "));
+    write("five.json", kFiveProbes);
+    succeed({"tetrahedralize", "five.json", "-o", "unlit.probes"});
+    EXPECT_TRUE(run_json({"info", "unlit.probes"})["unseen"].is_null());
+    EXPECT_TRUE(contains(succeed({"info", "unlit.probes"}).out, "  unseen     not known\n"));
+}
+
 TEST_F(Info, SeedOfOneProbeAlwaysHits) {
     write("one.json", R"({"groups": [{"name": "one", "positions": [[1, 2, 3]]}]})");
     succeed({"tetrahedralize", "one.json", "-o", "v.probes"});

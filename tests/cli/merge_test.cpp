@@ -36,7 +36,8 @@ TEST_F(Merge, JsonHasTheDocumentedFields) {
     for (const auto& [key, value] : json.items()) keys.push_back(key);
     EXPECT_EQ(keys, (std::vector<std::string>{"dimension", "groups", "hull_cells", "inner_cells",
                                               "output", "over_target", "parts", "probes", "rays",
-                                              "samples_per_probe", "standard_error", "welded"}));
+                                              "samples_per_probe", "standard_error", "unseen",
+                                              "walls", "welded"}));
 }
 
 TEST_F(Merge, PartsSayWhatTheyHold) {
@@ -85,6 +86,16 @@ TEST_F(Merge, PartsAndVolumesAreNotMistakenForEachOther) {
         arguments.insert(arguments.end(), wrong.begin(), wrong.end());
         EXPECT_TRUE(contains(misuse(arguments), "--output"));
     }
+}
+
+TEST_F(Merge, ReportsTheWallsOfTheBake) {
+    bake("a.part", {"--probes", "0.."});
+    const Json merged = run_json({"merge", "a.part", "-o", "v.probes"});
+    Json baked = run_json({"bake", kCourtyard, "-o", "whole.probes", "-s", "16"});
+    EXPECT_GT(baked["walls"]["rays"], 0);
+    baked["walls"].erase("rays");  // parts do not keep their number
+    EXPECT_EQ(merged["walls"], baked["walls"]);
+    EXPECT_EQ(merged["unseen"], baked["unseen"]);
 }
 
 }  // namespace

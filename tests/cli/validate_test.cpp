@@ -224,6 +224,18 @@ TEST_F(Validate, SaysAsJsonThatAFileIsDamaged) {
     EXPECT_EQ(json["problems"].size(), 1u);
 }
 
+TEST_F(Validate, MeasuresUnseenSpaceInAScene) {
+    const Json baked = run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
+    EXPECT_FALSE(run_json({"validate", "v.probes"}).contains("unseen"));
+    const Json json = run_json({"validate", "v.probes", "--scene", kCourtyard});
+    EXPECT_EQ(json["is_valid"], true);
+    EXPECT_EQ(json["unseen"], baked["unseen"]);
+    const std::string out = succeed({"validate", "v.probes", "--scene", kCourtyard}).out;
+    EXPECT_TRUE(contains(out, "of free space sees no probe of its cell")) << out;
+    const std::string message = fail({"validate", "v.probes", "--scene", "none.glb"});
+    EXPECT_TRUE(contains(message, "none.glb: cannot open")) << message;
+}
+
 TEST_F(Validate, RefusesBadVolumes) {
     bake_courtyard("sound.probes");
     refuse_each(bad_volumes(read("sound.probes")), "", [](const std::string& name) {

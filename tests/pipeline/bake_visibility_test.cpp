@@ -15,6 +15,7 @@
 #include <tetralight/probes/receiver.h>
 #include "tests/support/probe_groups.h"
 #include "tests/support/random_probes.h"
+#include "tests/support/rooms.h"
 #include "tests/support/scenes.h"
 
 namespace tetralight {
@@ -175,39 +176,6 @@ TEST(BakeVisibility, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one.report.ray_count, two.report.ray_count);
 }
 
-/// Two rooms of 4 × 3 × 4 m beside each other, x < 0 with a lamp in its ceiling, the other dark;
-/// between them a wall, or a surface without thickness.
-Scene two_rooms(float thickness) {
-    Scene scene;
-    Material grey = test::diffuse(glm::vec3(0.7f));
-    const float half = 0.5f * thickness;
-    if (thickness > 0.0f) {
-        test::add_box(scene, grey, test::Facing::Inward, {-4 - half, 0, 0}, {-half, 3, 4});
-        test::add_box(scene, grey, test::Facing::Inward, {half, 0, 0}, {4 + half, 3, 4});
-    } else {
-        test::add_box(scene, grey, test::Facing::Inward, {-4, 0, 0}, {4, 3, 4});
-        grey.is_double_sided = true;
-        test::add_quad(scene, grey, {0, 0, 0}, {0, 3, 0}, {0, 0, 4});
-    }
-    const Material lamp = test::diffuse(glm::vec3(0.0f), glm::vec3(10.0f));
-    test::add_quad(scene, lamp, {-2.5f - half, 2.99f, 1.5f}, {1, 0, 0}, {0, 0, 1});
-    return scene;
-}
-
-/// A lattice half a spacing from the walls of both rooms.
-std::vector<glm::dvec3> in_rooms(double thickness, double spacing) {
-    std::vector<glm::dvec3> positions;
-    for (double x = 0.5 * spacing; x < 4.0; x += spacing) {
-        for (double y = 0.5 * spacing; y < 3.0; y += spacing) {
-            for (double z = 0.5 * spacing; z < 4.0; z += spacing) {
-                positions.emplace_back(x + 0.5 * thickness, y, z);
-                positions.emplace_back(-x - 0.5 * thickness, y, z);
-            }
-        }
-    }
-    return positions;
-}
-
 /// Light of the dark room as a share of that of the lit one, at random positions at least 5 cm from
 /// the walls.
 double leak(const ProbeVolumeView& volume, float thickness, Walls walls) {
@@ -231,8 +199,9 @@ TEST(BakeVisibility, KeepsTheLightOfARoomOutOfTheNext) {
             BakeVolumeSettings settings;
             settings.bake.sample_count = 64;
             const auto baked = bake_volume(
-                two_rooms(thickness),
-                {{test::make_group("rooms", in_rooms(double{thickness}, spacing))}}, settings);
+                test::two_rooms(thickness),
+                {{test::make_group("rooms", test::in_rooms(double{thickness}, spacing))}},
+                settings);
             ASSERT_TRUE(baked);
             const ProbeVolumeView volume = baked->volume.view();
             EXPECT_GT(leak(volume, thickness, Walls::Ignore), 0.005) << thickness << " " << spacing;

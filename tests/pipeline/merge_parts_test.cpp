@@ -42,6 +42,11 @@ TEST_F(MergeParts, ReportsAsOneBakeDoes) {
     EXPECT_EQ(merged->report.ray_count, baked->report.ray_count);
     EXPECT_EQ(merged->report.statistics, baked->report.statistics);
     EXPECT_EQ(merged->report.warnings, baked->report.warnings);
+    EXPECT_EQ(merged->report.unseen, baked->report.unseen);
+    VisibilityReport walls = baked->report.visibility;
+    walls.ray_count = 0;  // parts keep neither the rays nor the time
+    walls.seconds = 0.0;
+    EXPECT_EQ(merged->report.visibility, walls);
 }
 
 TEST_F(MergeParts, NamesWhatOverlaps) {

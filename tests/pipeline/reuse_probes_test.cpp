@@ -5,6 +5,7 @@
 #include <random>
 
 #include <tetralight/base/error_text.h>
+#include <tetralight/pipeline/walls_metadata.h>
 #include <tetralight/probes/recombine.h>
 #include "tests/pipeline/part_fixture.h"
 
@@ -163,6 +164,13 @@ TEST_F(ReuseProbes, IsOfOneSceneAndOneSetOfSettings) {
                   t.all.lighting.layers = {"sky", "transfer"};
               }),
               "its layers are none, those of this bake sky, rest, transfer");
+}
+
+TEST_F(ReuseProbes, DoesNotDependOnWhatWasFoundOfWalls) {
+    ProbeVolume old = bake_all();
+    ASSERT_TRUE(read_walls(old.metadata));
+    old.metadata = with_walls(old.metadata, {12345, 0, {}});
+    EXPECT_EQ(refusal(old), "");
 }
 
 TEST_F(ReuseProbes, IsOfAVolumeThatWasBakedAndLeftAsItWas) {
