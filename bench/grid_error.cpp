@@ -105,6 +105,7 @@ std::vector<glm::dvec3> free_positions(const GridSubject& subject, size_t count)
     return found;
 }
 
+/// The root of the mean of squares, relative to the mean irradiance.
 double relative(double square_sum, const std::vector<IrradianceSh>& light) {
     double sum = 0.0;
     for (const IrradianceSh& l : light) sum += mean_irradiance(l);
@@ -114,12 +115,12 @@ double relative(double square_sum, const std::vector<IrradianceSh>& light) {
 
 }  // namespace
 
-LightReference make_reference(const GridSubject& subject, size_t count, uint32_t sample_count) {
-    const std::vector<glm::dvec3> positions = free_positions(subject, count);
+LightReference bake_reference(const Scene& scene, std::span<const glm::dvec3> positions,
+                              uint32_t sample_count) {
     BakeSettings settings;
     settings.sample_count = sample_count;
     settings.seed = 77;
-    const auto baked = bake_probes(subject.scene, positions, settings);
+    const auto baked = bake_probes(scene, positions, settings);
     require(bool(baked), "bake");
     LightReference reference;
     double noise = 0.0;
@@ -133,6 +134,20 @@ LightReference make_reference(const GridSubject& subject, size_t count, uint32_t
     return reference;
 }
 
+LightReference make_reference(const GridSubject& subject, size_t count, uint32_t sample_count) {
+    return bake_reference(subject.scene, free_positions(subject, count), sample_count);
+}
+
+double light_error(const LightReference& reference, std::span<const IrradianceSh> answers) {
+    require(answers.size() == reference.light.size(), "one answer a position");
+    double sum = 0.0;
+    for (size_t i = 0; i < answers.size(); ++i) {
+        sum += mean_square(answers[i] + -1.0f * reference.light[i]);
+    }
+    const double error = relative(sum, reference.light);
+    return std::sqrt(std::max(0.0, error * error - reference.noise * reference.noise));
+}
+
 double light_error(const GridSubject& subject, const ProbeGrid& grid,
                    const LightReference& reference, uint32_t sample_count) {
     BakeVolumeSettings settings;
@@ -140,16 +155,11 @@ double light_error(const GridSubject& subject, const ProbeGrid& grid,
     const auto baked = bake_volume(subject.scene, grid.groups, settings);
     require(bool(baked), "bake");
     const ProbeVolumeView volume = baked->volume.view().without_compact();
-    std::vector<double> squares(reference.positions.size());
-    parallel_for(squares.size(), 0, [&](size_t i) {
-        const IrradianceSh light =
-            interpolate(volume, locate(volume, reference.positions[i])).irradiance;
-        squares[i] = mean_square(light + -1.0f * reference.light[i]);
+    std::vector<IrradianceSh> answers(reference.positions.size());
+    parallel_for(answers.size(), 0, [&](size_t i) {
+        answers[i] = interpolate(volume, locate(volume, reference.positions[i])).irradiance;
     });
-    double sum = 0.0;
-    for (const double square : squares) sum += square;
-    const double error = relative(sum, reference.light);
-    return std::sqrt(std::max(0.0, error * error - reference.noise * reference.noise));
+    return light_error(reference, answers);
 }
 
 ProbeGrid regular_grid(const GridSubject& subject, uint64_t probe_count) {

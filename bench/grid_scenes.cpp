@@ -16,21 +16,6 @@ namespace {
 constexpr double kRoom = 4.0, kStorey = 3.0, kWall = 0.15, kSlab = 0.25;
 constexpr int kRoomsX = 3, kRoomsZ = 2, kStoreys = 2;
 
-/// A closed box as one mesh, with faces towards the outside.
-Mesh box_mesh(const WorldBox& box) {
-    Mesh mesh;
-    for (int i = 0; i < 8; ++i) {
-        mesh.positions.emplace_back(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
-                                    i & 4 ? box.max.z : box.min.z);
-    }
-    constexpr uint32_t kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    for (const auto& quad : kQuads) {
-        for (const int corner : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(quad[corner]);
-    }
-    return mesh;
-}
-
 class HouseBuilder {
   public:
     Scene build() {

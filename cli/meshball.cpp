@@ -18,6 +18,7 @@
 #include <tetralight/cli/view_options.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/render/mesh_ball.h>
+#include <tetralight/render/with_walls.h>
 #ifdef TETRALIGHT_HAS_GL
 #include <tetralight/cli/ball_window.h>
 #include <tetralight/cli/open_gl.h>
@@ -51,6 +52,7 @@ struct MeshBall {
     bool has_frames = false;
     bool has_window = false;
     BallOptions ball;
+    Walls walls = Walls::HideProbes;
     RendererKind renderer = RendererKind::Cpu;
     ViewOptions view;
     CommonOptions common;
@@ -63,6 +65,7 @@ struct MeshBall {
           has_frames(values.is_given("frames")),
           has_window(values.flag("window")),
           ball(values),
+          walls(choice<Walls>(values, "walls")),
           renderer(choice<RendererKind>(values, "renderer")),
           view(values),
           common(values) {
@@ -85,6 +88,7 @@ struct MeshBall {
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         common.warn_if_unlit(volume_path, file->view());
+        const ProbeVolumeView volume = with_walls(file->view(), walls);
         Scene scene;
         std::optional<SceneShader> shader;
         if (!scene_path.empty()) {
@@ -92,11 +96,11 @@ struct MeshBall {
             if (!read) return read.error();
             common.warn(read->warnings);
             scene = std::move(*read);
-            auto made = SceneShader::make(scene, file->view());
+            auto made = SceneShader::make(scene, volume);
             if (!made) return made.error().in(scene_path);
             shader.emplace(std::move(*made));
         }
-        return render(file->view(), scene, shader ? &*shader : nullptr);
+        return render(volume, scene, shader ? &*shader : nullptr);
     }
 
     Status render(const ProbeVolumeView& volume, const Scene& scene, const SceneShader* shader) {

@@ -13,6 +13,7 @@
 #include <tetralight/cli/view_options.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/render/render_gizmos.h>
+#include <tetralight/render/with_walls.h>
 #ifdef TETRALIGHT_HAS_GL
 #include <tetralight/cli/open_gl.h>
 #include <tetralight/render/gl/gl_pictures.h>
@@ -27,6 +28,7 @@ struct Render {
     std::string output;
     GizmoSettings gizmos;
     ProbeLight probes = ProbeLight::AsTheScene;
+    Walls walls = Walls::HideProbes;
     RendererKind renderer = RendererKind::Cpu;
     ViewOptions view;
     CommonOptions common;
@@ -37,6 +39,7 @@ struct Render {
           output(values.text("output")),
           gizmos(gizmo_settings(values)),
           probes(choice<ProbeLight>(values, "probes")),
+          walls(choice<Walls>(values, "walls")),
           renderer(choice<RendererKind>(values, "renderer")),
           view(values),
           common(values) {}
@@ -78,7 +81,7 @@ struct Render {
         if (!chosen) return chosen.error();
 
         const auto start = std::chrono::steady_clock::now();
-        const auto image = draw(*scene, file->view(), *chosen);
+        const auto image = draw(*scene, with_walls(file->view(), walls), *chosen);
         if (!image) return image.error();
         auto status = write_png(output, *image);
         if (!status) return status;

@@ -46,6 +46,7 @@ constexpr Setting kBall[] = {
      .type = Type::Flag,
      .help = "Render the spheres without probe light",
      .excludes = "lppv"},
+    kWalls,
     {.name = "specular",
      .type = Type::Flag,
      .help = "Add mirror reflections of the lights, and of the brightest direction of the probes' "

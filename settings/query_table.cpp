@@ -46,12 +46,7 @@ constexpr Setting kSettings[] = {
      .unit = "metres",
      .range = kLengths,
      .default_text = "10"},
-    {.name = "walls",
-     .type = Type::Choice,
-     .help = "Probes behind walls that the volume knows: hide = they do not count; ignore = plain "
-             "weights, whose light shines through walls",
-     .choices = "hide ignore",
-     .default_text = "hide"},
+    kWalls,
     {.name = "precision",
      .type = Type::Choice,
      .help = "Read the probes as floats (full) or as their compact half-precision copies (half)",

@@ -37,6 +37,7 @@ constexpr Setting kShown[] = {
              "objects, moving ones from one position each; still = static objects only; none",
      .choices = "scene one still none",
      .default_text = "scene"},
+    kWalls,
     kRenderer};
 
 constexpr Group kGroups[] = {{"Files", kFiles},

@@ -210,6 +210,15 @@ inline constexpr ViewSettings kView = view_settings("", "target", "eye");
 /// Without the cameras of a scene.
 inline constexpr std::span<const Setting> kPlainView = std::span(kView.rows).first(7);
 
+inline constexpr Setting kWalls{
+    .name = "walls",
+    .type = Type::Choice,
+    .help =
+        "Probes behind walls that the volume knows: hide = they do not count; ignore = plain "
+        "weights, whose light shines through walls",
+    .choices = "hide ignore",
+    .default_text = "hide"};
+
 inline constexpr Setting kRenderer{
     .name = "renderer",
     .type = Type::Choice,

@@ -52,6 +52,16 @@ TEST_F(MeshBall, GivesAnotherPictureForAnotherSeed) {
     EXPECT_TRUE(picture({"--seed", "1"}) != picture({"--seed", "2"}));
 }
 
+TEST_F(MeshBall, IgnoresWallsWhenAsked) {
+    // In the wall between the house's room and the court.
+    const Arguments place{"--center", "3.9,1.5,0", "--radius", "0.8"};
+    Arguments hidden = place, ignored = place;
+    hidden.insert(hidden.end(), {"--walls", "hide"});
+    ignored.insert(ignored.end(), {"--walls", "ignore"});
+    EXPECT_TRUE(picture(hidden) == picture(place));
+    EXPECT_TRUE(picture(ignored) != picture(place));
+}
+
 TEST_F(MeshBall, ShowsTheSceneAroundTheBallWhenAsked) {
     EXPECT_TRUE(picture({"--scene", kCourtyard}) != picture({}));
 }

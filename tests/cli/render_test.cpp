@@ -93,6 +93,15 @@ TEST_F(Render, DrawsTheCellsWhenAsked) {
         contains(misuse(arguments({"--show", "probes", "--ball-radius", "0"})), "--ball-radius"));
 }
 
+TEST_F(Render, ShowsLightThroughWallsWhenAsked) {
+    const Arguments inside{"--camera", "camera_interior"};
+    Arguments hidden = inside, ignored = inside;
+    hidden.insert(hidden.end(), {"--walls", "hide"});
+    ignored.insert(ignored.end(), {"--walls", "ignore"});
+    EXPECT_TRUE(picture(hidden) == picture(inside));
+    EXPECT_TRUE(picture(ignored) != picture(inside));
+}
+
 TEST_F(Render, WarnsOfAVolumeWithoutLight) {
     succeed({"tetrahedralize", kCourtyard, "-o", "v.probes"});
     const std::string warning = "warning: v.probes: the volume holds no light";
