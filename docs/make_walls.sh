@@ -20,9 +20,9 @@ python3 -B examples/scenes/make_rooms.py "$work/rooms.glb"
 both walls_rooms "$work/rooms.glb" "$work/rooms.probes" --eye 0,4.6,13 --target 0,1.4,0 --fov 21 \
     --width 560 --height 245 --exposure 0.9
 
-# The house of the courtyard with a regular grid, whose cells cross its walls and its roof.
+# The house of the courtyard with a regular grid up to above its roof. Cells cross its walls and its roof.
 court=examples/scenes/courtyard.glb
-"$tetralight" grid "$court" -o "$work/court.json" --spacing 1 --quiet
+"$tetralight" grid "$court" -o "$work/court.json" --spacing 1 --min=-20,0,-20 --max 20,5.5,20 --quiet
 "$tetralight" bake "$court" -g "$work/court.json" --only-given-groups -o "$work/court.probes" --samples 2048 --quiet
 both walls_courtyard "$court" "$work/court.probes" --camera camera_interior --width 560 --height 315 --exposure 1.6
 

@@ -19,7 +19,7 @@ FIRST_BALL = 0.3  # centre, metres from the wall
 
 make_courtyard.MATERIALS.update({
     "lamp_bright": ((0, 0, 0, 1), {"emission": (1.0, 0.85, 0.6), "strength": 12.0}),
-    "lamp_dim": ((0, 0, 0, 1), {"emission": (0.4, 0.65, 1.0), "strength": 1.0}),
+    "lamp_dim": ((0, 0, 0, 1), {"emission": (0.4, 0.65, 1.0), "strength": 2.0}),
 })
 
 
