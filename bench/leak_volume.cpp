@@ -77,7 +77,7 @@ void LeakVolume::answer_by_rays(const glm::vec3& position, LeakAnswers& answers)
         sum += seen[i];
     }
     if (sum > 0.0f) location.weights = seen / sum;
-    answers.rays.push_back(interpolate(volume, location, Walls::Ignore).irradiance);
+    answers.rays.push_back(interpolate(volume, location, {Walls::Ignore}).irradiance);
     answers.is_seen.push_back(sum > 0.0f);
 }
 

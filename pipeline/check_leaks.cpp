@@ -107,7 +107,7 @@ Result<TracedLight> trace_twice(const Scene& scene, const std::vector<glm::dvec3
 }
 
 double light_at(const ProbeVolumeView& volume, const CellLocation& location, Walls walls) {
-    return mean_light(interpolate(volume, location, walls).irradiance);
+    return mean_light(interpolate(volume, location, {walls}).irradiance);
 }
 
 /// The location with the weights of seen corners alone; the same bits if all are seen.

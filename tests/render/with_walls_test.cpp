@@ -29,7 +29,7 @@ TEST_F(WithWalls, IgnoredWallsGivePlainWeights) {
     size_t changed = 0;
     for (const glm::vec3 p : positions_) {
         const CellLocation location = locate(volume_.view(), p);
-        EXPECT_EQ(light(plain, p), interpolate(volume_.view(), location, Walls::Ignore));
+        EXPECT_EQ(light(plain, p), interpolate(volume_.view(), location, {Walls::Ignore}));
         changed += light(plain, p) != light(volume_.view(), p);
     }
     EXPECT_GT(changed, positions_.size() / 3);  // more than a third of the edges are blocked
