@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/probe_volume.h>
+#include <tetralight/probes/receiver.h>
 
 namespace tetralight {
 
