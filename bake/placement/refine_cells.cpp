@@ -11,7 +11,8 @@
 namespace tetralight {
 namespace {
 
-/// The refined cells hold this fraction of all errors; the others may be noise.
+/// The refined cells hold this fraction of all errors at most; the others may be noise. Cells that
+/// cannot be refined do not count: they would end the refinement of all others.
 constexpr double kRefinedFraction = 0.9;
 /// Minimum distance between new probes, as a fraction of the distance to their cell's corners.
 constexpr double kDistanceFraction = 0.5;
@@ -51,8 +52,9 @@ class Refiner {
         size_t count = 0;
         for (const CellError& cell : cells) {
             if (count == rule_.max_cell_count || done > kRefinedFraction * all) break;
+            if (!refine(cell)) continue;
             done += cell.sum;
-            count += refine(cell);
+            ++count;
         }
         return std::move(result_);
     }

@@ -94,7 +94,7 @@ TEST(AdjustedGrid, RefusesVolumesThatAreNone) {
     const auto error = [&] { return error_of(scene, settings_for(kEight, 1.0)); };
     EXPECT_EQ(error(),
               "adjustment volume \"flat\": it adjusts nothing (forbid, spacing, validity, "
-              "intensity)");
+              "intensity, rendering_layers)");
     scene.probe_adjustments[0].spacing = -1.0;
     EXPECT_EQ(error(), "adjustment volume \"flat\": spacing -1 is not a positive length");
     scene.probe_adjustments[0] = box_volume("flat", {0, 0, 0}, 0.0);

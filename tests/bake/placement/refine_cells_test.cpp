@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -93,6 +94,32 @@ TEST(SensorSequence, AreFreeHalfOfThemOffSurfaces) {
     // Of the others an eighth falls into the box and is tried again.
     EXPECT_NEAR(static_cast<double>(near), 1000.0 * 0.5 / (0.5 + 0.5 * 7.0 / 8.0), 30.0);
     EXPECT_NE(places.next(10, 0), std::vector<glm::dvec3>(found.begin(), found.begin() + 10));
+}
+
+/// A cell with most of the error, where no probe may stand, does not end the refinement of others.
+TEST(RefineCells, GoesOnPastCellsThatCannotBeRefined) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    const auto traced = TraceScene::make_static(scene);
+    LightPool pool(scene, {});
+    std::vector<uint32_t> probes, sensors;
+    for (int i = 0; i < 27; ++i) probes.push_back(pool.add({i % 3, i / 3 % 3, i / 9}));
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i % 2, i / 2 % 2, i / 4);
+        sensors.push_back(pool.add(corner + glm::dvec3(0.45, 0.55, 0.52)));
+    }
+    ASSERT_TRUE(pool.bake({}));
+    const ProbeVolume volume = volume_of(pool, probes);
+    auto errors = sensor_errors(volume, pool, sensors, nullptr, 1);
+    for (SensorError& error : errors) error.square = error.visible_square = 1.0f;
+    errors[3].square = errors[3].visible_square = 1000.0f;
+    const RefineRule rule{0.05, [&](uint32_t sensor) { return sensor != sensors[3]; },
+                          [](const glm::dvec3&) { return true; }, 100};
+    Refinement refinement = refine_cells({volume, pool, sensors, errors, *traced}, rule);
+    std::ranges::sort(refinement.sensors);
+    std::vector<uint32_t> others = sensors;
+    others.erase(others.begin() + 3);
+    EXPECT_EQ(refinement.sensors, others);
 }
 
 TEST(ProbeRemover, RemovesWhatInterpolationMakesGoodAlready) {
