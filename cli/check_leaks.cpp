@@ -3,7 +3,6 @@
 
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/cli/amounts.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/failure.h>
@@ -107,8 +106,8 @@ struct CheckLeaks {
         if (is_good) return Ok{};
         Error error{
             ErrorCode::InvalidArgument, "max_leak", str_cat(max_leak),
-            str_cat(volume_path, ": light through walls is ", percent(report.through_walls.mean),
-                    " of the mean light, more than ", percent(max_leak))};
+            str_cat(volume_path, ": light through walls is ", share_text(report.through_walls.mean),
+                    " of the mean light, more than ", share_text(max_leak))};
         return with_report(std::move(error), json);
     }
 };

@@ -22,15 +22,6 @@ Json to_json(const LeakPlace& place) {
             {"traced", place.traced}};
 }
 
-/// "0.0012 %", "1.23 %", "12.3 %": shares of light through walls are often tiny.
-std::string share_text(double share) {
-    char buffer[64];
-    const double percent = 100.0 * share;
-    const char* format = percent >= 10.0 ? "%.1f %%" : percent >= 0.1 ? "%.2f %%" : "%.4f %%";
-    std::snprintf(buffer, sizeof buffer, percent == 0.0 ? "0 %%" : format, percent);
-    return buffer;
-}
-
 std::string light_text(double light) {
     char buffer[64];
     std::snprintf(buffer, sizeof buffer, "%.4g", light);
@@ -92,6 +83,14 @@ std::string to_text(const LeakReport& report) {
                 light_text(report.mean_light), "\n", parts_text(report), worst_text(report));
     lines.pop_back();
     return lines;
+}
+
+std::string share_text(double share) {
+    char buffer[64];
+    const double percent = 100.0 * share;
+    const char* format = percent >= 10.0 ? "%.1f %%" : percent >= 0.1 ? "%.2f %%" : "%.4f %%";
+    std::snprintf(buffer, sizeof buffer, percent == 0.0 ? "0 %%" : format, percent);
+    return buffer;
 }
 
 }  // namespace tetralight::cli

@@ -16,4 +16,7 @@ namespace tetralight::cli {
 /// The same as lines for people, without a line break at the end.
 [[nodiscard]] std::string to_text(const LeakReport& report);
 
+/// "0.0012 %", "1.23 %", "12.3 %": shares of light through walls are often tiny.
+[[nodiscard]] std::string share_text(double share);
+
 }  // namespace tetralight::cli

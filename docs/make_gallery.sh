@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Renders the pictures of docs/gallery.md and some of the README: make_gallery.sh TETRALIGHT FOLDER
+# Renders the pictures of docs/gallery.md, docs/walls.md and some of the README: make_gallery.sh TETRALIGHT FOLDER
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tetralight=$(realpath "$1") out=$2
@@ -69,8 +69,13 @@ render courtyard_cells plain.probes --show cells,probes --ball-radius 0.2 --eye 
 render gallery_selection plain.probes --show selection=0.6,1.3,6.2 --ball-radius 0.16 \
     --eye 5.5,4.2,14 --target 0.6,1.6,6.2 --fov 40 --exposure 0.9
 
+# Where light comes through the walls of the house with few probes.
+"$tetralight" grid "$scene" -o "$work/few.json" --spacing 2.6 --min -7,0.2,-6 --max 8,3.3,6 --quiet
+bake "$scene" -g "$work/few.json" --only-given-groups -o "$work/few.probes" --samples 1024
+"$tetralight" check-leaks "$work/few.probes" --scene "$scene" --picture "$out/check_leaks.png" --quiet
+
 if command -v pngquant >/dev/null; then
-    for picture in "$out"/gallery_*.png "$out"/courtyard_cells.png; do
+    for picture in "$out"/gallery_*.png "$out"/courtyard_cells.png "$out"/check_leaks.png; do
         pngquant 256 --speed 1 --force --output "$picture" "$picture"
     done
 fi
