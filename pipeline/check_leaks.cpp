@@ -19,6 +19,9 @@
 namespace tetralight {
 namespace {
 
+/// Positions that are drawn at most for each place.
+constexpr uint32_t kMostDraws = 100;
+
 /// Mean irradiance over all normals, as luminance.
 double mean_light(const IrradianceSh& irradiance) {
     constexpr double kFirstBasis = 0.28209479177387814;  // 1 / (2 √π)
@@ -126,6 +129,17 @@ CellLocation seen_location(const FreePlace& place) {
     return location;
 }
 
+/// See `LeakPlace::hidden`.
+double hidden_light(const ProbeVolumeView& volume, const FreePlace& place, double by_rays) {
+    CellLocation hidden = visible_location(volume, place.location);
+    double weight = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        if (place.is_seen[static_cast<size_t>(i)]) hidden.weights[i] = 0.0f;
+        weight += double{hidden.weights[i]};
+    }
+    return weight > 0.0 ? light_at(volume, hidden, Walls::Ignore) - weight * by_rays : 0.0;
+}
+
 LeakPlace compare(const ProbeVolumeView& volume, const FreePlace& place, double first,
                   double second) {
     LeakPlace leak;
@@ -181,8 +195,12 @@ Result<FreePlaces> find_places(const Scene& scene, const ProbeVolumeView& volume
     if (!traced) return traced.error();
     const ProbeEyes eyes = make_probe_eyes(*traced, volume, min_validity, settings.thread_count);
     FreePlaces found = find_free_places(*traced, eyes, volume,
-                                        {settings.place_count, settings.clearance, settings.seed,
-                                         min_validity, settings.thread_count});
+                                        {.count = settings.place_count,
+                                         .clearance = settings.clearance,
+                                         .seed = settings.seed,
+                                         .most_draws = kMostDraws,
+                                         .min_validity = min_validity,
+                                         .thread_count = settings.thread_count});
     if (!found.places.empty()) return found;
     return Error{
         ErrorCode::NotFound, "places", "",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -26,14 +28,10 @@ struct LeakSettings {
 };
 
 /// The light at one place: mean irradiance over all directions, as luminance, in the unit of the
-/// scene's lights.
+/// scene's lights. `by_rays` is the answer from those corners of the cell alone that a true ray
+/// reaches; if none is, it is the traced light. So the answer is split into
 ///
-/// `by_rays` is the answer from those corners of the cell alone that a true ray reaches; if none
-/// is, it is the traced light. So the answer is split into
-///
-///     through walls = max(answer − by_rays, 0)
-///     missing       = max(by_rays − answer, 0)
-///     rest          = |by_rays − traced|: the distance between the probes, and noise
+///     answer = traced + through walls − missing ± rest
 struct LeakPlace {
     glm::dvec3 position{0.0};
     bool is_unseen = false;
@@ -41,22 +39,27 @@ struct LeakPlace {
     double plain = 0.0;   ///< with weights that know no walls
     double by_rays = 0.0;
     double traced = 0.0;
+    /// What the corners that no ray reaches add to the answer, which is the sum of their weights
+    /// times the difference of their light to `by_rays`: negative if they darken it.
+    double hidden = 0.0;
     /// Half the difference of the two independent estimates whose mean is `traced`.
     double noise = 0.0;
 
-    [[nodiscard]] double through_walls() const { return answer > by_rays ? answer - by_rays : 0.0; }
+    [[nodiscard]] double through_walls() const { return std::max(hidden, 0.0); }
 
-    [[nodiscard]] double missing() const { return by_rays > answer ? by_rays - answer : 0.0; }
-
-    [[nodiscard]] double plain_through_walls() const {
-        return plain > by_rays ? plain - by_rays : 0.0;
+    /// Light of corners that rays reach, and that the answer lacks.
+    [[nodiscard]] double missing() const {
+        return std::max(by_rays + through_walls() - answer, 0.0);
     }
 
-    [[nodiscard]] double plain_missing() const { return by_rays > plain ? by_rays - plain : 0.0; }
-
+    /// What remains: distance between the probes, and noise.
     [[nodiscard]] double rest() const {
-        return by_rays > traced ? by_rays - traced : traced - by_rays;
+        return std::abs(answer - through_walls() + missing() - traced);
     }
+
+    [[nodiscard]] double plain_through_walls() const { return std::max(plain - by_rays, 0.0); }
+
+    [[nodiscard]] double plain_missing() const { return std::max(by_rays - plain, 0.0); }
 
     bool operator==(const LeakPlace&) const = default;
 };

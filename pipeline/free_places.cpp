@@ -20,7 +20,6 @@ namespace {
 
 /// Positions that are tested between two looks at how many are free.
 constexpr uint64_t kBlockSize = 1024;
-constexpr uint64_t kMostDrawsPerPlace = 8;
 constexpr size_t kNearestCount = 16;
 /// Metres around a probe that has no neighbor.
 constexpr float kReachWithoutEdges = 1.0f;
@@ -176,7 +175,7 @@ FreePlaces find_free_places(const TraceScene& traced, const ProbeEyes& eyes,
     if (volume.positions.empty() || volume.cells.empty()) return found;
     found.spacing = median_edge_length(volume);
     const PlaceSearch search(traced, eyes, volume, settings, region_of(volume, found.spacing));
-    const uint64_t most = kMostDrawsPerPlace * settings.count;
+    const uint64_t most = uint64_t{settings.most_draws} * settings.count;
     std::vector<std::optional<FreePlace>> block;
     while (found.places.size() < settings.count && found.drawn_count < most) {
         block.assign(std::min(kBlockSize, most - found.drawn_count), std::nullopt);

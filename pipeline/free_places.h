@@ -53,6 +53,8 @@ struct FreePlaceSettings {
     /// Least distance from all surfaces, metres.
     float clearance = 0.05f;
     uint64_t seed = 0;
+    /// Positions that are drawn at most for each place.
+    uint32_t most_draws = 8;
     /// A place is inside geometry if the fraction of rays that hit no back face is below this.
     float min_validity = 0.75f;
     /// Number of threads; 0 = all.
@@ -78,9 +80,8 @@ struct FreePlaces {
 ///   from one of the 16 nearest probes reaches. So the outside of a closed building is left out. In
 ///   volumes of a plane, a line or a point, which enclose no space, this holds for all places.
 ///
-/// At most 8 positions are drawn for each place that was asked for. A pure function: the same
-/// places for any number of threads. None if the volume has no probes. Precondition: one eye a
-/// probe.
+/// A pure function: the same places for any number of threads. None if the volume has no probes.
+/// Precondition: one eye a probe.
 [[nodiscard]] FreePlaces find_free_places(const TraceScene& traced, const ProbeEyes& eyes,
                                           const ProbeVolumeView& volume,
                                           const FreePlaceSettings& settings);

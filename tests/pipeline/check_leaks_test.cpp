@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <tetralight/pipeline/bake_volume.h>
 #include <tetralight/probes/locate.h>
@@ -19,7 +21,7 @@ constexpr double kPi = std::numbers::pi;
 
 ProbeVolume bake(const Scene& scene, const std::vector<glm::dvec3>& positions,
                  BakeVolumeSettings settings = {}) {
-    settings.bake.sample_count = 32;
+    settings.bake.sample_count = 256;
     auto baked = bake_volume(scene, {{test::make_group("all", positions)}}, settings);
     EXPECT_TRUE(baked);
     return std::move(baked->volume);
@@ -39,45 +41,61 @@ struct LitAndDark {
 
     LitAndDark() {
         std::vector<glm::dvec3> positions;
-        test::add_probes_of_room(0, 2, positions);
-        test::add_probes_of_room(1, 2, positions);
+        test::add_probes_of_room(0, 2, 0.5, positions);
+        test::add_probes_of_room(1, 2, 0.5, positions);
         volume = bake(scene, positions);
     }
 
     [[nodiscard]] bool is_lit(const glm::dvec3& position) const { return position.x < 2.1; }
 
-    /// Sum of the weights of probes in the lit room.
-    [[nodiscard]] double lit_weight(const glm::dvec3& position) const {
+    /// The weights of probes in the lit room, and what plain weights take from them: the mean
+    /// irradiance times the weight.
+    [[nodiscard]] std::pair<double, double> lit_part(const glm::dvec3& position) const {
         const CellLocation location = locate(volume.view(), glm::vec3(position));
-        double sum = 0.0;
+        std::pair<double, double> sum;
         for (int i = 0; i < 4; ++i) {
             const uint32_t probe = volume.cells[location.cell].vertices[size_t(i)];
             if (probe == kNoIndex || !is_lit(volume.exact_positions[probe])) continue;
-            sum += double{location.weights[i]};
+            sum.first += double{location.weights[i]};
+            sum.second += double{location.weights[i]} * 0.282095 *
+                          double{volume.irradiance[probe].coefficients[0].x};
         }
         return sum;
     }
 };
 
-/// Radiance 1 from everywhere is irradiance π on every surface.
 TEST(CheckLeaks, FindsTheShareThatPlainWeightsTakeThroughAWall) {
     const LitAndDark rooms;
     const LeakReport report = report_on(rooms.scene, rooms.volume);
     ASSERT_EQ(report.places.size(), 1000u);
-    double lit_count = 0.0, through = 0.0, missing = 0.0;
+    double through = 0.0, missing = 0.0;
     for (const LeakPlace& place : report.places) {
-        const double weight = rooms.lit_weight(place.position);
+        const auto [weight, light] = rooms.lit_part(place.position);
+        if (rooms.is_lit(place.position)) {
+            missing += light / weight - light;
+        } else {
+            through += light;
+        }
+    }
+    const double scale = 1.0 / (1000.0 * report.mean_light);
+    EXPECT_GT(through * scale, 0.01);
+    EXPECT_NEAR(report.plain_through_walls.mean, through * scale, 1e-5);
+    EXPECT_NEAR(report.plain_missing.mean, missing * scale, 1e-5);
+}
+
+/// Radiance 1 from everywhere is irradiance π on every surface.
+TEST(CheckLeaks, TracesTheLightOfEachPlace) {
+    const LitAndDark rooms;
+    const LeakReport report = report_on(rooms.scene, rooms.volume);
+    double lit_count = 0.0, noise = 0.0;
+    for (const LeakPlace& place : report.places) {
         const bool is_lit = rooms.is_lit(place.position);
         lit_count += is_lit;
-        (is_lit ? missing : through) += is_lit ? 1.0 - weight : weight;
-        EXPECT_NEAR(place.traced, is_lit ? kPi : 0.0, 1e-4);
+        EXPECT_NEAR(place.traced, is_lit ? kPi : 0.0, 0.5);
+        noise += std::abs(place.traced - (is_lit ? kPi : 0.0));
     }
-    EXPECT_NEAR(report.mean_light, kPi * lit_count / 1000.0, 1e-4);
-    EXPECT_GT(through / lit_count, 0.01);
-    EXPECT_NEAR(report.plain_through_walls.mean, through / lit_count, 1e-3);
-    EXPECT_NEAR(report.plain_missing.mean, missing / lit_count, 1e-3);
-    EXPECT_LT(report.rest.mean, 1e-3);
-    EXPECT_LT(report.noise, 1e-4);
+    EXPECT_NEAR(report.mean_light, kPi * lit_count / 1000.0, 0.01);
+    EXPECT_NEAR(report.noise, noise / (1000.0 * report.mean_light), 0.2 * report.noise);
 }
 
 TEST(CheckLeaks, FindsLessWhereWeightsKnowWalls) {
@@ -88,8 +106,8 @@ TEST(CheckLeaks, FindsLessWhereWeightsKnowWalls) {
     const LeakReport report = report_on(rooms.scene, rooms.volume);
     EXPECT_LT(report.through_walls.mean, 0.1 * report.plain_through_walls.mean);
     const LeakReport plain = report_on(rooms.scene, without.volume);
-    EXPECT_EQ(plain.through_walls, report.plain_through_walls);
-    EXPECT_EQ(plain.missing, report.plain_missing);
+    EXPECT_NEAR(plain.through_walls.mean, report.plain_through_walls.mean, 1e-6);
+    EXPECT_NEAR(plain.missing.mean, report.plain_missing.mean, 1e-6);
 }
 
 TEST(CheckLeaks, ListsTheWorstPlacesFirst) {
@@ -102,7 +120,7 @@ TEST(CheckLeaks, ListsTheWorstPlacesFirst) {
     for (size_t i = 0; i < worst.size(); ++i) {
         const LeakPlace& place = report.places[worst[i]];
         EXPECT_FALSE(rooms.is_lit(place.position));
-        EXPECT_NEAR(place.through_walls(), kPi * rooms.lit_weight(place.position), 5e-3);
+        EXPECT_NEAR(place.through_walls(), rooms.lit_part(place.position).second, 1e-4);
         if (i == 0) continue;
         EXPECT_LE(place.through_walls(), report.places[worst[i - 1]].through_walls());
     }
@@ -126,14 +144,14 @@ TEST(CheckLeaks, FindsExactlyNothingWithoutWalls) {
 TEST(CheckLeaks, ComparesUnseenPlacesWithTracedLight) {
     const Scene scene = test::row_of_rooms({1.0f, 0.0f, 1.0f});
     std::vector<glm::dvec3> positions;
-    test::add_probes_of_room(0, 2, positions);
-    test::add_probes_of_room(2, 2, positions);
+    test::add_probes_of_room(0, 2, 0.5, positions);
+    test::add_probes_of_room(2, 2, 0.5, positions);
     const LeakReport report = report_on(scene, bake(scene, positions));
     EXPECT_GT(report.unseen_count, 200u);
     for (const LeakPlace& place : report.places) {
         if (!place.is_unseen) continue;
-        EXPECT_NEAR(place.through_walls(), kPi, 0.01);
-        EXPECT_EQ(place.rest(), 0.0);
+        EXPECT_NEAR(place.through_walls(), kPi, 0.2);
+        EXPECT_NEAR(place.rest(), 0.0, 1e-12);
     }
 }
 
@@ -152,12 +170,12 @@ TEST(CheckLeaks, TracesAsManyBouncesAsTheBakeDid) {
     const Material glowing = test::diffuse(glm::vec3(0.5f), glm::vec3(1.0f));
     test::add_box(scene, glowing, test::Facing::Inward, glm::vec3(0.0f), glm::vec3(2.0f));
     std::vector<glm::dvec3> positions;
-    test::add_probes_of_room(0, 2, positions);
+    test::add_probes_of_room(0, 2, 0.5, positions);
     BakeVolumeSettings settings;
     settings.bake.bounces = 2;
     const LeakReport report = report_on(scene, bake(scene, positions, settings));
-    EXPECT_NEAR(report.mean_light, kPi * (1.0 + 0.5 + 0.25), 0.01);
-    EXPECT_LT(report.rest.mean, 0.01);
+    EXPECT_NEAR(report.mean_light, kPi * (1.0 + 0.5 + 0.25), 0.05);
+    EXPECT_LT(report.rest.mean, 0.1);
 }
 
 TEST(CheckLeaks, ComparesLayersAsTheyWereBaked) {

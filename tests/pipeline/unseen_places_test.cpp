@@ -31,8 +31,8 @@ FreePlaces on_a_line(int count, float step) {
 /// Three equal rooms in a row, of which the middle one has no probe.
 std::vector<glm::dvec3> outer_rooms() {
     std::vector<glm::dvec3> positions;
-    test::add_probes_of_room(0, 3, positions);
-    test::add_probes_of_room(2, 3, positions);
+    test::add_probes_of_room(0, 3, 0.05, positions);
+    test::add_probes_of_room(2, 3, 0.05, positions);
     return positions;
 }
 

@@ -52,9 +52,10 @@ inline Scene row_of_rooms(const std::vector<float>& radiance) {
     return scene;
 }
 
-/// Where the probes of room i of such a row are: a lattice of n × n × n from 5 cm off its walls.
-inline void add_probes_of_room(size_t i, int n, std::vector<glm::dvec3>& positions) {
-    const auto coordinate = [&](int k) { return 0.05 + 1.9 * k / (n - 1); };
+/// Adds a lattice of n × n × n probes to room i of such a row; the outer ones are `margin` off the
+/// walls.
+inline void add_probes_of_room(size_t i, int n, double margin, std::vector<glm::dvec3>& positions) {
+    const auto coordinate = [&](int k) { return margin + (2.0 - 2.0 * margin) * k / (n - 1); };
     for (int x = 0; x < n; ++x) {
         for (int y = 0; y < n; ++y) {
             for (int z = 0; z < n; ++z) {
