@@ -31,7 +31,7 @@ Error position_error(const ProbeGroup& group, size_t index, const char* what, gl
                        str_cat("probe ", index, ": position ", what, " (", value, ")"));
 }
 
-Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
+Status check_group(const ProbeGroup& group, const ProbeGroup* previous) {
     if (group.name.empty()) {
         return Error{ErrorCode::InvalidArgument, "name", "", "a probe group has no name"};
     }
@@ -42,6 +42,9 @@ Status check_name(const ProbeGroup& group, const ProbeGroup* previous) {
     }
     if (previous != nullptr && previous->name == group.name) {
         return group_error(group, "name", group.name, "there are two groups of this name");
+    }
+    if (group.rendering_layers == 0) {
+        return group_error(group, "rendering_layers", "[]", "it is on no rendering layer");
     }
     return Ok{};
 }
@@ -113,8 +116,8 @@ Result<MergedProbes> merge(std::span<const ProbeGroup> groups, const MergeSettin
     std::vector<glm::dvec3> positions;
     for (uint32_t g = 0; g < sorted.size(); ++g) {
         const ProbeGroup& group = *sorted[g];
-        const auto name = check_name(group, g > 0 ? sorted[g - 1] : nullptr);
-        auto group_positions = name ? world_positions(group) : name.error();
+        const auto checked = check_group(group, g > 0 ? sorted[g - 1] : nullptr);
+        auto group_positions = checked ? world_positions(group) : checked.error();
         if (!group_positions) {
             Error error = group_positions.error();
             error.field.insert(0, str_cat("groups[", &group - groups.data(), "]."));

@@ -63,8 +63,8 @@ struct MergedProbes {
 /// are closed transitively; the lexicographically smallest position represents its cluster.
 ///
 /// Returns invalid_argument, with the field `groups[1].positions[7]`, if a group has no name, a
-/// name with control characters (a line break) or bytes that are not UTF-8, or the name of another
-/// group, or if a position is not finite or beyond 1e18.
+/// name with control characters (a line break) or bytes that are not UTF-8, the name of another
+/// group or no rendering layer, or if a position is not finite or beyond 1e18.
 [[nodiscard]] Result<MergedProbes> merge(std::span<const ProbeGroup> groups,
                                          const MergeSettings& settings = {});
 

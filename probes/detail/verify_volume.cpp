@@ -114,6 +114,7 @@ Status check_numbers(const ProbeVolumeView& v) {
     };
     const size_t ray_count =
         static_cast<size_t>(std::max(cell_vertex_count(v.info.dimension) - 1, 0));
+    const auto some_layer = [](uint32_t layers) { return layers != 0; };
     const auto unit_rays = [&](const HullCellRays& cell) {
         return std::all_of(
             cell.rays.begin(), cell.rays.begin() + ray_count, [](const glm::vec3& ray) {
@@ -127,6 +128,7 @@ Status check_numbers(const ProbeVolumeView& v) {
           check_each("compact", v.compact, "is not finite", finite),
           check_each("occlusion", v.occlusion, "is not in [0, 1]", fractions),
           check_each("validity", v.validity, "is not in [0, 1]", fraction),
+          check_each("rendering_layers", v.rendering_layers, "is on no layer", some_layer),
           check_each("health", v.health, "is not in range", plausible),
           check_each("hull_rays", v.hull_rays, "is not a unit vector", unit_rays)}) {
         if (!status) return status;

@@ -27,6 +27,7 @@ ProbeVolume make_volume(size_t kind) {
         volume.occlusion.assign(24, glm::vec4(0.5f));
         volume.validity.assign(24, 1.0f);
         volume.health.resize(24);
+        volume.rendering_layers.assign(24, 0b1001);
         make_compact_probes(volume);
         const ProbeEdges edges(volume.view());
         std::vector<uint8_t> codes(edges.size(), 0);

@@ -26,6 +26,7 @@ ProbeVolume make_full_volume() {
     volume.occlusion.assign(volume.positions.size(), glm::vec4(0.25f));
     volume.validity.assign(volume.positions.size(), 0.75f);
     volume.health.assign(volume.positions.size(), {0.01f, 2.0f, {0.1f, 0, 0}, 1});
+    volume.rendering_layers.assign(volume.positions.size(), 0b1001);
     volume.info.ambient = test::linear_light({1, 2, 3});
     volume.lights.resize(2);
     volume.light_names = "sun\nlamp\n";
@@ -184,6 +185,8 @@ TEST_F(ProbeFileTest, VerifyRefusesStructureThatChecksumsCannotSee) {
              [](ProbeVolume& v) { v.occlusion[0].x = 1.5f; },
              [](ProbeVolume& v) { v.validity[0] = -0.1f; },
              [](ProbeVolume& v) { v.health[0].standard_error = -0.1f; },
+             [](ProbeVolume& v) { v.rendering_layers.pop_back(); },
+             [](ProbeVolume& v) { v.rendering_layers[3] = 0; },
              [](ProbeVolume& v) { v.sources[0].probe = 99; },
              [](ProbeVolume& v) { v.sources[0].group = 1; },
              [](ProbeVolume& v) { v.group_names = "no end"; },

@@ -114,6 +114,17 @@ TEST(VerifyInfo, HealthIsInRange) {
     EXPECT_EQ(health([](ProbeHealth& h) { h.virtual_offset.y = 3.4e38f; }), "health[4]");
 }
 
+TEST(VerifyInfo, EveryProbeIsOnARenderingLayer) {
+    const auto layers = [](const std::function<void(std::vector<uint32_t>&)>& change) {
+        return field_after([&](ProbeVolume& v) {
+            v.rendering_layers.assign(v.positions.size(), 0b1001);
+            change(v.rendering_layers);
+        });
+    };
+    EXPECT_EQ(layers([](std::vector<uint32_t>& all) { all[4] = 0; }), "rendering_layers[4]");
+    EXPECT_EQ(layers([](std::vector<uint32_t>& all) { all.pop_back(); }), "rendering_layers");
+}
+
 TEST(VerifyInfo, LightsHaveTheNumbersOfTheirType) {
     const auto light = [](size_t index, const std::function<void(Light&)>& change) {
         return field_after([&](ProbeVolume& v) { change(v.lights[index]); });

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/rendering_layers.h>
 #include "tests/support/random_probes.h"
 
 namespace tetralight {
@@ -43,6 +46,26 @@ TEST(CopyLight, MovesLightWithItsProbe) {
         return expected;
     }());
     EXPECT_TRUE(verify(to.view()));
+}
+
+TEST(CopyLight, MovesRenderingLayersUnlessTheNewGroupsHaveTheirOwn) {
+    const auto positions = test::random_positions(20, 5);
+    ProbeVolume from = make_baked_volume(positions);
+    for (uint32_t i = 0; i < 20; ++i) from.rendering_layers.push_back(1u << i);
+    auto more = positions;
+    more.push_back({0.5, 0.5, 0.5});
+    ProbeVolume to = make_unlit_volume(more);
+    (void)copy_light(from.view(), to);
+    ASSERT_EQ(to.rendering_layers.size(), 21u);
+    for (uint32_t i = 0; i < 21; ++i) {
+        const auto old = std::ranges::find(from.exact_positions, to.exact_positions[i]);
+        const auto twin = static_cast<size_t>(old - from.exact_positions.begin());
+        EXPECT_EQ(to.rendering_layers[i], twin < 20 ? 1u << twin : kAllRenderingLayers);
+    }
+    ProbeVolume own = make_unlit_volume(positions);
+    own.rendering_layers.assign(20, 0b10);
+    (void)copy_light(from.view(), own);
+    EXPECT_EQ(own.rendering_layers, std::vector<uint32_t>(20, 0b10));
 }
 
 TEST(CopyLight, LeavesNewProbesUnlitAndNamesThem) {

@@ -31,6 +31,29 @@ TEST(MakeProbeVolume, GivesTheSameBytesForEveryOrderOfTheGroups) {
     EXPECT_EQ(bytes(), first);
 }
 
+TEST(MakeProbeVolume, PutsAWeldedProbeOnTheRenderingLayersOfAllItsGroups) {
+    std::vector<ProbeGroup> groups(2);
+    groups[0].name = "a";
+    groups[0].positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    groups[0].rendering_layers = 0b001;
+    groups[1].name = "b";
+    groups[1].positions = {{1, 0, 0}, {0, 0, 1}};
+    groups[1].rendering_layers = 0b100;
+    const ProbeVolume volume = make_probe_volume(*merge(groups));
+    ASSERT_EQ(volume.rendering_layers.size(), 4u);
+    for (size_t i = 0; i < 4; ++i) {
+        const glm::dvec3& p = volume.exact_positions[i];
+        const bool is_in_a = p.z == 0.0, is_in_b = p.x == 1.0 || p.z == 1.0;
+        EXPECT_EQ(volume.rendering_layers[i], (is_in_a ? 0b001u : 0u) | (is_in_b ? 0b100u : 0u));
+    }
+    EXPECT_TRUE(verify(volume.view()));
+}
+
+TEST(MakeProbeVolume, HasNoRenderingLayersIfAllGroupsAreOnAll) {
+    const ProbeVolume volume = test::make_lit_volume(test::random_positions(20, 3));
+    EXPECT_TRUE(volume.rendering_layers.empty());
+}
+
 TEST(MakeProbeVolume, MovesTheLocalOriginOnlyFarAway) {
     std::vector<glm::dvec3> near = test::random_positions(50, 2);
     EXPECT_EQ(test::make_lit_volume(near).info.world_origin, glm::dvec3(0.0));

@@ -59,6 +59,24 @@ TEST(Merge, WeldsDuplicatesAndSaysSo) {
     EXPECT_EQ(merged->sources[1].probe, merged->sources[2].probe);
 }
 
+TEST(Merge, KeepsTheRenderingLayersOfEachGroup) {
+    std::vector<ProbeGroup> groups{make_group("b", {{0, 0, 0}}), make_group("a", {{1, 1, 1}})};
+    groups[0].rendering_layers = 0b01;
+    const auto merged = merge(groups);
+    ASSERT_TRUE(merged);
+    EXPECT_EQ(merged->group_rendering_layers, (std::vector<uint32_t>{kAllRenderingLayers, 0b01}));
+}
+
+TEST(Merge, RefusesAGroupOnNoRenderingLayer) {
+    std::vector<ProbeGroup> groups{make_group("b", {{0, 0, 0}}), make_group("a", {{1, 1, 1}})};
+    groups[1].rendering_layers = 0;
+    const auto merged = merge(groups);
+    ASSERT_FALSE(merged);
+    EXPECT_EQ(merged.error().code, ErrorCode::InvalidArgument);
+    EXPECT_EQ(merged.error().field, "groups[1].rendering_layers");
+    EXPECT_EQ(error_text(merged.error()), "group \"a\": it is on no rendering layer");
+}
+
 TEST(Merge, WeldsTensOfThousandsOfEqualProbes) {
     const ProbeGroup group = make_group("heap", std::vector<glm::dvec3>(50'000, glm::dvec3(1.0)));
     const auto merged = merge(std::span(&group, 1));
