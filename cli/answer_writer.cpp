@@ -26,7 +26,8 @@ Status AnswerWriter::write_header() {
     return out_.write(bytes_of(csv_header()));
 }
 
-void AnswerWriter::answer(std::span<const glm::vec3> positions, Slice& slice) const {
+void AnswerWriter::answer(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+                          Slice& slice) const {
     slice.answers.resize(positions.size());
     slice.locations.resize(positions.size());
     // Hints that name no cell: each walk begins at the seed of its own position.
@@ -39,14 +40,16 @@ void AnswerWriter::answer(std::span<const glm::vec3> positions, Slice& slice) co
     batch.occlusion =
         strided_occlusion(memory.subspan(offsetof(RawAnswer, occlusion)), sizeof(RawAnswer));
     batch.outside = settings_.outside;
-    batch.walls = settings_.walls;
+    slice.receiver.set(settings_.receiver, batch);
+    batch.normals = normals;
+    batch.normal_offset = settings_.normal_offset;
     // Raw answers and CSV have no weights.
     const bool has_weights =
         settings_.format == AnswerFormat::Text || settings_.format == AnswerFormat::JsonLines;
     if (has_weights) batch.locations = slice.locations;
     const auto report = interpolate(volume_, batch);
     slice.status = report ? Status(Ok{}) : Status(report.error());
-    if (has_weights) hide_probes(volume_, slice.locations, {settings_.walls});
+    if (has_weights) hide_probes(volume_, slice.locations, settings_.receiver);
     slice.not_finite_count = report ? report->not_finite_count : 0;
     for (size_t i = 0; i < positions.size(); ++i) slice.answers[i].cell = slice.cells[i];
 }
@@ -65,14 +68,16 @@ void AnswerWriter::format(std::span<const glm::vec3> positions, Slice& slice) co
     }
 }
 
-Status AnswerWriter::write(std::span<const glm::vec3> positions) {
+Status AnswerWriter::write(std::span<const glm::vec3> positions,
+                           std::span<const glm::vec3> normals) {
     const size_t slice_count = (positions.size() + kSliceSize - 1) / kSliceSize;
     slices_.resize(std::max(slices_.size(), slice_count));
     parallel_for(slice_count, settings_.thread_count, [&](size_t i) {
         std::fesetenv(FE_DFL_ENV);  // denormal numbers count, as in a query of the library
-        const auto part = positions.subspan(
-            i * kSliceSize, std::min(kSliceSize, positions.size() - i * kSliceSize));
-        answer(part, slices_[i]);
+        const size_t begin = i * kSliceSize;
+        const size_t count = std::min(kSliceSize, positions.size() - begin);
+        const auto part = positions.subspan(begin, count);
+        answer(part, normals.empty() ? normals : normals.subspan(begin, count), slices_[i]);
         format(part, slices_[i]);
     });
     if (auto status = write_header(); !status) return status;

@@ -14,13 +14,17 @@
 #include <tetralight/probes/locate.h>
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/probes/receiver.h>
+#include <tetralight/probes/uniform_receiver.h>
 
 namespace tetralight::cli {
 
 struct AnswerSettings {
     AnswerFormat format = AnswerFormat::Text;
     OutsideHull outside;
-    Walls walls = Walls::HideProbes;
+    /// What is at every position.
+    Receiver receiver;
+    /// Of positions with normals: how far they are pushed (`InterpolationBatch`).
+    float normal_offset = kNormalOffset;
     uint32_t thread_count = 0;  ///< 0 = all
 };
 
@@ -32,7 +36,9 @@ class AnswerWriter {
     AnswerWriter(const ProbeVolumeView& volume, const AnswerSettings& settings, FileWriter& out)
         : volume_(volume), settings_(settings), out_(out) {}
 
-    [[nodiscard]] Status write(std::span<const glm::vec3> positions);
+    /// Precondition: a unit normal for each position, or none.
+    [[nodiscard]] Status write(std::span<const glm::vec3> positions,
+                               std::span<const glm::vec3> normals = {});
 
     /// Ends the output. To be called once, after the last chunk.
     [[nodiscard]] Status finish();
@@ -48,13 +54,15 @@ class AnswerWriter {
         std::vector<RawAnswer> answers;
         std::vector<uint32_t> cells;
         std::vector<CellLocation> locations;
+        UniformReceiver receiver;
         std::string text;
         uint64_t not_finite_count = 0;
         Status status = Ok{};
     };
 
     [[nodiscard]] Status write_header();
-    void answer(std::span<const glm::vec3> positions, Slice& slice) const;
+    void answer(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+                Slice& slice) const;
     void format(std::span<const glm::vec3> positions, Slice& slice) const;
 
     ProbeVolumeView volume_;

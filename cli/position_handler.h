@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
-#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include <tetralight/base/result.h>
+#include <tetralight/cli/query_position.h>
 
 namespace tetralight::cli {
 
@@ -19,9 +20,10 @@ class PositionHandler {
     enum class Document : uint8_t { Array, Position };
 
     /// False: stop.
-    using Take = std::function<bool(const glm::vec3&)>;
+    using Take = std::function<bool(const QueryPosition&)>;
 
-    PositionHandler(Document document, Take take) : document_(document), take_(std::move(take)) {}
+    PositionHandler(Document document, Normals normals, Take take)
+        : document_(document), normals_(normals), take_(std::move(take)) {}
 
     /// Why parsing ended early, with the position's place in the array.
     [[nodiscard]] const Error& error() const { return error_; }
@@ -49,15 +51,19 @@ class PositionHandler {
 
   private:
     enum class Place : uint8_t { Document, Array, Object, Coordinates };
+    /// Which member of an object comes next.
+    enum class Member : uint8_t { Other, Position, Normal };
 
     [[nodiscard]] bool is_ignored() const;
     bool coordinate(float number);
     bool value(std::string_view shown_value);
     bool fail(const Message& message);
     bool take();
-    bool begin_coordinates();
+    bool begin_coordinates(int first, int count);
+    [[nodiscard]] std::string subject() const;
 
     Document document_;
+    Normals normals_;
     Take take_;
     Error error_;
     Place place_ = Place::Document;
@@ -66,10 +72,14 @@ class PositionHandler {
     uint64_t ignored_depth_ = 0;
     bool is_in_array_ = false;
     bool is_in_object_ = false;
-    bool is_position_next_ = false;  ///< the object's next value is its position
-    bool has_position_ = false;      ///< the object
-    int coordinate_count_ = 0;
-    glm::vec3 position_{0.0f};
+    Member next_ = Member::Other;  ///< the object's next value
+    bool has_position_ = false;    ///< the object
+    bool has_normal_ = false;      ///< the object
+    // The open array: where its numbers go, how many it has to have, and how many it had.
+    int first_ = 0;
+    int expected_ = 0;
+    int count_ = 0;
+    std::array<float, 6> numbers_{};
 };
 
 }  // namespace tetralight::cli

@@ -41,10 +41,11 @@ Status read_json(ByteReader& reader, PositionChunks& chunks) {
     ReaderBuffer buffer(reader);
     std::istream stream(&buffer);
     Status answered = Ok{};
-    PositionHandler handler(PositionHandler::Document::Array, [&](const glm::vec3& position) {
-        answered = chunks.add(position);
-        return static_cast<bool>(answered);
-    });
+    PositionHandler handler(PositionHandler::Document::Array, chunks.normals(),
+                            [&](const QueryPosition& position) {
+                                answered = chunks.add(position);
+                                return static_cast<bool>(answered);
+                            });
     const bool is_parsed = nlohmann::json::sax_parse(stream, &handler);
     if (!answered) return answered;
     if (buffer.error()) return *buffer.error();
@@ -52,12 +53,13 @@ Status read_json(ByteReader& reader, PositionChunks& chunks) {
     return handler.error().in(reader.name());
 }
 
-Result<glm::vec3> parse_json_position(std::string_view line) {
-    glm::vec3 position(0.0f);
-    PositionHandler handler(PositionHandler::Document::Position, [&](const glm::vec3& found) {
-        position = found;
-        return true;
-    });
+Result<QueryPosition> parse_json_position(std::string_view line, Normals normals) {
+    QueryPosition position;
+    PositionHandler handler(PositionHandler::Document::Position, normals,
+                            [&](const QueryPosition& found) {
+                                position = found;
+                                return true;
+                            });
     if (nlohmann::json::sax_parse(line.begin(), line.end(), &handler)) return position;
     return handler.error();
 }

@@ -2,6 +2,7 @@
 #include <tetralight/cli/position_reader.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -19,54 +20,58 @@ namespace {
 constexpr size_t kLongestLine = size_t{1} << 18;
 
 /// The position on a line; none if the line is blank.
-using ParsedLine = Result<std::optional<glm::vec3>>;
+using ParsedLine = Result<std::optional<QueryPosition>>;
 
 bool is_blank(std::string_view line) {
     return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
-ParsedLine parse_text_line(std::string_view line) {
+ParsedLine parse_text_line(std::string_view line, Normals normals) {
     const std::string_view words = line.substr(0, line.find('#'));
-    if (is_blank(words)) return std::optional<glm::vec3>();
-    const auto position = parse_position(words);
+    if (is_blank(words)) return std::optional<QueryPosition>();
+    const auto position = parse_position(words, normals);
     return position ? ParsedLine(*position) : position.error();
 }
 
-/// The first three fields of a line of CSV.
-ParsedLine parse_csv_line(std::string_view line) {
+/// The first fields of a line of CSV: three, or six with normals.
+ParsedLine parse_csv_line(std::string_view line, Normals normals) {
     size_t end = line.find(',');
-    for (int field = 1; field < 3 && end != line.npos; ++field) end = line.find(',', end + 1);
-    return parse_text_line(line.substr(0, end));
+    for (int field = 1; field < number_count(normals) && end != line.npos; ++field) {
+        end = line.find(',', end + 1);
+    }
+    return parse_text_line(line.substr(0, end), normals);
 }
 
 /// True if a line of text is a CSV header, as that of our own CSV.
-bool is_csv_header(std::string_view line) {
-    constexpr std::string_view kNames = "x,y,z";
-    if (!line.starts_with(kNames)) return false;
-    const std::string_view rest = line.substr(kNames.size());
+bool is_csv_header(std::string_view line, Normals normals) {
+    const std::string_view names = normals == Normals::Given ? "x,y,z,nx,ny,nz" : "x,y,z";
+    if (!line.starts_with(names)) return false;
+    const std::string_view rest = line.substr(names.size());
     return is_blank(rest) || rest.starts_with(',');
 }
 
-ParsedLine parse_json_line(std::string_view line) {
-    if (is_blank(line)) return std::optional<glm::vec3>();
-    const auto position = parse_json_position(line);
+ParsedLine parse_json_line(std::string_view line, Normals normals) {
+    if (is_blank(line)) return std::optional<QueryPosition>();
+    const auto position = parse_json_position(line, normals);
     return position ? ParsedLine(*position) : position.error();
 }
 
-using ParseLine = ParsedLine (*)(std::string_view line);
+using ParseLine = ParsedLine (*)(std::string_view line, Normals normals);
 
 /// Parses line after line; the first one may have a mark of UTF-8, or be a header.
 class LineParser {
   public:
-    explicit LineParser(ParseLine parse) : parse_(parse) {}
+    LineParser(ParseLine parse, Normals normals) : parse_(parse), normals_(normals) {}
 
     ParsedLine operator()(std::string_view line) {
         constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-        if (++number_ > 1) return parse_(line);
+        if (++number_ > 1) return parse_(line, normals_);
         if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
-        if (parse_ != parse_text_line || !is_csv_header(line)) return parse_(line);
+        if (parse_ != parse_text_line || !is_csv_header(line, normals_)) {
+            return parse_(line, normals_);
+        }
         parse_ = parse_csv_line;
-        return std::optional<glm::vec3>();
+        return std::optional<QueryPosition>();
     }
 
     /// Of the line that was parsed last, from 1.
@@ -74,11 +79,12 @@ class LineParser {
 
   private:
     ParseLine parse_;
+    Normals normals_;
     uint64_t number_ = 0;
 };
 
 Status read_lines(ByteReader& reader, PositionChunks& chunks, ParseLine parse_line) {
-    LineParser parse(parse_line);
+    LineParser parse(parse_line, chunks.normals());
     std::vector<char> memory(kLongestLine);
     size_t held = 0;
     const auto error_in = [&](uint64_t number, const Error& error) {
@@ -112,9 +118,10 @@ Status read_lines(ByteReader& reader, PositionChunks& chunks, ParseLine parse_li
 }
 
 Status read_raw(ByteReader& reader, PositionChunks& chunks) {
-    static_assert(std::endian::native == std::endian::little && sizeof(glm::vec3) == 12);
-    constexpr size_t kRecord = sizeof(glm::vec3);
-    std::vector<char> memory(kRecord << 14);
+    static_assert(std::endian::native == std::endian::little);
+    const auto count_of_numbers = static_cast<size_t>(number_count(chunks.normals()));
+    const size_t record_size = count_of_numbers * sizeof(float);
+    std::vector<char> memory(record_size << 14);
     size_t held = 0;
     uint64_t record = 0;
     while (true) {
@@ -123,19 +130,25 @@ Status read_raw(ByteReader& reader, PositionChunks& chunks) {
         if (*count == 0) break;
         held += *count;
         size_t done = 0;
-        for (; done + kRecord <= held; done += kRecord, ++record) {
-            glm::vec3 position;
-            std::memcpy(&position, memory.data() + done, kRecord);
-            if (auto status = chunks.add(position); !status) return status;
+        for (; done + record_size <= held; done += record_size, ++record) {
+            std::array<float, 6> numbers{};
+            std::memcpy(numbers.data(), memory.data() + done, record_size);
+            const auto position = make_query_position(std::span(numbers).first(count_of_numbers));
+            if (!position) {
+                return position.error().in(str_cat(reader.name(), ": record ", record));
+            }
+            if (auto status = chunks.add(*position); !status) return status;
         }
         held -= done;
         std::memmove(memory.data(), memory.data() + done, held);
     }
     if (held == 0) return Ok{};
-    return Error{ErrorCode::Corrupt,
-                 str_cat(reader.name(), ": ends at byte ", kRecord * record + held, ", ", held,
-                         held == 1 ? " byte" : " bytes", " into record ", record, "; records are ",
-                         kRecord, " bytes, x y z as float32")};
+    return Error{
+        ErrorCode::Corrupt,
+        str_cat(reader.name(), ": ends at byte ", record_size * record + held, ", ", held,
+                held == 1 ? " byte" : " bytes", " into record ", record, "; records are ",
+                record_size, " bytes, ",
+                chunks.normals() == Normals::Given ? "x y z nx ny nz" : "x y z", " as float32")};
 }
 
 Status read_all(ByteReader& reader, PositionFormat format, PositionChunks& chunks) {

@@ -2,9 +2,11 @@
 #include <tetralight/cli/position_text.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 
 #include <tetralight/base/str_cat.h>
 
@@ -15,7 +17,7 @@ std::string shown(std::string_view input) {
     return std::string(input.substr(0, kLongest)) + (input.size() > kLongest ? "..." : "");
 }
 
-Result<float> parse_coordinate(std::string_view digits, char axis, size_t& length) {
+Result<float> parse_coordinate(std::string_view digits, const char* name, size_t& length) {
     float number = 0.0f;
     const auto [next, error] =
         std::from_chars(digits.data(), digits.data() + digits.size(), number);
@@ -27,7 +29,7 @@ Result<float> parse_coordinate(std::string_view digits, char axis, size_t& lengt
     const double value = std::strtod(taken.c_str(), nullptr);
     if (std::abs(value) > 1.0) {
         return Error{ErrorCode::Corrupt, "position", shown(taken),
-                     str_cat(axis, " is ", shown(taken), ", beyond what a float holds (3.4e38)")};
+                     str_cat(name, " is ", shown(taken), ", beyond what a float holds (3.4e38)")};
     }
     return static_cast<float>(value);  // nearly 0
 }
@@ -42,7 +44,7 @@ std::string_view without_plus(std::string_view digits) {
 
 }  // namespace
 
-Result<glm::vec3> parse_position(std::string_view line) {
+Result<QueryPosition> parse_position(std::string_view line, Normals normals) {
     constexpr const char* kBlanks = " \t\r";
     std::string_view rest = line;
     const auto skip_blanks = [&] {
@@ -57,25 +59,26 @@ Result<glm::vec3> parse_position(std::string_view line) {
         skip_blanks();
         return true;
     };
-    const auto not_three = [&] {
+    const auto not_all = [&] {
+        const char* form = normals == Normals::Given ? "x y z nx ny nz" : "x y z";
         return Error{ErrorCode::Corrupt, "position", shown(line),
-                     str_cat("\"", shown(line), "\" is not x y z")};
+                     str_cat("\"", shown(line), "\" is not ", form)};
     };
-    glm::vec3 position(0.0f);
+    std::array<float, 6> numbers{};
+    const auto used = std::span(numbers).first(static_cast<size_t>(number_count(normals)));
     skip_blanks();
-    for (int axis = 0; axis < 3; ++axis) {
-        if (axis > 0 && !skip_gap()) return not_three();
+    for (size_t i = 0; i < used.size(); ++i) {
+        if (i > 0 && !skip_gap()) return not_all();
         rest = without_plus(rest);
         size_t length = 0;
-        const auto number = parse_coordinate(rest, "xyz"[axis], length);
-        if (!number)
-            return number.error().code == ErrorCode::Corrupt ? number.error() : not_three();
-        position[axis] = *number;
+        const auto number = parse_coordinate(rest, kNumberNames[i], length);
+        if (!number) return number.error().code == ErrorCode::Corrupt ? number.error() : not_all();
+        used[i] = *number;
         rest.remove_prefix(length);
     }
     skip_blanks();
-    if (!rest.empty()) return not_three();
-    return position;
+    if (!rest.empty()) return not_all();
+    return make_query_position(used);
 }
 
 }  // namespace tetralight::cli

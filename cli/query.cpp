@@ -17,6 +17,7 @@ struct Query {
     std::string positions_path;
     std::string output;
     std::optional<PositionFormat> from;
+    Normals normals = Normals::None;
     AnswerSettings settings;
     bool is_half = false;
     CommonOptions common;
@@ -31,10 +32,17 @@ struct Query {
         settings.format = answer_format(values);
         settings.outside.policy = choice<OutsidePolicy>(values, "outside");
         settings.outside.fade_distance = values.number32("fade");
-        settings.walls = choice<Walls>(values, "walls");
+        settings.receiver.walls = choice<Walls>(values, "walls");
+        settings.receiver.rendering_layers = values.bits("rendering_layers", kAllRenderingLayers);
+        settings.receiver.radius = values.number32("radius");
+        settings.normal_offset = values.number32("normal_offset");
+        if (values.flag("normals")) normals = Normals::Given;
         settings.thread_count = common.thread_count;
         if (values.is_given("fade") && settings.outside.policy != OutsidePolicy::Ambient) {
             refuse(values, "fade", "needs " + values.shown("outside") + " ambient");
+        }
+        if (values.is_given("normal_offset") && normals == Normals::None) {
+            refuse(values, "normal_offset", "needs " + values.shown("normals"));
         }
     }
 
@@ -85,7 +93,9 @@ struct Query {
         auto writer = FileWriter::open(output);
         if (!writer) return writer.error();
         AnswerWriter answers(volume, settings, *writer);
-        PositionChunks chunks([&](auto positions) { return answers.write(positions); });
+        PositionChunks chunks(normals, [&](auto positions, auto with_normals) {
+            return answers.write(positions, with_normals);
+        });
         const PositionFormat format = from.value_or(position_format_of_file(positions_path));
         if (auto status = read_positions(*reader, format, chunks); !status) return status;
         if (auto status = answers.finish(); !status) return status;

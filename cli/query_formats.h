@@ -9,7 +9,7 @@
 
 namespace tetralight::cli {
 
-/// In the order of the choices of `from`.
+/// In the order of the choices of `from`. With normals there are six numbers instead of three.
 enum class PositionFormat : uint8_t {
     Text,       ///< x y z a line, # begins a comment
     JsonArray,  ///< an array of [x, y, z] or {"position": [x, y, z]}

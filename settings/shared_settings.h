@@ -75,6 +75,27 @@ inline constexpr Setting kWeld{
     .range = {0, 0.1},
     .default_text = "0.0001"};
 
+inline constexpr Setting kRenderingLayers{
+    .name = "rendering_layers",
+    .type = Type::Integers,
+    .help =
+        "Rendering layers that the lit object is on: probes on none of them do not light it "
+        "where their cell has others",
+    .unit = "layers",
+    .range = {0, 31},
+    .without = "all layers",
+    .value_name = "N,N,..."};
+
+inline constexpr Setting kRadius{
+    .name = "radius",
+    .type = Type::Number,
+    .help =
+        "Distance over which the light of probes behind a wall fades, such as the radius of "
+        "the lit object; 0 = 3 % of the distance from the probe to the wall",
+    .unit = "metres",
+    .range = {0, 1e9},
+    .default_text = "0"};
+
 constexpr Setting sky_setting(std::string_view help) {
     return {.name = "sky",
             .type = Type::Sky,

@@ -79,6 +79,14 @@ std::vector<double> Values::numbers(std::string_view name) const {
     return value == nullptr ? std::vector<double>{} : value->get<std::vector<double>>();
 }
 
+uint32_t Values::bits(std::string_view name, uint32_t without) const {
+    const Json* value = find(name);
+    if (value == nullptr) return without;
+    uint32_t bits = 0;
+    for (const Json& element : *value) bits |= uint32_t{1} << element.get<uint32_t>();
+    return bits;
+}
+
 std::vector<std::string> Values::texts(std::string_view name) const {
     const Json* value = find(name);
     return value == nullptr ? std::vector<std::string>{} : value->get<std::vector<std::string>>();

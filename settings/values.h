@@ -37,6 +37,9 @@ class Values {
     [[nodiscard]] size_t choice(std::string_view name) const;
     [[nodiscard]] std::array<double, 3> vector(std::string_view name) const;  ///< 0 without
     [[nodiscard]] std::vector<double> numbers(std::string_view name) const;
+    /// Bit i is set if i is among its whole numbers; `without` without a value. Precondition: its
+    /// range ends at 31 or before.
+    [[nodiscard]] uint32_t bits(std::string_view name, uint32_t without) const;
     [[nodiscard]] std::vector<std::string> texts(std::string_view name) const;
 
     /// Precondition: `value` is of the setting's type and in its range.

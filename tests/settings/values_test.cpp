@@ -36,6 +36,28 @@ TEST(Values, JsonHasThemInTheOrderOfTheTable) {
     EXPECT_EQ(json["bounces"], 2);
 }
 
+TEST(Values, WholeNumbersAreTheBitsOfAMask) {
+    const auto query = [](const Json& more) {
+        Json json{{"volume", "v.probes"}};
+        json.update(more);
+        const auto values = values_from_json(kQuery, json, Access::Command);
+        EXPECT_TRUE(values);
+        return values->bits("rendering_layers", 7);
+    };
+    EXPECT_EQ(query({}), 7u);
+    EXPECT_EQ(query({{"rendering_layers", {0}}}), 1u);
+    EXPECT_EQ(query({{"rendering_layers", {31, 0, 31}}}), 0x80000001u);
+}
+
+TEST(Values, RenderingLayersAreFrom0To31) {
+    for (const Json& layers : {Json::array(), Json{32}, Json{-1}, Json{0.5}, Json{"a"}, Json(3)}) {
+        const auto values = values_from_json(
+            kQuery, {{"volume", "v.probes"}, {"rendering_layers", layers}}, Access::Command);
+        ASSERT_FALSE(values) << layers;
+        EXPECT_EQ(values.error().field, "rendering_layers");
+    }
+}
+
 TEST(Values, ErrorsNameTheSettingInTheFormThatWasUsed) {
     const Error error = bake_values({{"max_samples", 5}}).error("max_samples", "needs more");
     EXPECT_EQ(error.field, "max_samples");
