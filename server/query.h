@@ -6,6 +6,7 @@
 
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/receiver.h>
 #include <tetralight/server/http.h>
 #include <tetralight/server/service.h>
 
@@ -16,9 +17,13 @@ namespace tetralight::server {
 /// The positions and settings of a query.
 struct Query {
     std::span<const glm::vec3> positions;
+    /// Unit; one for each position, or none.
+    std::span<const glm::vec3> normals = {};
     OutsideHull outside = {};
     bool is_half_precision = false;
-    Walls walls = Walls::HideProbes;
+    /// What is at every position.
+    Receiver receiver = {};
+    float normal_offset = kNormalOffset;
 };
 
 /// Throws a `Problem` if there are too many positions, or one is not finite.

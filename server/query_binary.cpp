@@ -107,7 +107,7 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
     Query query{.positions = positions, .is_half_precision = header.precision == 1};
     query.outside.policy = static_cast<OutsidePolicy>(header.outside);
     if (header.fade_distance > 0.0f) query.outside.fade_distance = header.fade_distance;
-    if ((header.wants & QueryHeader::kIgnoreWalls) != 0) query.walls = Walls::Ignore;
+    if ((header.wants & QueryHeader::kIgnoreWalls) != 0) query.receiver.walls = Walls::Ignore;
     const ProbeVolumeView volume = view_for(file, query);
 
     const AnswerLayout layout(header);
@@ -122,8 +122,8 @@ Response answer_binary(Service& service, const ProbeFile& file, const Request& r
                                  .occlusion = occlusion_output(header, layout, bytes),
                                  .outside = query.outside,
                                  .locations = location_output(header, layout, bytes),
-                                 .walls = query.walls}));
-    hide_probes(volume, location_output(header, layout, bytes), {query.walls});
+                                 .walls = query.receiver.walls}));
+    hide_probes(volume, location_output(header, layout, bytes), query.receiver);
     service.metrics.positions += header.count;
     return {.content_type = "application/octet-stream", .body = Body(bytes, memory)};
 }

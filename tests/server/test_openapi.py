@@ -129,7 +129,8 @@ class OpenApi(ServiceTest):
         self.assertEqual((bake["scene"]["x-stored"], bake["reuse"]["x-stored"]), ("scenes", "volumes"))
         self.assertIn("scene", schemas["BakeOrder"]["required"])
         self.assertEqual(set(schemas["Query"]["properties"]),
-                         {"positions", "outside", "fade", "walls", "precision"})
+                         {"positions", "normals", "normal_offset", "outside", "fade", "walls",
+                          "rendering_layers", "radius", "precision"})
         text = json.dumps(schemas)
         self.assertNotIn("x-settings", text)
         self.assertNotIn("--", text)

@@ -74,6 +74,78 @@ class Query(ServiceTest):
                     for x, y in zip(a, b, strict=True):
                         self.assertAlmostEqual(x, y, delta=1e-4 * (1 + abs(y)))
 
+    def test_what_is_lit_is_what_the_command_says(self):
+        groups = os.path.join(self.folder, "groups.json")
+        layered = os.path.join(self.folder, "layers.probes")
+        with open(groups, "w", encoding="utf-8") as file:
+            json.dump({"groups": [
+                {"name": str(layer), "rendering_layers": [layer],
+                 "positions": [[x, y, z + 0.5 * (layer > 0)] for x in (-2, 1, 4) for y in (0.5, 2)
+                               for z in (-3, 0, 3)]} for layer in (0, 3)]}, file)
+        self.command("bake", COURTYARD, "-g", groups, "--only-given-groups", "--invalid-probes",
+                     "keep", "--samples", "16", "-b", "1", "-o", layered)
+        self.upload(self.server, "volumes", layered, "layers")
+        generator = random.Random(3)
+        places = [[generator.uniform(-2, 4), generator.uniform(0.5, 2), generator.uniform(-3, 3)]
+                  for _ in range(100)]
+        normals = [[generator.uniform(-1, 1) for _ in range(3)] for _ in places]
+
+        def command(*options):
+            lines = subprocess.run(
+                [COMMAND, "query", layered, "--json", *options], check=True, capture_output=True,
+                text=True, input="\n".join(
+                    " ".join(map(repr, p + (n if "--normals" in options else [])))
+                    for p, n in zip(places, normals, strict=True))).stdout
+            return [json.loads(line) for line in lines.splitlines()]
+
+        def ask(**members):
+            answer = self.server.post("/v1/volumes/layers/query", {"positions": places, **members})
+            self.assertEqual(answer.status, 200, answer.body)
+            return answer.json()["answers"]
+
+        plain = ask()
+        for options, members in (
+                (("--rendering-layers", "3"), {"rendering_layers": [3]}),
+                (("--radius", "0.5"), {"radius": 0.5}),
+                (("--normals",), {"normals": normals}),
+                (("--normals", "--normal-offset", "0.3", "--rendering-layers", "0,7"),
+                 {"rendering_layers": [0, 7], "normal_offset": 0.3, "normals": normals})):
+            ours = ask(**members)
+            if "radius" not in members:  # it shows near walls only
+                self.assertNotEqual(ours, plain)
+            for a, b in zip(ours, command(*options), strict=True):
+                self.assertEqual(a["position"], b["position"])
+                for x, y in zip(a["irradiance_sh"], b["irradiance_sh"], strict=True):
+                    for u, v in zip(x, y, strict=True):
+                        self.assertAlmostEqual(u, v, delta=1e-4 * (1 + abs(v)))
+                for x, y in zip(a["probes"], b["probes"], strict=True):
+                    self.assertEqual(x["probe"], y["probe"])
+                    self.assertAlmostEqual(x["weight"], y["weight"], delta=1e-5)
+        self.assertEqual(ask(rendering_layers=[0, 3]), plain)
+        self.assertEqual(ask(radius=0, normals=None, rendering_layers=None), plain)
+        many = ask(positions=places * 20, normals=normals * 20, rendering_layers=[3], radius=0.5)
+        self.assertEqual(many, ask(normals=normals, rendering_layers=[3], radius=0.5) * 20)
+
+    def test_what_is_lit_is_checked(self):
+        two = {"positions": [[0, 1, 0], [1, 1, 0]]}
+        up = [0, 1, 0]
+        for members, field in (
+                ({"rendering_layers": []}, "rendering_layers"),
+                ({"rendering_layers": [32]}, "rendering_layers"),
+                ({"rendering_layers": [-1]}, "rendering_layers"),
+                ({"rendering_layers": [0.5]}, "rendering_layers"),
+                ({"rendering_layers": 3}, "rendering_layers"), ({"radius": -1}, "radius"),
+                ({"normals": [up]}, "normals"), ({"normals": []}, "normals"),
+                ({"normals": 3}, "normals"), ({"normals": [up, up, up]}, "normals"),
+                ({"normals": [up, [0, 0, 0]]}, "normals[1]"),
+                ({"normals": [up, [0, 1]]}, "normals[1]"),
+                ({"normals": [[0, 1e39, 0], up]}, "normals[0]"),
+                ({"normals": [up, [0, 1, "z"]]}, "normals[1]"),
+                ({"normal_offset": 0.2}, "normal_offset"),
+                ({"normals": [up, up], "normal_offset": -1}, "normal_offset")):
+            answer = self.server.post("/v1/volumes/court/query", {**two, **members})
+            self.assertEqual((answer.status, answer.json().get("field")), (400, field), members)
+
     def test_binary_is_what_json_says(self):
         answers = self.query(positions=self.positions)
         count = len(self.positions)
