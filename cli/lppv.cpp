@@ -81,6 +81,8 @@ struct LppvCommand {
           common(given),
           values(&given) {
         fill.quality = choice<LppvQuality>(given, "mode");
+        fill.receiver.rendering_layers = given.bits("rendering_layers", kAllRenderingLayers);
+        fill.receiver.radius = given.number32("radius");
         file.precision = choice<LppvTexelFormat>(given, "precision");
         file.thread_count = common.thread_count;
         file.kind = lppv_file_kind(output == "-" ? "" : output).value_or(LppvFileKind::OpenVdb);
@@ -182,7 +184,7 @@ struct LppvCommand {
             refuse_because(*values, reach > 0.0 ? "reach" : "density", status.error());
         }
         const Stopwatch filling;
-        const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads());
+        const SparseLppv lppv = make_sparse_lppv(volume, blocks, threads(), fill.receiver);
         const double fill_seconds = filling.seconds();
         const Stopwatch writing;
         const auto precision =

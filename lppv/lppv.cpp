@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/lppv/detail/apply_receiver.h>
 #include <tetralight/lppv/detail/grid_positions.h>
 #include <tetralight/lppv/detail/mean_band_2.h>
 #include <tetralight/lppv/detail/nearest_valid.h>
@@ -106,16 +107,17 @@ void LppvFillTasks::run(size_t task) const {
     std::vector<CellLocation> found(positions.size()), locations(positions.size());
     locate(volume, positions, found, fill.outside);
     for (size_t i = 0; i < found.size(); ++i) locations[places[i]] = found[i];
+    const Walls walls = apply_receiver(volume, locations, fill.receiver);
     std::span<const CellLocation> remaining = locations;
     for (const LppvBeam& beam : beams) {
-        write_beam(beam, remaining.first(beam.point_count()));
+        write_beam(beam, remaining.first(beam.point_count()), walls);
         remaining = remaining.subspan(beam.point_count());
     }
 }
 
 /// Writes consecutive rows in memory together.
-void LppvFillTasks::write_beam(const LppvBeam& beam,
-                               std::span<const CellLocation> locations) const {
+void LppvFillTasks::write_beam(const LppvBeam& beam, std::span<const CellLocation> locations,
+                               Walls walls) const {
     const bool is_contiguous = beams_y == 1;
     const size_t count = is_contiguous ? locations.size() : beam.size.x;
     for (size_t i = 0; i < locations.size(); i += count) {
@@ -125,7 +127,8 @@ void LppvFillTasks::write_beam(const LppvBeam& beam,
         const std::span irradiance = std::span(lppv.irradiance).subspan(at, count);
         OcclusionOutput occlusion;
         if (!lppv.occlusion.empty()) occlusion = std::span(lppv.occlusion).subspan(at, count);
-        const auto status = blend(volume, locations.subspan(i, count), irradiance, occlusion);
+        const auto status =
+            blend(volume, locations.subspan(i, count), irradiance, occlusion, walls);
         TETRALIGHT_ASSERT(status, "the output has one element per location");
         if (fill.quality != LppvQuality::Low) continue;
         for (IrradianceSh& sh : irradiance) {

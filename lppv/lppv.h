@@ -10,6 +10,7 @@
 #include <tetralight/base/result.h>
 #include <tetralight/lppv/lppv_grid.h>
 #include <tetralight/probes/interpolate.h>
+#include <tetralight/probes/receiver.h>
 
 namespace tetralight {
 
@@ -45,6 +46,8 @@ struct LppvFill {
     /// If there is no such point, all points keep their light.
     float min_validity = 0.5f;
     OutsideHull outside = {};
+    /// The object: which probes light it.
+    Receiver receiver = {};
 };
 
 namespace detail {
@@ -72,7 +75,8 @@ struct LppvFillTasks {
 
     [[nodiscard]] size_t count() const noexcept;
     void run(size_t task) const;
-    void write_beam(const LppvBeam& beam, std::span<const CellLocation> locations) const;
+    void write_beam(const LppvBeam& beam, std::span<const CellLocation> locations,
+                    Walls walls) const;
 };
 
 [[nodiscard]] Status check_fill(const LppvGrid& grid, const LppvFill& fill);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/lppv/detail/apply_receiver.h>
 #include <tetralight/lppv/detail/grid_positions.h>
 #include <tetralight/lppv/detail/nearest_valid.h>
 #include <tetralight/lppv/detail/slab_texels.h>
@@ -75,7 +76,7 @@ LppvAtlas::LppvAtlas(const LppvAtlasSettings& settings)
     : texture_(make_texture(settings)), packing_(settings.slab_size), task_starts_{0} {}
 
 Result<uint32_t> LppvAtlas::add(const LppvGrid& grid, LppvQuality quality, LppvRefresh refresh,
-                                std::span<const float> validity) {
+                                std::span<const float> validity, const Receiver& receiver) {
     if (auto status = detail::check_fill(grid, {.validity = validity}); !status) {
         return status.error();
     }
@@ -99,6 +100,7 @@ Result<uint32_t> LppvAtlas::add(const LppvGrid& grid, LppvQuality quality, LppvR
     volume.grid = volume.filled_grid = grid;
     volume.quality = quality;
     volume.refresh = refresh;
+    volume.receiver = receiver;
     volume.is_used = volume.is_due = true;
     volume.nearest_valid = nearest_valid_points(grid, validity);
     volume.texels = {*min, size};
@@ -196,7 +198,8 @@ void LppvAtlas::fill(const ProbeVolumeView& probes, Volume& volume, Scratch& scr
         scratch.positions[i] = position_of(volume.grid.point(i));
     }
     locate(probes, scratch.positions, scratch.locations);
-    const auto status = blend(probes, scratch.locations, scratch.light, scratch.occlusion);
+    const Walls walls = detail::apply_receiver(probes, scratch.locations, volume.receiver);
+    const auto status = blend(probes, scratch.locations, scratch.light, scratch.occlusion, walls);
     TETRALIGHT_ASSERT(status, "the output has one element per location");
     detail::replace_invalid(volume.nearest_valid, std::span(scratch.light), scratch.occlusion);
     volume.band_2 = {};

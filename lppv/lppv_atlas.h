@@ -84,18 +84,20 @@ static_assert(sizeof(LppvAtlasConstants) == 160 &&
               std::is_trivially_copyable_v<LppvAtlasConstants>);
 
 /// Proxy volumes packed into one texture. The bytes of a volume depend only on its grid, its
-/// quality, its validity and the probe volume, so that a partial and a complete refill give the
-/// same bytes on any number of threads. Outside the hull of the probes the light is extrapolated.
+/// quality, its validity, its receiver and the probe volume, so that a partial and a complete
+/// refill give the same bytes on any number of threads. Outside the hull of the probes the light is
+/// extrapolated.
 class LppvAtlas {
   public:
     explicit LppvAtlas(const LppvAtlasSettings& settings);
 
     /// Allocates texels for a volume, which the next refresh fills, and returns its id. Ids of
-    /// removed volumes are reused. `validity` and its threshold are those of `LppvFill`. Returns
-    /// out_of_resources if the atlas is full, and invalid_argument if `validity` does not have one
-    /// value per grid point.
+    /// removed volumes are reused. `validity`, its threshold and `receiver` are those of
+    /// `LppvFill`. Returns out_of_resources if the atlas is full, and invalid_argument if
+    /// `validity` does not have one value per grid point.
     [[nodiscard]] Result<uint32_t> add(const LppvGrid& grid, LppvQuality quality,
-                                       LppvRefresh refresh, std::span<const float> validity = {});
+                                       LppvRefresh refresh, std::span<const float> validity = {},
+                                       const Receiver& receiver = {});
 
     // Precondition of the following functions: `id` is the id of a volume in the atlas.
 
@@ -136,6 +138,7 @@ class LppvAtlas {
         LppvGrid filled_grid;  ///< of the object at the last refill
         LppvQuality quality = LppvQuality::Normal;
         LppvRefresh refresh = LppvRefresh::Automatic;
+        Receiver receiver;
         bool is_used = false;
         bool is_due = false;
         std::vector<uint32_t> nearest_valid;  ///< per point; empty: the point itself

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/uniform_receiver.h>
 
 namespace tetralight {
 namespace {
@@ -109,6 +110,8 @@ void SparseFillTasks::run(size_t task) const {
     if (!lppv.occlusion.empty()) {
         batch.occlusion = std::span(lppv.occlusion).subspan(begin, positions.size());
     }
+    UniformReceiver everywhere;
+    everywhere.set(receiver, batch);
     const auto report = interpolate(volume, batch);
     TETRALIGHT_ASSERT(report, "the outputs of a task have one element per position");
 }

@@ -65,6 +65,7 @@ namespace detail {
 struct SparseFillTasks {
     const ProbeVolumeView& volume;
     SparseLppv& lppv;
+    Receiver receiver;
 
     [[nodiscard]] size_t count() const noexcept;
     void run(size_t task) const;
@@ -77,12 +78,14 @@ struct SparseFillTasks {
 }  // namespace detail
 
 /// Fills all nine coefficients at all points of the blocks on the caller's threads (`interpolate`
-/// describes `parallel_for`). Gives the same bytes for any number of threads.
+/// describes `parallel_for`). Gives the same bytes for any number of threads. `receiver` is that of
+/// `LppvFill`.
 template <class ParallelFor>
 [[nodiscard]] SparseLppv make_sparse_lppv(const ProbeVolumeView& volume, const SparseBlocks& blocks,
-                                          ParallelFor&& parallel_for) {
+                                          ParallelFor&& parallel_for,
+                                          const Receiver& receiver = {}) {
     SparseLppv lppv = detail::empty_sparse_lppv(volume, blocks);
-    const detail::SparseFillTasks tasks{volume, lppv};
+    const detail::SparseFillTasks tasks{volume, lppv, receiver};
     parallel_for(tasks.count(), [&tasks](size_t task) { tasks.run(task); });
     return lppv;
 }

@@ -69,6 +69,8 @@ constexpr Setting kGridSettings[] = {
      .type = Type::Flag,
      .help = "Round resolutions to powers of two up to 32, as Unity does"}};
 
+constexpr Setting kLightSettings[] = {kRenderingLayers, kRadius};
+
 constexpr Setting kFileSettings[] = {
     {.name = "mode",
      .type = Type::Choice,
@@ -102,6 +104,7 @@ constexpr Setting kFileSettings[] = {
 
 constexpr Group kGroups[] = {{"Files", kFiles},
                              {"Grid", kGridSettings},
+                             {"Light", kLightSettings},
                              {"Contents of the file", kFileSettings},
                              {"Common options", kCommonSettings}};
 

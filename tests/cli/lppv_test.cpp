@@ -2,11 +2,25 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
+#include <tetralight/lppv/lppv_texture.h>
+#include <tetralight/probes/probe_file.h>
 #include "tests/cli/command_fixture.h"
+#include "tests/support/property_volume.h"
+#include "tests/support/random_walls.h"
 
 namespace tetralight::test {
 namespace {
+
+/// The grid of [-1, 1]³ as the command makes it.
+LppvGrid make_lppv_grid_of_box(glm::uvec3 resolution) {
+    const LppvPart box{glm::dmat4(1.0), glm::dvec3(-1.0), glm::dvec3(1.0)};
+    LppvSettings settings;
+    settings.resolution_mode = LppvResolution::Custom;
+    settings.resolution = resolution;
+    return *make_lppv_grid({glm::dmat4(1.0), std::span(&box, 1)}, settings);
+}
 
 class LppvCommand : public CommandFixture {
   protected:
@@ -79,6 +93,57 @@ TEST_F(LppvCommand, SparseFilesHoldWhatIsNearProbesAndSurfaces) {
     EXPECT_GT(all["blocks"], probes["blocks"]);
     EXPECT_GT(probes["blocks"], 10);
     EXPECT_EQ(all["points"], 512 * all["blocks"].get<int>());
+}
+
+/// Probes on two layers, those of layer 3 with twice the light.
+ProbeVolume make_two_layers() {
+    ProbeVolume volume = make_random_volume(test::random_positions(60, 1, 4.0), 2);
+    for (uint32_t i = 0; i < volume.positions.size(); ++i) {
+        volume.rendering_layers.push_back(i % 2 == 0 ? 0b0001 : 0b1000);
+        volume.irradiance[i] = {};
+        volume.irradiance[i].coefficients[0] = glm::vec3(i % 2 == 0 ? 1.0f : 2.0f);
+    }
+    return volume;
+}
+
+TEST_F(LppvCommand, TakesTheLightOfTheLayersOfTheObject) {
+    const ProbeVolume volume = make_two_layers();
+    ASSERT_TRUE(write_probe_file(path("two.probes"), volume.view()));
+    const Arguments command{"lppv",  "two.probes", "--precision",    "float",        "-o",
+                            "a.dds", "--bounds",   "-1,-1,-1,1,1,1", "--resolution", "5,6,7"};
+    const auto layers = [&](Arguments more) {
+        more.insert(more.begin(), command.begin(), command.end());
+        succeed(more);
+        const std::string bytes = read("a.dds").substr(148);
+        std::vector<float> texels(bytes.size() / sizeof(float));
+        std::memcpy(texels.data(), bytes.data(), texels.size() * sizeof(float));
+        return texels;
+    };
+    const auto grid = make_lppv_grid_of_box({5, 6, 7});
+    const Lppv expected =
+        *make_lppv(volume.view(), grid, {.receiver = {.rendering_layers = 0b1000}});
+    const LppvTexture texture =
+        make_lppv_texture(expected, LppvLayout::SevenSlabs, LppvTexelFormat::Float);
+    const auto found = layers({"--rendering-layers", "3"});
+    ASSERT_EQ(found.size() * sizeof(float), texture.texels.size());
+    EXPECT_EQ(std::memcmp(found.data(), texture.texels.data(), texture.texels.size()), 0);
+    EXPECT_NE(found, layers({}));
+    EXPECT_EQ(layers({"--rendering-layers", "0,3"}), layers({}));
+}
+
+TEST_F(LppvCommand, PassesLayersAndRadiusToSparseGrids) {
+    ProbeVolume volume = make_two_layers();
+    add_random_walls(volume, 3);
+    ASSERT_TRUE(write_probe_file(path("two.probes"), volume.view()));
+    const auto bytes = [&](Arguments more) {
+        more.insert(more.begin(), {"lppv", "two.probes", "--sparse", "-o", "a.nvdb"});
+        succeed(more);
+        return read("a.nvdb");
+    };
+    const std::string plain = bytes({});
+    EXPECT_NE(bytes({"--rendering-layers", "3"}), plain);
+    EXPECT_NE(bytes({"--radius", "0.5"}), plain);
+    EXPECT_EQ(bytes({"--radius", "0"}), plain);
 }
 
 TEST_F(LppvCommand, RefusesWhatDoesNotGoTogether) {

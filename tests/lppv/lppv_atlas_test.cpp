@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <thread>
 
@@ -44,6 +45,32 @@ LppvAtlas make_atlas(const std::vector<LppvGrid>& grids, LppvQuality quality, Lp
         {.slab_size = {32, 32, 32}, .layout = layout, .format = LppvTexelFormat::Float});
     for (const LppvGrid& grid : grids) EXPECT_TRUE(atlas.add(grid, quality, refresh));
     return atlas;
+}
+
+TEST(LppvAtlas, LightsEachObjectAsItsReceiverSays) {
+    const ProbeVolume volume = test::make_walled_volume();
+    const auto grids = make_grids(3, 1);
+    const std::array receivers{Receiver{}, Receiver{.rendering_layers = 0b01},
+                               Receiver{Walls::HideProbes, 0b10, 0.5f}};
+    LppvAtlas atlas({.slab_size = {32, 32, 32},
+                     .layout = LppvLayout::SevenSlabs,
+                     .format = LppvTexelFormat::Float});
+    for (size_t i = 0; i < 3; ++i) {
+        ASSERT_TRUE(
+            atlas.add(grids[i], LppvQuality::Full, LppvRefresh::Automatic, {}, receivers[i]));
+    }
+    (void)atlas.refresh(volume.view(), {});
+    for (uint32_t id = 0; id < 3; ++id) {
+        const Lppv lppv = *make_lppv(volume.view(), grids[id], {.receiver = receivers[id]});
+        for (size_t i = 0; i < grids[id].point_count(); ++i) {
+            const glm::vec3 p(grids[id].world_position(grids[id].point(i)));
+            const auto light = sample_lppv_atlas(atlas.texture(), atlas.constants(id), p);
+            const glm::vec3 up(0, 1, 0);
+            EXPECT_LE(
+                glm::distance(sample_sh9(light, up), sample_sh9(pack_sh(lppv.irradiance[i]), up)),
+                1e-4f);
+        }
+    }
 }
 
 TEST(LppvAtlas, ShowsEachObjectItsOwnVolume) {

@@ -8,6 +8,7 @@
 #include <tetralight/base/error_text.h>
 #include <tetralight/lppv/lppv.h>
 #include "tests/support/property_volume.h"
+#include "tests/support/random_walls.h"
 
 namespace tetralight::test {
 
@@ -35,6 +36,16 @@ inline LppvGrid grid_in_box(glm::uvec3 resolution, const glm::dvec3& scale, doub
     auto grid = make_lppv_grid({world_from_object, std::span(&cube, 1)}, settings);
     EXPECT_TRUE(grid) << error_text(grid.error());
     return *grid;
+}
+
+/// Random light, random walls, and each probe on one of two rendering layers.
+inline ProbeVolume make_walled_volume() {
+    ProbeVolume volume = make_random_volume(random_positions(300, 3), 4);
+    add_random_walls(volume, 5);
+    for (uint32_t i = 0; i < volume.positions.size(); ++i) {
+        volume.rendering_layers.push_back(i % 2 == 0 ? 0b01 : 0b10);
+    }
+    return volume;
 }
 
 }  // namespace tetralight::test

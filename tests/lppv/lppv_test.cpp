@@ -180,5 +180,27 @@ TEST(Lppv, WithoutProbesIsAmbient) {
     EXPECT_EQ(sample_lppv(lppv, {0, 0, 0}).occlusion, glm::vec4(1.0f));
 }
 
+/// A volume with walls whose probes are on two layers, and an object that is on one of them.
+TEST(Lppv, PointsTakeTheLightOfProbesOnTheLayersOfTheObject) {
+    const ProbeVolume volume = test::make_walled_volume();
+    const LppvGrid grid = grid_in_box({9, 10, 11}, glm::dvec3(1.7), 20.0);
+    for (const Receiver& receiver :
+         {Receiver{.rendering_layers = 0b01}, Receiver{.radius = 0.5f},
+          Receiver{Walls::Ignore, 0b10, 0.0f}, Receiver{.walls = Walls::Ignore}}) {
+        const Lppv lppv = *make_lppv(volume.view(), grid, {.receiver = receiver});
+        EXPECT_NE(lppv, *make_lppv(volume.view(), grid, {}));
+        for (size_t i = 0; i < grid.point_count(); ++i) {
+            const glm::vec3 position(grid.world_position(grid.point(i)));
+            const IrradianceSh expected =
+                interpolate(volume.view(), locate(volume.view(), position), receiver).irradiance;
+            for (int k = 0; k < kShCoefficientCount; ++k) {
+                ASSERT_LE(
+                    glm::distance(lppv.irradiance[i].coefficients[k], expected.coefficients[k]),
+                    1e-4f);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tetralight

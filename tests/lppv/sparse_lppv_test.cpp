@@ -86,5 +86,29 @@ TEST(SparseLppv, HoldsTheLightOfEachPoint) {
     }
 }
 
+TEST(SparseLppv, PointsTakeTheLightThatTheObjectReceives) {
+    const ProbeVolume volume = test::make_walled_volume();
+    SparseBlocks blocks(0.2);
+    ASSERT_TRUE(blocks.add_box(glm::dvec3(-0.5), glm::dvec3(0.5)));
+    const auto serial = [](size_t count, auto&& task) {
+        for (size_t i = 0; i < count; ++i) task(i);
+    };
+    for (const Receiver& receiver : {Receiver{}, Receiver{.rendering_layers = 0b01},
+                                     Receiver{.radius = 0.5f}, Receiver{Walls::Ignore}}) {
+        const SparseLppv lppv = make_sparse_lppv(volume.view(), blocks, serial, receiver);
+        for (size_t i = 0; i < lppv.irradiance.size(); i += 3) {
+            const glm::ivec3 inside(i % 8, i / 8 % 8, i / 64 % 8);
+            const glm::vec3 p(0.2 * glm::dvec3(8 * lppv.blocks[i / 512] + inside));
+            const IrradianceSh expected =
+                interpolate(volume.view(), locate(volume.view(), p), receiver).irradiance;
+            for (int k = 0; k < kShCoefficientCount; ++k) {
+                ASSERT_LE(
+                    glm::distance(lppv.irradiance[i].coefficients[k], expected.coefficients[k]),
+                    1e-4f);
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tetralight
