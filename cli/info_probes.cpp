@@ -10,6 +10,7 @@
 #include <tetralight/cli/amounts.h>
 #include <tetralight/cli/table.h>
 #include <tetralight/pipeline/prepare_probes.h>
+#include <tetralight/probes/rendering_layers.h>
 
 namespace tetralight::cli {
 namespace {
@@ -23,6 +24,7 @@ struct ProbeFacts {
     float validity = 1.0f;
     ProbeHealth health;
     glm::vec3 irradiance{0.0f};
+    std::vector<uint32_t> rendering_layers;
     std::vector<std::string> flags;
 };
 
@@ -45,6 +47,15 @@ std::vector<std::string> flags(const ProbeFacts& probe, bool is_baked, float lea
     return flags;
 }
 
+/// The layers of a mask, ascending.
+std::vector<uint32_t> layers_of(uint32_t mask) {
+    std::vector<uint32_t> layers;
+    for (uint32_t i = 0; i < kRenderingLayerCount; ++i) {
+        if ((mask >> i & 1) != 0) layers.push_back(i);
+    }
+    return layers;
+}
+
 std::vector<ProbeFacts> probe_facts(const ProbeVolumeView& volume) {
     std::vector<ProbeFacts> facts(volume.probe_count());
     const auto names = split_names(volume.group_names);
@@ -63,6 +74,9 @@ std::vector<ProbeFacts> probe_facts(const ProbeVolumeView& volume) {
         if (!volume.health.empty()) probe.health = volume.health[i];
         const bool is_baked = !volume.irradiance.empty();
         if (is_baked) probe.irradiance = kMeanOfBand0 * volume.irradiance[i].coefficients[0];
+        if (!volume.rendering_layers.empty()) {
+            probe.rendering_layers = layers_of(volume.rendering_layers[i]);
+        }
         probe.flags = flags(probe, is_baked, least_validity);
     }
     return facts;
@@ -86,6 +100,7 @@ Json probe_json(uint32_t index, const ProbeFacts& probe, const ProbeVolumeView& 
             {"capture_offset", known(has_health, to_json(glm::dvec3(probe.health.virtual_offset)))},
             {"mean_irradiance",
              known(!volume.irradiance.empty(), to_json(glm::dvec3(probe.irradiance)))},
+            {"rendering_layers", known(!volume.rendering_layers.empty(), probe.rendering_layers)},
             {"flags", probe.flags}};
 }
 

@@ -2,11 +2,13 @@
 #include <tetralight/cli/volume_facts.h>
 
 #include <algorithm>
+#include <array>
 
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/light_words.h>
 #include <tetralight/cli/walls_report.h>
 #include <tetralight/probes/build/quality.h>
+#include <tetralight/probes/rendering_layers.h>
 #include <tetralight/probes/seed_grid.h>
 #include <tetralight/probes/volume_members.h>
 
@@ -59,6 +61,24 @@ Json layers_json(const ProbeVolumeView& volume) {
         layers.push_back({{"name", names[i]}, {"weight", volume.layers[i].weight}});
     }
     return layers;
+}
+
+/// How many probes are on each layer; those on all layers are counted apart.
+Json rendering_layers_json(const ProbeVolumeView& volume) {
+    if (volume.rendering_layers.empty()) return nullptr;
+    std::array<size_t, kRenderingLayerCount> counts{};
+    size_t on_all = 0;
+    for (const uint32_t layers : volume.rendering_layers) {
+        on_all += layers == kAllRenderingLayers;
+        for (uint32_t i = 0; layers != kAllRenderingLayers && i < counts.size(); ++i) {
+            counts[i] += layers >> i & 1;
+        }
+    }
+    Json list = Json::array();
+    for (size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > 0) list.push_back({{"layer", i}, {"probes", counts[i]}});
+    }
+    return {{"list", list}, {"probes_on_all", on_all}};
 }
 
 Json bounds_json(const ProbeVolumeView& volume) {
@@ -181,6 +201,7 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.groups = groups_json(volume);
     facts.lights = lights_json(volume);
     facts.layers = layers_json(volume);
+    facts.rendering_layers = rendering_layers_json(volume);
     facts.has_transfer = !volume.transfer.empty();
     facts.bounds = bounds_json(volume);
     facts.made_with = made_with(volume);
@@ -209,6 +230,7 @@ Json to_json(const VolumeFacts& facts) {
                  {"group_list", facts.groups},
                  {"lights", facts.lights},
                  {"layers", facts.layers},
+                 {"rendering_layers", facts.rendering_layers},
                  {"has_transfer", facts.has_transfer},
                  {"made_with", facts.made_with}});
     for (const SectionFacts& section : facts.sections) {

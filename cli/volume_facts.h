@@ -35,6 +35,8 @@ struct VolumeFacts {
     Json groups;
     Json lights;
     Json layers;
+    /// Null if all probes are on all rendering layers.
+    Json rendering_layers;
     bool has_transfer = false;
     Json bounds;
     Json made_with;

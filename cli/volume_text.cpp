@@ -103,6 +103,17 @@ std::string layers_text(const VolumeFacts& facts) {
     return line.empty() ? "none (light cannot change; bake with --layers)" : line;
 }
 
+/// "0 (120 probes), 3 (40 probes), all (7 probes)".
+std::string rendering_layers_text(const Json& layers) {
+    std::string line;
+    const auto add = [&](const std::string& name, uint64_t probes) {
+        line += str_cat(line.empty() ? "" : ", ", name, " (", counted(probes, "probe"), ")");
+    };
+    for (const Json& layer : layers["list"]) add(layer["layer"].dump(), layer["probes"]);
+    if (layers["probes_on_all"] > 0) add("all", layers["probes_on_all"]);
+    return line;
+}
+
 std::string made_with_text(const Json& made_with) {
     std::string line;
     for (const auto& [key, value] : made_with.items()) {
@@ -139,6 +150,9 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
     rows.push_back({"light", facts.is_baked ? "baked" : "none (not baked)"});
     rows.push_back({"lights", lights_text(facts.lights)});
     rows.push_back({"layers", layers_text(facts)});
+    if (!facts.rendering_layers.is_null()) {
+        rows.push_back({"rendering layers", rendering_layers_text(facts.rendering_layers)});
+    }
     if (facts.made_with.is_object()) rows.push_back({"made with", made_with_text(facts.made_with)});
     return rows;
 }

@@ -131,6 +131,40 @@ TEST_F(Info, SaysWhatTheBakeFoundOfWalls) {
     EXPECT_TRUE(contains(succeed({"info", "unlit.probes"}).out, "  unseen     not known\n"));
 }
 
+TEST_F(Info, SaysHowManyProbesAreOnEachRenderingLayer) {
+    write("layers.json", R"({"groups": [
+        {"name": "a", "rendering_layers": [0, 3], "positions": [[0, 0, 0], [8, 0, 0]]},
+        {"name": "b", "rendering_layers": [31], "positions": [[8, 0, 0], [0, 8, 0]]},
+        {"name": "c", "positions": [[0, 0, 8], [9, 9, 9]]}]})");
+    succeed({"tetrahedralize", "layers.json", "-o", "v.probes"});
+    const Json expected{{"list",
+                         {{{"layer", 0}, {"probes", 2}},
+                          {{"layer", 3}, {"probes", 2}},
+                          {{"layer", 31}, {"probes", 2}}}},
+                        {"probes_on_all", 2}};
+    EXPECT_EQ(run_json({"info", "v.probes"})["rendering_layers"], expected);
+    const std::string out = succeed({"info", "v.probes"}).out;
+    EXPECT_TRUE(contains(out,
+                         "  rendering layers  0 (2 probes), 3 (2 probes), 31 (2 probes), all (2 "
+                         "probes)\n"))
+        << out;
+    for (const Json& probe : run_json({"info", "v.probes", "--probes"})["probe_list"]) {
+        const bool is_welded = probe["groups"].size() == 2;
+        if (is_welded) EXPECT_EQ(probe["rendering_layers"], Json({0, 3, 31}));
+        if (probe["groups"] == Json{"a"}) EXPECT_EQ(probe["rendering_layers"], Json({0, 3}));
+        if (probe["groups"] == Json{"c"}) EXPECT_EQ(probe["rendering_layers"].size(), 32u);
+    }
+}
+
+TEST_F(Info, SaysNothingOfRenderingLayersWhereAllProbesAreOnAll) {
+    write("five.json", kFiveProbes);
+    succeed({"tetrahedralize", "five.json", "-o", "v.probes"});
+    const Json info = run_json({"info", "v.probes", "--probes"});
+    EXPECT_TRUE(info["rendering_layers"].is_null());
+    EXPECT_TRUE(info["probe_list"][0]["rendering_layers"].is_null());
+    EXPECT_FALSE(contains(succeed({"info", "v.probes"}).out, "rendering layers"));
+}
+
 TEST_F(Info, SeedOfOneProbeAlwaysHits) {
     write("one.json", R"({"groups": [{"name": "one", "positions": [[1, 2, 3]]}]})");
     succeed({"tetrahedralize", "one.json", "-o", "v.probes"});
