@@ -7,6 +7,7 @@ export type Position = readonly [number, number, number];
 export interface Group {
     readonly name: string;
     readonly dering?: boolean;
+    readonly rendering_layers?: readonly number[];
     readonly positions: readonly Position[];
 }
 
@@ -21,15 +22,18 @@ export interface Ref {
 export const keyOf = ({group, index}: Ref) => `${group}/${index}`;
 
 interface GroupsFile {
-    groups: {name: string; dering?: boolean; transform?: number[]; positions: number[][]}[];
+    groups: {
+        name: string; dering?: boolean; rendering_layers?: number[]; transform?: number[]; positions: number[][];
+    }[];
 }
 
 /** A file of probe groups; its transforms are applied. */
 export function parseGroups(text: string): Groups {
     const file = JSON.parse(text) as GroupsFile;
-    return file.groups.map(({name, dering, transform: m, positions}) => ({
+    return file.groups.map(({name, dering, rendering_layers, transform: m, positions}) => ({
         name,
         ...(dering === undefined ? {} : {dering}),
+        ...(rendering_layers === undefined ? {} : {rendering_layers}),
         positions: positions.map(([x, y, z]): Position => m === undefined ? [x, y, z] : [
             m[0] * x + m[4] * y + m[8] * z + m[12],
             m[1] * x + m[5] * y + m[9] * z + m[13],
@@ -42,15 +46,36 @@ export function formatGroups(groups: Groups): string {
     return JSON.stringify({groups: groups.filter(group => group.positions.length > 0)});
 }
 
-/** The groups that a volume was made from. Probes that were left out are not in it. */
+const kAllLayers = 0xffffffff;
+
+/** The mask that most of them are; all layers of none. */
+function mostFrequent(masks: readonly number[]): number {
+    const counts = new Map<number, number>();
+    for (const mask of masks) counts.set(mask, (counts.get(mask) ?? 0) + 1);
+    return [...counts].reduce((best, next) => next[1] > best[1] ? next : best, [kAllLayers, 0])[0];
+}
+
+function layersOf(mask: number): number[] {
+    return Array.from({length: 32}, (_, layer) => layer).filter(layer => (mask >>> layer & 1) === 1);
+}
+
+/**
+ * The groups that a volume was made from. Probes that were left out are not in it. A group is on the rendering layers
+ * of most of its probes: others were welded to probes of other groups, or changed by adjustment volumes.
+ */
 export function groupsOfVolume(volume: Volume): Groups {
     const lists: Position[][] = volume.groupNames.map(() => []);
+    const masks: number[][] = volume.groupNames.map(() => []);
     for (let i = 0; i + 2 < volume.sources.length; i += 3) {
         const [group, , probe] = volume.sources.subarray(i, i + 3);
         if (probe >= volume.probeCount) continue;
         lists[group].push([...volume.exactPositions.subarray(3 * probe, 3 * probe + 3)] as unknown as Position);
+        masks[group].push(volume.renderingLayers[probe] ?? kAllLayers);
     }
-    return volume.groupNames.map((name, i) => ({name, positions: lists[i]}));
+    return volume.groupNames.map((name, i) => {
+        const mask = mostFrequent(masks[i]);
+        return {name, ...(mask === kAllLayers ? {} : {rendering_layers: layersOf(mask)}), positions: lists[i]};
+    });
 }
 
 export const countOf = (groups: Groups) => groups.reduce((sum, group) => sum + group.positions.length, 0);

@@ -39,6 +39,7 @@ export interface Volume {
     sources: Uint32Array;      // 3 each: group, index in the group, probe
     groupNames: string[];
     exactPositions: Float64Array;
+    renderingLayers: Uint32Array;  // masks, one a probe; none: all are on all layers
 }
 
 /** The first bytes of section `info`: `VolumeInfo`. */
@@ -87,7 +88,7 @@ export async function readVolume(api: Api, file: StoredFile): Promise<Volume> {
     const section = (name: string) => api.bytes(`/v1/volumes/${file.id}/sections/${name}`);
     const names = ['info', 'positions', 'irradiance', 'cells', 'validity', 'health', 'layers',
                    'layer_names', 'layer_irradiance', 'sources', 'group_names', 'exact_positions', 'lights',
-                   'light_states', 'sky'];
+                   'light_states', 'sky', 'rendering_layers'];
     const present = sectionNames(file);
     const read = await Promise.all(
         names.map(name => present.has(name) ? section(name) : new ArrayBuffer(0)));
@@ -115,6 +116,7 @@ export async function readVolume(api: Api, file: StoredFile): Promise<Volume> {
         sources: new Uint32Array(get('sources')),
         groupNames: lines(get('group_names')),
         exactPositions: new Float64Array(get('exact_positions')),
+        renderingLayers: new Uint32Array(get('rendering_layers')),
     };
 }
 

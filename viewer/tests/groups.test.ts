@@ -5,7 +5,7 @@ import * as groups from '../src/groups';
 
 const kHall: groups.Groups = [
     {name: 'hall', positions: [[0, 0, 0], [1, 0, 0], [2, 0, 0]]},
-    {name: 'attic', dering: true, positions: [[0, 5, 0]]},
+    {name: 'attic', dering: true, rendering_layers: [0, 31], positions: [[0, 5, 0]]},
 ];
 
 test('moving leaves the old value as it was, for undo', () => {
@@ -47,11 +47,21 @@ test('transforms of files are applied, column-major', () => {
 test('groups of a volume have its exact positions; probes that were left out are missing', () => {
     const volume = {
         groupNames: ['a', 'b'], probeCount: 2, exactPositions: new Float64Array([0.1, 0.2, 0.3, 1, 2, 3]),
-        sources: new Uint32Array([0, 0, 1, 1, 0, 0xffffffff, 1, 1, 0]),
+        sources: new Uint32Array([0, 0, 1, 1, 0, 0xffffffff, 1, 1, 0]), renderingLayers: new Uint32Array(),
     };
     expect(groups.groupsOfVolume(volume as never)).toEqual([
         {name: 'a', positions: [[1, 2, 3]]}, {name: 'b', positions: [[0.1, 0.2, 0.3]]},
     ]);
+});
+
+test('groups of a volume are on the rendering layers of most of their probes', () => {
+    const volume = {
+        groupNames: ['a', 'b'], probeCount: 4, exactPositions: new Float64Array(12),
+        // Probe 2 is welded: it is on the layers of both groups.
+        sources: new Uint32Array([0, 0, 0, 0, 1, 1, 0, 2, 2, 1, 0, 2, 1, 1, 3, 1, 2, 3]),
+        renderingLayers: new Uint32Array([0x80000001, 0x80000001, 0xffffffff, 0xffffffff]),
+    };
+    expect(groups.groupsOfVolume(volume as never).map(group => group.rendering_layers)).toEqual([[0, 31], undefined]);
 });
 
 test('undo and redo walk through states, and an edit forgets what was undone', () => {
