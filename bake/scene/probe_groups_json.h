@@ -18,15 +18,17 @@ namespace tetralight {
 ///     { "groups": [ { "name": "hall",
 ///                     "transform": [16 numbers, column-major, world from group],   (optional)
 ///                     "dering": false,                                             (optional)
+///                     "rendering_layers": [0, 3],                                  (optional)
 ///                     "positions": [[x, y, z], ...] } ] }
 ///
 /// There may be no group, and groups may have no probes. Returns corrupt, with the member as the
 /// field (`groups[1].positions[7]`), for two groups of one name, unknown keys, a transform that is
-/// not affine, numbers that are not finite, and more than 64 levels of nesting.
+/// not affine, numbers that are not finite, rendering layers that are none or not integers from 0
+/// to 31, and more than 64 levels of nesting.
 [[nodiscard]] Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path);
 
 /// Writes a file that `read_probe_groups` reads; numbers keep their bits. Returns invalid_argument
-/// if there are no groups or a name is not UTF-8.
+/// if there are no groups or a name is not UTF-8, and corrupt for what the reader would refuse.
 [[nodiscard]] Status write_probe_groups(const std::string& path,
                                         std::span<const ProbeGroup> groups);
 

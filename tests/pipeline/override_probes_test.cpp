@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include <tetralight/base/error_text.h>
 #include <tetralight/pipeline/bake_volume.h>
 #include <tetralight/pipeline/merge_parts.h>
+#include <tetralight/probes/rendering_layers.h>
 #include "tests/pipeline/part_fixture.h"
 #include "tests/support/probe_groups.h"
 #include "tests/support/scenes.h"
@@ -116,6 +118,31 @@ TEST(OverrideProbes, VolumesWithoutProbesChangeNothing) {
     EXPECT_EQ(bake(scene), plain);
 }
 
+TEST(OverrideProbes, RenderingLayersReplaceThoseOfTheGroup) {
+    Scene scene = solid();
+    EXPECT_TRUE(bake(scene).rendering_layers.empty());
+    scene.probe_adjustments = {around(kRight), around(kRight)};
+    scene.probe_adjustments[0].rendering_layers = 0b01;
+    scene.probe_adjustments[1].name = "smaller";
+    scene.probe_adjustments[1].world_from_volume =
+        glm::scale(scene.probe_adjustments[1].world_from_volume, glm::dvec3(0.5));
+    scene.probe_adjustments[1].rendering_layers = 0b10;
+    const ProbeVolume volume = bake(scene);
+    EXPECT_EQ(volume.rendering_layers[find(volume, kRight)], 0b10u);
+    EXPECT_EQ(volume.rendering_layers[find(volume, kLeft)], kAllRenderingLayers);
+}
+
+TEST(OverrideProbes, RenderingLayersChangeNoLight) {
+    Scene scene = solid();
+    const ProbeVolume plain = bake(scene);
+    scene.probe_adjustments = {around(kRight)};
+    scene.probe_adjustments[0].rendering_layers = 0b01;
+    ProbeVolume changed = bake(scene);
+    ASSERT_EQ(changed.rendering_layers.size(), plain.positions.size());
+    changed.rendering_layers.clear();
+    EXPECT_EQ(changed, plain);
+}
+
 class OverriddenParts : public test::PartFixture {};
 
 TEST_F(OverriddenParts, JoinToTheBytesOfOneBake) {
@@ -128,6 +155,21 @@ TEST_F(OverriddenParts, JoinToTheBytesOfOneBake) {
     const auto merged = merge_parts({a, b});
     ASSERT_TRUE(merged) << error_text(merged.error());
     EXPECT_EQ(probe_file_bytes(merged->volume.view()), whole());
+}
+
+TEST_F(OverriddenParts, KeepTheRenderingLayersOfAWholeBake) {
+    groups[0].rendering_layers = 0b01;
+    ProbeAdjustment near = around(groups[1].positions[0]);
+    near.world_from_volume = glm::scale(near.world_from_volume, glm::dvec3(1e-3));
+    near.rendering_layers = 0b10;
+    scene.probe_adjustments = {near};
+    const std::string a = bake_part("a", {0, 12}), b = bake_part("b", {12, kProbeCount});
+    const auto merged = merge_parts({a, b});
+    ASSERT_TRUE(merged) << error_text(merged.error());
+    EXPECT_EQ(probe_file_bytes(merged->volume.view()), whole());
+    std::map<uint32_t, int> counts;
+    for (const uint32_t layers : merged->volume.rendering_layers) ++counts[layers];
+    EXPECT_EQ(counts, (std::map<uint32_t, int>{{0b01, 20}, {0b10, 1}, {kAllRenderingLayers, 14}}));
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ TEST(GltfProbeGroups, PointsArePositionsInTheGroup) {
     EXPECT_EQ(group.positions, kTwoPoints);
     EXPECT_EQ(group.world_from_group[3], glm::dvec4(10, 0, 0, 1));
     EXPECT_FALSE(group.dering);
+    EXPECT_EQ(group.rendering_layers, kAllRenderingLayers);
 }
 
 TEST(GltfProbeGroups, AllPointPrimitivesCount) {
@@ -58,6 +59,20 @@ TEST(GltfProbeGroups, IndicesChooseThePoints) {
 TEST(GltfProbeGroups, DeringIsRead) {
     const auto gltf = group_of_points({{"light_probe_group", true}, {"dering", true}});
     EXPECT_TRUE(scene_of(gltf).probe_groups[0].dering);
+}
+
+TEST(GltfProbeGroups, RenderingLayersAreRead) {
+    const auto gltf = group_of_points({{"light_probe_group", true}, {"rendering_layers", {0, 3}}});
+    EXPECT_EQ(scene_of(gltf).probe_groups[0].rendering_layers, 0b1001u);
+}
+
+TEST(GltfProbeGroups, RenderingLayersThatAreNoneAreRefused) {
+    for (const Json& layers : {Json::array(), Json{32}, Json{-1}, Json{0.5}, Json{"a"}, Json(3)}) {
+        const auto scene =
+            group_of_points({{"light_probe_group", true}, {"rendering_layers", layers}}).read();
+        ASSERT_FALSE(scene) << layers;
+        EXPECT_EQ(scene.error().field, "nodes[0].extras.rendering_layers") << layers;
+    }
 }
 
 TEST(GltfProbeGroups, FalseIsNoGroup) {

@@ -51,17 +51,22 @@ TEST(ProbeAdjustments, AreReadFromJson) {
 
 TEST(ProbeAdjustments, OfEachSettingTheSmallestVolumeWins) {
     const auto all = read(R"({"adjustments": [
-        {"name": "large", "shape": "box", "size": [9, 9, 9], "intensity": 2, "validity": 0},
-        {"name": "small", "shape": "sphere", "radius": 1, "intensity": 3, "forbid": true}]})");
+        {"name": "large", "shape": "box", "size": [9, 9, 9], "intensity": 2, "validity": 0,
+         "rendering_layers": [0]},
+        {"name": "small", "shape": "sphere", "radius": 1, "intensity": 3, "forbid": true,
+         "rendering_layers": [1, 2]}]})");
     ASSERT_TRUE(all);
     const AdjustmentAt middle = adjustment_at(*all, {0, 0, 0});
     EXPECT_EQ(middle.intensity, 3.0f);
     EXPECT_EQ(middle.validity, 0.0f);
     EXPECT_TRUE(middle.forbids_probes);
+    EXPECT_EQ(middle.rendering_layers, 0b110u);
     const AdjustmentAt beside = adjustment_at(*all, {2, 0, 0});
     EXPECT_EQ(beside.intensity, 2.0f);
     EXPECT_FALSE(beside.forbids_probes);
+    EXPECT_EQ(beside.rendering_layers, 0b1u);
     EXPECT_EQ(adjustment_at(*all, {9, 0, 0}).intensity, 1.0f);
+    EXPECT_FALSE(adjustment_at(*all, {9, 0, 0}).rendering_layers);
 }
 
 TEST(ProbeAdjustments, ErrorsNameTheVolumeAndTheValue) {
@@ -77,6 +82,11 @@ TEST(ProbeAdjustments, ErrorsNameTheVolumeAndTheValue) {
               place + "validity 1.5 is not from 0 to 1");
     EXPECT_EQ(error_of(one(R"("shape": "box", "intensity": -1)")),
               place + "intensity -1 is negative or not finite");
+    for (const char* layers : {"[]", "[32]", "[-1]", "[0.5]", "[\"a\"]", "3", "null"}) {
+        EXPECT_EQ(
+            error_of(one(R"("shape": "box", "rendering_layers": )" + std::string(layers))),
+            place + "rendering_layers is not a list of rendering layers, 0 to 31 (" + layers + ")");
+    }
     EXPECT_EQ(error_of(one(R"("shape": "box", "size": [1, 2], "forbid": true)")),
               place + "size is not three numbers ([1,2])");
     EXPECT_EQ(error_of(one(R"("shape": "box", "forbids": true)")),
@@ -93,18 +103,22 @@ TEST(ProbeAdjustments, ErrorsNameTheVolumeAndTheValue) {
 
 TEST(ProbeAdjustments, AreReadFromGltfNodes) {
     GltfBuilder gltf;
-    gltf.add_root(
-        {{"name", "cellar"},
-         {"translation", {0, -2, 0}},
-         {"scale", {2, 1, 1}},
-         {"extras",
-          {{"probe_adjustment", {{"shape", "box"}, {"size", {4, 3, 4}}, {"forbid", true}}}}}});
+    gltf.add_root({{"name", "cellar"},
+                   {"translation", {0, -2, 0}},
+                   {"scale", {2, 1, 1}},
+                   {"extras",
+                    {{"probe_adjustment",
+                      {{"shape", "box"},
+                       {"size", {4, 3, 4}},
+                       {"forbid", true},
+                       {"rendering_layers", {2}}}}}}});
     const auto scene = gltf.read();
     ASSERT_TRUE(scene) << error_text(scene.error());
     ASSERT_EQ(scene->probe_adjustments.size(), 1u);
     const ProbeAdjustment& cellar = scene->probe_adjustments[0];
     EXPECT_EQ(cellar.name, "cellar");
     EXPECT_EQ(cellar.forbids_probes, true);
+    EXPECT_EQ(cellar.rendering_layers, 0b100u);
     EXPECT_DOUBLE_EQ(volume_of(cellar), 8.0 * 3.0 * 4.0);
     EXPECT_TRUE(contains(cellar, {3.9, -3.4, 0}));
     EXPECT_FALSE(contains(cellar, {0, 0, 0}));

@@ -29,12 +29,13 @@ glm::dvec3 world(const ProbeGroup& group, size_t i) {
 TEST(ProbeGroupsGltf, ComeBackWithTheirNamesAndFlags) {
     const std::vector<ProbeGroup> groups{
         {"hall \"1\"", glm::dmat4(1.0), {{1, 2, 3}, {-4, 5, 6.5}}, true},
-        {"Küche", glm::dmat4(1.0), {{0, 0, 0}}, false}};
+        {"Küche", glm::dmat4(1.0), {{0, 0, 0}}, false, 0x80000009}};
     const auto back = read_back(groups);
     ASSERT_EQ(back.size(), 2u);
     for (size_t g = 0; g < groups.size(); ++g) {
         EXPECT_EQ(back[g].name, groups[g].name);
         EXPECT_EQ(back[g].dering, groups[g].dering);
+        EXPECT_EQ(back[g].rendering_layers, groups[g].rendering_layers);
         ASSERT_EQ(back[g].positions.size(), groups[g].positions.size());
         for (size_t i = 0; i < groups[g].positions.size(); ++i) {
             EXPECT_EQ(world(back[g], i), groups[g].positions[i]);

@@ -46,7 +46,7 @@ TEST(ProbeGroupsJson, ReadsWhatIsWritten) {
     transform[3] = {0.1, -7.0, 1e-9, 1.0};
     const std::vector<ProbeGroup> groups = {
         {"hall \"A\"\n\xc3\xa4", transform, {{0.1, 0.2, 0.3}, {-4.0, 5.5, 1e300}}, true},
-        {"yard", glm::dmat4(1.0), {{1.0, 2.0, 3.0}}, false}};
+        {"yard", glm::dmat4(1.0), {{1.0, 2.0, 3.0}}, false, 0x80000009}};
     ASSERT_TRUE(write_probe_groups(folder.path("g.json"), groups));
     const auto read = read_probe_groups(folder.path("g.json"));
     ASSERT_TRUE(read) << error_text(read.error());
@@ -148,6 +148,18 @@ const Rejection kRejections[] = {
      "group \"hall\": probe 1: is not finite: number overflow parsing '1e999'"},
     {"DeringNoBoolean", hall_with(kPositions + R"(, "dering": 1)"),
      "group \"hall\": dering is not a boolean (1)"},
+    {"NoLayers", hall_with(kPositions + R"(, "rendering_layers": [])"),
+     "group \"hall\": rendering_layers is not a list of rendering layers, 0 to 31 ([])"},
+    {"LayersNoArray", hall_with(kPositions + R"(, "rendering_layers": 3)"),
+     "group \"hall\": rendering_layers is not a list of rendering layers, 0 to 31 (3)"},
+    {"Layer32", hall_with(kPositions + R"(, "rendering_layers": [0, 32])"),
+     "group \"hall\": rendering_layers is not a list of rendering layers, 0 to 31 ([0,32])"},
+    {"NegativeLayer", hall_with(kPositions + R"(, "rendering_layers": [-1])"),
+     "group \"hall\": rendering_layers is not a list of rendering layers, 0 to 31 ([-1])"},
+    {"FractionalLayer", hall_with(kPositions + R"(, "rendering_layers": [0.5])"),
+     "group \"hall\": rendering_layers is not a list of rendering layers, 0 to 31 ([0.5])"},
+    {"LayerNoNumber", hall_with(kPositions + R"(, "rendering_layers": ["hall"])"),
+     "group \"hall\": rendering_layers is not a list of rendering layers, 0 to 31 ([\"hall\"])"},
     {"ShortTransform", hall_with(kPositions + R"(, "transform": [1, 2])"),
      "group \"hall\": transform is not 16 numbers ([1,2])"},
     {"NullInTransform",
@@ -171,6 +183,20 @@ TEST(ProbeGroupsJson, GroupsAndTheirProbesMayBeMissing) {
     const auto two = read_probe_groups(folder.write("two.json", hall_with(R"("positions": [])")));
     ASSERT_TRUE(two) << error_text(two.error());
     EXPECT_TRUE((*two)[1].positions.empty());
+}
+
+TEST(ProbeGroupsJson, RenderingLayersAreBitsOfTheMaskInAnyOrder) {
+    const TempFolder folder;
+    const std::string positions = R"(, "positions": [[0, 0, 0]])";
+    for (const auto& [layers, mask] : {std::pair<std::string, uint32_t>("[0]", 1u),
+                                       {"[3, 0, 3]", 0b1001u},
+                                       {"[31]", 1u << 31}}) {
+        const auto groups = read_probe_groups(
+            folder.write("g.json", hall_with(R"("rendering_layers": )" + layers + positions)));
+        ASSERT_TRUE(groups) << error_text(groups.error());
+        EXPECT_EQ((*groups)[0].rendering_layers, kAllRenderingLayers);
+        EXPECT_EQ((*groups)[1].rendering_layers, mask);
+    }
 }
 
 TEST(ProbeGroupsJson, FilesOfOtherKindsAreNamed) {
@@ -215,6 +241,10 @@ TEST(ProbeGroupsJson, WriterRefusesWhatReaderWouldRefuse) {
     EXPECT_FALSE(write_probe_groups(path, std::vector{one_probe({0, 0, 0}), one_probe({1, 1, 1})}));
     EXPECT_FALSE(write_probe_groups(
         path, std::vector{ProbeGroup{"\xff", glm::dmat4(1.0), {{0, 0, 0}}, false}}));
+    const auto no_layer =
+        write_probe_groups(path, std::vector{ProbeGroup{"a", glm::dmat4(1.0), {}, false, 0}});
+    ASSERT_FALSE(no_layer);
+    EXPECT_EQ(no_layer.error().field, "groups[0].rendering_layers");
     EXPECT_FALSE(std::filesystem::exists(path));
 }
 
