@@ -9,46 +9,57 @@ namespace {
 
 constexpr float kLeast = std::numeric_limits<float>::min();  // all weights may be 0
 
-/// Multiplies each weight by `share_of(corner, excess)`, then all so that they keep their sum.
-template <class ShareOf>
-glm::vec4 hide(const CellVisibility& cell, const glm::vec4& weights, ShareOf share_of) {
-    const float sum = (weights[0] + weights[1]) + (weights[2] + weights[3]);
+/// How far a corner is hidden: 0 up to `excess` 0, 1 from `ramp` on.
+float hidden_part(float excess, float ramp) {
+    const float t = std::min(excess * (1.0f / ramp), 1.0f);
+    return (t * t) * (3.0f - 2.0f * t);
+}
+
+float sum_of(const glm::vec4& v) {
+    return (v[0] + v[1]) + (v[2] + v[3]);
+}
+
+/// `ramp_of(corner, excess)`: over how much of L the corner's weight falls.
+template <class RampOf>
+glm::vec4 hide(const CellVisibility& cell, const glm::vec4& weights, RampOf ramp_of) {
+    const float sum = sum_of(weights);
     const float unit = 1.0f / std::max(sum, kLeast);
-    glm::vec4 visible(0.0f);
+    glm::vec4 seen(0.0f), low(0.0f),
+        steep(0.0f);  // weights of seen corners, of hidden ones / L², L⁸
     for (int i = 0; i < 4; ++i) {
         std::array<float, 3> terms{};  // b_j (r_ij − 1)
         for (int k = 0; k < 3; ++k) {
             terms[k] = weights[(i + k + 1) & 3] * edge_excess(cell.codes[4 * k + i]);
         }
         const float excess = (((terms[0] + terms[1]) + terms[2]) - weights[i]) * unit;
-        visible[i] = weights[i] * share_of(i, excess);
+        const float beyond = excess > 0.0f ? excess : 0.0f;
+        const float part = hidden_part(beyond, ramp_of(i, beyond));
+        const float ratio = 1.0f + beyond;
+        const float square = 1.0f / (ratio * ratio);
+        const float fourth = square * square;
+        const float hidden = weights[i] * part;
+        seen[i] = weights[i] * (1.0f - part);
+        low[i] = hidden * square;
+        steep[i] = hidden * (fourth * fourth);
     }
-    const float seen = (visible[0] + visible[1]) + (visible[2] + visible[3]);
-    return visible * (sum / std::max(seen, kLeast));
+    const float share = (kHiddenShare * sum_of(low)) / std::max(sum_of(steep), kLeast);
+    const glm::vec4 visible = seen + steep * share;
+    return visible * (sum / std::max(sum_of(visible), kLeast));
 }
 
 }  // namespace
 
-float visible_share(float excess, float ramp) noexcept {
-    const float beyond = excess > 0.0f ? excess : 0.0f;
-    const float t = std::min(beyond * (1.0f / ramp), 1.0f);
-    const float step = (t * t) * (3.0f - 2.0f * t);
-    const float ratio = 1.0f + beyond;
-    return (1.0f - step) + step * (kHiddenShare / (ratio * ratio));
-}
-
 glm::vec4 visible_weights(const CellVisibility& cell, const glm::vec4& weights) noexcept {
-    return hide(cell, weights, [](int, float excess) { return visible_share(excess); });
+    return hide(cell, weights, [](int, float) { return kVisibilityRamp; });
 }
 
 glm::vec4 visible_weights(const CellVisibility& cell, const glm::vec4& weights,
                           const glm::vec4& distances, float radius) noexcept {
     // The corner's line meets the wall at 1 / L of its length: `radius` behind that, L has grown by
     // radius · L / distance.
-    return hide(cell, weights, [&](int i, float excess) {
-        const float ratio = 1.0f + std::max(excess, 0.0f);
+    return hide(cell, weights, [&](int i, float beyond) {
         const float distance = std::max(distances[i], kLeast);
-        return visible_share(excess, std::max(kVisibilityRamp, radius * (ratio / distance)));
+        return std::max(kVisibilityRamp, radius * ((1.0f + beyond) / distance));
     });
 }
 

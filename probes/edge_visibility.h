@@ -33,8 +33,9 @@ inline constexpr uint8_t kFreeEdge = kUnknownEdge - 1;
 /// Codes c stand for r = 1 + (c − 67) · |c − 67| / 896: from −4.01 to 40.45.
 inline constexpr float kEdgeCodeUnit = 1.0f / 896.0f;
 
-/// Where corners are hidden their weights are multiplied by 0.01 / L², so that weights are defined
-/// where no corner sees the position.
+/// Hidden corners keep 0.01 / L² of their weights, so that weights are defined where no corner sees
+/// the position. They share the sum of that by weight / L⁸: where walls meet, one plane a corner
+/// hides even those that see the position, but these have the least L.
 inline constexpr float kHiddenShare = 0.01f;
 
 /// Weights fall from 1 to the share of hidden corners over L = 1 … 1.03.
@@ -80,10 +81,6 @@ inline constexpr float kVisibilityRamp = 0.03f;
     const uint32_t element = block.first + before;
     return element < volume.cell_visibility.size() ? element : kNoIndex;
 }
-
-/// What remains of the weight of a corner whose L is 1 + `excess`: 1, then a ramp over L = 1 … 1 +
-/// `ramp` to the share of hidden corners. Continuous. Precondition: ramp > 0.
-[[nodiscard]] float visible_share(float excess, float ramp = kVisibilityRamp) noexcept;
 
 /// The weights of a position in a cell, each multiplied by what its corner sees of the position,
 /// with the sum that they had. Where all corners see the position they are the same to the bit.

@@ -87,19 +87,17 @@ HWY_INLINE VecFour edge_excesses(const uint8_t* codes) {
     return hn::Mul(hn::ConvertTo(Four(), squares), hn::Set(Four(), kEdgeCodeUnit));
 }
 
-/// `visible_share`.
-HWY_INLINE VecFour visible_shares(VecFour excess) {
+/// How far corners are hidden whose L is 1 + `beyond`.
+HWY_INLINE VecFour hidden_parts(VecFour beyond) {
     const Four four;
     const auto number = [&](float value) HWY_ATTR { return hn::Set(four, value); };
-    const VecFour beyond = hn::IfThenElseZero(hn::Gt(excess, hn::Zero(four)), excess);
     const VecFour t = hn::Min(hn::Mul(beyond, number(1.0f / kVisibilityRamp)), number(1.0f));
-    const VecFour step = hn::Mul(hn::Mul(t, t), hn::Sub(number(3.0f), hn::Mul(number(2.0f), t)));
-    const VecFour ratio = hn::Add(number(1.0f), beyond);
-    const VecFour hidden = hn::Div(number(kHiddenShare), hn::Mul(ratio, ratio));
-    return hn::Add(hn::Sub(number(1.0f), step), hn::Mul(step, hidden));
+    return hn::Mul(hn::Mul(t, t), hn::Sub(number(3.0f), hn::Mul(number(2.0f), t)));
 }
 
-HWY_INLINE float sum_of(const std::array<float, 4>& v) {
+HWY_INLINE float sum_of(VecFour lanes) {
+    std::array<float, 4> v;
+    hn::StoreU(lanes, Four(), v.data());
     return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
@@ -107,18 +105,28 @@ HWY_INLINE float sum_of(const std::array<float, 4>& v) {
 HWY_INLINE void hide_probes(const CellVisibility& cell, std::array<float, 4>& weights) {
     const Four four;
     constexpr float kLeast = std::numeric_limits<float>::min();
-    const float sum = sum_of(weights);
     const VecFour w = hn::LoadU(four, weights.data());
+    const float sum = sum_of(w);
     const uint8_t* codes = cell.codes.data();
     const VecFour first = hn::Mul(hn::Shuffle0321(w), edge_excesses(codes));
     const VecFour second = hn::Mul(hn::Shuffle1032(w), edge_excesses(codes + 4));
     const VecFour third = hn::Mul(hn::Shuffle2103(w), edge_excesses(codes + 8));
     const VecFour excess = hn::Mul(hn::Sub(hn::Add(hn::Add(first, second), third), w),
                                    hn::Set(four, 1.0f / std::max(sum, kLeast)));
-    const VecFour visible = hn::Mul(w, visible_shares(excess));
-    hn::StoreU(visible, four, weights.data());
-    const float seen = sum_of(weights);
-    hn::StoreU(hn::Mul(visible, hn::Set(four, sum / std::max(seen, kLeast))), four, weights.data());
+    const VecFour one = hn::Set(four, 1.0f);
+    const VecFour beyond = hn::IfThenElseZero(hn::Gt(excess, hn::Zero(four)), excess);
+    const VecFour part = hidden_parts(beyond);
+    const VecFour ratio = hn::Add(one, beyond);
+    const VecFour square = hn::Div(one, hn::Mul(ratio, ratio));
+    const VecFour fourth = hn::Mul(square, square);
+    const VecFour hidden = hn::Mul(w, part);
+    const VecFour seen = hn::Mul(w, hn::Sub(one, part));
+    const VecFour steep = hn::Mul(hidden, hn::Mul(fourth, fourth));
+    const float share =
+        (kHiddenShare * sum_of(hn::Mul(hidden, square))) / std::max(sum_of(steep), kLeast);
+    const VecFour visible = hn::Add(seen, hn::Mul(steep, hn::Set(four, share)));
+    const float unit = sum / std::max(sum_of(visible), kLeast);
+    hn::StoreU(hn::Mul(visible, hn::Set(four, unit)), four, weights.data());
 }
 
 #endif

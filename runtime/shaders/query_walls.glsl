@@ -41,27 +41,36 @@ vec4 tetralight_edge_excess(uint codes) {
     return (steps * abs(steps)) * tetralight_edge_code_unit;
 }
 
-// What remains of the weights of corners whose L is 1 + `excess`.
-vec4 tetralight_visible_share(vec4 excess) {
-    vec4 beyond = max(excess, vec4(0.0f, 0.0f, 0.0f, 0.0f));
+// How far corners are hidden whose L is 1 + `beyond`.
+vec4 tetralight_hidden_part(vec4 beyond) {
     vec4 one = vec4(1.0f, 1.0f, 1.0f, 1.0f);
     vec4 t = min(beyond * (1.0f / tetralight_visibility_ramp), one);
-    vec4 fall = (t * t) * (3.0f - 2.0f * t);
-    vec4 ratio = 1.0f + beyond;
-    return (1.0f - fall) + fall * (tetralight_hidden_share / (ratio * ratio));
+    return (t * t) * (3.0f - 2.0f * t);
+}
+
+float tetralight_sum(vec4 v) {
+    return (v.x + v.y) + (v.z + v.w);
 }
 
 // Weights that know the walls inside a cell, from its three words of codes.
 vec4 tetralight_visible_weights(uvec4 codes, vec4 weights) {
-    float sum = (weights.x + weights.y) + (weights.z + weights.w);
+    float sum = tetralight_sum(weights);
     float unit = 1.0f / max(sum, tetralight_least_weight);
     vec4 to_next = vec4(weights.y, weights.z, weights.w, weights.x);
     vec4 to_second = vec4(weights.z, weights.w, weights.x, weights.y);
     vec4 to_third = vec4(weights.w, weights.x, weights.y, weights.z);
-    vec4 beyond = (to_next * tetralight_edge_excess(codes.x) +
-                   to_second * tetralight_edge_excess(codes.y)) +
-                  to_third * tetralight_edge_excess(codes.z);
-    vec4 visible = weights * tetralight_visible_share((beyond - weights) * unit);
-    float seen = (visible.x + visible.y) + (visible.z + visible.w);
-    return visible * (sum / max(seen, tetralight_least_weight));
+    vec4 sums = (to_next * tetralight_edge_excess(codes.x) +
+                 to_second * tetralight_edge_excess(codes.y)) +
+                to_third * tetralight_edge_excess(codes.z);
+    vec4 beyond = max((sums - weights) * unit, vec4(0.0f, 0.0f, 0.0f, 0.0f));
+    vec4 part = tetralight_hidden_part(beyond);
+    vec4 ratio = 1.0f + beyond;
+    vec4 square = 1.0f / (ratio * ratio);
+    vec4 fourth = square * square;
+    vec4 hidden = weights * part;
+    vec4 steep = hidden * (fourth * fourth);
+    float share = (tetralight_hidden_share * tetralight_sum(hidden * square)) /
+                  max(tetralight_sum(steep), tetralight_least_weight);
+    vec4 visible = weights * (1.0f - part) + steep * share;
+    return visible * (sum / max(tetralight_sum(visible), tetralight_least_weight));
 }
