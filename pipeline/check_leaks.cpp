@@ -151,6 +151,7 @@ LeakPlace compare(const ProbeVolumeView& volume, const FreePlace& place, double 
     leak.plain = light_at(volume, place.location, Walls::Ignore);
     leak.by_rays =
         leak.is_unseen ? leak.traced : light_at(volume, seen_location(place), Walls::Ignore);
+    leak.hidden = hidden_light(volume, place, leak.by_rays);
     return leak;
 }
 
