@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `query` knows of what is lit: rendering layers, a radius, normals.
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <sstream>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/interpolate.h>

@@ -44,7 +44,7 @@ TEST(Values, WholeNumbersAreTheBitsOfAMask) {
         EXPECT_TRUE(values);
         return values->bits("rendering_layers", 7);
     };
-    EXPECT_EQ(query({}), 7u);
+    EXPECT_EQ(query(Json::object()), 7u);
     EXPECT_EQ(query({{"rendering_layers", {0}}}), 1u);
     EXPECT_EQ(query({{"rendering_layers", {31, 0, 31}}}), 0x80000001u);
 }
