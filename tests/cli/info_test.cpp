@@ -150,7 +150,8 @@ TEST_F(Info, SaysHowManyProbesAreOnEachRenderingLayer) {
                          "probes)\n"))
         << out;
     std::map<Json, size_t> layer_counts;  // of probes, by their groups
-    for (const Json& probe : run_json({"info", "v.probes", "--probes"})["probe_list"]) {
+    const Json info = run_json({"info", "v.probes", "--probes"});
+    for (const Json& probe : info["probe_list"]) {
         layer_counts[probe["groups"]] = probe["rendering_layers"].size();
     }
     EXPECT_EQ(layer_counts, (std::map<Json, size_t>{{Json::array({"a"}), 2},
