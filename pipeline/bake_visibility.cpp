@@ -55,6 +55,7 @@ class VisibilityBake {
             if (is_left_out[i] == 0) find_codes(static_cast<uint32_t>(i), codes);
         });
         store_visibility(edges_, codes, volume);
+        split_walls(thread_count, volume);
         VisibilityReport report;
         report.edge_count = edges_.size();
         report.blocked_edge_count = static_cast<uint64_t>(
@@ -89,6 +90,45 @@ class VisibilityBake {
 
     [[nodiscard]] bool is_blocked(size_t edge) const { return ratios_[edge] > 1.0; }
 
+    /// True if different walls block the edges from a probe to two others: then a ray to the middle
+    /// between these ends where the largest of both ratios says, and not where their sum does.
+    [[nodiscard]] bool is_split(uint32_t probe, uint32_t a, uint32_t b) {
+        const double to_a = ratios_[edges_.find(probe, a)], to_b = ratios_[edges_.find(probe, b)];
+        const glm::vec3 middle = 0.5f * (positions_[a] + positions_[b]);
+        const auto fraction = blocked_fraction(traced_, eyes_[probe], middle);
+        ++ray_count_;
+        const double ratio = fraction ? 1.0 / static_cast<double>(*fraction) : 1.0;
+        const auto error = [&](double predicted) {
+            return std::abs(std::max(predicted, 1.0) - ratio);
+        };
+        return error(0.5 * std::max(to_a, to_b)) < error(0.5 * (to_a + to_b));
+    }
+
+    void split_walls(uint32_t thread_count, ProbeVolume& volume) {
+        const ProbeVolume& stored = volume;
+        parallel_for(volume.cells.size(), thread_count, [&](size_t cell) {
+            const uint32_t element = find_visibility(stored.view(), static_cast<uint32_t>(cell));
+            if (element == kNoIndex) return;
+            set_splits(
+                volume.cells[cell], volume.cell_visibility[element],
+                [&](uint32_t probe, uint32_t a, uint32_t b) { return is_split(probe, a, b); });
+        });
+    }
+
+    /// Of a face with two blocked edges and a free one: whether different walls block them.
+    [[nodiscard]] bool is_split(const CornerFace& face) {
+        std::array<uint32_t, 3> blocked{};
+        size_t count = 0;
+        for (int i = 0; i < face.other_count; ++i) {
+            if (is_blocked(edges_.find(face.probe, face.others[i]))) {
+                blocked[count++] = face.others[i];
+            }
+        }
+        if (count != 2) return false;
+        return is_split(face.probe, std::min(blocked[0], blocked[1]),
+                        std::max(blocked[0], blocked[1]));
+    }
+
     /// Rays from a probe to positions on the face opposite to it, as samples for a fit.
     template <class Use>
     void for_each_sample(const CornerFace& face, std::span<const glm::dvec3> positions, Use use) {
@@ -96,6 +136,7 @@ class VisibilityBake {
         for (int i = 0; i < face.other_count; ++i) {
             edges[i] = edges_.find(face.probe, face.others[i]);
         }
+        const bool takes_largest = is_split(face);
         for (const glm::dvec3& weights : positions) {
             RatioSample sample;
             glm::dvec3 target(0.0);
@@ -103,7 +144,9 @@ class VisibilityBake {
                 target += weights[i] * glm::dvec3(positions_[face.others[i]]);
                 sample.weights[i] = weights[i];
                 if (is_blocked(edges[i])) {
-                    sample.known += weights[i] * ratios_[edges[i]];
+                    const double known = weights[i] * ratios_[edges[i]];
+                    sample.known =
+                        takes_largest ? std::max(sample.known, known) : sample.known + known;
                 } else {
                     sample.edges[i] = static_cast<uint32_t>(edges[i] - edges_.first(face.probe));
                 }

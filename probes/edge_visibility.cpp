@@ -19,19 +19,40 @@ float sum_of(const glm::vec4& v) {
     return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
+/// What L of a corner has beyond the largest sum of one wall: the least sum of parts, of the
+/// corner's three edges, without which no two edges of different walls are left. `splits`: of its
+/// edges 0 and 1, 0 and 2, 1 and 2.
+float other_walls(const std::array<float, 3>& parts, const std::array<bool, 3>& splits) {
+    if (!splits[0] && !splits[1] && !splits[2]) return 0.0f;
+    const float a = parts[0] > 0.0f ? parts[0] : 0.0f;
+    const float b = parts[1] > 0.0f ? parts[1] : 0.0f;
+    const float c = parts[2] > 0.0f ? parts[2] : 0.0f;
+    float least = std::min(a + b, std::min(a + c, b + c));
+    if (!splits[2]) least = std::min(least, a);
+    if (!splits[1]) least = std::min(least, b);
+    if (!splits[0]) least = std::min(least, c);
+    return least;
+}
+
 /// `ramp_of(corner, excess)`: over how much of L the corner's weight falls.
 template <class RampOf>
 glm::vec4 hide(const CellVisibility& cell, const glm::vec4& weights, RampOf ramp_of) {
     const float sum = sum_of(weights);
     const float unit = 1.0f / std::max(sum, kLeast);
+    const uint32_t splits = split_bits(cell);
     glm::vec4 seen(0.0f), low(0.0f),
         steep(0.0f);  // weights of seen corners, of hidden ones / L², L⁸
     for (int i = 0; i < 4; ++i) {
-        std::array<float, 3> terms{};  // b_j (r_ij − 1)
+        std::array<float, 3> terms{}, parts{};  // b_j (r_ij − 1), b_j r_ij
+        std::array<bool, 3> is_split{};
         for (int k = 0; k < 3; ++k) {
-            terms[k] = weights[(i + k + 1) & 3] * edge_excess(cell.codes[4 * k + i]);
+            const float weight = weights[(i + k + 1) & 3];
+            terms[k] = weight * edge_excess(cell.codes[4 * k + i]);
+            parts[k] = weight + terms[k];
+            is_split[k] = (splits >> (4 * k + i) & 1) != 0;
         }
-        const float excess = (((terms[0] + terms[1]) + terms[2]) - weights[i]) * unit;
+        const float others = other_walls(parts, is_split);
+        const float excess = ((((terms[0] + terms[1]) + terms[2]) - weights[i]) - others) * unit;
         const float beyond = excess > 0.0f ? excess : 0.0f;
         const float part = hidden_part(beyond, ramp_of(i, beyond));
         const float ratio = 1.0f + beyond;

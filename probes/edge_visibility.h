@@ -18,8 +18,12 @@
 //
 // which is exact for planar walls, because planes are linear in barycentric coordinates. The ratios
 // of edges that nothing blocks are fitted in [−4, 1], so that the plane L_i = 1 follows the wall.
-// Cells share the ratios of their common edges, so that weights are continuous. A cell whose ratios
-// are all < 1 stores nothing: all of its corners see all of it.
+// Where walls meet, edges from one corner may be blocked by different walls. Each wall then has a
+// sum of its own, of its blocked edges and of all free ones, and L_i is the largest of them.
+//
+// Cells share the ratios of their common edges, and the walls of their common faces, so that
+// weights are continuous. A cell whose ratios are all < 1 stores nothing: all of its corners see
+// all of it.
 
 namespace tetralight {
 
@@ -66,6 +70,19 @@ inline constexpr float kVisibilityRamp = 0.03f;
 /// The place in `CellVisibility::codes` of the edge from one corner to another.
 [[nodiscard]] constexpr size_t edge_place(size_t from, size_t to) noexcept {
     return 4 * ((to - from - 1) & 3) + from;
+}
+
+/// The bit of `CellVisibility::splits`, read as a little-endian number, that says that different
+/// walls block the edges from one corner to two others: for each corner three, of the edges at
+/// places k = 0 and 1, 0 and 2, 1 and 2. Precondition: three corners.
+[[nodiscard]] constexpr uint32_t split_bit(size_t from, size_t a, size_t b) noexcept {
+    const size_t places = ((a - from - 1) & 3) + ((b - from - 1) & 3);
+    return uint32_t{1} << (4 * (places - 1) + from);
+}
+
+/// The bits of a cell as a number.
+[[nodiscard]] inline uint32_t split_bits(const CellVisibility& cell) noexcept {
+    return uint32_t{cell.splits[0]} | uint32_t{cell.splits[1]} << 8;
 }
 
 /// The index of a cell's element of `cell_visibility`. kNoIndex: it has none, its weights are as

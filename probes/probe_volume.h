@@ -113,11 +113,14 @@ static_assert(sizeof(CompactProbe) == 64 && std::is_trivially_copyable_v<Compact
 /// (i + k + 1) % 4. Codes of places without a vertex are 0.
 struct CellVisibility {
     std::array<uint8_t, 12> codes{};
+    /// Bits that say which two blocked edges from a corner are blocked by different walls
+    /// (`split_bit`).
+    std::array<uint8_t, 2> splits{};
 
     bool operator==(const CellVisibility&) const = default;
 };
 
-static_assert(sizeof(CellVisibility) == 12 && std::is_trivially_copyable_v<CellVisibility>);
+static_assert(sizeof(CellVisibility) == 14 && std::is_trivially_copyable_v<CellVisibility>);
 
 /// Which of 32 consecutive cells have an element of `cell_visibility`.
 struct VisibilityBlock {

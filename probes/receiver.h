@@ -45,8 +45,8 @@ struct Receiver {
 void hide_probes(const ProbeVolumeView& volume, std::span<CellLocation> locations,
                  const Receiver& receiver) noexcept;
 
-/// The mean distance, metres, from a position to the probes of its cell, weighted as they light it:
-/// continuous, ≥ 0. Outside the hull of the probes, where `location` has the weights of a place on
+/// The mean distance, metres, from a position to the probes of its cell, by the weights of the
+/// location: continuous, ≥ 0. Outside the hull of the probes, where `location` has the weights of a place on
 /// the hull, it is that of this place.
 [[nodiscard]] float mean_probe_distance(const ProbeVolumeView& volume,
                                         const CellLocation& location) noexcept;

@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 
 #include <tetralight/probes/compact_probes.h>
+#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/seed_grid.h>
 
@@ -135,8 +136,8 @@ void add_walls(const ProbeVolumeView& volume, ShaderVolume& shader) {
                               static_cast<uint32_t>(shader.walls.size()),
                               static_cast<uint32_t>(volume.cell_visibility.size()), 0};
     for (const CellVisibility& cell : volume.cell_visibility) {
-        const auto words = std::bit_cast<std::array<uint32_t, 3>>(cell);
-        shader.walls.emplace_back(words[0], words[1], words[2], 0);
+        const auto words = std::bit_cast<std::array<uint32_t, 3>>(cell.codes);
+        shader.walls.emplace_back(words[0], words[1], words[2], split_bits(cell));
     }
 }
 

@@ -2,6 +2,7 @@
 #include <tetralight/probes/build/store_visibility.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include <tetralight/base/contract.h>
@@ -37,6 +38,51 @@ std::optional<CellVisibility> cell_codes(const ProbeEdges& edges, std::span<cons
         is_stored |= code >= kUnknownEdge;
     });
     return is_stored ? std::optional(visibility) : std::nullopt;
+}
+
+/// A probe, and two others to which different walls block the edges from it.
+using SplitEdges = std::array<uint32_t, 3>;
+/// Sorted.
+using SplitList = std::vector<SplitEdges>;
+
+/// Calls `use(edges, is_split)` for each two blocked edges from a probe in each cell.
+template <class Use>
+void for_each_pair(const ProbeVolumeView& volume, Use use) {
+    for (uint32_t index = 0; index < volume.cells.size(); ++index) {
+        const uint32_t element = find_visibility(volume, index);
+        if (element == kNoIndex) continue;
+        const Cell& cell = volume.cells[index];
+        CellVisibility all = volume.cell_visibility[element];
+        const uint32_t bits = split_bits(all);
+        set_splits(cell, all, [&](uint32_t from, uint32_t a, uint32_t b) {
+            const auto place = [&](uint32_t probe) {
+                return static_cast<size_t>(std::ranges::find(cell.vertices, probe) -
+                                           cell.vertices.begin());
+            };
+            use(SplitEdges{from, a, b}, (bits & split_bit(place(from), place(a), place(b))) != 0);
+            return false;
+        });
+    }
+}
+
+SplitList split_list(const ProbeVolumeView& volume) {
+    SplitList splits;
+    for_each_pair(volume, [&](const SplitEdges& edges, bool is_split) {
+        if (is_split) splits.push_back(edges);
+    });
+    std::ranges::sort(splits);
+    return splits;
+}
+
+uint64_t count_torn_splits(const ProbeVolumeView& volume) {
+    const SplitList splits = split_list(volume);
+    SplitList torn;
+    for_each_pair(volume, [&](const SplitEdges& edges, bool is_split) {
+        if (!is_split && std::ranges::binary_search(splits, edges)) torn.push_back(edges);
+    });
+    std::ranges::sort(torn);
+    const auto repeated = std::ranges::unique(torn);
+    return static_cast<uint64_t>(repeated.begin() - torn.begin());
 }
 
 }  // namespace
@@ -85,6 +131,12 @@ void copy_visibility(const ProbeVolumeView& from, ProbeVolume& to) {
         }
     }
     store_visibility(edges, codes, to);
+    const SplitList splits = split_list(from);
+    set_all_splits(to, [&](uint32_t probe, uint32_t a, uint32_t b) {
+        const uint32_t old_a = std::min(twins[a], twins[b]), old_b = std::max(twins[a], twins[b]);
+        if (twins[probe] == kNoIndex || old_b == kNoIndex) return false;
+        return std::ranges::binary_search(splits, SplitEdges{twins[probe], old_a, old_b});
+    });
 }
 
 VisibilityFacts visibility_facts(const ProbeVolumeView& volume) {
@@ -102,6 +154,7 @@ VisibilityFacts visibility_facts(const ProbeVolumeView& volume) {
         if (!agrees) is_torn[edge] = true;
     });
     facts.torn_edges = static_cast<uint64_t>(std::ranges::count(is_torn, true));
+    facts.torn_splits = count_torn_splits(volume);
     return facts;
 }
 

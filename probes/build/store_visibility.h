@@ -1,20 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <tetralight/probes/build/probe_edges.h>
+#include <tetralight/probes/edge_visibility.h>
 #include <tetralight/probes/probe_volume.h>
 
 // The codes of a volume's edges (probes/edge_visibility.h), by edge and by cell.
 
 namespace tetralight {
 
-/// Stores the code of each edge in the cells around it. Cells whose edges are all free store
-/// nothing. Precondition: one code an edge of the volume.
+/// Stores the code of each edge in the cells around it, without splits. Cells whose edges are all
+/// free store nothing. Precondition: one code an edge of the volume.
 void store_visibility(const ProbeEdges& edges, std::span<const uint8_t> codes, ProbeVolume& volume);
+
+/// Sets which blocked edges of a cell different walls block: calls `is_split(from, a, b)` with
+/// probes a < b where the edges from a probe to both are blocked. It has to say the same for every
+/// cell around these three, so that weights are continuous.
+template <class IsSplit>
+void set_splits(const Cell& cell, CellVisibility& visibility, IsSplit is_split) {
+    uint32_t bits = 0;
+    const auto is_blocked = [&](size_t from, size_t to) {
+        return to != from && visibility.codes[edge_place(from, to)] > kUnknownEdge;
+    };
+    for (size_t from = 0; from < 4; ++from) {
+        for (size_t a = 0; a < 4; ++a) {
+            for (size_t b = a + 1; b < 4; ++b) {
+                if (!is_blocked(from, a) || !is_blocked(from, b)) continue;
+                const auto [low, high] = std::minmax(cell.vertices[a], cell.vertices[b]);
+                if (is_split(cell.vertices[from], low, high)) bits |= split_bit(from, a, b);
+            }
+        }
+    }
+    visibility.splits = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
+}
+
+/// The same for all cells that store something.
+template <class IsSplit>
+void set_all_splits(ProbeVolume& volume, IsSplit is_split) {
+    for (uint32_t index = 0; index < volume.cells.size(); ++index) {
+        const uint32_t element = find_visibility(volume.view(), index);
+        if (element == kNoIndex) continue;
+        set_splits(volume.cells[index], volume.cell_visibility[element], is_split);
+    }
+}
 
 /// The code of each edge: those of cells that store nothing are `kFreeEdge`. All edges are
 /// `kUnknownEdge` if the volume knows no walls. Precondition: the volume passes `verify`.
@@ -34,6 +67,8 @@ struct VisibilityFacts {
     uint64_t unknown_edges = 0;
     /// Edges that have different codes in the cells around them; 0 in a valid volume.
     uint64_t torn_edges = 0;
+    /// The same of splits, by faces.
+    uint64_t torn_splits = 0;
 
     bool operator==(const VisibilityFacts&) const = default;
 };

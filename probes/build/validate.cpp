@@ -285,7 +285,8 @@ ValidationReport validate(const ProbeVolumeView& volume) {
     report.wrong_compact_probes = count_wrong_compact_probes(volume);
     report.wrong_layer_sums = count_wrong_sums(volume);
     if (!volume.visibility_blocks.empty()) {
-        report.torn_edges = static_cast<uint32_t>(visibility_facts(volume).torn_edges);
+        const VisibilityFacts facts = visibility_facts(volume);
+        report.torn_edges = static_cast<uint32_t>(facts.torn_edges + facts.torn_splits);
     }
     return report;
 }

@@ -101,6 +101,26 @@ HWY_INLINE float sum_of(VecFour lanes) {
     return (v[0] + v[1]) + (v[2] + v[3]);
 }
 
+/// `other_walls`, a corner a lane. `first` to `third` are the parts of its three edges.
+HWY_INLINE VecFour other_walls(uint32_t splits, VecFour first, VecFour second, VecFour third) {
+    const Four four;
+    const hn::Rebind<int32_t, Four> integers;
+    const auto lane_bits = hn::Shl(hn::Set(integers, 1), hn::Iota(integers, 0));
+    const auto is_split = [&](uint32_t pair) HWY_ATTR {
+        const auto bits = hn::Set(integers, static_cast<int32_t>(splits >> (4 * pair)));
+        return hn::RebindMask(four, hn::TestBit(bits, lane_bits));
+    };
+    const auto a_and_b = is_split(0), a_and_c = is_split(1), b_and_c = is_split(2);
+    const auto positive = [&](VecFour v)
+                              HWY_ATTR { return hn::IfThenElseZero(hn::Gt(v, hn::Zero(four)), v); };
+    const VecFour a = positive(first), b = positive(second), c = positive(third);
+    VecFour least = hn::Min(hn::Add(a, b), hn::Min(hn::Add(a, c), hn::Add(b, c)));
+    least = hn::IfThenElse(b_and_c, least, hn::Min(least, a));
+    least = hn::IfThenElse(a_and_c, least, hn::Min(least, b));
+    least = hn::IfThenElse(a_and_b, least, hn::Min(least, c));
+    return hn::IfThenElseZero(hn::Or(a_and_b, hn::Or(a_and_c, b_and_c)), least);
+}
+
 /// `visible_weights`, a corner a lane.
 HWY_INLINE void hide_probes(const CellVisibility& cell, std::array<float, 4>& weights) {
     const Four four;
@@ -108,11 +128,17 @@ HWY_INLINE void hide_probes(const CellVisibility& cell, std::array<float, 4>& we
     const VecFour w = hn::LoadU(four, weights.data());
     const float sum = sum_of(w);
     const uint8_t* codes = cell.codes.data();
-    const VecFour first = hn::Mul(hn::Shuffle0321(w), edge_excesses(codes));
-    const VecFour second = hn::Mul(hn::Shuffle1032(w), edge_excesses(codes + 4));
-    const VecFour third = hn::Mul(hn::Shuffle2103(w), edge_excesses(codes + 8));
-    const VecFour excess = hn::Mul(hn::Sub(hn::Add(hn::Add(first, second), third), w),
-                                   hn::Set(four, 1.0f / std::max(sum, kLeast)));
+    const VecFour to_next = hn::Shuffle0321(w), to_second = hn::Shuffle1032(w),
+                  to_third = hn::Shuffle2103(w);
+    const VecFour first = hn::Mul(to_next, edge_excesses(codes));
+    const VecFour second = hn::Mul(to_second, edge_excesses(codes + 4));
+    const VecFour third = hn::Mul(to_third, edge_excesses(codes + 8));
+    VecFour sums = hn::Sub(hn::Add(hn::Add(first, second), third), w);
+    if (const uint32_t splits = split_bits(cell); splits != 0) {
+        sums = hn::Sub(sums, other_walls(splits, hn::Add(to_next, first),
+                                         hn::Add(to_second, second), hn::Add(to_third, third)));
+    }
+    const VecFour excess = hn::Mul(sums, hn::Set(four, 1.0f / std::max(sum, kLeast)));
     const VecFour one = hn::Set(four, 1.0f);
     const VecFour beyond = hn::IfThenElseZero(hn::Gt(excess, hn::Zero(four)), excess);
     const VecFour part = hidden_parts(beyond);

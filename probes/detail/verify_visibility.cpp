@@ -14,6 +14,22 @@ namespace {
 constexpr const char* kBlocks = "visibility_blocks";
 constexpr const char* kElements = "cell_visibility";
 
+/// What is wrong with the splits of a cell. Empty: nothing.
+std::string splits_problem(const CellVisibility& cell) {
+    uint32_t possible = 0;
+    const auto is_blocked = [&](size_t from, size_t to) {
+        return from != to && cell.codes[edge_place(from, to)] > kUnknownEdge;
+    };
+    for (size_t from = 0; from < 4; ++from) {
+        for (size_t a = 0; a < 4; ++a) {
+            for (size_t b = a + 1; b < 4; ++b) {
+                if (is_blocked(from, a) && is_blocked(from, b)) possible |= split_bit(from, a, b);
+            }
+        }
+    }
+    return (split_bits(cell) & ~possible) == 0 ? "" : "splits edges that are not blocked";
+}
+
 /// What is wrong with the codes of a cell with so many vertices. Empty: nothing.
 std::string codes_problem(const CellVisibility& cell, size_t vertex_count) {
     bool is_stored = false;
@@ -26,7 +42,7 @@ std::string codes_problem(const CellVisibility& cell, size_t vertex_count) {
             is_stored |= code >= kUnknownEdge;
         }
     }
-    return is_stored ? "" : "has free edges only";
+    return is_stored ? splits_problem(cell) : "has free edges only";
 }
 
 size_t vertex_count(const VolumeInfo& info, size_t cell) {

@@ -233,7 +233,7 @@ vec3 tetralight_weighted_place(TetralightCellLocation location) {
     return place;
 }
 
-// The mean distance, metres, from a position to the probes of its cell, weighted as they light it.
+// The mean distance, metres, from a position to the probes of its cell, by its weights.
 float tetralight_mean_probe_distance(TetralightCellLocation location) {
     float mean = 0.0f;
     if (location.cell >= tetralight_volume.counts.y) return mean;

@@ -52,17 +52,41 @@ float tetralight_sum(vec4 v) {
     return (v.x + v.y) + (v.z + v.w);
 }
 
-// Weights that know the walls inside a cell, from its three words of codes.
+// What L of corners has beyond the largest sum of one wall. `first` to `third` are the parts of
+// their three edges; bits 4 k + i of `splits` say for corner i which two of them different walls
+// block: 0 and 1, 0 and 2, 1 and 2.
+vec4 tetralight_other_walls(uint splits, vec4 first, vec4 second, vec4 third) {
+    vec4 others = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    if (splits == 0u) return others;
+    for (int i = 0; i < 4; ++i) {
+        uint bits = splits >> uint(i);
+        if ((bits & 0x111u) == 0u) continue;
+        float a = max(first[i], 0.0f);
+        float b = max(second[i], 0.0f);
+        float c = max(third[i], 0.0f);
+        float least = min(a + b, min(a + c, b + c));
+        if ((bits & 0x100u) == 0u) least = min(least, a);
+        if ((bits & 0x010u) == 0u) least = min(least, b);
+        if ((bits & 0x001u) == 0u) least = min(least, c);
+        others[i] = least;
+    }
+    return others;
+}
+
+// Weights that know the walls inside a cell, from its three words of codes and its splits.
 vec4 tetralight_visible_weights(uvec4 codes, vec4 weights) {
     float sum = tetralight_sum(weights);
     float unit = 1.0f / max(sum, tetralight_least_weight);
     vec4 to_next = vec4(weights.y, weights.z, weights.w, weights.x);
     vec4 to_second = vec4(weights.z, weights.w, weights.x, weights.y);
     vec4 to_third = vec4(weights.w, weights.x, weights.y, weights.z);
-    vec4 sums = (to_next * tetralight_edge_excess(codes.x) +
-                 to_second * tetralight_edge_excess(codes.y)) +
-                to_third * tetralight_edge_excess(codes.z);
-    vec4 beyond = max((sums - weights) * unit, vec4(0.0f, 0.0f, 0.0f, 0.0f));
+    vec4 first = to_next * tetralight_edge_excess(codes.x);
+    vec4 second = to_second * tetralight_edge_excess(codes.y);
+    vec4 third = to_third * tetralight_edge_excess(codes.z);
+    vec4 others = tetralight_other_walls(codes.w, to_next + first, to_second + second,
+                                         to_third + third);
+    vec4 sums = (((first + second) + third) - weights) - others;
+    vec4 beyond = max(sums * unit, vec4(0.0f, 0.0f, 0.0f, 0.0f));
     vec4 part = tetralight_hidden_part(beyond);
     vec4 ratio = 1.0f + beyond;
     vec4 square = 1.0f / (ratio * ratio);

@@ -215,6 +215,64 @@ TEST(VisibleWeights, KeepTheirSum) {
     }
 }
 
+TEST(SplitBit, OfTheTwelvePairsOfEdgesIsOneOfTwelve) {
+    uint32_t all = 0;
+    int count = 0;
+    for (size_t from = 0; from < 4; ++from) {
+        for (size_t a = 0; a < 4; ++a) {
+            for (size_t b = a + 1; b < 4; ++b) {
+                if (a == from || b == from) continue;
+                EXPECT_EQ(split_bit(from, a, b), split_bit(from, b, a));
+                EXPECT_EQ(all & split_bit(from, a, b), 0u);
+                all |= split_bit(from, a, b);
+                ++count;
+            }
+        }
+    }
+    EXPECT_EQ(count, 12);
+    EXPECT_EQ(all, 0xfffu);
+}
+
+void set_bits(CellVisibility& cell, uint32_t bits) {
+    cell.splits = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
+}
+
+TEST(VisibleWeights, FollowTwoWallsThatMeet) {
+    // A corner with one edge to each of two walls and a free one: the largest of both decides.
+    CellVisibility cell;
+    cell.codes.fill(kFreeEdge);
+    const uint8_t code = encode_edge_ratio(2.0);
+    const double r = double{decode_edge_ratio(code)};
+    cell.codes[edge_place(0, 1)] = cell.codes[edge_place(0, 2)] = code;
+    cell.codes[edge_place(0, 3)] = encode_edge_ratio(-4.0);
+    const double free = double{decode_edge_ratio(encode_edge_ratio(-4.0))};
+    for (size_t j = 1; j < 4; ++j) {
+        for (size_t k = 0; k < 4; ++k) {
+            if (k != j) cell.codes[edge_place(j, k)] = 255;
+        }
+    }
+    int seen_count = 0;
+    std::mt19937_64 engine(12);
+    for (int i = 0; i < 10'000; ++i) {
+        const glm::vec4 weights = random_weights(engine);
+        const double a = double{weights[1]} * r, b = double{weights[2]} * r;
+        const double rest = double{weights[3]} * free;
+        const auto share_of_first = [&](uint32_t bits) {
+            set_bits(cell, bits);
+            const glm::vec4 visible = visible_weights(cell, weights);
+            return visible[0] / (visible[0] + visible[1] + visible[2] + visible[3]);
+        };
+        // All other corners are hidden: if corner 0 is not, it has nearly all of the weight.
+        const bool is_seen = std::max(a, b) + rest < 0.999;
+        if (weights[0] < 0.1f) continue;
+        if (!is_seen) continue;
+        EXPECT_GT(share_of_first(split_bit(0, 1, 2)), 0.9f);
+        if (a + b + rest < 1.1) continue;
+        ++seen_count;
+    }
+    EXPECT_GT(seen_count, 100);
+}
+
 /// As beside the edge of a room, where one plane a corner cannot follow both walls.
 TEST(VisibleWeights, GoToTheCornerWithTheLeastLWhereAllAreHidden) {
     const std::array<double, 4> wanted{1.2, 2.0, 3.0, 3.0};
@@ -251,11 +309,26 @@ TEST(VisibleWeights, DoNotDependOnTheShareOfAmbientLight) {
     EXPECT_EQ(visible_weights(blocked, glm::vec4(0.0f)), glm::vec4(0.0f));
 }
 
+/// Random splits of two cells that share corners 0, 1, 2 of the first: the same on that face, of
+/// edges that are blocked.
+void copy_splits_of_face(const std::array<size_t, 3>& there_of, std::mt19937_64& engine,
+                         CellVisibility& here, CellVisibility& there) {
+    uint32_t here_bits = engine() & 0xfff, there_bits = engine() & 0xfff;
+    for (size_t from = 0; from < 3; ++from) {
+        const size_t a = (from + 1) % 3, b = (from + 2) % 3;
+        const uint32_t other = split_bit(there_of[from], there_of[a], there_of[b]);
+        const bool is_split = (here_bits & split_bit(from, a, b)) != 0;
+        there_bits = is_split ? there_bits | other : there_bits & ~other;
+    }
+    set_bits(here, here_bits);
+    set_bits(there, there_bits);
+}
+
 /// The two cells beside a face know the ratios of its edges, and of others different ones.
 TEST(VisibleWeights, AreContinuousAcrossFaces) {
     std::mt19937_64 engine(7);
     for (int i = 0; i < 1000; ++i) {
-        const CellVisibility here = random_codes(engine, -4.0, 10.0);
+        CellVisibility here = random_codes(engine, -4.0, 10.0);
         CellVisibility there = random_codes(engine, -4.0, 10.0);
         constexpr std::array<size_t, 3> kThere{2, 0, 3};  // places of corners 0, 1, 2
         for (size_t a = 0; a < 3; ++a) {
@@ -264,6 +337,7 @@ TEST(VisibleWeights, AreContinuousAcrossFaces) {
                 there.codes[edge_place(kThere[a], kThere[b])] = here.codes[edge_place(a, b)];
             }
         }
+        copy_splits_of_face(kThere, engine, here, there);
         glm::vec4 weights = random_weights(engine);
         weights[3] = 0.0f;
         glm::vec4 same(0.0f);

@@ -84,6 +84,20 @@ TEST_F(VerifyVisibility, RefusesElementsThatAreFree) {
               "cell_visibility[2]");
 }
 
+TEST_F(VerifyVisibility, RefusesSplitsOfEdgesThatAreNotBlocked) {
+    const auto after = [this](uint32_t bits) {
+        return field_after([bits](ProbeVolume& v) {
+            CellVisibility& cell = v.cell_visibility[2];
+            cell.codes[edge_place(0, 2)] = 90;
+            cell.splits = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
+        });
+    };
+    EXPECT_EQ(after(split_bit(0, 1, 2)), "");
+    EXPECT_EQ(after(split_bit(0, 1, 3)), "cell_visibility[2]");
+    EXPECT_EQ(after(split_bit(1, 0, 2)), "cell_visibility[2]");
+    EXPECT_EQ(after(1u << 12), "cell_visibility[2]");
+}
+
 TEST_F(VerifyVisibility, RefusesCodesOfEdgesThatHullCellsDoNotHave) {
     const size_t last = sound.cell_visibility.size() - 1;
     EXPECT_EQ(field_after([](ProbeVolume& v) {

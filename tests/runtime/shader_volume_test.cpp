@@ -98,12 +98,13 @@ TEST(ShaderVolume, WallsAreBlocksAndThenCodes) {
     volume.visibility_blocks[1] = {7, 11};
     volume.cell_visibility.resize(2);
     for (size_t i = 0; i < 12; ++i) volume.cell_visibility[1].codes[i] = static_cast<uint8_t>(i);
+    volume.cell_visibility[1].splits = {0x34, 0x12};
     const ShaderVolume shader = make_shader_volume(volume.view());
     const uint32_t first = (block_count + 1) / 2;
     EXPECT_EQ(shader.constants.walls, glm::uvec4(block_count, first, 2, 0));
     ASSERT_EQ(shader.walls.size(), first + 2);
     EXPECT_EQ(shader.walls[0], glm::uvec4(0, 5, 7, 11));
-    EXPECT_EQ(shader.walls[first + 1], glm::uvec4(0x03020100, 0x07060504, 0x0b0a0908, 0));
+    EXPECT_EQ(shader.walls[first + 1], glm::uvec4(0x03020100, 0x07060504, 0x0b0a0908, 0x1234));
 }
 
 TEST(ShaderVolume, NoProbesGiveTheAmbientLight) {

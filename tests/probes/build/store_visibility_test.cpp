@@ -28,7 +28,11 @@ std::vector<uint8_t> random_codes(size_t count, uint64_t seed, uint64_t period =
 ProbeVolume make_volume(const std::vector<glm::dvec3>& positions) {
     ProbeVolume volume = test::make_lit_volume(positions);
     const ProbeEdges edges(volume.view());
-    store_visibility(edges, random_codes(edges.size(), 1), volume);
+    store_visibility(edges, random_codes(edges.size(), 1, 2), volume);
+    set_all_splits(volume, [](uint32_t from, uint32_t a, uint32_t b) {
+        EXPECT_LT(a, b);
+        return (from + 3 * a + 5 * b) % 2 == 0;
+    });
     return volume;
 }
 
@@ -116,7 +120,39 @@ TEST(CopyVisibility, KnowsOldEdgesAndCountsNewOnes) {
         }
     }
     EXPECT_GT(unknown_count, 0u);
-    EXPECT_EQ(visibility_facts(to.view()).unknown_edges, unknown_count);
+    const VisibilityFacts facts = visibility_facts(to.view());
+    EXPECT_EQ(facts.unknown_edges, unknown_count);
+    EXPECT_EQ(facts.torn_edges + facts.torn_splits, 0u);
+}
+
+/// Of three probes that no old cell holds together it is not known.
+TEST(CopyVisibility, KeepsTheSplitsOfOldFaces) {
+    const auto positions = test::random_positions(100, 7);
+    const ProbeVolume from = make_volume(positions);
+    ProbeVolume to =
+        test::make_lit_volume(std::vector<glm::dvec3>(positions.begin() + 3, positions.end()));
+    copy_light(from.view(), to);
+    const auto old_cell_of = [&](const Cell& cell) -> uint32_t {
+        for (uint32_t old = 0; old < from.cells.size(); ++old) {
+            const auto is_same = [&](int i) {
+                const uint32_t a = cell.vertices[size_t(i)],
+                               b = from.cells[old].vertices[size_t(i)];
+                return a == b || (a != kNoIndex && b != kNoIndex &&
+                                  to.exact_positions[a] == from.exact_positions[b]);
+            };
+            if (is_same(0) && is_same(1) && is_same(2) && is_same(3)) return old;
+        }
+        return kNoIndex;
+    };
+    int same_count = 0;
+    for (uint32_t cell = 0; cell < to.cells.size(); ++cell) {
+        const uint32_t old = old_cell_of(to.cells[cell]);
+        if (old == kNoIndex || find_visibility(to.view(), cell) == kNoIndex) continue;
+        EXPECT_EQ(to.cell_visibility[find_visibility(to.view(), cell)],
+                  from.cell_visibility[find_visibility(from.view(), old)]);
+        ++same_count;
+    }
+    EXPECT_GT(same_count, 50);
 }
 
 TEST(CopyVisibility, OfAVolumeThatKnowsNoWallsIsEmpty) {
@@ -138,6 +174,19 @@ TEST(Validate, SeesEdgesWithDifferentCodesInTheirCells) {
     const ValidationReport report = validate(volume.view());
     EXPECT_EQ(report.torn_edges, 1u);
     EXPECT_EQ(report.problems().size(), 1u);
+}
+
+TEST(Validate, SeesFacesThatAreSplitInOneOfTheirCells) {
+    ProbeVolume volume = make_volume(test::random_positions(100, 9));
+    for (CellVisibility& cell : volume.cell_visibility) {
+        const uint32_t bits = split_bits(cell);
+        if (bits == 0) continue;
+        const uint32_t less = bits & (bits - 1);
+        cell.splits = {static_cast<uint8_t>(less), static_cast<uint8_t>(less >> 8)};
+        break;
+    }
+    EXPECT_EQ(visibility_facts(volume.view()).torn_splits, 1u);
+    EXPECT_EQ(validate(volume.view()).torn_edges, 1u);
 }
 
 }  // namespace
