@@ -18,7 +18,7 @@ class CheckLeaks : public CommandFixture {
     /// With few places and samples.
     static Arguments arguments(const Arguments& more = {}) {
         Arguments all{"check-leaks", "v.probes", "--scene", kCourtyard,
-                      "--places",    "60",       "-s",      "16"};
+                      "--places",    "100",      "-s",      "16"};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
