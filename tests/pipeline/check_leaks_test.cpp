@@ -144,8 +144,8 @@ TEST(CheckLeaks, FindsExactlyNothingWithoutWalls) {
 TEST(CheckLeaks, ComparesUnseenPlacesWithTracedLight) {
     const Scene scene = test::row_of_rooms({1.0f, 0.0f, 1.0f});
     std::vector<glm::dvec3> positions;
-    test::add_probes_of_room(0, 2, 0.5, positions);
-    test::add_probes_of_room(2, 2, 0.5, positions);
+    test::add_probes_of_room(0, 2, 0.05, positions);
+    test::add_probes_of_room(2, 2, 0.05, positions);
     const LeakReport report = report_on(scene, bake(scene, positions));
     EXPECT_GT(report.unseen_count, 200u);
     for (const LeakPlace& place : report.places) {
