@@ -137,8 +137,8 @@ TEST(CopyVisibility, KeepsTheSplitsOfOldFaces) {
             const auto is_same = [&](int i) {
                 const uint32_t a = cell.vertices[size_t(i)],
                                b = from.cells[old].vertices[size_t(i)];
-                return a == b || (a != kNoIndex && b != kNoIndex &&
-                                  to.exact_positions[a] == from.exact_positions[b]);
+                if (a == kNoIndex || b == kNoIndex) return a == b;
+                return to.exact_positions[a] == from.exact_positions[b];
             };
             if (is_same(0) && is_same(1) && is_same(2) && is_same(3)) return old;
         }
