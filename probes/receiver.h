@@ -46,8 +46,8 @@ void hide_probes(const ProbeVolumeView& volume, std::span<CellLocation> location
                  const Receiver& receiver) noexcept;
 
 /// The mean distance, metres, from a position to the probes of its cell, by the weights of the
-/// location: continuous, ≥ 0. Outside the hull of the probes, where `location` has the weights of a place on
-/// the hull, it is that of this place.
+/// location: continuous, ≥ 0. Outside the hull of the probes, where `location` has the weights of a
+/// place on the hull, it is that of this place.
 [[nodiscard]] float mean_probe_distance(const ProbeVolumeView& volume,
                                         const CellLocation& location) noexcept;
 

@@ -31,7 +31,7 @@ constexpr uint32_t kSamplesPerAxis = 2;
 constexpr float kCutWall = -1.0f, kNothing = -2.0f;
 
 /// A view along an axis: pictures of positions, right and down, and the direction of sight.
-struct View {
+struct Projection {
     int right = 0, down = 2, along = 1;
     /// 1 if the coordinate grows in that direction.
     double down_sign = 1.0;
@@ -41,7 +41,7 @@ struct View {
 
 /// One view of the scene at some place of the picture.
 struct Panel {
-    View view;
+    Projection view;
     Box<glm::dvec3> bounds;
     double pixels_per_metre = 1.0;
     uint32_t top = 0;

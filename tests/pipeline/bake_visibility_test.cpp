@@ -102,6 +102,34 @@ TEST(BakeVisibility, LeavesProbesOnAWallFree) {
     }
 }
 
+/// One tetrahedron whose first corner is in the edge of a room, and the same behind one wall.
+TEST(BakeVisibility, TellsTwoWallsThatMeetFromOne) {
+    const std::vector<glm::dvec3> corners{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+    const Material grey = test::diffuse(glm::vec3(0.5f));
+    Scene two = wall(1.8f);
+    test::add_quad(two, grey, {-10, 1.8f, -10}, {0, 0, 20}, {20, 0, 0});
+    Scene one;
+    test::add_quad(one, grey, {11.8f, -10, -10}, {-20, 20, 0}, {0, 0, 20});
+    for (const Scene* scene : {&two, &one}) {
+        const ProbeVolume volume = find(*scene, corners).volume;
+        const auto place = [&](const glm::dvec3& position) {
+            const auto found = std::ranges::find(volume.exact_positions, position);
+            const auto probe = static_cast<uint32_t>(found - volume.exact_positions.begin());
+            return static_cast<size_t>(std::ranges::find(volume.cells[0].vertices, probe) -
+                                       volume.cells[0].vertices.begin());
+        };
+        const uint32_t element = find_visibility(volume.view(), 0);
+        ASSERT_NE(element, kNoIndex);
+        const uint32_t bits = split_bits(volume.cell_visibility[element]);
+        const uint32_t bit = split_bit(place(corners[0]), place(corners[1]), place(corners[2]));
+        EXPECT_EQ((bits & bit) != 0, scene == &two);
+        // Between the walls, behind the diagonal from one blocked edge to the other.
+        const glm::vec3 position(1.4f, 1.4f, 0.2f);
+        const CellLocation seen = visible_location(volume.view(), locate(volume.view(), position));
+        EXPECT_EQ(double{seen.weights[static_cast<int>(place(corners[0]))]} > 0.8, scene == &two);
+    }
+}
+
 /// One tetrahedron, and a small box inside it that meets none of its edges.
 TEST(BakeVisibility, CountsCellsWithAPillarThatMeetsNoEdge) {
     const std::vector<glm::dvec3> corners{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};

@@ -32,7 +32,7 @@ LeakReport two_rooms_report() {
         place.position = {0.1 + 1.8 * (i % 10) / 9, 0.1 + 1.8 * (i / 10) / 4, 1.0};
         report.places.push_back(place);
         place.position.x += 2.2;
-        place.answer = 0.1;
+        place.answer = place.hidden = 0.1;
         report.places.push_back(place);
     }
     return report;
