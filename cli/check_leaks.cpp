@@ -46,7 +46,7 @@ struct CheckLeaks {
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
-        warn_of_another_scene(*scene, file->view());
+        if (auto status = check_scene(*scene, file->view()); !status) return status;
         const auto report = measure(*scene, file->view());
         if (!report) return located(report.error());
         warn_of_few_places(*report);
@@ -63,10 +63,16 @@ struct CheckLeaks {
         return check_output(picture, inputs, "picture");
     }
 
-    void warn_of_another_scene(const Scene& scene, const ProbeVolumeView& volume) const {
-        if (!is_of_another_scene(volume.metadata, scene)) return;
-        common.warn({str_cat(volume_path, ": was baked from another scene, sky or sun than ",
-                             scene_options.path)});
+    /// A limit holds for the scene of the bake alone; without one, another scene is a warning.
+    [[nodiscard]] Status check_scene(const Scene& scene, const ProbeVolumeView& volume) const {
+        if (!is_of_another_scene(volume.metadata, scene)) return Ok{};
+        const std::string message = str_cat(
+            volume_path, ": was baked from another scene, sky or sun than ", scene_options.path);
+        if (max_leak > 0.0) {
+            return Error{ErrorCode::InvalidArgument, "scene", scene_options.path, message};
+        }
+        common.warn({message});
+        return Ok{};
     }
 
     void warn_of_few_places(const LeakReport& report) const {

@@ -2,6 +2,7 @@
 #include <tetralight/bake/scene/detail/json_members.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <tetralight/base/str_cat.h>
@@ -32,13 +33,17 @@ Status check_keys(const nlohmann::json& object, std::initializer_list<std::strin
 
 Result<uint32_t> read_rendering_layers(const nlohmann::json& value, std::string_view name) {
     const auto is_layer = [](const nlohmann::json& layer) {
-        return layer.is_number_unsigned() && layer.get<uint64_t>() < kRenderingLayerCount;
+        if (!layer.is_number()) return false;
+        const auto number = layer.get<double>();  // exporters write 3.0, too
+        return number >= 0.0 && number < kRenderingLayerCount && number == std::floor(number);
     };
     if (!value.is_array() || value.empty() || !std::ranges::all_of(value, is_layer)) {
         return wrong_type(value, name, "a list of rendering layers, 0 to 31");
     }
     uint32_t mask = 0;
-    for (const nlohmann::json& layer : value) mask |= uint32_t{1} << layer.get<uint32_t>();
+    for (const nlohmann::json& layer : value) {
+        mask |= uint32_t{1} << static_cast<uint32_t>(layer.get<double>());
+    }
     return mask;
 }
 

@@ -190,6 +190,7 @@ TEST(ProbeGroupsJson, RenderingLayersAreBitsOfTheMaskInAnyOrder) {
     const std::string positions = R"(, "positions": [[0, 0, 0]])";
     for (const auto& [layers, mask] : {std::pair<std::string, uint32_t>("[0]", 1u),
                                        {"[3, 0, 3]", 0b1001u},
+                                       {"[3.0, 0]", 0b1001u},
                                        {"[31]", 1u << 31}}) {
         const auto groups = read_probe_groups(
             folder.write("g.json", hall_with(R"("rendering_layers": )" + layers + positions)));
