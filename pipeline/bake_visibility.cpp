@@ -116,17 +116,15 @@ class VisibilityBake {
     }
 
     /// Of a face with two blocked edges and a free one: whether different walls block them.
-    [[nodiscard]] bool is_split(const CornerFace& face) {
+    [[nodiscard]] bool is_split(const CornerFace& face, const std::array<size_t, 3>& edges) {
         std::array<uint32_t, 3> blocked{};
         size_t count = 0;
         for (int i = 0; i < face.other_count; ++i) {
-            if (is_blocked(edges_.find(face.probe, face.others[i]))) {
-                blocked[count++] = face.others[i];
-            }
+            if (is_blocked(edges[i])) blocked[count++] = face.others[i];
         }
         if (count != 2) return false;
-        return is_split(face.probe, std::min(blocked[0], blocked[1]),
-                        std::max(blocked[0], blocked[1]));
+        const auto [low, high] = std::minmax(blocked[0], blocked[1]);
+        return is_split(face.probe, low, high);
     }
 
     /// Rays from a probe to positions on the face opposite to it, as samples for a fit.
@@ -136,7 +134,7 @@ class VisibilityBake {
         for (int i = 0; i < face.other_count; ++i) {
             edges[i] = edges_.find(face.probe, face.others[i]);
         }
-        const bool takes_largest = is_split(face);
+        const bool takes_largest = is_split(face, edges);
         for (const glm::dvec3& weights : positions) {
             RatioSample sample;
             glm::dvec3 target(0.0);

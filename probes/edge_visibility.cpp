@@ -40,8 +40,8 @@ glm::vec4 hide(const CellVisibility& cell, const glm::vec4& weights, RampOf ramp
     const float sum = sum_of(weights);
     const float unit = 1.0f / std::max(sum, kLeast);
     const uint32_t splits = split_bits(cell);
-    glm::vec4 seen(0.0f), low(0.0f),
-        steep(0.0f);  // weights of seen corners, of hidden ones / L², L⁸
+    // Weights of seen corners, and those of hidden ones / L² and / L⁸.
+    glm::vec4 seen(0.0f), low(0.0f), steep(0.0f);
     for (int i = 0; i < 4; ++i) {
         std::array<float, 3> terms{}, parts{};  // b_j (r_ij − 1), b_j r_ij
         std::array<bool, 3> is_split{};

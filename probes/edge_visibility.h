@@ -85,6 +85,22 @@ inline constexpr float kVisibilityRamp = 0.03f;
     return uint32_t{cell.splits[0]} | uint32_t{cell.splits[1]} << 8;
 }
 
+/// Calls `use(from, a, b)` with corners a < b for each corner of a cell from which the edges to two
+/// others are blocked: the pairs that can be split.
+template <class Use>
+void for_each_blocked_pair(const CellVisibility& cell, Use use) {
+    const auto is_blocked = [&](size_t from, size_t to) {
+        return from != to && cell.codes[edge_place(from, to)] > kUnknownEdge;
+    };
+    for (size_t from = 0; from < 4; ++from) {
+        for (size_t a = 0; a < 4; ++a) {
+            for (size_t b = a + 1; b < 4; ++b) {
+                if (is_blocked(from, a) && is_blocked(from, b)) use(from, a, b);
+            }
+        }
+    }
+}
+
 /// The index of a cell's element of `cell_visibility`. kNoIndex: it has none, its weights are as
 /// they are. Any number of the volume may be corrupt.
 [[nodiscard]] inline uint32_t find_visibility(const ProbeVolumeView& volume,

@@ -71,8 +71,7 @@ Status check_receivers(const InterpolationBatch& batch) {
         {"radii", batch.radii.size()},
         {"normals", batch.normals.size()}};
     for (const auto& [name, length] : lengths) {
-        if (length == 0) continue;
-        if (length >= count) continue;
+        if (length == 0 || length >= count) continue;
         return Error{
             ErrorCode::InvalidArgument, name, str_cat(length),
             str_cat(name, " has ", length, " elements, but there are ", count, " positions")};

@@ -52,15 +52,11 @@ void for_each_pair(const ProbeVolumeView& volume, Use use) {
         const uint32_t element = find_visibility(volume, index);
         if (element == kNoIndex) continue;
         const Cell& cell = volume.cells[index];
-        CellVisibility all = volume.cell_visibility[element];
-        const uint32_t bits = split_bits(all);
-        set_splits(cell, all, [&](uint32_t from, uint32_t a, uint32_t b) {
-            const auto place = [&](uint32_t probe) {
-                return static_cast<size_t>(std::ranges::find(cell.vertices, probe) -
-                                           cell.vertices.begin());
-            };
-            use(SplitEdges{from, a, b}, (bits & split_bit(place(from), place(a), place(b))) != 0);
-            return false;
+        const CellVisibility& visibility = volume.cell_visibility[element];
+        for_each_blocked_pair(visibility, [&](size_t from, size_t a, size_t b) {
+            const auto [low, high] = std::minmax(cell.vertices[a], cell.vertices[b]);
+            use(SplitEdges{cell.vertices[from], low, high},
+                (split_bits(visibility) & split_bit(from, a, b)) != 0);
         });
     }
 }

@@ -24,18 +24,10 @@ void store_visibility(const ProbeEdges& edges, std::span<const uint8_t> codes, P
 template <class IsSplit>
 void set_splits(const Cell& cell, CellVisibility& visibility, IsSplit is_split) {
     uint32_t bits = 0;
-    const auto is_blocked = [&](size_t from, size_t to) {
-        return to != from && visibility.codes[edge_place(from, to)] > kUnknownEdge;
-    };
-    for (size_t from = 0; from < 4; ++from) {
-        for (size_t a = 0; a < 4; ++a) {
-            for (size_t b = a + 1; b < 4; ++b) {
-                if (!is_blocked(from, a) || !is_blocked(from, b)) continue;
-                const auto [low, high] = std::minmax(cell.vertices[a], cell.vertices[b]);
-                if (is_split(cell.vertices[from], low, high)) bits |= split_bit(from, a, b);
-            }
-        }
-    }
+    for_each_blocked_pair(visibility, [&](size_t from, size_t a, size_t b) {
+        const auto [low, high] = std::minmax(cell.vertices[a], cell.vertices[b]);
+        if (is_split(cell.vertices[from], low, high)) bits |= split_bit(from, a, b);
+    });
     visibility.splits = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
 }
 

@@ -17,16 +17,8 @@ constexpr const char* kElements = "cell_visibility";
 /// What is wrong with the splits of a cell. Empty: nothing.
 std::string splits_problem(const CellVisibility& cell) {
     uint32_t possible = 0;
-    const auto is_blocked = [&](size_t from, size_t to) {
-        return from != to && cell.codes[edge_place(from, to)] > kUnknownEdge;
-    };
-    for (size_t from = 0; from < 4; ++from) {
-        for (size_t a = 0; a < 4; ++a) {
-            for (size_t b = a + 1; b < 4; ++b) {
-                if (is_blocked(from, a) && is_blocked(from, b)) possible |= split_bit(from, a, b);
-            }
-        }
-    }
+    for_each_blocked_pair(
+        cell, [&](size_t from, size_t a, size_t b) { possible |= split_bit(from, a, b); });
     return (split_bits(cell) & ~possible) == 0 ? "" : "splits edges that are not blocked";
 }
 
