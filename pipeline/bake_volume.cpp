@@ -83,9 +83,8 @@ void store_unseen(const TraceScene& traced, PreparedBake& prepared) {
                                      .thread_count = prepared.settings.bake.thread_count};
     report.unseen =
         find_unseen(find_free_places(traced, eyes, std::as_const(volume).view(), settings));
-    volume.metadata = with_walls(
-        volume.metadata,
-        {report.visibility.unclear_cell_count, report.visibility.left_out_count, report.unseen});
+    volume.metadata = add_walls(volume.metadata, {report.visibility.unclear_cell_count,
+                                                  report.visibility.left_out_count, report.unseen});
     report.unseen_seconds = watch.seconds();
 }
 

@@ -56,7 +56,7 @@ Error difference(const std::string& member, const Json& old, const Json& fresh) 
 }
 
 /// Compares how both volumes were baked. Dering is compared for each probe instead, and what was
-/// found of walls is no setting.
+/// found of walls is a result, not a setting.
 Status check_metadata(std::string_view old, std::string_view fresh) {
     Json old_json = Json::parse(old, nullptr, false);
     Json fresh_json = Json::parse(fresh, nullptr, false);

@@ -13,7 +13,7 @@
 namespace tetralight {
 
 /// How much of the free space sees no probe of its cell, so that its light comes through walls
-/// whatever the weights are.
+/// with any weights.
 struct UnseenPlaces {
     /// Free places that were looked at, and those of them that see no corner of their cell.
     uint64_t place_count = 0;

@@ -42,7 +42,7 @@ bool read(const Json& json, const char* name, std::vector<glm::dvec3>& positions
 
 }  // namespace
 
-std::string with_walls(std::string_view metadata, const WallsMetadata& walls) {
+std::string add_walls(std::string_view metadata, const WallsMetadata& walls) {
     Json json = Json::parse(metadata);
     json["walls"] = {{"unclear_cells", walls.unclear_cell_count},
                      {"left_out_probes", walls.left_out_count},

@@ -23,9 +23,9 @@ struct WallsMetadata {
 };
 
 /// The metadata with its member "walls". Precondition: the metadata is a JSON object.
-[[nodiscard]] std::string with_walls(std::string_view metadata, const WallsMetadata& walls);
+[[nodiscard]] std::string add_walls(std::string_view metadata, const WallsMetadata& walls);
 
-/// None if the metadata has no member "walls", or one that `with_walls` does not write.
+/// None if the metadata has no member "walls", or one that `add_walls` does not write.
 [[nodiscard]] std::optional<WallsMetadata> read_walls(std::string_view metadata);
 
 /// The visibility report of a baked volume from its sections and its metadata: without the rays and

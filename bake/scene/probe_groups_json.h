@@ -23,8 +23,8 @@ namespace tetralight {
 ///
 /// There may be no group, and groups may have no probes. Returns corrupt, with the member as the
 /// field (`groups[1].positions[7]`), for two groups of one name, unknown keys, a transform that is
-/// not affine, numbers that are not finite, rendering layers that are none or not integers from 0
-/// to 31, and more than 64 levels of nesting.
+/// not affine, numbers that are not finite, a list of rendering layers that is empty or has
+/// other numbers than 0 to 31, and more than 64 levels of nesting.
 [[nodiscard]] Result<std::vector<ProbeGroup>> read_probe_groups(const std::string& path);
 
 /// Writes a file that `read_probe_groups` reads; numbers keep their bits. Returns invalid_argument

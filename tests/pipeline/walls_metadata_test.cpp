@@ -12,10 +12,10 @@ const WallsMetadata kWalls{
     .unseen = {.place_count = 4096, .unseen_count = 7, .positions = {{1.5, -2.001, 1e6}}}};
 
 TEST(WallsMetadata, IsReadAsItWasWritten) {
-    const std::string metadata = with_walls(R"({"samples":16})", kWalls);
+    const std::string metadata = add_walls(R"({"samples":16})", kWalls);
     EXPECT_EQ(metadata.find(R"({"samples":16,"walls":{)"), 0u) << metadata;
     EXPECT_EQ(read_walls(metadata), kWalls);
-    EXPECT_EQ(read_walls(with_walls(metadata, {})), WallsMetadata{});
+    EXPECT_EQ(read_walls(add_walls(metadata, {})), WallsMetadata{});
 }
 
 TEST(WallsMetadata, IsNoneInVolumesThatHaveNoneOrOneOfAnotherForm) {
