@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <tetralight/base/str_cat.h>
@@ -21,6 +22,7 @@ struct Reason {
 constexpr Reason kReasons[] = {{Fate::Inside, "inside_geometry", "inside geometry"},
                                {Fate::TooClose, "too_close", "too close to a surface"},
                                {Fate::Unreachable, "unreachable", "unreachable"},
+                               {Fate::Dark, "without_light", "without light"},
                                {Fate::Forbidden, "forbidden", "forbidden by a volume"},
                                {Fate::Crowded, "crowded", "beside another probe"},
                                {Fate::Redundant, "spared", "light is as good without"}};
@@ -76,8 +78,8 @@ Json adaptive_json(const AdaptiveReport& report) {
 std::string adaptive_text(const AdaptiveReport& report) {
     return str_cat("error ", percent(report.error), " (", name_of(report.end), ") after ",
                    counted(report.round_count, "round"), ", by the light of ",
-                   counted(report.position_count, "position"), " with ",
-                   counted(report.sample_count, "sample"), " each, ",
+                   counted(report.position_count, "position"), ", ",
+                   magnitude(static_cast<double>(report.sample_count)), "samples, ",
                    magnitude(static_cast<double>(report.ray_count)), "rays\n");
 }
 
@@ -93,32 +95,94 @@ std::string place_text(const glm::dvec3& position) {
 
 constexpr size_t kMostLines = 3;
 
-void add_pockets(const ProbeGrid& grid, std::vector<std::string>& lines) {
-    for (size_t i = 0; i < std::min(grid.dropped_spaces.size(), kMostLines); ++i) {
-        const uint64_t count = grid.dropped_spaces[i].probe_count;
-        const std::string place = place_text(grid.dropped_spaces[i].position);
-        lines.push_back(str_cat(counted(count, "probe"), " around ", place,
-                                " cannot be reached and ", count == 1 ? "was" : "were",
-                                " dropped; --from ", place, " would keep them"));
+const char* name_of(SpaceFate fate) {
+    constexpr const char* kNames[] = {"filled", "unreachable", "without light"};
+    return kNames[static_cast<size_t>(fate)];
+}
+
+const char* light_of(const Space& space) {
+    if (space.light.has_sky) return space.light.has_lights ? "sky, lights" : "sky";
+    return space.light.has_lights ? "lights" : "none";
+}
+
+/// A number of cubic metres with few digits.
+std::string volume_text(double volume) {
+    return str_cat(grouped(static_cast<uint64_t>(std::llround(volume))), " m3");
+}
+
+std::string spaces_text(const ProbeGrid& grid) {
+    if (grid.spaces.size() < 2) return "";
+    constexpr size_t kMostSpaces = 8;
+    std::vector<std::vector<std::string>> rows{{"around", "room", "probes", "light", "", ""}};
+    for (size_t i = 0; i < std::min(grid.spaces.size(), kMostSpaces); ++i) {
+        const Space& space = grid.spaces[i];
+        rows.push_back({place_text(space.position), volume_text(space.volume),
+                        grouped(space.probe_count), light_of(space), name_of(space.fate),
+                        space.has_seed ? "--from" : ""});
     }
-    if (grid.dropped_spaces.size() > kMostLines) {
-        lines.push_back(str_cat("and ", grid.dropped_spaces.size() - kMostLines,
-                                " smaller spaces; --unreachable keep keeps all"));
+    std::string more;
+    if (grid.spaces.size() > kMostSpaces) {
+        more = str_cat("  and ", grid.spaces.size() - kMostSpaces, " smaller ones\n");
+    }
+    return "spaces:\n" + aligned(rows, "lrrlll") + more;
+}
+
+std::string coverage_text(const ProbeGrid& grid) {
+    const Coverage& coverage = grid.coverage;
+    if (coverage.place_count() == 0) return "";
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&](const char* words, Cover cover) {
+        rows.push_back({words, percent(coverage.share(cover))});
+    };
+    add("covered", Cover::Covered);
+    add("outside of the tetrahedra", Cover::HullCell);
+    add("out of sight of probes", Cover::Unseen);
+    return "free space:\n" + aligned(rows, "lr");
+}
+
+void add_left_out(const ProbeGrid& grid, std::vector<std::string>& lines) {
+    uint64_t count = 0, smaller_count = 0;
+    for (const Space& space : grid.spaces) {
+        if (space.fate == SpaceFate::Filled || space.probe_count == 0) continue;
+        if (++count > kMostLines) {
+            ++smaller_count;
+            continue;
+        }
+        const std::string place = place_text(space.position);
+        const bool is_dark = space.fate == SpaceFate::Dark;
+        lines.push_back(str_cat(counted(space.probe_count, "probe"), " around ", place,
+                                is_dark ? " would get no light and " : " cannot be reached and ",
+                                space.probe_count == 1 ? "was" : "were", " dropped; ",
+                                is_dark ? "--keep-dark or --from " : "--from ", place,
+                                " would keep them"));
+    }
+    if (smaller_count > 0) {
+        lines.push_back(str_cat("and ", smaller_count,
+                                " smaller spaces; --unreachable keep --keep-dark keeps all"));
     }
 }
 
 void add_empty_spaces(const ProbeGrid& grid, std::vector<std::string>& lines) {
-    for (size_t i = 0; i < std::min(grid.empty_spaces.size(), kMostLines); ++i) {
-        const EmptySpace& space = grid.empty_spaces[i];
+    uint64_t count = 0;
+    for (const Space& space : grid.spaces) {
+        if (space.probe_count > 0 || space.fate == SpaceFate::Dark) continue;
+        if (++count > kMostLines) continue;
         const std::string place = place_text(space.position);
-        lines.push_back(str_cat("the space around ", place, " has no probes; ",
-                                space.is_wanted ? "a smaller --spacing would give it some"
-                                                : "--from " + place + " would ask for some"));
-    }
-    if (grid.empty_spaces.size() > kMostLines) {
         lines.push_back(
-            str_cat("and ", grid.empty_spaces.size() - kMostLines, " more spaces have no probes"));
+            str_cat("the space around ", place, " has no probes; ",
+                    space.fate == SpaceFate::Filled
+                        ? "more --max-probes or a smaller --clearance would give it some"
+                        : "--from " + place + " would ask for some"));
     }
+    if (count > kMostLines) {
+        lines.push_back(str_cat("and ", count - kMostLines, " more spaces have no probes"));
+    }
+}
+
+void add_darkness(const ProbeGrid& grid, std::vector<std::string>& lines) {
+    const bool is_lit =
+        std::ranges::any_of(grid.spaces, [](const Space& space) { return !space.light.is_dark(); });
+    if (!is_lit) lines.emplace_back("no light of the scene reaches any space; add one with --sky");
 }
 
 }  // namespace
@@ -131,16 +195,22 @@ Json grid_json(const std::string& output, const ProbeGrid& grid) {
               {"kept_in_place", grid.count(Fate::Kept)},
               {"pushed", grid.count(Fate::Pushed)}};
     for (const Reason& reason : kReasons) json[reason.key] = grid.count(reason.fate);
-    Json pockets = Json::array();
-    for (const DroppedSpace& pocket : grid.dropped_spaces) {
-        pockets.push_back({{"probes", pocket.probe_count}, {"position", to_json(pocket.position)}});
+    json["added"] = grid.count(Fate::Added);
+    Json spaces = Json::array();
+    for (const Space& space : grid.spaces) {
+        spaces.push_back({{"position", to_json(space.position)},
+                          {"volume", space.volume},
+                          {"probes", space.probe_count},
+                          {"sky", space.light.has_sky},
+                          {"lights", space.light.has_lights},
+                          {"from", space.has_seed},
+                          {"fate", name_of(space.fate)}});
     }
-    json["pockets"] = pockets;
-    Json empty = Json::array();
-    for (const EmptySpace& space : grid.empty_spaces) {
-        empty.push_back({{"position", to_json(space.position)}, {"is_wanted", space.is_wanted}});
-    }
-    json["empty_spaces"] = empty;
+    json["spaces"] = spaces;
+    json["coverage"] = {{"places", grid.coverage.place_count()},
+                        {"covered", grid.coverage.share(Cover::Covered)},
+                        {"outside", grid.coverage.share(Cover::HullCell)},
+                        {"unseen", grid.coverage.share(Cover::Unseen)}};
     Json bins = Json::array();
     const auto counts = histogram(grid);
     for (size_t i = 0; i < counts.size(); ++i) {
@@ -160,7 +230,8 @@ std::string grid_text(const std::string& output, const ProbeGrid& grid) {
         rows.push_back({words, grouped(count), fraction_text(count, grid.candidate_count)});
     };
     add("kept where it stood", grid.count(Fate::Kept));
-    add("pushed", grid.count(Fate::Pushed));
+    add("pushed, or taken to a wall", grid.count(Fate::Pushed));
+    add("added at walls and out of sight", grid.count(Fate::Added));
     for (const Reason& reason : kReasons) {
         if (grid.count(reason.fate) > 0)
             add(str_cat("dropped: ", reason.words), grid.count(reason.fate));
@@ -169,13 +240,14 @@ std::string grid_text(const std::string& output, const ProbeGrid& grid) {
                    counted(grid.groups.size(), "group"), ", of ",
                    counted(grid.candidate_count, "candidate"), "\n",
                    grid.adaptive ? adaptive_text(*grid.adaptive) : "", aligned(rows, "lrr"),
-                   histogram_text(grid));
+                   coverage_text(grid), spaces_text(grid), histogram_text(grid));
 }
 
 std::vector<std::string> grid_warnings(const ProbeGrid& grid, const ProbeGridSettings& settings) {
     std::vector<std::string> lines;
-    add_pockets(grid, lines);
+    add_left_out(grid, lines);
     add_empty_spaces(grid, lines);
+    add_darkness(grid, lines);
     for (const std::string& name : grid.adjustments_outside) {
         lines.push_back(
             str_cat("adjustment volume \"", name, "\" lies outside of the box to fill"));

@@ -24,7 +24,7 @@ std::optional<WorldBox> box_in(const Values& values) {
 void check_mode(const Values& values, PlacementMode mode) {
     const bool is_adaptive = mode == PlacementMode::Adaptive;
     if (!values.is_given("spacing") && !is_adaptive) require(values, "spacing");
-    for (const char* name : {"target_error", "time_budget", "bounces", "seed"}) {
+    for (const char* name : {"target_error", "error", "time_budget", "bounces", "seed"}) {
         if (is_adaptive || !values.is_given(name)) continue;
         refuse(values, name, str_cat("is for ", values.shown("mode"), " adaptive"));
     }
@@ -37,6 +37,7 @@ AdaptiveSettings adaptive_settings(const Values& values) {
     AdaptiveSettings settings;
     if (values.is_given("spacing")) settings.start_spacing = vec3(values, "spacing");
     settings.target_error = values.number("target_error");
+    settings.error_kind = choice<ErrorKind>(values, "error");
     settings.time_budget_seconds = values.number("time_budget");
     settings.bake.bounces = values.integer32("bounces");
     settings.bake.seed = values.integer("seed");
@@ -65,7 +66,9 @@ ProbeGridSettings grid_settings(const Values& values) {
     settings.bounds_of = values.texts("bounds_of");
     settings.heights = values.numbers("heights");
     if (values.is_given("clearance")) settings.clearance = values.number("clearance");
+    if (values.is_given("agent_radius")) settings.agent_radius = values.number("agent_radius");
     settings.from = seeds_in(values);
+    settings.dark = values.flag("keep_dark") ? DarkSpaces::Keep : DarkSpaces::Drop;
     settings.unreachable = choice<UnreachableSpaces>(values, "unreachable");
     settings.region_size = values.number("region_size");
     settings.name = values.text("name");

@@ -9,11 +9,13 @@
 #include <optional>
 #include <utility>
 
+#include <tetralight/bake/placement/light_difference.h>
 #include <tetralight/bake/placement/light_pool.h>
 #include <tetralight/bake/placement/refine_cells.h>
 #include <tetralight/bake/placement/remove_probes.h>
 #include <tetralight/bake/placement/sensor_errors.h>
 #include <tetralight/bake/placement/sensors.h>
+#include <tetralight/bake/placement/sights.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/str_cat.h>
 
@@ -28,11 +30,14 @@ constexpr uint32_t kCheckEvery = 4;
 constexpr double kGrowth = 0.25;
 /// Refinement goes beyond the targets by these factors, so that removal has a choice.
 constexpr double kBeyondCount = 1.3, kBeyondError = 0.9;
+/// Refinement goes on until this share of places is uncovered, or hardly falls.
+constexpr double kUncovered = 0.005, kHardlyLess = 0.9;
 /// The maximum noise of the sensors, as a fraction of the error.
 constexpr double kMaxNoise = 0.5;
-/// Rounds of replacing the least useful probes, and the fraction that is replaced.
-constexpr int kReplacements = 8;
-constexpr double kReplacedFraction = 0.2;
+/// Rounds of replacing the least useful probes at most, the fraction that is replaced at first, and
+/// the one at which it ends.
+constexpr int kReplacements = 24;
+constexpr double kReplacedFraction = 0.2, kLeastFraction = 0.02;
 
 class AdaptiveGrid {
   public:
@@ -43,7 +48,8 @@ class AdaptiveGrid {
           callback_(callback),
           pool_(input.scene, pool_settings(input, settings)),
           places_(input.traced, input.bounds, input.clearance, input.is_allowed),
-          remover_(pool_) {}
+          sights_(input.traced, pool_),
+          remover_({pool_, sights_, scale_}) {}
 
     Result<AdaptiveReport> run(std::vector<PlacedProbe>& probes,
                                const std::vector<bool>& is_protected) {
@@ -71,7 +77,10 @@ class AdaptiveGrid {
         std::vector<uint32_t> probes;  ///< indices in the pool
         ProbeVolume volume;
         std::vector<SensorError> errors;  ///< one for each sensor used for decisions
+        /// At the other sensors: the error without noise, the mean square, and the mean cost.
         double error = std::numeric_limits<double>::infinity();
+        double mean_square = 0.0;
+        double cost = std::numeric_limits<double>::infinity();
     };
 
     static BakeSettings pool_settings(const AdaptiveInput& input,
@@ -131,28 +140,57 @@ class AdaptiveGrid {
         return pool_.bake([this](const BakeProgress&) { return report_progress(); });
     }
 
+    /// Errors are relative to the mean light of the first sensors.
+    void set_scale() {
+        double sum = 0.0;
+        for (const uint32_t sensor : sensors_) sum += mean_irradiance(pool_.light(sensor));
+        scale_ = {settings_.error_kind, sum / static_cast<double>(sensors_.size())};
+        remover_.set_scale(scale_);
+        has_scale_ = true;
+    }
+
+    /// Asks for more samples where the light is noisier than errors may be. Returns false if it is
+    /// not, or if no position can have more.
+    bool add_samples() {
+        const double most = kMaxNoise * std::max(set_.error, settings_.target_error);
+        if (mean_noise(pool_, checks_, scale_) < most) return false;
+        bool is_any = false;
+        for (uint32_t i = 0; i < pool_.size(); ++i) {
+            const bool is_noisy = noise_square(pool_, i, scale_) > 0.5 * most * most;
+            if (is_noisy && pool_.double_samples(i)) is_any = true;
+        }
+        return is_any;
+    }
+
     /// Computes the light and the errors of the set, with more samples until errors exceed the
     /// noise.
     Status measure_errors() {
-        while (true) {
+        do {
             add_sensors();
-            if (checks_.empty()) {
+            if (checks_.empty() || sensors_.empty()) {
                 return Error{ErrorCode::InvalidArgument, "bounds", "",
                              "the bounds have no free position off surfaces to measure light at"};
             }
             if (auto status = bake(); !status) return status;
+            if (!has_scale_) set_scale();
             set_.volume = volume_of(pool_, set_.probes);
-            const auto errors =
-                sensor_errors(set_.volume, pool_, checks_, nullptr, input_.thread_count);
-            const double error = relative_error(errors, pool_, checks_);
-            const double noise = relative_noise(pool_, checks_);
+            const auto errors = sensor_errors(set_.volume, set_.probes, checks_,
+                                              {pool_, sights_, scale_}, input_.thread_count);
+            const double error = mean_error(errors);
+            const double noise = mean_noise(pool_, checks_, scale_);
             set_.error = std::sqrt(std::max(0.0, error * error - noise * noise));
-            if (noise < kMaxNoise * std::max(set_.error, settings_.target_error)) break;
-            if (!pool_.double_sample_count()) break;
-        }
-        set_.errors =
-            sensor_errors(set_.volume, pool_, sensors_, &input_.traced, input_.thread_count);
+            set_.mean_square = error * error;
+            set_.cost = sum_of_costs(errors) / static_cast<double>(errors.size());
+        } while (add_samples());
+        set_.errors = sensor_errors(set_.volume, set_.probes, sensors_, {pool_, sights_, scale_},
+                                    input_.thread_count);
         return Ok{};
+    }
+
+    [[nodiscard]] static double sum_of_costs(const std::vector<SensorError>& errors) {
+        double sum = 0.0;
+        for (const SensorError& error : errors) sum += error.cost();
+        return sum;
     }
 
     /// Makes the set the result so far.
@@ -163,8 +201,14 @@ class AdaptiveGrid {
         return Ok{};
     }
 
+    /// Of the sensors that are not used for decisions.
+    [[nodiscard]] static double uncovered_share(const Set& set) {
+        return (set.cost - set.mean_square) / SensorError::kUncovered;
+    }
+
     Status refine() {
         const double most = kBeyondCount * static_cast<double>(input_.max_probes);
+        double uncovered = 1.0;
         while (true) {
             if (auto status = measure_errors(); !status) return status;
             // A set with too many probes is not a result.
@@ -172,7 +216,9 @@ class AdaptiveGrid {
                 if (auto status = accept(); !status) return status;
             }
             report_.end = AdaptiveEnd::TargetReached;
-            if (set_.error <= kBeyondError * settings_.target_error) return Ok{};
+            const double before = std::exchange(uncovered, uncovered_share(set_));
+            const bool is_covered = uncovered <= kUncovered || uncovered > kHardlyLess * before;
+            if (is_covered && set_.error <= kBeyondError * settings_.target_error) return Ok{};
             report_.end = AdaptiveEnd::MaxProbes;
             const auto room = most - static_cast<double>(set_.probes.size());
             if (room < 1.0) return Ok{};
@@ -182,31 +228,22 @@ class AdaptiveGrid {
         }
     }
 
-    /// Adds probes where errors are largest; returns their number.
+    /// Adds probes where places cost most; returns their number.
     size_t insert(size_t room) {
         const auto growth = static_cast<size_t>(kGrowth * static_cast<double>(set_.probes.size()));
-        const RefineRule rule{
-            input_.clearance,
-            [this](uint32_t sensor) { return has_clearance(pool_.position(sensor)); },
-            [this](const glm::dvec3& p) { return has_clearance(p) && input_.is_allowed(p); },
-            std::min(room, std::max<size_t>(growth, 16))};
         std::vector<bool> is_member(pool_.size(), false);
         for (const uint32_t probe : set_.probes) is_member[probe] = true;
-        const Refinement refinement =
-            refine_cells({set_.volume, pool_, sensors_, set_.errors, input_.traced}, rule);
-        size_t count = 0;
-        for (const uint32_t sensor : refinement.sensors) {
-            if (is_member[sensor] || count == room) continue;
-            set_.probes.push_back(sensor);
-            ++count;
-        }
-        for (const glm::dvec3& position : refinement.positions) {
-            if (count == room) break;
-            set_.probes.push_back(add_to_pool(position));
-            ++count;
-        }
+        const RefineRule rule{input_.clearance,
+                              [&](uint32_t sensor) {
+                                  return !is_member[sensor] &&
+                                         has_clearance(pool_.position(sensor));
+                              },
+                              std::min(room, std::max<size_t>(growth, 16))};
+        const std::vector<uint32_t> found =
+            refine_cells({set_.volume, pool_, sensors_, set_.errors}, rule);
+        set_.probes.insert(set_.probes.end(), found.begin(), found.end());
         report_.peak_probe_count = std::max<uint64_t>(report_.peak_probe_count, set_.probes.size());
-        return count;
+        return found.size();
     }
 
     /// True if a probe at the position keeps the clearance. Sensors may be closer to surfaces.
@@ -218,13 +255,13 @@ class AdaptiveGrid {
                double{glm::distance(*nearest, position)} >= kRounding * input_.clearance;
     }
 
-    /// The sum of squares over all sensors that corresponds to an error, in proportion to the
-    /// set's.
-    [[nodiscard]] double sum_at(double error) const {
-        double sum = 0.0;
-        for (const SensorError& e : set_.errors) sum += double{e.square};
+    /// The sum of costs that corresponds to an error, in proportion to the set's, while no more
+    /// places are uncovered.
+    [[nodiscard]] double cost_at(double error) const {
+        double squares = 0.0;
+        for (const SensorError& e : set_.errors) squares += double{e.square};
         const double ratio = set_.error > 0.0 ? error / set_.error : 1.0;
-        return sum * ratio * ratio;
+        return sum_of_costs(set_.errors) + squares * (ratio * ratio - 1.0);
     }
 
     [[nodiscard]] std::vector<uint32_t> spaces_of(const std::vector<uint32_t>& probes) const {
@@ -238,7 +275,7 @@ class AdaptiveGrid {
     /// Removes probes down to a number, while the error stays below the maximum. Returns false if
     /// no probe could be removed.
     Result<bool> remove(size_t min_count, double max_error) {
-        const RemoveRule rule{std::max<size_t>(min_count, 4), sum_at(max_error), 0.125,
+        const RemoveRule rule{std::max<size_t>(min_count, 4), cost_at(max_error), 0.125,
                               input_.thread_count};
         auto left = remover_.pass({set_.probes, spaces_of(set_.probes), set_.volume, sensors_,
                                    set_.errors, is_protected_},
@@ -257,6 +294,7 @@ class AdaptiveGrid {
             if (!removed) return removed.error();
             if (!*removed) break;  // all remaining probes are protected
         }
+        if (best_ && best_->cost < set_.cost) set_ = *best_;
         if (auto status = accept(); !status) return status;
         if (report_.end == AdaptiveEnd::TargetReached || set_.error <= settings_.target_error) {
             report_.end = AdaptiveEnd::TargetReached;
@@ -276,20 +314,22 @@ class AdaptiveGrid {
         return Ok{};
     }
 
-    /// Moves the least useful probes; fewer of them after a round without improvement.
+    /// Moves the least useful probes while that helps; fewer of them after a round that did not.
     Status replace() {
         double fraction = kReplacedFraction;
-        for (int i = 0; i < kReplacements; ++i) {
-            const size_t count = set_.probes.size();
-            const auto room = static_cast<size_t>(fraction * static_cast<double>(count));
-            if (insert(room) == 0) break;
+        for (int i = 0; i < kReplacements && fraction >= kLeastFraction; ++i) {
+            // A set that is smaller than the maximum has room for more.
+            const auto count = static_cast<size_t>(input_.max_probes);
+            const size_t unused = count - std::min(count, set_.probes.size());
+            const auto room = static_cast<size_t>(std::ceil(fraction * static_cast<double>(count)));
+            if (insert(unused + room) == 0) break;
             if (auto status = measure_errors(); !status) return status;
             while (set_.probes.size() > count) {
                 const auto removed = remove(count, std::numeric_limits<double>::max());
                 if (!removed) return removed.error();
                 if (!*removed) break;
             }
-            const bool is_better = set_.error < best_->error && set_.probes.size() <= count;
+            const bool is_better = set_.cost < best_->cost && set_.probes.size() <= count;
             if (is_better) {
                 if (auto status = accept(); !status) return status;
                 continue;
@@ -323,7 +363,7 @@ class AdaptiveGrid {
         report_.error = best_->error;
         report_.position_count = pool_.size();
         report_.sample_count = pool_.sample_count();
-        report_.ray_count = pool_.ray_count();
+        report_.ray_count = pool_.ray_count() + sights_.ray_count();
     }
 
     const AdaptiveInput& input_;
@@ -332,6 +372,8 @@ class AdaptiveGrid {
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     LightPool pool_;
     SensorSequence places_;
+    ErrorScale scale_;
+    Sights sights_;
     ProbeRemover remover_;
     AdaptiveReport report_;
     Set set_;
@@ -342,6 +384,7 @@ class AdaptiveGrid {
     std::vector<uint32_t> sensors_, checks_;
     uint32_t sensor_count_ = 0;
     bool is_removing_ = false;
+    bool has_scale_ = false;
 };
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <tetralight/bake/bake_settings.h>
+#include <tetralight/bake/placement/error_scale.h>
 #include <tetralight/bake/placement/free_space.h>
-#include <tetralight/bake/placement/free_space_map.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/bake/scene/scene_bounds.h>
@@ -21,8 +21,9 @@ struct AdaptiveSettings {
     /// Spacing of the start lattice, metres. Default: an eighth of the longest side.
     std::optional<glm::dvec3> start_spacing;
     /// Refinement ends at this error of the interpolated light: root mean square over positions,
-    /// normals and channels, as a fraction of the mean irradiance.
+    /// normals and channels, as a fraction of the irradiance that `error_kind` says.
     double target_error = 0.05;
+    ErrorKind error_kind = ErrorKind::Mixed;
     /// Refinement ends after this time, seconds; 0 = no limit. The result is not reproducible.
     double time_budget_seconds = 0.0;
     /// Settings of the light: bounces, surfaces, clamp, seed. Sample counts are ignored: the
@@ -48,7 +49,7 @@ enum class AdaptiveEnd : uint8_t {
     MaxProbes,
     TimeOver,
     Interrupted,
-    NothingToRefine,  ///< all errors are noise, or no better position is free
+    NothingToRefine,  ///< no position that costs anything may have a probe
 };
 
 /// The name in reports: "target reached"...
@@ -64,9 +65,9 @@ struct AdaptiveReport {
     /// Probes at the start, and the largest number before removal.
     uint64_t start_probe_count = 0;
     uint64_t peak_probe_count = 0;
-    /// Positions whose light was baked, samples of each, and rays.
+    /// Positions whose light was baked, samples of all of them, and rays.
     uint64_t position_count = 0;
-    uint32_t sample_count = 0;
+    uint64_t sample_count = 0;
     uint64_t ray_count = 0;
 };
 
@@ -80,16 +81,18 @@ struct AdaptiveInput {
     std::function<bool(const glm::dvec3& position)> is_allowed;
     /// Returns the space of a position. Each space keeps probes that span what its start spans.
     std::function<uint32_t(const glm::dvec3& position)> space_of;
-    /// Additional sensors, in small spaces that evenly distributed sensors miss.
+    /// Positions with clearance for additional sensors, in small spaces that evenly distributed
+    /// ones miss.
     std::vector<glm::dvec3> sensors;
     uint64_t max_probes = 0;
     uint32_t thread_count = 0;
 };
 
 /// Places probes where the light changes. Starts with the kept ones of `probes`, refines the cells
-/// whose interpolated light is wrong, round by round, and then removes the probes with the least
-/// effect. Updates the fates in `probes` and appends new probes. Probes with `is_protected` (one
-/// flag for each of `probes`, or none at all) are not removed. Deterministic without a time budget.
+/// whose places are not covered or whose interpolated light is wrong, round by round, then removes
+/// the probes with the least effect, and moves the least useful ones while that helps. Updates the
+/// fates in `probes` and appends new probes. Probes with `is_protected` (one flag for each of
+/// `probes`, or none at all) are not removed. Deterministic without a time budget.
 ///
 /// If the callback cancels or the time is over, the result is that of the last round. Returns
 /// cancelled, or invalid_argument with the field `time_budget`, if there is no round yet, and

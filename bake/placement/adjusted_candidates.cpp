@@ -35,12 +35,10 @@ Status add(const TraceScene& traced, std::span<const ProbeAdjustment> adjustment
            std::vector<Candidate>& candidates) {
     const auto positions = make_candidates(traced, mode, rule);
     if (!positions) return positions.error();
-    const glm::dvec3& s = rule.spacing;
     candidates.reserve(candidates.size() + positions->size());
-    const double max_push = kMaxPushFraction * std::min({s.x, s.y, s.z});
     for (const glm::dvec3& position : *positions) {
         if (adjustment_at(adjustments, position).spacing != owner) continue;
-        candidates.push_back({position, max_push, owner != nullptr});
+        candidates.push_back({position, rule.spacing, owner != nullptr});
     }
     return check_candidate_count(static_cast<double>(candidates.size()), rule.max_count);
 }
@@ -87,7 +85,8 @@ std::vector<PlacedProbe> place_candidates(const TraceScene& traced,
                                           const CandidateRule& rule) {
     std::vector<PlacedProbe> placed(candidates.size());
     parallel_for(candidates.size(), rule.thread_count, [&](size_t i) {
-        const auto& [position, max_push, is_adjusted] = candidates[i];
+        const auto& [position, spacing, is_adjusted] = candidates[i];
+        const double max_push = kMaxPushFraction * std::min({spacing.x, spacing.y, spacing.z});
         placed[i] = {position, Fate::Forbidden, 0.0f};
         if (adjustment_at(adjustments, position).forbids_probes) return;
         placed[i] = place_probe(traced, position, {rule.clearance, max_push, rule.bounds});

@@ -18,8 +18,8 @@ namespace tetralight {
 /// A candidate from the grid's spacing, or from an adjustment volume.
 struct Candidate {
     glm::dvec3 position{0.0};
-    /// The maximum distance that it may be pushed, metres.
-    double max_push = 0.0;
+    /// Metres to the next candidate along each axis.
+    glm::dvec3 spacing{1.0};
     /// True if it comes from the spacing of an adjustment volume.
     bool is_adjusted = false;
 };
@@ -34,7 +34,8 @@ struct Candidate {
     const TraceScene& traced, std::span<const ProbeAdjustment> adjustments, PlacementMode mode,
     const CandidateRule& rule);
 
-/// `place_probe` for each candidate; Fate::Forbidden where a volume forbids probes.
+/// `place_probe` for each candidate, with pushes of less than half its spacing; Fate::Forbidden
+/// where a volume forbids probes.
 [[nodiscard]] std::vector<PlacedProbe> place_candidates(
     const TraceScene& traced, std::span<const ProbeAdjustment> adjustments,
     std::span<const Candidate> candidates, const CandidateRule& rule);

@@ -70,9 +70,9 @@ Result<std::vector<glm::dvec3>> join_lines(const std::vector<glm::dvec3>& lines,
     return all;
 }
 
-bool is_floor(const LineHit& hit) {
+bool is_floor(const SurfaceSide& side) {
     constexpr float kMinCosine = 0.5f;
-    return !hit.side.is_back_face && hit.side.normal.y > kMinCosine;
+    return !side.is_back_face && side.normal.y > kMinCosine;
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
     if (!columns) return columns.error();
     auto candidates = join_lines(*columns, rule, [&](const glm::dvec3& column, auto& found) {
         for (const LineHit& hit : hits_along(traced, rule.bounds, column, kUp)) {
-            if (!is_floor(hit)) continue;
+            if (!is_floor(hit.side)) continue;
             const glm::vec3 foot =
                 traced.ray_origin(hit.side, traced.render_from_world(hit.position), {0, 1, 0});
             for (const double height : rule.heights) {
@@ -106,6 +106,12 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
                              columns->size(), " columns")};
     }
     return candidates;
+}
+
+std::optional<double> height_above_floor(const TraceScene& traced, const glm::dvec3& position) {
+    const auto side = traced.intersect_side({traced.render_from_world(position), {0, -1, 0}});
+    if (!side || !is_floor(*side)) return std::nullopt;
+    return double{side->distance};
 }
 
 Result<std::vector<glm::dvec3>> surface_candidates(const TraceScene& traced,

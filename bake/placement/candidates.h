@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct CandidateRule {
 /// the floor, and those outside of the bounds. Returns invalid_argument if there is no position.
 [[nodiscard]] Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
                                                                const CandidateRule& rule);
+
+/// Metres from a world position down to the floor below it: none if the nearest surface below is
+/// not one.
+[[nodiscard]] std::optional<double> height_above_floor(const TraceScene& traced,
+                                                       const glm::dvec3& position);
 
 /// Positions on both sides of every surface in the bounds, at the clearance, about one `spacing`
 /// apart: where lines along an axis hit surfaces whose normal is closest to this axis. Skips

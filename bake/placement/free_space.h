@@ -18,15 +18,18 @@ enum class Fate : uint8_t {
     Inside,       ///< inside geometry, with no free position in reach of a push
     TooClose,     ///< closer to a surface than the clearance, with no free position in reach
     Unreachable,  ///< in a space that is not to be filled
+    Dark,         ///< in a space that no light reaches
     Forbidden,    ///< in an adjustment volume that forbids probes
     Crowded,      ///< too close to another probe
     Redundant,    ///< the light is as accurate without it
+    Added,  ///< kept: no candidate, but without it a place would be outside of the tetrahedra,
+            ///< or out of sight of all probes
 };
 
-inline constexpr int kFateCount = 8;
+inline constexpr int kFateCount = 10;
 
 [[nodiscard]] inline bool is_kept(Fate fate) {
-    return fate == Fate::Kept || fate == Fate::Pushed;
+    return fate == Fate::Kept || fate == Fate::Pushed || fate == Fate::Added;
 }
 
 /// Which positions probes may have.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <tetralight/bake/parallel.h>
@@ -12,10 +13,12 @@
 namespace tetralight {
 namespace {
 
-constexpr double kStep = 0.5;
-constexpr double kMaxPoints = 1 << 20;
-/// Points closer to a surface than this fraction of a step belong to neither side.
-constexpr float kOnSurface = 1e-4f;
+constexpr double kStep = 0.25, kLeastStep = 0.1;
+constexpr double kMaxPoints = 1 << 21;
+/// Doors of this width have points in them, metres.
+constexpr double kDoor = 0.8;
+/// A body that touches surfaces passes, in spite of rounding.
+constexpr float kRounding = 0.999f;
 
 /// Half of the 26 neighbors: those that come later in the order of the points.
 std::vector<glm::ivec3> later_neighbors() {
@@ -31,9 +34,11 @@ std::vector<glm::ivec3> later_neighbors() {
     return offsets;
 }
 
-Lattice make_lattice_around(const WorldBox& bounds, const glm::dvec3& spacing) {
+Lattice make_lattice_around(const FreeSpaceMap::Rule& rule) {
+    const WorldBox& bounds = rule.bounds;
+    const double widest = std::clamp(kDoor - 2.0 * rule.radius, kLeastStep, kStep);
     glm::dvec3 step;
-    for (int axis = 0; axis < 3; ++axis) step[axis] = std::min(spacing[axis], kStep);
+    for (int axis = 0; axis < 3; ++axis) step[axis] = std::min(rule.spacing[axis], widest);
     const auto count_along = [&](int axis) {
         return std::ceil(bounds.size()[axis] / step[axis]) + 3.0;
     };
@@ -45,6 +50,12 @@ Lattice make_lattice_around(const WorldBox& bounds, const glm::dvec3& spacing) {
         points.axes[axis] = {first, step[axis], static_cast<uint64_t>(count)};
     }
     return points;
+}
+
+/// The longest way to a neighbor, metres.
+double diagonal_of(const Lattice& lattice) {
+    return glm::length(
+        glm::dvec3(lattice.axes[0].spacing, lattice.axes[1].spacing, lattice.axes[2].spacing));
 }
 
 /// Where a point lies in the order of the lattice, by its layers.
@@ -70,48 +81,83 @@ glm::ivec3 layers_of(const Lattice& lattice, uint64_t i) {
 
 }  // namespace
 
-FreeSpaceMap::FreeSpaceMap(const TraceScene& traced, const WorldBox& bounds,
-                           const glm::dvec3& spacing, uint32_t thread_count)
-    : traced_(traced), lattice_(make_lattice_around(bounds, spacing)) {
-    fill(thread_count);
+FreeSpaceMap::FreeSpaceMap(const TraceScene& traced, const Rule& rule)
+    : traced_(traced),
+      lattice_(make_lattice_around(rule)),
+      radius_(static_cast<float>(rule.radius)),
+      far_(radius_ + static_cast<float>(diagonal_of(lattice_))) {
+    fill(rule.thread_count);
 }
 
 glm::vec3 FreeSpaceMap::point(uint64_t i) const {
     return traced_.render_from_world(lattice_.at(i));
 }
 
+double FreeSpaceMap::point_volume() const {
+    return lattice_.axes[0].spacing * lattice_.axes[1].spacing * lattice_.axes[2].spacing;
+}
+
+float FreeSpaceMap::distance_at(glm::vec3 position) const {
+    const auto nearest = traced_.nearest_surface(position, far_);
+    return nearest ? glm::distance(*nearest, position) : far_;
+}
+
+/// Steps along the way, each as long as the room around the ball allows.
+bool FreeSpaceMap::passes(glm::vec3 from, glm::vec3 to, float radius) const {
+    if (from == to) return true;
+    if (!is_visible(traced_, from, to)) return false;
+    if (!(radius > 0.0f)) return true;
+    constexpr float kShortest = 0.1f;  // of the radius
+    const float length = glm::distance(from, to);
+    for (float way = 0.0f; way < length;) {
+        const float room = distance_at(glm::mix(from, to, way / length)) - kRounding * radius;
+        if (room < 0.0f) return false;
+        way += std::max(room, kShortest * radius);
+    }
+    return distance_at(to) >= kRounding * radius;
+}
+
+bool FreeSpaceMap::is_linked(uint64_t a, uint64_t b) const {
+    const glm::vec3 from = point(a), to = point(b);
+    // Between two points the distance falls by at most the way to the nearer one.
+    const float narrowest = 0.5f * (distances_[a] + distances_[b] - glm::distance(from, to));
+    return (narrowest > 0.0f && narrowest >= radius_) || passes(from, to, radius_);
+}
+
 void FreeSpaceMap::fill(uint32_t thread_count) {
     const auto count = static_cast<uint32_t>(lattice_.count());
     const std::vector<glm::ivec3> offsets = later_neighbors();
-    const float on_surface = kOnSurface * static_cast<float>(std::min({lattice_.axes[0].spacing,
-                                                                       lattice_.axes[1].spacing,
-                                                                       lattice_.axes[2].spacing}));
-    std::vector<uint8_t> blocked(count, 0);
+    distances_.resize(count);
+    parallel_for(count, thread_count, [&](size_t i) { distances_[i] = distance_at(point(i)); });
     std::vector<uint16_t> links(count, 0);
     parallel_for(count, thread_count, [&](size_t i) {
-        const glm::vec3 here = point(i);
-        const auto nearest = traced_.nearest_surface(here);
-        blocked[i] = nearest && glm::distance(*nearest, here) < on_surface;
+        if (!has_room(i)) return;
         const glm::ivec3 layers = layers_of(lattice_, i);
-        for (size_t n = 0; n < offsets.size() && blocked[i] == 0; ++n) {
+        for (size_t n = 0; n < offsets.size(); ++n) {
             const glm::ivec3 there = layers + offsets[n];
-            if (!is_in(lattice_, there) ||
-                !is_visible(traced_, here, point(index_at(lattice_, there)))) {
-                continue;
-            }
+            if (!is_in(lattice_, there)) continue;
+            const uint64_t other = index_at(lattice_, there);
+            if (!has_room(other) || !is_linked(i, other)) continue;
             links[i] = static_cast<uint16_t>(links[i] | 1u << n);
         }
     });
     parent_.resize(count);
     for (uint32_t i = 0; i < count; ++i) parent_[i] = i;
-    is_blocked_.assign(blocked.begin(), blocked.end());
     for (uint32_t i = 0; i < count; ++i) {
         for (size_t n = 0; n < offsets.size(); ++n) {
             if ((links[i] >> n & 1u) == 0) continue;
             const uint64_t there = index_at(lattice_, layers_of(lattice_, i) + offsets[n]);
-            if (!is_blocked_[there]) unite(i, static_cast<uint32_t>(there));
+            unite(i, static_cast<uint32_t>(there));
         }
     }
+}
+
+bool FreeSpaceMap::has_room(uint64_t i) const {
+    // Points on a surface belong to neither side.
+    const double least =
+        std::min({lattice_.axes[0].spacing, lattice_.axes[1].spacing, lattice_.axes[2].spacing});
+    constexpr double kOnSurface = 1e-4;
+    return distances_[i] >= std::max(kRounding * radius_, static_cast<float>(kOnSurface * least));
 }
 
 uint32_t FreeSpaceMap::root(uint32_t point) const {
@@ -133,7 +179,7 @@ void FreeSpaceMap::unite(uint32_t a, uint32_t b) {
     }
 }
 
-void FreeSpaceMap::append_visible(const glm::dvec3& position, int reach,
+void FreeSpaceMap::append_reached(const glm::dvec3& position, int reach, float radius,
                                   std::vector<uint32_t>& points) const {
     glm::ivec3 first;
     for (int axis = 0; axis < 3; ++axis) {
@@ -149,33 +195,33 @@ void FreeSpaceMap::append_visible(const glm::dvec3& position, int reach,
                 const glm::ivec3 layers = first + glm::ivec3(x, y, z);
                 if (!is_in(lattice_, layers)) continue;
                 const uint64_t i = index_at(lattice_, layers);
-                if (is_blocked_[i]) continue;
-                const glm::vec3 to = point(i);
-                if (to == from || is_visible(traced_, from, to))
+                if (has_room(i) && passes(from, point(i), radius))
                     points.push_back(static_cast<uint32_t>(i));
             }
         }
     }
 }
 
-std::vector<uint32_t> FreeSpaceMap::visible_points(const glm::dvec3& position) const {
+std::vector<uint32_t> FreeSpaceMap::reached_points(const glm::dvec3& position, float radius) const {
     std::vector<uint32_t> points;
     for (int reach = 0; reach <= 1 && points.empty(); ++reach)
-        append_visible(position, reach, points);
+        append_reached(position, reach, radius, points);
     return points;
 }
 
 void FreeSpaceMap::join(std::span<const glm::dvec3> positions, uint32_t thread_count) {
-    std::vector<std::vector<uint32_t>> seen(positions.size());
+    std::vector<std::vector<uint32_t>> reached(positions.size());
     parallel_for(positions.size(), thread_count,
-                 [&](size_t i) { seen[i] = visible_points(positions[i]); });
-    for (const std::vector<uint32_t>& points : seen) {
+                 [&](size_t i) { reached[i] = reached_points(positions[i], radius_); });
+    for (const std::vector<uint32_t>& points : reached) {
         for (const uint32_t point : points) unite(points.front(), point);
     }
 }
 
 uint32_t FreeSpaceMap::space_of(const glm::dvec3& position) const {
-    const std::vector<uint32_t> points = visible_points(position);
+    constexpr float kFits = 0.9f;
+    const float room = distance_at(traced_.render_from_world(position));
+    const std::vector<uint32_t> points = reached_points(position, std::min(radius_, kFits * room));
     return points.empty() ? kNoIndex : root(points.front());
 }
 
@@ -192,7 +238,7 @@ std::map<uint32_t, std::vector<glm::dvec3>> FreeSpaceMap::points_by_space(
     std::map<uint32_t, std::vector<glm::dvec3>> spaces;
     for (uint32_t i = 0; i < parent_.size(); ++i) {
         const glm::dvec3 position = lattice_.at(i);
-        if (!is_blocked_[i] && is_in(box, position)) spaces[root(i)].push_back(position);
+        if (has_room(i) && is_in(box, position)) spaces[root(i)].push_back(position);
     }
     return spaces;
 }

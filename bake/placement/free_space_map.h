@@ -16,50 +16,72 @@
 namespace tetralight {
 
 /// The spaces of a scene: connected parts of its free space. A flood fill over the points of a
-/// lattice joins neighbors (of 26) that are visible from each other.
+/// lattice joins neighbors (of 26) between which a ball of a given radius passes.
 ///
-///     FreeSpaceMap map(traced, bounds, spacing);
+///     FreeSpaceMap map(traced, {bounds, spacing, radius});
 ///     map.join(probes);
 ///     bool together = map.space_of(a) == map.space_of(b);
 class FreeSpaceMap {
   public:
-    /// The lattice covers the bounds and one step around them. Its step is half a metre, or
-    /// `spacing` if that is less, and larger if the lattice would have more than a million points.
-    /// An opening that no line between two points leads through counts as closed. Keeps a
-    /// reference.
-    FreeSpaceMap(const TraceScene& traced, const WorldBox& bounds, const glm::dvec3& spacing,
-                 uint32_t thread_count = 0);
+    struct Rule {
+        WorldBox bounds;
+        /// Metres between probes: spaces that hold one are found.
+        glm::dvec3 spacing{0.5};
+        /// Of the body that moves from space to space, metres; 0 = a point.
+        double radius = 0.0;
+        uint32_t thread_count = 0;
+    };
 
-    /// Joins the spaces that are visible from the same position, such as a probe in a door.
+    /// The lattice covers the bounds and one step around them. Its step is a quarter of a metre, or
+    /// less if the spacing is or if doors of 80 cm leave the body less; it is larger if the lattice
+    /// would have more than two million points. Keeps a reference.
+    FreeSpaceMap(const TraceScene& traced, const Rule& rule);
+
+    /// Joins the spaces that the body reaches from the same position, such as a probe in a door.
+    /// Positions where it does not fit join nothing.
     void join(std::span<const glm::dvec3> positions, uint32_t thread_count = 0);
 
-    /// The space of a world position, as a number that `join` may change; kNoIndex if no point is
-    /// visible from the position.
+    /// The space of a world position, as a number that `join` may change; kNoIndex if no way leads
+    /// to a point nearby. Where the body does not fit, the way is for one that does.
     [[nodiscard]] uint32_t space_of(const glm::dvec3& position) const;
 
     [[nodiscard]] std::vector<uint32_t> spaces_of(std::span<const glm::dvec3> positions,
                                                   uint32_t thread_count = 0) const;
 
-    /// The points in a box by their space, without points on surfaces.
+    /// The points in a box by their space, without those where the body does not fit.
     [[nodiscard]] std::map<uint32_t, std::vector<glm::dvec3>> points_by_space(
         const WorldBox& box) const;
 
     [[nodiscard]] bool contains(const glm::dvec3& position) const;
 
+    /// The volume for which one point stands, m³.
+    [[nodiscard]] double point_volume() const;
+
   private:
     void fill(uint32_t thread_count);
+    /// Metres to the nearest surface, at most `far_`.
+    [[nodiscard]] float distance_at(glm::vec3 position) const;
+    [[nodiscard]] bool passes(glm::vec3 from, glm::vec3 to, float radius) const;
+    /// True if the body fits at a point.
+    [[nodiscard]] bool has_room(uint64_t i) const;
+    [[nodiscard]] bool is_linked(uint64_t a, uint64_t b) const;
     [[nodiscard]] glm::vec3 point(uint64_t i) const;
     [[nodiscard]] uint32_t root(uint32_t point) const;
     void unite(uint32_t a, uint32_t b);
-    /// The points that are visible from a position: corners of its cell, or else of the cells
+    /// The points that a ball reaches from a position: corners of its cell, or else of the cells
     /// around it.
-    [[nodiscard]] std::vector<uint32_t> visible_points(const glm::dvec3& position) const;
-    void append_visible(const glm::dvec3& position, int reach, std::vector<uint32_t>& points) const;
+    [[nodiscard]] std::vector<uint32_t> reached_points(const glm::dvec3& position,
+                                                       float radius) const;
+    void append_reached(const glm::dvec3& position, int reach, float radius,
+                        std::vector<uint32_t>& points) const;
 
     const TraceScene& traced_;
     Lattice lattice_;
+    float radius_;
+    /// From here on the body passes from point to point whatever the distance is, metres.
+    float far_;
     std::vector<uint32_t> parent_;  ///< union-find: never larger than the point itself
-    std::vector<bool> is_blocked_;  ///< points on a surface, which belong to neither side
+    std::vector<float> distances_;  ///< `distance_at` the points
 };
 
 }  // namespace tetralight

@@ -36,6 +36,16 @@ Status check_name(const Scene& scene, const std::string& name) {
                  str_cat("there is no node \"", name, "\"")};
 }
 
+double tenth_of(const glm::dvec3& spacing) {
+    return 0.1 * std::min({spacing.x, spacing.y, spacing.z});
+}
+
+Result<double> checked_length(const char* name, double length) {
+    if (length >= 0.0 && std::isfinite(length)) return length;
+    return Error{ErrorCode::InvalidArgument, name, str_cat(length),
+                 str_cat(name, " ", length, " is not a length")};
+}
+
 }  // namespace
 
 Result<WorldBox> grid_bounds(const Scene& scene, const ProbeGridSettings& settings) {
@@ -126,14 +136,15 @@ Result<glm::dvec3> candidate_spacing(const WorldBox& bounds, const ProbeGridSett
 }
 
 Result<double> checked_clearance(const glm::dvec3& spacing, const ProbeGridSettings& settings) {
-    constexpr double kSpacingFraction = 0.1;
     const double longest = settings.mode == PlacementMode::Adaptive ? 0.05 : 0.25;
-    const double usual =
-        std::min(kSpacingFraction * std::min({spacing.x, spacing.y, spacing.z}), longest);
-    const double clearance = settings.clearance.value_or(usual);
-    if (clearance >= 0.0 && std::isfinite(clearance)) return clearance;
-    return Error{ErrorCode::InvalidArgument, "clearance", str_cat(clearance),
-                 str_cat("clearance ", clearance, " is not a length")};
+    const double usual = std::min(tenth_of(spacing), longest);
+    return checked_length("clearance", settings.clearance.value_or(usual));
+}
+
+Result<double> checked_agent_radius(const glm::dvec3& spacing, const ProbeGridSettings& settings) {
+    constexpr double kLongest = 0.25;
+    const double usual = std::min(tenth_of(spacing), kLongest);
+    return checked_length("agent_radius", settings.agent_radius.value_or(usual));
 }
 
 }  // namespace tetralight

@@ -35,4 +35,9 @@ namespace tetralight {
 [[nodiscard]] Result<double> checked_clearance(const glm::dvec3& spacing,
                                                const ProbeGridSettings& settings);
 
+/// Radius of the body that moves from space to space, metres. Returns invalid_argument if it is
+/// negative or not finite.
+[[nodiscard]] Result<double> checked_agent_radius(const glm::dvec3& spacing,
+                                                  const ProbeGridSettings& settings);
+
 }  // namespace tetralight

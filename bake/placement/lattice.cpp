@@ -39,8 +39,8 @@ bool is_flat(double size, double spacing) {
 /// The number of layers that fit; may exceed every integer type.
 double layer_count(double size, double spacing) {
     if (is_flat(size, spacing)) return 1.0;
-    // Bounds come from float vertices: a size just below a multiple of the spacing counts as one.
-    return std::max(2.0, std::floor(size / spacing + 1e-6));
+    // Bounds come from float vertices: a size just above a multiple of the spacing counts as one.
+    return std::max(2.0, std::ceil(size / spacing - 1e-6));
 }
 
 /// The spacing, reduced along axes where two layers would not fit.

@@ -43,7 +43,7 @@ struct Lattice {
 /// bounds are empty or not finite.
 [[nodiscard]] Result<double> lattice_count(const WorldBox& bounds, const glm::dvec3& spacing);
 
-/// A lattice centred in the bounds, half a spacing or more from their sides. An axis that is too
+/// A lattice centred in the bounds, half a spacing or less from their sides. An axis that is too
 /// short for two layers has two, a quarter of its length from its ends, so that there is light
 /// between them; a flat axis (thinner than a thousandth of the spacing) has one layer. Spacing and
 /// start are rounded to exact floats, by less than 1e-6 of the farthest coordinate, so that

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include <tetralight/bake/bake_progress.h>
@@ -14,8 +15,8 @@
 
 namespace tetralight {
 
-/// Light at positions that are added one by one. It is baked with few samples at first and with
-/// more on demand; earlier samples are kept.
+/// Light at positions that are added one by one. It is baked with few samples at first and, where
+/// it is asked for, with more; earlier samples are kept.
 class LightPool {
   public:
     /// The first and the maximum number of samples of a position.
@@ -39,24 +40,30 @@ class LightPool {
         return accumulators_[i].standard_error();
     }
 
-    [[nodiscard]] uint32_t sample_count() const { return sample_count_; }
+    /// Asks for twice the samples of a position. Returns false if it has the maximum number.
+    bool double_samples(uint32_t i);
 
+    /// Counts the calls of `bake` that changed light that was known before.
+    [[nodiscard]] uint32_t version() const { return version_; }
+
+    /// Of all positions.
+    [[nodiscard]] uint64_t sample_count() const;
     [[nodiscard]] uint64_t ray_count() const;
 
-    /// Bakes new positions with as many samples as the others have. Errors: those of
-    /// `bake_accumulators`.
+    /// Bakes what is missing. Errors: those of `bake_accumulators`.
     [[nodiscard]] Status bake(const BakeCallback& callback);
 
-    /// Doubles the samples of all positions. Returns false if they have the maximum number.
-    bool double_sample_count();
-
   private:
+    [[nodiscard]] Status bake_some(std::span<const uint32_t> some, uint32_t sample_count,
+                                   const BakeCallback& callback);
+
     const Scene& scene_;
     BakeSettings settings_;
-    uint32_t sample_count_ = kMinSamples;
     std::vector<glm::dvec3> positions_;
+    std::vector<uint32_t> wanted_samples_;
     std::vector<ProbeAccumulator> accumulators_;
     std::vector<IrradianceSh> light_;
+    uint32_t version_ = 0;
 };
 
 }  // namespace tetralight

@@ -3,29 +3,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <map>
 #include <utility>
 
+#include <tetralight/bake/parallel.h>
 #include <tetralight/bake/placement/adjusted_candidates.h>
 #include <tetralight/bake/placement/affine_dimension.h>
+#include <tetralight/bake/placement/candidate_count.h>
 #include <tetralight/bake/placement/candidates.h>
 #include <tetralight/bake/placement/canonical_scene.h>
-#include <tetralight/bake/placement/empty_spaces.h>
-#include <tetralight/bake/placement/flood_fill.h>
+#include <tetralight/bake/placement/cover_places.h>
 #include <tetralight/bake/placement/free_space_map.h>
 #include <tetralight/bake/placement/grid_bounds.h>
 #include <tetralight/bake/placement/group_by_region.h>
+#include <tetralight/bake/placement/reach_walls.h>
+#include <tetralight/bake/placement/sensors.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
 
-/// Minimum distance between probes on surfaces, as a fraction of the spacing.
-constexpr double kCrowdedFraction = 0.5;
-/// In a space without candidates: start probes, start probes plus sensors, and the free positions
-/// that they are chosen from.
-constexpr size_t kStartProbes = 8, kStartPlaces = 64, kMaxPlaces = 256;
+/// Minimum distance between probes, as a fraction of the spacing: on surfaces, and of those that
+/// reach for walls.
+constexpr double kCrowdedFraction = 0.5, kSameFraction = 0.25;
+/// Places for each probe that are to be covered, their least and their largest number, and the
+/// number of those that the report is about.
+constexpr size_t kPlacesPerProbe = 8, kMinPlaces = 4096, kMaxPlaces = 1 << 15, kChecked = 4096;
+/// The adaptive mode starts with fewer probes than this fraction of its maximum, and covers all
+/// places first, even if this takes more probes than the maximum by this factor: it removes some.
+constexpr double kStartFraction = 0.9, kCoverFactor = 2.0;
 
 std::vector<glm::dvec3> kept_positions(const std::vector<PlacedProbe>& probes) {
     std::vector<glm::dvec3> positions;
@@ -51,8 +57,8 @@ void drop_crowded(const TraceScene& traced, double distance, std::vector<PlacedP
 std::string none_left(const ProbeGrid& grid) {
     return str_cat("no probe is left of ", grid.candidate_count, ": ", grid.count(Fate::Inside),
                    " inside geometry, ", grid.count(Fate::TooClose), " too close to it, ",
-                   grid.count(Fate::Unreachable), " unreachable, ", grid.count(Fate::Forbidden),
-                   " forbidden");
+                   grid.count(Fate::Unreachable), " unreachable, ", grid.count(Fate::Dark),
+                   " without light, ", grid.count(Fate::Forbidden), " forbidden");
 }
 
 /// The heights without those that are closer than the clearance to an earlier one.
@@ -67,27 +73,27 @@ std::vector<double> heights_apart(const std::vector<double>& heights, double cle
     return apart;
 }
 
-/// Positions of the probes in each space.
-using ProbesOfSpaces = std::map<uint32_t, std::vector<glm::dvec3>>;
-
 /// The stages of one grid.
 class GridMaker {
   public:
     GridMaker(const Scene& scene, const TraceScene& traced, const ProbeGridSettings& settings,
-              const CandidateRule& rule)
+              const CandidateRule& rule, double agent_radius)
         : scene_(scene),
           traced_(traced),
           settings_(settings),
           rule_(rule),
-          map_(traced, rule.bounds, rule.spacing, rule.thread_count) {}
+          map_(traced, {rule.bounds, rule.spacing, agent_radius, rule.thread_count}),
+          places_(traced, rule.bounds, place_clearance(),
+                  [this](const glm::dvec3& position) { return is_to_cover(position); }) {}
 
     Result<ProbeGrid> run(const AdaptiveCallback& callback) {
         if (auto status = place(); !status) return status.error();
-        auto fill = drop_unreachable(traced_, map_, settings_, probes_);
-        if (!fill) return fill.error();
-        grid_.dropped_spaces = std::move(fill->dropped_spaces);
-        wanted_ = std::move(fill->wanted);
-        fill_empty_spaces(fill->filled);
+        const SpaceRule spaces{rule_.bounds,          rule_.clearance, settings_.from,
+                               settings_.unreachable, settings_.dark,  rule_.thread_count};
+        auto found = find_spaces(scene_, traced_, map_, spaces, probes_);
+        if (!found) return found.error();
+        take_spaces(*found);
+        cover();
         if (settings_.mode == PlacementMode::Adaptive && !kept_positions(probes_).empty()) {
             auto report = adapt(callback);
             if (!report) return report.error();
@@ -97,101 +103,184 @@ class GridMaker {
     }
 
   private:
+    [[nodiscard]] bool is_adaptive() const { return settings_.mode == PlacementMode::Adaptive; }
+
     Status place() {
-        auto candidates =
-            adjusted_candidates(traced_, scene_.probe_adjustments, settings_.mode, rule_);
-        if (!candidates) return candidates.error();
-        probes_ = place_candidates(traced_, scene_.probe_adjustments, *candidates, rule_);
-        if (settings_.mode == PlacementMode::Surface) {
-            drop_crowded(traced_, kCrowdedFraction * smallest(rule_.spacing), probes_);
+        constexpr double kWider = 1.15;
+        const glm::dvec3 size = rule_.bounds.size();
+        while (true) {
+            if (auto status = place_once(); !status) return status;
+            const auto most = kStartFraction * static_cast<double>(rule_.max_count);
+            const auto count = static_cast<double>(kept_positions(probes_).size());
+            const bool is_widest = smallest(rule_.spacing) > std::max({size.x, size.y, size.z});
+            if (!is_adaptive() || count <= most || is_widest) break;
+            rule_.spacing *= kWider;
         }
         for (const ProbeAdjustment& adjustment : scene_.probe_adjustments) {
             const bool is_outside = !bounds_in(rule_.bounds, adjustment);
             if (is_outside) grid_.adjustments_outside.push_back(adjustment.name);
         }
+        return check_candidate_count(static_cast<double>(kept_positions(probes_).size()),
+                                     rule_.max_count);
+    }
+
+    Status place_once() {
+        auto candidates =
+            adjusted_candidates(traced_, scene_.probe_adjustments, settings_.mode, rule_);
+        if (!candidates) return candidates.error();
+        probes_ = place_candidates(traced_, scene_.probe_adjustments, *candidates, rule_);
+        is_protected_.clear();
         for (const Candidate& candidate : *candidates) {
             is_protected_.push_back(candidate.is_adjusted);
+        }
+        reach_out(*candidates);
+        if (settings_.mode == PlacementMode::Surface) {
+            drop_crowded(traced_, kCrowdedFraction * smallest(rule_.spacing), probes_);
         }
         return Ok{};
     }
 
-    [[nodiscard]] bool is_wanted(uint32_t space) const {
-        const bool keeps_all = settings_.unreachable == UnreachableSpaces::Keep;
-        return keeps_all || std::ranges::binary_search(wanted_, space);
-    }
-
-    /// Reports spaces without candidates. The adaptive mode adds start probes to those that it is
-    /// to fill, and to those whose probes do not enclose a volume.
-    void fill_empty_spaces(const std::vector<uint32_t>& filled) {
-        constexpr size_t kCubicMetre = 8;  // points
-        const bool is_adaptive = settings_.mode == PlacementMode::Adaptive;
-        const FreePositionRule rule{rule_.bounds, rule_.clearance, is_adaptive ? kMaxPlaces : 1,
-                                    rule_.thread_count};
-        ProbesOfSpaces probes;
-        if (is_adaptive) probes = probes_by_space();
-        const std::vector<uint32_t> done = is_adaptive ? well_filled(filled, probes) : filled;
-        std::vector<SpacePositions> spaces = find_free_positions(traced_, map_, done, rule);
-        if (wanted_.empty() && !spaces.empty()) {  // the largest, if there is no probe at all
-            wanted_ = {std::ranges::max_element(spaces, {}, &SpacePositions::point_count)->space};
-        }
-        for (SpacePositions& space : spaces) {
-            if (is_adaptive && is_wanted(space.space)) {
-                start_in(space, probes[space.space]);
-                continue;
-            }
-            const bool is_seeded = !settings_.from.empty() && is_wanted(space.space);
-            if (space.point_count < kCubicMetre && !is_seeded) continue;
-            grid_.empty_spaces.push_back({space.positions[0], is_wanted(space.space)});
-        }
-    }
-
-    /// The filled spaces whose probes enclose a volume, and those that are not wanted.
-    [[nodiscard]] std::vector<uint32_t> well_filled(const std::vector<uint32_t>& filled,
-                                                    ProbesOfSpaces& probes) const {
-        std::vector<uint32_t> done;
-        for (const uint32_t space : filled) {
-            if (!is_wanted(space) || affine_dimension(probes[space]) == 3) done.push_back(space);
-        }
-        return done;
-    }
-
-    [[nodiscard]] ProbesOfSpaces probes_by_space() const {
-        const std::vector<glm::dvec3> positions = kept_positions(probes_);
-        const std::vector<uint32_t> spaces = map_.spaces_of(positions, rule_.thread_count);
-        ProbesOfSpaces result;
-        for (size_t i = 0; i < spaces.size(); ++i) result[spaces[i]].push_back(positions[i]);
-        return result;
-    }
-
-    /// Adds start probes far apart in a space without candidates, and sensors between them, away
-    /// from the probes in it.
-    void start_in(SpacePositions& space, const std::vector<glm::dvec3>& taken) {
-        std::erase_if(space.positions, [&](const glm::dvec3& place) {
-            return adjustment_at(scene_.probe_adjustments, place).forbids_probes ||
-                   std::ranges::any_of(taken, [&](const glm::dvec3& probe) {
-                       return glm::distance(probe, place) <= rule_.clearance;
-                   });
+    /// Takes the last layers to the walls.
+    void reach_out(const std::vector<Candidate>& candidates) {
+        const bool is_layers = settings_.mode == PlacementMode::Layers;
+        const ReachRule rule{rule_.bounds, rule_.clearance, {true, !is_layers, true}, {}};
+        std::vector<std::vector<glm::dvec3>> reached(candidates.size());
+        parallel_for(candidates.size(), rule_.thread_count, [&](size_t i) {
+            if (!is_kept(probes_[i].fate)) return;
+            reached[i] = reach_walls(traced_, probes_[i].position, candidates[i].spacing, rule);
         });
-        sort_farthest_first(space.positions, taken, kStartPlaces);
-        for (size_t i = 0; i < std::min(space.positions.size(), kStartPlaces); ++i) {
-            const glm::dvec3& place = space.positions[i];
-            if (i >= kStartProbes) {
-                sensors_.push_back(place);
-                continue;
-            }
-            probes_.push_back(place_probe(traced_, place, {rule_.clearance}));
-            is_protected_.push_back(false);
+        double same = smallest(rule_.spacing);
+        for (const Candidate& candidate : candidates) {
+            same = std::min(same, smallest(candidate.spacing));
         }
-        if (!std::ranges::binary_search(wanted_, space.space)) {
-            wanted_.insert(std::ranges::upper_bound(wanted_, space.space), space.space);
+        for (size_t i = 0; i < candidates.size(); ++i) {
+            std::vector<glm::dvec3>& places = reached[i];
+            if (places.empty()) continue;
+            const auto self = std::ranges::find(places, probes_[i].position);
+            if (self != places.end()) {
+                places.erase(self);
+            } else {
+                probes_[i].position = places.front();
+                probes_[i].fate = Fate::Pushed;
+                places.erase(places.begin());
+            }
+            for (const glm::dvec3& place : places) add(place, is_protected_[i]);
+        }
+        align();
+        drop_same(kSameFraction * same, candidates.size());
+        measure_distances();
+    }
+
+    void add(const glm::dvec3& position, bool is_protected) {
+        if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return;
+        probes_.push_back({position, Fate::Added, 0.0f});
+        is_protected_.push_back(is_protected);
+    }
+
+    void align() {
+        constexpr double kTolerance = 4e-3;  // of the clearance
+        if (!(rule_.clearance > 0.0)) return;
+        std::vector<glm::dvec3> positions = kept_positions(probes_);
+        align_planes(positions, kTolerance * rule_.clearance);
+        size_t i = 0;
+        for (PlacedProbe& probe : probes_) {
+            if (is_kept(probe.fate)) probe.position = positions[i++];
+        }
+    }
+
+    /// Drops what several candidates reached. Candidates keep their fates.
+    void drop_same(double distance, size_t candidate_count) {
+        const std::vector<bool> is_same = find_crowded(traced_, kept_positions(probes_), distance);
+        std::vector<PlacedProbe> left;
+        std::vector<bool> left_protected;
+        size_t k = 0;
+        for (size_t i = 0; i < probes_.size(); ++i) {
+            const bool is_dropped = is_kept(probes_[i].fate) && is_same[k++];
+            if (is_dropped && i >= candidate_count) continue;
+            if (is_dropped) probes_[i].fate = Fate::Crowded;
+            left.push_back(probes_[i]);
+            left_protected.push_back(is_protected_[i]);
+        }
+        probes_ = std::move(left);
+        is_protected_ = std::move(left_protected);
+    }
+
+    void measure_distances() {
+        parallel_for(probes_.size(), rule_.thread_count, [&](size_t i) {
+            if (is_kept(probes_[i].fate)) probes_[i].surface_distance = distance_of(probes_[i]);
+        });
+    }
+
+    [[nodiscard]] float distance_of(const PlacedProbe& probe) const {
+        const glm::vec3 position = traced_.render_from_world(probe.position);
+        const auto nearest = traced_.nearest_surface(position);
+        return nearest ? glm::distance(*nearest, position) : std::numeric_limits<float>::infinity();
+    }
+
+    void take_spaces(std::vector<MappedSpace>& found) {
+        for (MappedSpace& some : found) {
+            grid_.spaces.push_back(some.space);
+            if (some.space.fate != SpaceFate::Filled) continue;
+            filled_[some.number] = grid_.spaces.size() - 1;
+            std::ranges::copy_if(some.places, std::back_inserter(space_places_),
+                                 [this](const glm::dvec3& place) { return is_to_cover(place); });
+        }
+    }
+
+    /// The distance of places to be covered from surfaces, metres.
+    [[nodiscard]] double place_clearance() const {
+        return rule_.clearance + std::min(0.01, 0.1 * rule_.clearance);
+    }
+
+    /// True if objects may be at a position, and probes.
+    [[nodiscard]] bool is_to_cover(const glm::dvec3& position) const {
+        return is_allowed(position, place_clearance()) && is_at_height(position);
+    }
+
+    /// With layers: true between the lowest and the highest of their heights.
+    [[nodiscard]] bool is_at_height(const glm::dvec3& position) const {
+        if (settings_.mode != PlacementMode::Layers) return true;
+        const auto [low, high] = std::ranges::minmax(rule_.heights);
+        const auto height = height_above_floor(traced_, position);
+        return height && *height >= low && *height <= high;
+    }
+
+    [[nodiscard]] bool is_allowed(const glm::dvec3& position, double clearance) const {
+        if (!is_in(rule_.bounds, position)) return false;
+        if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
+        return is_free_with_clearance(traced_, position, clearance) &&
+               filled_.contains(map_.space_of(position));
+    }
+
+    /// Adds probes until places in the filled spaces are inside the tetrahedra and in sight.
+    void cover() {
+        const std::vector<glm::dvec3> probes = kept_positions(probes_);
+        std::vector<glm::dvec3> places =
+            places_.next(std::clamp(kPlacesPerProbe * probes.size(), kMinPlaces, kMaxPlaces),
+                         rule_.thread_count);
+        places.insert(places.end(), space_places_.begin(), space_places_.end());
+        auto most = static_cast<double>(rule_.max_count);
+        if (is_adaptive()) most *= kCoverFactor;
+        const auto count = static_cast<double>(probes.size());
+        const CoverRule rule{
+            rule_.clearance, smallest(rule_.spacing),
+            [this](const glm::dvec3& position) { return is_allowed(position, rule_.clearance); },
+            static_cast<size_t>(std::max(most - count, 0.0)), rule_.thread_count};
+        for (const glm::dvec3& probe : cover_places(traced_, probes, places, rule)) {
+            add(probe, false);
+            probes_.back().surface_distance = distance_of(probes_.back());
         }
     }
 
     /// The minimum number of probes that span what the start spans in each space.
     [[nodiscard]] size_t min_probe_count() const {
+        const std::vector<glm::dvec3> positions = kept_positions(probes_);
+        const std::vector<uint32_t> spaces = map_.spaces_of(positions, rule_.thread_count);
+        std::map<uint32_t, std::vector<glm::dvec3>> probes;
+        for (size_t i = 0; i < spaces.size(); ++i) probes[spaces[i]].push_back(positions[i]);
         size_t count = 0;
-        for (const auto& [space, probes] : probes_by_space()) {
-            count += static_cast<size_t>(affine_dimension(probes) + 1);
+        for (const auto& [space, some] : probes) {
+            count += static_cast<size_t>(affine_dimension(some) + 1);
         }
         return count;
     }
@@ -200,31 +289,34 @@ class GridMaker {
         const size_t min_count = min_probe_count();
         if (min_count > rule_.max_count) {
             return Error{ErrorCode::InvalidArgument, "max_probes", str_cat(rule_.max_count),
-                         str_cat(wanted_.size(), " spaces need ", min_count,
+                         str_cat(filled_.size(), " spaces need ", min_count,
                                  " probes at least, more than the limit of ", rule_.max_count)};
         }
-        const AdaptiveInput input{
-            scene_,
-            traced_,
-            rule_.bounds,
-            rule_.clearance,
-            [this](const glm::dvec3& position) { return is_allowed(position); },
-            [this](const glm::dvec3& p) { return map_.space_of(p); },
-            std::move(sensors_),
-            rule_.max_count,
-            settings_.thread_count};
+        constexpr double kCloser = 0.5;  // sensors in corners may be closer to surfaces
+        const AdaptiveInput input{scene_,
+                                  traced_,
+                                  rule_.bounds,
+                                  rule_.clearance,
+                                  [this](const glm::dvec3& position) {
+                                      return is_allowed(position, kCloser * rule_.clearance);
+                                  },
+                                  [this](const glm::dvec3& p) { return map_.space_of(p); },
+                                  space_places_,
+                                  rule_.max_count,
+                                  settings_.thread_count};
         auto report = refine_grid(input, settings_.adaptive, probes_, is_protected_, callback);
         if (report) report->start_spacing = rule_.spacing;
         return report;
     }
 
-    /// True if the adaptive mode may place a probe at a position.
-    [[nodiscard]] bool is_allowed(const glm::dvec3& position) const {
-        constexpr double kCloser = 0.5;  // sensors in corners may be closer to surfaces
-        if (!is_in(rule_.bounds, position)) return false;
-        if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
-        return is_free_with_clearance(traced_, position, kCloser * rule_.clearance) &&
-               std::ranges::binary_search(wanted_, map_.space_of(position));
+    /// Looks at places that no decision was about.
+    void measure_coverage(const std::vector<glm::dvec3>& probes) {
+        std::vector<glm::dvec3> places = places_.next(kChecked, rule_.thread_count);
+        const std::vector<Cover> covers = cover_by(traced_, probes, places, rule_.thread_count);
+        grid_.coverage = count_cover(covers);
+        for (size_t i = 0; i < places.size(); ++i) {
+            if (covers[i] != Cover::Covered) grid_.uncovered.push_back({places[i], covers[i]});
+        }
     }
 
     Result<ProbeGrid> make_groups() {
@@ -236,9 +328,13 @@ class GridMaker {
         }
         if (distances.empty()) return Error{ErrorCode::InvalidArgument, none_left(grid_)};
         const std::vector<glm::dvec3> positions = kept_positions(probes_);
+        const std::vector<uint32_t> spaces = map_.spaces_of(positions, settings_.thread_count);
+        for (const auto& [number, i] : filled_) {
+            grid_.spaces[i].probe_count = static_cast<uint64_t>(std::ranges::count(spaces, number));
+        }
+        measure_coverage(positions);
         RegionGroups regions =
-            group_by_region(positions, map_.spaces_of(positions, settings_.thread_count),
-                            {settings_.name, settings_.region_size});
+            group_by_region(positions, spaces, {settings_.name, settings_.region_size});
         grid_.groups = std::move(regions.groups);
         for (const uint32_t i : regions.order) grid_.surface_distances.push_back(distances[i]);
         return std::move(grid_);
@@ -247,12 +343,13 @@ class GridMaker {
     const Scene& scene_;
     const TraceScene& traced_;
     const ProbeGridSettings& settings_;
-    const CandidateRule& rule_;
+    CandidateRule rule_;
     FreeSpaceMap map_;
+    SensorSequence places_;
     std::vector<PlacedProbe> probes_;
-    std::vector<bool> is_protected_;   ///< one for each candidate
-    std::vector<uint32_t> wanted_;     ///< spaces, sorted
-    std::vector<glm::dvec3> sensors_;  ///< in spaces without candidates
+    std::vector<bool> is_protected_;        ///< one for each of `probes_`
+    std::map<uint32_t, size_t> filled_;     ///< number in the map → index in the report
+    std::vector<glm::dvec3> space_places_;  ///< in filled spaces, which may be small
     ProbeGrid grid_;
 };
 
@@ -266,6 +363,8 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
     if (!spacing) return spacing.error();
     const auto clearance = checked_clearance(*spacing, settings);
     if (!clearance) return clearance.error();
+    const auto agent_radius = checked_agent_radius(*spacing, settings);
+    if (!agent_radius) return agent_radius.error();
     for (const ProbeAdjustment& adjustment : scene.probe_adjustments) {
         if (auto status = check_adjustment(adjustment); !status) return status.error();
     }
@@ -278,7 +377,7 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
     const Scene canonical = canonical_scene(scene);
     const auto traced = TraceScene::make_static(canonical);
     if (!traced) return traced.error();
-    return GridMaker(canonical, *traced, settings, rule).run(callback);
+    return GridMaker(canonical, *traced, settings, rule, *agent_radius).run(callback);
 }
 
 }  // namespace tetralight

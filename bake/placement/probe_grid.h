@@ -9,7 +9,9 @@
 #include <vector>
 
 #include <tetralight/bake/placement/adaptive_grid.h>
+#include <tetralight/bake/placement/coverage.h>
 #include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/spaces.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/bake/scene/scene_bounds.h>
 #include <tetralight/base/result.h>
@@ -17,9 +19,10 @@
 
 // The probe-grid generator: places probes in a scene automatically.
 //
-//     candidates → place_probe (in or out, clearance) → FreeSpaceMap (flood fill) ┬→
-//     group_by_region → groups
-//                                                                       └→ refine_grid ─┘
+//     candidates → place_probe (in or out, clearance) → reach_walls → find_spaces (flood fill,
+//     light)
+//                                                                          ↓
+//     groups ← group_by_region ← refine_grid (adaptive) ← cover_places (inside and in sight)
 
 namespace tetralight {
 
@@ -30,9 +33,6 @@ enum class PlacementMode : uint8_t {
     Surface,   ///< on both sides of every surface
     Adaptive,  ///< where light changes
 };
-
-/// What happens to probes in spaces that are not to be filled.
-enum class UnreachableSpaces : bool { Drop, Keep };
 
 struct ProbeGridSettings {
     PlacementMode mode = PlacementMode::Regular;
@@ -49,10 +49,14 @@ struct ProbeGridSettings {
     /// Minimum distance of probes to surfaces, metres. Default: a tenth of the smallest spacing, at
     /// most 0.25 (adaptive: 0.05).
     std::optional<double> clearance;
+    /// Radius of the body that the flood fill moves: spaces join where it passes, metres. Default:
+    /// a tenth of the smallest spacing, at most 0.25.
+    std::optional<double> agent_radius;
     /// Seeds of the flood fill: world positions in the spaces to fill. Empty: the space with most
-    /// probes.
+    /// probes of those that light reaches.
     std::vector<glm::dvec3> from;
     UnreachableSpaces unreachable = UnreachableSpaces::Drop;
+    DarkSpaces dark = DarkSpaces::Drop;
     /// Side of the cubes that split spaces into regions, metres; 0 = one group for each space.
     double region_size = 0.0;
     std::string name = "grid";
@@ -64,23 +68,12 @@ struct ProbeGridSettings {
     uint32_t thread_count = 0;
 };
 
-/// A space whose probes were dropped.
-struct DroppedSpace {
-    uint64_t probe_count = 0;
-    /// One of its probes: a seed that would keep it.
+/// A place in free space that the probes leave uncovered.
+struct UncoveredPlace {
     glm::dvec3 position{0.0};
+    Cover cover = Cover::HullCell;
 
-    bool operator==(const DroppedSpace&) const = default;
-};
-
-/// A space without probes.
-struct EmptySpace {
-    /// A free position in it.
-    glm::dvec3 position{0.0};
-    /// True if it is one of the spaces to fill.
-    bool is_wanted = false;
-
-    bool operator==(const EmptySpace&) const = default;
+    bool operator==(const UncoveredPlace&) const = default;
 };
 
 struct ProbeGrid {
@@ -91,10 +84,13 @@ struct ProbeGrid {
     uint64_t candidate_count = 0;
     /// Number of candidates with each `Fate`.
     std::array<uint64_t, kFateCount> fate_counts{};
-    /// The spaces that were dropped, the largest first.
-    std::vector<DroppedSpace> dropped_spaces;
-    /// Spaces of at least about a cubic metre without a candidate.
-    std::vector<EmptySpace> empty_spaces;
+    /// The spaces with probes or of at least a cubic metre; those with most probes first.
+    std::vector<Space> spaces;
+    /// Of random places in the filled spaces, a little more than the clearance off surfaces; with
+    /// `PlacementMode::Layers` between the lowest and the highest of its heights.
+    Coverage coverage;
+    /// Those that are not covered.
+    std::vector<UncoveredPlace> uncovered;
     /// The scene's adjustment volumes that do not reach into the bounds, by name.
     std::vector<std::string> adjustments_outside;
     std::optional<AdaptiveReport> adaptive;
@@ -104,8 +100,10 @@ struct ProbeGrid {
     [[nodiscard]] uint64_t probe_count() const { return surface_distances.size(); }
 };
 
-/// Fills a scene with probes, as its adjustment volumes allow. Deterministic except with a time
-/// budget, and the same for every order of the scene's meshes. `callback` is for the adaptive mode.
+/// Fills a scene with probes, as its adjustment volumes allow: so that places in free space are
+/// inside the tetrahedra and in sight of probes (`Cover::Covered`). Deterministic except with a
+/// time budget, and the same for every order of the scene's meshes. `callback` is for the adaptive
+/// mode.
 ///
 /// Returns invalid_argument, with the setting as the field, if the spacing is not positive, the
 /// bounds are empty or not finite, there is no geometry to take bounds from, there are more

@@ -118,7 +118,7 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
         const std::vector<uint32_t> neighbors = in_pool(star.neighbors, probes);
         const std::vector<uint32_t> around = in_pool(star.sensors, sensors);
         ContentHash key;
-        key.add(pool_.sample_count());
+        key.add(view_.pool.version());
         key.add(neighbors);
         key.add(around);
         costs[i].key = key.value();
@@ -127,11 +127,11 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
             costs[i] = known->second;
             return;
         }
-        for (const uint32_t sensor : star.sensors) costs[i].change -= double{errors[sensor].square};
+        for (const uint32_t sensor : star.sensors) costs[i].change -= errors[sensor].cost();
         if (neighbors.empty()) return;
-        const ProbeVolume without = volume_of(pool_, neighbors);
-        for (const SensorError& e : sensor_errors(without, pool_, around, nullptr, 1)) {
-            costs[i].change += double{e.square};
+        const ProbeVolume without = volume_of(view_.pool, neighbors);
+        for (const SensorError& e : sensor_errors(without, neighbors, around, view_, 1)) {
+            costs[i].change += e.cost();
         }
     });
     for (size_t i = 0; i < probes.size(); ++i) costs_[probes[i]] = costs[i];
@@ -140,16 +140,16 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
     std::iota(queue.begin(), queue.end(), 0u);
     std::ranges::stable_sort(queue, {}, [&](uint32_t i) { return costs[i].change; });
     double sum = 0.0;
-    for (const SensorError& error : errors) sum += double{error.square};
+    for (const SensorError& error : errors) sum += error.cost();
     const auto most = static_cast<size_t>(rule.max_fraction * static_cast<double>(probes.size()));
     std::vector<bool> is_gone(probes.size(), false), is_stale(probes.size(), false);
-    ProbesOfSpaces left_in(pool_, probes, spaces);
+    ProbesOfSpaces left_in(view_.pool, probes, spaces);
     size_t gone = 0;
     for (const uint32_t i : queue) {
         if (gone >= std::max<size_t>(most, 1) || probes.size() - gone <= rule.min_probe_count)
             break;
         if (is_stale[i] || is_protected[probes[i]]) continue;
-        if (sum + costs[i].change > rule.max_square_sum) break;
+        if (sum + costs[i].change > rule.max_cost) break;
         if (!left_in.remove(i)) continue;
         sum += costs[i].change;
         is_gone[i] = true;

@@ -17,8 +17,8 @@ namespace tetralight {
 struct RemoveRule {
     /// Probes that remain at least.
     size_t min_probe_count = 4;
-    /// The maximum sum of the squares of all sensors' errors.
-    double max_square_sum = 0.0;
+    /// The maximum sum of the costs of all sensors (`SensorError::cost`).
+    double max_cost = 0.0;
     /// The maximum fraction of the probes that one pass removes.
     double max_fraction = 0.125;
     uint32_t thread_count = 0;
@@ -35,14 +35,20 @@ struct RemoveInput {
     const std::vector<bool>& is_protected;
 };
 
-/// Removes the probes without which the light changes least (after Vardis et al. 2021,
+/// Removes the probes without which the cost changes least (after Vardis et al. 2021,
 /// "Illumination-driven light probe placement", with a queue in place of their search). The cost of
 /// a removal is computed in the Delaunay tetrahedralization of the probe's neighbors, whose cells
 /// replace those of the probe. Costs are reused in later passes for probes whose neighbors stay.
 class ProbeRemover {
   public:
-    /// Keeps a reference.
-    explicit ProbeRemover(const LightPool& pool) : pool_(pool) {}
+    /// Keeps references.
+    explicit ProbeRemover(const SensorView& view) : view_(view) {}
+
+    /// Forgets costs by an earlier scale.
+    void set_scale(const ErrorScale& scale) {
+        view_.scale = scale;
+        costs_.clear();
+    }
 
     /// Returns the probes that remain after one pass; all of them if none can be removed. Removes
     /// the cheapest first, but no two neighbors. Each space keeps probes that span what all of its
@@ -56,7 +62,7 @@ class ProbeRemover {
         double change = 0.0;
     };
 
-    const LightPool& pool_;
+    SensorView view_;
     std::map<uint32_t, Cost> costs_;
 };
 

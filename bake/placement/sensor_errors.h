@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include <tetralight/bake/placement/error_scale.h>
 #include <tetralight/bake/placement/light_pool.h>
-#include <tetralight/bake/rays/trace_scene.h>
-#include <tetralight/probes/locate.h>
+#include <tetralight/bake/placement/sights.h>
 #include <tetralight/probes/no_index.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -16,34 +16,44 @@ namespace tetralight {
 /// The error of the interpolated light at one position.
 struct SensorError {
     uint32_t cell = kNoIndex;
-    /// Mean square (`mean_square`) of the difference between the interpolated and the baked light.
+    /// The square of the error, by an `ErrorScale`.
     float square = 0.0f;
-    /// The same for light that is interpolated only from corners of the cell that are visible from
-    /// the position: more probes in this space reduce it. The other part of `square` is light that
-    /// leaks through walls.
-    float visible_square = 0.0f;
-    /// The hidden corner (a vertex of the cell) with the largest weight; kNoIndex if none is
-    /// hidden.
-    uint32_t hidden_probe = kNoIndex;
+    bool is_covered = false;
+
+    /// The cost of a position that is not covered: more than any usual error of light.
+    static constexpr double kUncovered = 10.0;
+
+    /// What the position counts in decisions.
+    [[nodiscard]] double cost() const { return double{square} + (is_covered ? 0.0 : kUncovered); }
+};
+
+/// What sensors are compared by.
+struct SensorView {
+    const LightPool& pool;
+    Sights& sights;
+    ErrorScale scale;
 };
 
 /// A volume of some positions of the pool, without sources and names. Precondition: the positions
 /// differ as floats.
 [[nodiscard]] ProbeVolume volume_of(const LightPool& pool, std::span<const uint32_t> probes);
 
-/// Compares the light that a volume interpolates at positions of the pool (`sensors`) with their
-/// baked light. With `traced` it also finds hidden corners.
+/// Compares the light that a volume of `probes` interpolates at other positions of the pool
+/// (`sensors`) with their baked light. As in queries, corners of the cell that a wall hides have no
+/// weight, unless all are hidden.
 [[nodiscard]] std::vector<SensorError> sensor_errors(const ProbeVolume& volume,
-                                                     const LightPool& pool,
+                                                     std::span<const uint32_t> probes,
                                                      std::span<const uint32_t> sensors,
-                                                     const TraceScene* traced,
-                                                     uint32_t thread_count);
+                                                     const SensorView& view, uint32_t thread_count);
 
-/// Root mean square of the errors over the mean irradiance of the sensors; 0 if all is dark.
-[[nodiscard]] double relative_error(std::span<const SensorError> errors, const LightPool& pool,
-                                    std::span<const uint32_t> sensors);
+/// Root mean square of the errors.
+[[nodiscard]] double mean_error(std::span<const SensorError> errors);
 
-/// The part of `relative_error` that is noise of the sensors' light.
-[[nodiscard]] double relative_noise(const LightPool& pool, std::span<const uint32_t> sensors);
+/// The part of the errors that is noise of the sensors' light.
+[[nodiscard]] double mean_noise(const LightPool& pool, std::span<const uint32_t> sensors,
+                                const ErrorScale& scale);
+
+/// The square of the noise of one of them.
+[[nodiscard]] double noise_square(const LightPool& pool, uint32_t sensor, const ErrorScale& scale);
 
 }  // namespace tetralight

@@ -211,12 +211,12 @@ bool RayCaster::occluded(const Ray& ray) const {
     return is_hit;
 }
 
-std::optional<glm::vec3> RayCaster::nearest_point(glm::vec3 position) const {
+std::optional<glm::vec3> RayCaster::nearest_point(glm::vec3 position, float max_distance) const {
     RTCPointQuery query{};
     query.x = position.x;
     query.y = position.y;
     query.z = position.z;
-    query.radius = std::numeric_limits<float>::infinity();
+    query.radius = max_distance;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     NearestSearch search{handles_->geometries, std::nullopt};

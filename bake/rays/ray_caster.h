@@ -82,7 +82,8 @@ class RayCaster {
 
     /// The point on any triangle that is nearest to a position; none without triangles. Ignores
     /// filters and spheres.
-    [[nodiscard]] std::optional<glm::vec3> nearest_point(glm::vec3 position) const;
+    [[nodiscard]] std::optional<glm::vec3> nearest_point(
+        glm::vec3 position, float max_distance = std::numeric_limits<float>::infinity()) const;
 
   private:
     enum class Filter : bool { Applied, Ignored };

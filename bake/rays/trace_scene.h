@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -118,9 +119,11 @@ class TraceScene {
     void listen(RayListener listener) { caster_.listen(listener); }
 
     /// The point on any surface that is nearest to a position, in render space. Ignores
-    /// transparency.
-    [[nodiscard]] std::optional<glm::vec3> nearest_surface(glm::vec3 position) const {
-        return caster_.nearest_point(position);
+    /// transparency. None if all are farther than `max_distance`, metres: short searches are much
+    /// faster.
+    [[nodiscard]] std::optional<glm::vec3> nearest_surface(
+        glm::vec3 position, float max_distance = std::numeric_limits<float>::infinity()) const {
+        return caster_.nearest_point(position, max_distance);
     }
 
     /// Origin of a ray that leaves the surface on the side that `direction`, one of its normals,

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include <tetralight/bake/placement/coverage.h>
+#include <tetralight/bake/rays/trace_scene.h>
+
+namespace tetralight {
+
+/// What new probes may be.
+struct CoverRule {
+    /// Minimum distance of probes to surfaces, metres.
+    double clearance = 0.0;
+    /// How far from an uncovered place its probe may be, metres: it goes to the wall if it can.
+    double reach = 1.0;
+    /// Returns true if a free position may have a probe; called from many threads.
+    std::function<bool(const glm::dvec3& position)> is_allowed;
+    /// The maximum number of new probes.
+    size_t max_count = 0;
+    uint32_t thread_count = 0;
+};
+
+/// Finds positions for probes that cover free places (world space) which `probes` leave uncovered.
+/// Goes on in rounds until hardly any place is uncovered, the maximum is reached, or nothing helps.
+/// In each round, positions that see each other are apart. Deterministic.
+[[nodiscard]] std::vector<glm::dvec3> cover_places(const TraceScene& traced,
+                                                   std::span<const glm::dvec3> probes,
+                                                   std::span<const glm::dvec3> places,
+                                                   const CoverRule& rule);
+
+/// The cover of places by probes at these positions; all are in hull cells if there are too few
+/// probes for a cell.
+[[nodiscard]] std::vector<Cover> cover_by(const TraceScene& traced,
+                                          std::span<const glm::dvec3> probes,
+                                          std::span<const glm::dvec3> places,
+                                          uint32_t thread_count);
+
+}  // namespace tetralight
