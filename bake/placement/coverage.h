@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/probes/locate.h>
 #include <tetralight/probes/probe_volume.h>
 
 namespace tetralight {
@@ -26,9 +27,20 @@ inline constexpr int kCoverCount = 3;
 /// weights are barycentric: they know no walls.
 inline constexpr float kMinSeenWeight = 0.25f;
 
-/// The cover of one place, in world space. Rays to the corners of its cell decide
-/// (`blocked_fraction`), from the probes' exact positions. In volumes of a plane, a line or a point
-/// a place is in a hull cell if it is beside all cells that are not.
+/// True if a place is in a hull cell, and off the hull by more than the rounding of float
+/// positions: places on the hull are between probes. `location` is that of the place, by the policy
+/// `OutsidePolicy::Extrapolate`. True without a cell.
+[[nodiscard]] bool is_in_hull_cell(const ProbeVolumeView& volume, const CellLocation& location,
+                                   const glm::dvec3& place);
+
+/// True if the corners of its cell that a place sees have `kMinSeenWeight` together, or more. Rays
+/// decide (`blocked_fraction`), from where the probes sample their light: their exact positions and
+/// virtual offsets. `location` is that of the place, also in a hull cell.
+[[nodiscard]] bool sees_enough(const TraceScene& traced, const ProbeVolumeView& volume,
+                               const CellLocation& location, const glm::dvec3& place);
+
+/// The cover of one place, in world space, by both of these. In volumes of a plane, a line or a
+/// point a place is in a hull cell if it is beside all cells that are not.
 [[nodiscard]] Cover cover_of(const TraceScene& traced, const ProbeVolumeView& volume,
                              const glm::dvec3& place);
 
