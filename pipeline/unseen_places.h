@@ -18,9 +18,8 @@ struct UnseenPlaces {
     /// Free places that were looked at, and those of them that see no corner of their cell.
     uint64_t place_count = 0;
     uint64_t unseen_count = 0;
-    /// Up to eight of the unseen ones, at least one spacing of probes apart: the one nearest to
-    /// their mean first, then always the one farthest from those before. World space, rounded to a
-    /// millimetre.
+    /// Up to eight of the unseen ones, more than one spacing of probes apart (`spread_positions`).
+    /// World space, rounded to a millimetre.
     std::vector<glm::dvec3> positions;
 
     /// The share of free space that is unseen; 0 if no place was looked at.
