@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <tetralight/bake/parallel.h>
+#include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/box.h>
 #include <tetralight/base/stopwatch.h>
@@ -16,6 +17,7 @@
 #include <tetralight/cli/lppv_warnings.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/lppv/sparse_lppv.h>
+#include <tetralight/pipeline/lppv_coverage.h>
 #include <tetralight/pipeline/lppv_validity.h>
 #include <tetralight/pipeline/sparse_blocks.h>
 #include <tetralight/pipeline/write_lppv.h>
@@ -50,6 +52,19 @@ Json bounds_json(const glm::dvec3& low, const glm::dvec3& high,
             {"world_from_local", std::vector<double>(matrix, matrix + 16)}};
 }
 
+Json to_json(const LppvCoverage& coverage, bool has_scene) {
+    Json positions = Json::array();
+    for (const UncoveredPoint& point : coverage.positions) {
+        positions.push_back(cli::to_json(point.position));
+    }
+    const Coverage& points = coverage.points;
+    return {{"points", points.place_count()},
+            {"covered", points.count(Cover::Covered)},
+            {"outside", points.count(Cover::HullCell)},
+            {"unseen", has_scene ? Json(points.count(Cover::Unseen)) : Json(nullptr)},
+            {"positions", positions}};
+}
+
 /// The box around the active points of a sparse grid; without blocks a point.
 Box<glm::ivec3> box_of(const SparseLppv& lppv) {
     if (lppv.blocks.empty()) return {};
@@ -57,6 +72,13 @@ Box<glm::ivec3> box_of(const SparseLppv& lppv) {
     for (const glm::ivec3& block : lppv.blocks) blocks = union_of(blocks, block);
     return {blocks.min * kSparseBlockSide, (blocks.max + 1) * kSparseBlockSide - 1};
 }
+
+/// What is known of the points of a grid before they have light.
+struct Survey {
+    /// As `LppvFill::validity`: empty without a scene.
+    std::vector<float> validity;
+    LppvCoverage coverage;
+};
 
 struct LppvCommand {
     std::string volume_path;
@@ -127,17 +149,27 @@ struct LppvCommand {
         return is_sparse ? run_sparse(scene, probes->view()) : run_dense(scene, probes->view());
     }
 
+    [[nodiscard]] Result<Survey> survey(const Scene& scene, const ProbeVolumeView& volume,
+                                        const LppvGrid& points) const {
+        if (scene_path.empty()) {
+            return Survey{{}, find_lppv_coverage(volume, points, common.thread_count)};
+        }
+        const auto traced = TraceScene::make_static(scene);
+        if (!traced) return traced.error();
+        Survey found;
+        found.validity = lppv_grid_validity(*traced, points, common.thread_count);
+        found.coverage = find_lppv_coverage(
+            volume, points, {*traced, found.validity, fill.min_validity}, common.thread_count);
+        return found;
+    }
+
     Status run_dense(const Scene& scene, const ProbeVolumeView& volume) {
         const auto points = grid.make_grid(scene, volume);
         if (!points) return points.error().in(scene_path);
         common.warn(grid.warnings(*points));
-        std::vector<float> validity;
-        if (!scene_path.empty()) {
-            auto surveyed = lppv_grid_validity(scene, *points, common.thread_count);
-            if (!surveyed) return surveyed.error().in(scene_path);
-            validity = std::move(*surveyed);
-            fill.validity = validity;
-        }
+        const auto found = survey(scene, volume, *points);
+        if (!found) return found.error().in(scene_path);
+        fill.validity = found->validity;
         const Stopwatch filling;
         const auto lppv = make_lppv(volume, *points, fill, threads());
         if (!lppv) return lppv.error();
@@ -145,11 +177,13 @@ struct LppvCommand {
         const Stopwatch writing;
         if (auto status = write_lppv(output, *lppv, file); !status) return status;
         common.warn(lppv_warnings(*lppv, file));
-        report(*lppv, fill_seconds, writing.seconds());
+        common.warn(coverage_warnings(found->coverage));
+        report(*lppv, found->coverage, fill_seconds, writing.seconds());
         return Ok{};
     }
 
-    void report(const Lppv& lppv, double fill_seconds, double write_seconds) const {
+    void report(const Lppv& lppv, const LppvCoverage& coverage, double fill_seconds,
+                double write_seconds) const {
         const LppvGrid& points = lppv.grid;
         Json json{{"output", output},
                   {"bounds", bounds_json(points.min, points.max, points.world_from_local)},
@@ -157,6 +191,7 @@ struct LppvCommand {
                   {"spacing", cli::to_json(points.spacing())},
                   {"points", points.point_count()},
                   {"replaced", lppv.replaced_count},
+                  {"coverage", to_json(coverage, !scene_path.empty())},
                   {"bytes", file_size(output)},
                   {"fill_seconds", fill_seconds},
                   {"write_seconds", write_seconds}};

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/pipeline/lppv_coverage.h>
 #include <tetralight/pipeline/write_lppv.h>
 
 namespace tetralight::cli {
@@ -15,5 +16,9 @@ namespace tetralight::cli {
 
 /// The first of them, of any file. `largest` is the largest magnitude that it was to hold.
 [[nodiscard]] std::vector<std::string> half_warnings(float largest, const LppvFileSettings& file);
+
+/// A line if more than 1 % of the points in free space are outside of the tetrahedra, and one if as
+/// many see too little of their cell, each with up to three positions for probes.
+[[nodiscard]] std::vector<std::string> coverage_warnings(const LppvCoverage& coverage);
 
 }  // namespace tetralight::cli

@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/pipeline/lppv_validity.h>
 
+#include <tetralight/bake/parallel.h>
 #include <tetralight/bake/probe_visibility.h>
 
 namespace tetralight {
 
+std::vector<float> lppv_grid_validity(const TraceScene& traced, const LppvGrid& grid,
+                                      uint32_t thread_count) {
+    std::vector<float> validity(grid.point_count());
+    parallel_for(validity.size(), thread_count, [&](size_t i) {
+        const glm::dvec3 position = grid.world_position(grid.point(i));
+        const auto at_point = probe_visibility(traced, traced.render_from_world(position));
+        validity[i] = at_point.is_inside() ? 0.0f : 1.0f - at_point.back_face_fraction;
+    });
+    return validity;
+}
+
 Result<std::vector<float>> lppv_grid_validity(const Scene& scene, const LppvGrid& grid,
                                               uint32_t thread_count) {
-    std::vector<glm::dvec3> positions;
-    positions.reserve(grid.point_count());
-    for (uint32_t z = 0; z < grid.resolution.z; ++z) {
-        for (uint32_t y = 0; y < grid.resolution.y; ++y) {
-            for (uint32_t x = 0; x < grid.resolution.x; ++x) {
-                positions.push_back(grid.world_position({x, y, z}));
-            }
-        }
-    }
-    const auto visibility = probe_visibilities(scene, positions, thread_count);
-    if (!visibility) return visibility.error();
-    std::vector<float> validity;
-    validity.reserve(visibility->size());
-    for (const ProbeVisibility& at_point : *visibility) {
-        validity.push_back(at_point.is_inside() ? 0.0f : 1.0f - at_point.back_face_fraction);
-    }
-    return validity;
+    const auto traced = TraceScene::make_static(scene);
+    if (!traced) return traced.error();
+    return lppv_grid_validity(*traced, grid, thread_count);
 }
 
 }  // namespace tetralight

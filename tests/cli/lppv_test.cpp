@@ -242,6 +242,62 @@ TEST_F(LppvCommand, SaysWhatAFileDoesNotHold) {
     EXPECT_TRUE(contains(misuse(beam("a.vdb", {"--layout", "four"})), "--layout: only .dds"));
 }
 
+/// Probes at the corners of a box.
+std::string corner_probes(double x, double low_y, double high_y, double z) {
+    Json positions = Json::array();
+    for (int i = 0; i < 8; ++i) {
+        positions.push_back(
+            {(i & 1) == 0 ? -x : x, (i & 2) == 0 ? low_y : high_y, (i & 4) == 0 ? -z : z});
+    }
+    return Json{{"groups", {{{"name", "corners"}, {"positions", positions}}}}}.dump();
+}
+
+TEST_F(LppvCommand, WarnsOfPointsOutsideOfTheTetrahedra) {
+    write("cube.json", corner_probes(1.0, -1.0, 1.0, 1.0));
+    succeed({"tetrahedralize", "cube.json", "-o", "v.probes"});
+    // x = 0.1, 0.3 .. 1.9: half of them beyond the probes at x = 1.
+    const Arguments half = arguments("a.vdb", {"--bounds", "0,-0.8,-0.8,2,0.8,0.8", "--resolution",
+                                               "10,4,4", "--placement", "centers"});
+    const std::string said = succeed(half).err;
+    EXPECT_TRUE(contains(said,
+                         "warning: 80 of 160 points (50.0 %) lie outside of the tetrahedra "
+                         "and take the light of the nearest probes; probes at (1."))
+        << said;
+    const Json coverage = run_json(half)["coverage"];
+    EXPECT_EQ(coverage["points"], 160);
+    EXPECT_EQ(coverage["covered"], 80);
+    EXPECT_EQ(coverage["outside"], 80);
+    EXPECT_EQ(coverage["unseen"], nullptr);  // no ray tells
+    ASSERT_FALSE(coverage["positions"].empty());
+    for (const Json& position : coverage["positions"]) EXPECT_GT(position[0], 1.0);
+}
+
+TEST_F(LppvCommand, WarnsOfPointsThatWallsHide) {
+    write("far.json", corner_probes(15.0, 0.3, 8.0, 15.0));  // around the house, none in it
+    succeed({"bake", kCourtyard, "--only-given-groups", "-g", "far.json", "-o", "v.probes", "-s",
+             "16"});
+    const Arguments in_house = arguments(
+        "a.vdb", {"--scene", kCourtyard, "--bounds", "-3,0.5,-4,-1,2,-2", "--density", "2"});
+    const std::string said = succeed(in_house).err;
+    EXPECT_TRUE(contains(said,
+                         "warning: 48 of 48 points (100.0 %) are hidden by walls from the "
+                         "probes around them"))
+        << said;
+    const Json coverage = run_json(in_house)["coverage"];
+    EXPECT_EQ(coverage["unseen"], 48);
+    EXPECT_EQ(coverage["positions"].size(), 1u);  // the probes are farther apart than the points
+}
+
+TEST_F(LppvCommand, DoesNotWarnOfABoxAmongProbes) {
+    const Arguments among = beam("a.vdb", {"--resolution", "3,3,20"});
+    EXPECT_EQ(succeed(among).err, "");
+    const Json coverage = run_json(among)["coverage"];
+    EXPECT_EQ(coverage["points"], 180);
+    EXPECT_EQ(coverage["covered"], 180);
+    EXPECT_EQ(coverage["unseen"], 0);
+    EXPECT_TRUE(coverage["positions"].empty());
+}
+
 TEST_F(LppvCommand, NamesAnObjectThatIsNotThere) {
     EXPECT_TRUE(contains(fail(arguments("a.vdb", {"--scene", kCourtyard, "--object", "boat"})),
                          "courtyard.glb: there is no node \"boat\""));
