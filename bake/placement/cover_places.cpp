@@ -7,6 +7,7 @@
 
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/reach_walls.h>
 #include <tetralight/probes/build/make_probe_volume.h>
 
 namespace tetralight {
@@ -22,6 +23,7 @@ constexpr double kApart = 0.7;
 /// A place that wants a probe.
 struct Wish {
     size_t place = 0;
+    Cover cover = Cover::HullCell;
     double room = 0.0;  ///< metres to the nearest probe
 };
 
@@ -49,7 +51,8 @@ class CoverSearch {
         const auto covers = cover_by(traced_, probes, places_, rule_.thread_count);
         std::vector<Wish> wishes;
         for (size_t i = 0; i < places_.size(); ++i) {
-            if (covers[i] != Cover::Covered && is_hopeless_[i] == 0) wishes.push_back({i, 0.0});
+            if (covers[i] != Cover::Covered && is_hopeless_[i] == 0)
+                wishes.push_back({i, covers[i], 0.0});
         }
         parallel_for(wishes.size(), rule_.thread_count,
                      [&](size_t i) { wishes[i].room = nearest(places_[wishes[i].place], probes); });
@@ -66,41 +69,60 @@ class CoverSearch {
 
     void add_apart(const std::vector<Wish>& wishes, size_t max_count,
                    std::vector<glm::dvec3>& all) {
+        std::vector<std::vector<glm::dvec3>> offers(wishes.size());
+        parallel_for(wishes.size(), rule_.thread_count,
+                     [&](size_t i) { offers[i] = offers_for(wishes[i], all); });
         const size_t before = all.size();
-        for (const Wish& wish : wishes) {
-            if (all.size() >= max_count) return;
-            const glm::dvec3 probe = probe_for(places_[wish.place]);
-            const auto added = std::span(all).subspan(before);
-            const double apart = kApart * std::min(wish.room, rule_.reach);
-            const bool is_crowded = std::ranges::any_of(added, [&](const glm::dvec3& other) {
-                return glm::distance(probe, other) < apart &&
-                       is_visible(traced_, traced_.render_from_world(probe),
-                                  traced_.render_from_world(other));
-            });
-            if (is_crowded) continue;
-            // A probe there would hardly differ from one that does not help.
-            const double least = 0.5 * rule_.clearance;
-            if (nearest(probe, all) <= least || !rule_.is_allowed(probe)) {
-                is_hopeless_[wish.place] = 1;
-                continue;
+        for (size_t i = 0; i < wishes.size() && all.size() < max_count; ++i) {
+            const double apart = kApart * std::min(wishes[i].room, rule_.reach);
+            if (offers[i].empty()) is_hopeless_[wishes[i].place] = 1;
+            for (const glm::dvec3& offer : offers[i]) {
+                if (is_crowded(offer, apart, std::span(all).subspan(before))) break;
+                if (nearest(offer, std::span(all).subspan(before)) <= least_distance()) continue;
+                all.push_back(offer);
+                break;
             }
-            all.push_back(probe);
         }
     }
 
-    /// The place, moved towards the nearest wall: what lies between them is covered as well.
-    [[nodiscard]] glm::dvec3 probe_for(const glm::dvec3& place) const {
+    /// A probe that is closer to another one would hardly differ from it.
+    [[nodiscard]] double least_distance() const { return 0.5 * rule_.clearance; }
+
+    [[nodiscard]] bool is_crowded(const glm::dvec3& probe, double apart,
+                                  std::span<const glm::dvec3> added) const {
+        return std::ranges::any_of(added, [&](const glm::dvec3& other) {
+            return glm::distance(probe, other) < apart &&
+                   is_visible(traced_, traced_.render_from_world(probe),
+                              traced_.render_from_world(other));
+        });
+    }
+
+    /// Positions that may have a probe for a place, the best first.
+    [[nodiscard]] std::vector<glm::dvec3> offers_for(const Wish& wish,
+                                                     const std::vector<glm::dvec3>& probes) const {
+        const glm::dvec3& place = places_[wish.place];
+        std::vector<glm::dvec3> offers;
+        if (wish.cover == Cover::HullCell) offers = ends_around(place, probes);
+        offers.push_back(place);
+        std::erase_if(offers, [&](const glm::dvec3& offer) {
+            return nearest(offer, probes) <= least_distance() || !rule_.is_allowed(offer);
+        });
+        return offers;
+    }
+
+    /// Where walls and the bounds end the space around a place, in sight of it; those far from
+    /// probes first.
+    [[nodiscard]] std::vector<glm::dvec3> ends_around(const glm::dvec3& place,
+                                                      const std::vector<glm::dvec3>& probes) const {
+        const ReachRule rule{rule_.bounds, rule_.clearance, glm::bvec3(true), {}};
+        std::vector<glm::dvec3> ends = reach_walls(traced_, place, glm::dvec3(rule_.reach), rule);
         const glm::vec3 here = traced_.render_from_world(place);
-        const auto surface = traced_.nearest_surface(here);
-        if (!surface) return place;
-        constexpr double kSlack = 1e-3;
-        const double distance = glm::distance(here, *surface);
-        const double way = distance - (1.0 + kSlack) * rule_.clearance;
-        if (!(way > 0.0) || way > rule_.reach) return place;
-        const auto fraction = static_cast<float>(way / distance);
-        const glm::vec3 there = here + fraction * (*surface - here);
-        const glm::dvec3 moved = traced_.world_from_render(there);
-        return is_free_with_clearance(traced_, moved, rule_.clearance) ? moved : place;
+        std::erase_if(ends, [&](const glm::dvec3& end) {
+            return !is_visible(traced_, here, traced_.render_from_world(end));
+        });
+        std::ranges::stable_sort(ends, std::greater{},
+                                 [&](const glm::dvec3& end) { return nearest(end, probes); });
+        return ends;
     }
 
     const TraceScene& traced_;

@@ -10,6 +10,7 @@
 
 #include <tetralight/bake/placement/coverage.h>
 #include <tetralight/bake/rays/trace_scene.h>
+#include <tetralight/bake/scene/scene_bounds.h>
 
 namespace tetralight {
 
@@ -17,7 +18,9 @@ namespace tetralight {
 struct CoverRule {
     /// Minimum distance of probes to surfaces, metres.
     double clearance = 0.0;
-    /// How far from an uncovered place its probe may be, metres: it goes to the wall if it can.
+    WorldBox bounds;
+    /// How far from an uncovered place its probe may be, metres: outside of the tetrahedra it goes
+    /// to walls, edges and corners, so that they grow as far as they can.
     double reach = 1.0;
     /// Returns true if a free position may have a probe; called from many threads.
     std::function<bool(const glm::dvec3& position)> is_allowed;

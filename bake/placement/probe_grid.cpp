@@ -263,9 +263,12 @@ class GridMaker {
         if (is_adaptive()) most *= kCoverFactor;
         const auto count = static_cast<double>(probes.size());
         const CoverRule rule{
-            rule_.clearance, smallest(rule_.spacing),
+            rule_.clearance,
+            rule_.bounds,
+            smallest(rule_.spacing),
             [this](const glm::dvec3& position) { return is_allowed(position, rule_.clearance); },
-            static_cast<size_t>(std::max(most - count, 0.0)), rule_.thread_count};
+            static_cast<size_t>(std::max(most - count, 0.0)),
+            rule_.thread_count};
         for (const glm::dvec3& probe : cover_places(traced_, probes, places, rule)) {
             add(probe, false);
             probes_.back().surface_distance = distance_of(probes_.back());
