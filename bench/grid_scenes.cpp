@@ -8,6 +8,8 @@
 
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/error_text.h>
+#include <tetralight/bench/grid_interior.h>
+#include <tetralight/bench/leak_scenes.h>
 #include <tetralight/bench/scene_parts.h>
 
 namespace tetralight::bench {
@@ -129,7 +131,7 @@ WorldBox bounds_of(const Scene& scene) {
 GridSubject read_subject(const std::string& name, const std::string& path) {
     auto scene = read_gltf(path);
     require(bool(scene), scene ? "" : error_text(scene.error()));
-    GridSubject subject{name, std::move(*scene), {}};
+    GridSubject subject{name, std::move(*scene), {}, {}};
     if (subject.scene.lights.empty() && subject.scene.environment.radiance == glm::vec3(0.0f)) {
         subject.scene.environment.radiance = {0.6f, 0.8f, 1.0f};
         Light sun;
@@ -142,16 +144,29 @@ GridSubject read_subject(const std::string& name, const std::string& path) {
     return subject;
 }
 
+GridSubject make_subject(const std::string& name, Scene scene, std::vector<glm::dvec3> from = {}) {
+    GridSubject subject{name, std::move(scene), {}, std::move(from)};
+    subject.bounds = bounds_of(subject.scene);
+    return subject;
+}
+
+GridSubject rooms_subject() {
+    constexpr float kThickness = 0.2f;
+    const double x = 0.5 * (double{kRoomWide} + double{kThickness});
+    const double y = 0.5 * double{kRoomHigh}, z = 0.5 * double{kRoomWide};
+    return make_subject("rooms", two_rooms(kThickness), {{-x, y, z}, {x, y, z}});
+}
+
 }  // namespace
 
 std::vector<GridSubject> grid_subjects(const Options& options) {
     std::vector<GridSubject> subjects;
     subjects.push_back(
         read_subject("courtyard", TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb"));
-    GridSubject house{"house", HouseBuilder().build(), {}};
-    house.bounds = bounds_of(house.scene);
-    subjects.push_back(std::move(house));
-    if (options.scene) subjects.push_back(read_subject("scene", *options.scene));
+    subjects.push_back(make_subject("house", HouseBuilder().build()));
+    subjects.push_back(rooms_subject());
+    subjects.push_back(make_subject("interior", furnished_interior(), {place_in_interior()}));
+    if (options.scene) subjects.push_back(read_subject(kExternalScene, *options.scene));
     return subjects;
 }
 

@@ -23,6 +23,8 @@ struct Options {
     bool is_quick = false;
     /// CSV file to which `bake` writes errors over rays instead of its figures.
     std::optional<std::string> convergence;
+    /// The scene that `grid` runs alone.
+    std::optional<std::string> only;
 };
 
 /// Two ways to do the same work. Each returns its seconds, so that preparation is not timed.

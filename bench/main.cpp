@@ -34,6 +34,8 @@ int main(int argc, char** argv) {
     app.add_flag("--quick", options.is_quick, "Skip the benchmarks that take minutes");
     app.add_option("--convergence", options.convergence,
                    "`bake` writes a CSV file of errors over rays instead of its figures");
+    app.add_option("--only", options.only,
+                   "The scene that `grid` runs alone: courtyard, house, rooms, interior or scene");
     CLI11_PARSE(app, argc, argv);
     for (const auto& [name, bench] : benches) {
         if (names.empty() || std::ranges::find(names, name) != names.end()) bench(options);
