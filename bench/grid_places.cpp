@@ -7,8 +7,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <random>
+#include <span>
 #include <utility>
 
+#include <tetralight/bake/bake_probes.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/probe_visibility.h>
 #include <tetralight/bake/rays/trace_scene.h>
@@ -71,6 +73,20 @@ TraceScene trace(const Scene& scene) {
     return std::move(*traced);
 }
 
+/// True if most of the positions are outside geometry, and light reaches most of them.
+bool is_lit_and_free(const Scene& scene, std::span<const glm::dvec3> positions) {
+    BakeSettings settings;
+    settings.sample_count = 256;
+    const auto visible = probe_visibilities(scene, positions);
+    const auto baked = bake_probes(scene, positions, settings);
+    require(visible && baked, "light of a space");
+    size_t count = 0;
+    for (size_t i = 0; i < positions.size(); ++i) {
+        count += !(*visible)[i].is_inside() && baked->radiance[i] != RadianceSh{};
+    }
+    return 2 * count > positions.size();
+}
+
 bool is_in(const WorldBox& box, const glm::dvec3& p) {
     return glm::all(glm::greaterThanEqual(p, box.min)) && glm::all(glm::lessThanEqual(p, box.max));
 }
@@ -81,7 +97,8 @@ struct ReachablePlaces::State {
     explicit State(const GridSubject& subject)
         : bounds(subject.bounds),
           traced(trace(subject.scene)),
-          space(traced, bounds, subject.from),
+          space(traced, bounds, subject.from,
+                [&](auto positions) { return is_lit_and_free(subject.scene, positions); }),
           sampler(subject, traced) {}
 
     [[nodiscard]] bool is_usable(const glm::dvec3& p) const {

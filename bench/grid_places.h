@@ -10,9 +10,10 @@
 
 namespace tetralight::bench {
 
-/// An endless sequence of random places that bodies reach, at least 5 cm off all surfaces, drawn
-/// without the generator: half of them 5 to 25 cm off surfaces, distributed by area, the others
-/// uniform in the volume.
+/// An endless sequence of random places, drawn without the generator, that bodies reach from the
+/// subject's seeds (without seeds: in the largest space that light reaches). They are at least 5 cm
+/// off all surfaces: half of them 5 to 25 cm off one, distributed by area, the others uniform in
+/// the volume.
 class ReachablePlaces {
   public:
     /// Keeps a reference.

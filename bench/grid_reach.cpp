@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <utility>
 
 #include <tetralight/bake/parallel.h>
-#include <tetralight/bake/probe_visibility.h>
 #include <tetralight/bench/harness.h>
 
 namespace tetralight::bench {
@@ -25,7 +24,7 @@ const glm::dvec3 kShift(0.0137, 0.0171, 0.0193);
 }  // namespace
 
 ReachableSpace::ReachableSpace(const TraceScene& traced, const WorldBox& bounds,
-                               std::span<const glm::dvec3> from)
+                               std::span<const glm::dvec3> from, const Filter& is_wanted)
     : traced_(traced) {
     const glm::dvec3 size = bounds.size();
     step_ = std::max(kStep, std::cbrt(size.x * size.y * size.z / kMostPoints));
@@ -38,7 +37,7 @@ ReachableSpace::ReachableSpace(const TraceScene& traced, const WorldBox& bounds,
     is_reached_.assign(point_count(), 0);
     find_links();
     if (from.empty()) {
-        flood_largest();
+        flood_largest(is_wanted);
         return;
     }
     for (const glm::dvec3& seed : from) {
@@ -116,26 +115,25 @@ std::vector<size_t> ReachableSpace::flood(std::vector<size_t> points) {
     return points;
 }
 
-void ReachableSpace::flood_largest() {
-    std::vector<size_t> largest;
+void ReachableSpace::flood_largest(const Filter& is_wanted) {
+    std::vector<std::vector<size_t>> spaces;
     for (size_t i = 0; i < point_count(); ++i) {
-        if (is_free_[i] == 0 || is_reached_[i] != 0) continue;
-        std::vector<size_t> space = flood({i});
-        if (space.size() > largest.size() && is_outside_geometry(space)) largest = std::move(space);
+        if (is_free_[i] != 0 && is_reached_[i] == 0) spaces.push_back(flood({i}));
     }
-    require(!largest.empty(), "free space");
+    std::ranges::stable_sort(spaces, std::ranges::greater{}, &std::vector<size_t>::size);
+    const auto chosen = std::ranges::find_if(
+        spaces, [&](const std::vector<size_t>& space) { return is_wanted(some_of(space)); });
+    require(chosen != spaces.end(), "a space for bodies");
     std::ranges::fill(is_reached_, uint8_t{0});
-    for (const size_t point : largest) is_reached_[point] = 1;
+    for (const size_t point : *chosen) is_reached_[point] = 1;
 }
 
-bool ReachableSpace::is_outside_geometry(std::span<const size_t> points) const {
-    const size_t step = std::max<size_t>(1, points.size() / 64);
-    size_t tested = 0, inside = 0;
-    for (size_t i = 0; i < points.size(); i += step) {
-        ++tested;
-        inside += probe_visibility(traced_, traced_.render_from_world(at(points[i]))).is_inside();
-    }
-    return 2 * inside < tested;
+std::vector<glm::dvec3> ReachableSpace::some_of(std::span<const size_t> points) const {
+    constexpr size_t kSome = 64;
+    std::vector<glm::dvec3> some;
+    const size_t step = std::max<size_t>(1, points.size() / kSome);
+    for (size_t i = 0; i < points.size(); i += step) some.push_back(at(points[i]));
+    return some;
 }
 
 template <class Accept>

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -18,10 +19,13 @@ namespace tetralight::bench {
 /// stops these rays, glass too.
 class ReachableSpace {
   public:
+    /// Returns true if bodies may be in a space, which some of its positions tell.
+    using Filter = std::function<bool(std::span<const glm::dvec3> positions)>;
+
     /// The lattice's step is 25 cm, and larger if it would have more than two million points.
-    /// Without seeds the space is the largest one that is not inside geometry. Keeps a reference.
+    /// Without seeds the space is the largest one that the filter accepts. Keeps a reference.
     ReachableSpace(const TraceScene& traced, const WorldBox& bounds,
-                   std::span<const glm::dvec3> from);
+                   std::span<const glm::dvec3> from, const Filter& is_wanted);
 
     /// True if a ray from the world position meets a point of the space, at most two steps away on
     /// each axis.
@@ -37,8 +41,8 @@ class ReachableSpace {
     void find_links();
     /// Marks all points that are joined to the first ones, and returns them.
     std::vector<size_t> flood(std::vector<size_t> points);
-    void flood_largest();
-    [[nodiscard]] bool is_outside_geometry(std::span<const size_t> points) const;
+    void flood_largest(const Filter& is_wanted);
+    [[nodiscard]] std::vector<glm::dvec3> some_of(std::span<const size_t> points) const;
     /// Points around a position that a ray reaches.
     template <class Accept>
     [[nodiscard]] std::vector<size_t> seen_from(const glm::dvec3& position, Accept&& accepts,
