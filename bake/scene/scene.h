@@ -115,6 +115,8 @@ struct MeshInstance {
     bool contributes_gi = true;
     /// The node of the instance, or kNoIndex.
     uint32_t node = kNoIndex;
+    /// True if things move on it (`extras.walkable: true`). Its other roles do not change.
+    bool is_walkable = false;
 
     bool operator==(const MeshInstance&) const = default;
 };

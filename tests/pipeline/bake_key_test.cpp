@@ -78,6 +78,7 @@ TEST_F(BakeKey, ChangesWithGroupsAndSettings) {
 TEST_F(BakeKey, StaysWithWhatChangesNoByte) {
     expect_the_same_key({
         [](BakeKey& t) { t.settings.thread_count = 1; },
+        [](BakeKey& t) { t.scene.instances[0].is_walkable = true; },
         [](BakeKey& t) { std::swap(t.groups[0], t.groups[1]); },
         [](BakeKey& t) { t.scene.materials[0].name = "plaster"; },
         [](BakeKey& t) { t.scene.cameras.resize(1); },

@@ -159,6 +159,7 @@ struct GltfNode {
     std::optional<GltfAttributes> instancing;
     // Extras that Tetralight defines.
     std::optional<bool> contributes_gi;
+    std::optional<bool> is_walkable;
     std::optional<std::string> light_probes;
     std::optional<std::string> probe_anchor;
     GltfLightExtras light_extras;

@@ -100,10 +100,12 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
         placed.parent = parent->node;
         placed.world_from_node = parent->world_from_node * source.parent_from_node;
         placed.contributes_gi = parent->contributes_gi;
+        placed.is_walkable = parent->is_walkable;
         placed.light_probes = parent->light_probes;
         placed.anchored_by = parent->anchored_by;
     }
     placed.contributes_gi = source.contributes_gi.value_or(placed.contributes_gi);
+    placed.is_walkable = source.is_walkable.value_or(placed.is_walkable);
     if (source.probe_anchor) placed.anchored_by = node;
     if (source.light_probes) {
         const auto usage = usage_from(*source.light_probes);

@@ -16,6 +16,7 @@ struct GltfWorldNode {
     uint32_t parent = kNoIndex;
     glm::dmat4 world_from_node{1.0};
     bool contributes_gi = true;
+    bool is_walkable = false;
     LightProbeUsage light_probes = LightProbeUsage::Blend;
     /// The node whose `extras.probe_anchor` applies (its own or an ancestor), or kNoIndex.
     uint32_t anchored_by = kNoIndex;

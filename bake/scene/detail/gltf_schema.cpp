@@ -27,6 +27,7 @@ constexpr GltfRule kNodes[] = {
     {"extensions/KHR_lights_punctual/light", Index, "lights", 0, kRequired},
     {"extensions/EXT_mesh_gpu_instancing/attributes", IndexMap, "accessors", 0, kRequired},
     {"extras/contribute_gi", Boolean},
+    {"extras/walkable", Boolean},
     {"extras/light_probe_group", Boolean},
     {"extras/dering", Boolean},
     {"extras/rendering_layers", RenderingLayers},

@@ -105,6 +105,31 @@ TEST(GltfNodes, ContributeGiIsInheritedAndCanBeSetAgain) {
     EXPECT_EQ(found, expected);
 }
 
+TEST(GltfNodes, WalkableIsInheritedAndCanBeSetAgain) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    const size_t pond =
+        gltf.add("nodes", {{"mesh", mesh}, {"name", "pond"}, {"extras", {{"walkable", false}}}});
+    const size_t lawn = gltf.add("nodes", {{"mesh", mesh}, {"name", "lawn"}, {"children", {pond}}});
+    gltf.add_root(
+        {{"mesh", mesh}, {"name", "park"}, {"children", {lawn}}, {"extras", {{"walkable", true}}}});
+    gltf.add_root({{"mesh", mesh}, {"name", "wall"}});
+    std::vector<std::pair<std::string, bool>> found;
+    for (const auto& instance : scene_of(gltf).instances) {
+        found.emplace_back(instance.name, instance.is_walkable);
+        EXPECT_TRUE(instance.contributes_gi) << instance.name;
+    }
+    const std::vector<std::pair<std::string, bool>> expected = {
+        {"park", true}, {"lawn", true}, {"pond", false}, {"wall", false}};
+    EXPECT_EQ(found, expected);
+}
+
+TEST(GltfNodes, RejectsWalkableThatIsNoBoolean) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()}, {"extras", {{"walkable", "yes"}}}});
+    EXPECT_TRUE(gltf.error().find("extras.walkable") != std::string::npos) << gltf.error();
+}
+
 TEST(GltfNodes, AHundredThousandDeepIsNoLimit) {
     GltfBuilder gltf;
     constexpr size_t kDepth = 100000;
