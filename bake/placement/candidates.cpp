@@ -75,6 +75,49 @@ bool is_floor(const SurfaceSide& side) {
     return !side.is_back_face && side.normal.y > kMinCosine;
 }
 
+/// A place on a floor.
+struct Foot {
+    glm::dvec3 position{0.0};
+    /// The same in render space, clear of the floor.
+    glm::vec3 base{0.0f};
+    /// Where lines of sight to the heights above the base begin.
+    glm::vec3 eye{0.0f};
+};
+
+std::vector<Foot> feet_on_floors(const TraceScene& traced, const WorldBox& bounds,
+                                 const glm::dvec3& column) {
+    std::vector<Foot> feet;
+    for (const LineHit& hit : hits_along(traced, bounds, column, kUp)) {
+        if (!is_floor(hit.side)) continue;
+        const glm::vec3 base =
+            traced.ray_origin(hit.side, traced.render_from_world(hit.position), {0, 1, 0});
+        feet.push_back({hit.position, base, base});
+    }
+    return feet;
+}
+
+/// Walkable meshes are simplified: they may lie this much below the floor that they stand for, and
+/// below the bounds, metres.
+constexpr double kWalkableError = 0.05;
+
+std::vector<Foot> feet_on_walkable(const TraceScene& traced, const WorldBox& bounds,
+                                   const WalkableSurface& walkable, const glm::dvec3& column) {
+    std::vector<Foot> feet;
+    for (const glm::dvec3& position :
+         walkable.feet_in_column(column.x, column.z, bounds.max.y, bounds.min.y - kWalkableError)) {
+        const glm::dvec3 eye = position + glm::dvec3(0.0, kWalkableError, 0.0);
+        feet.push_back(
+            {position, traced.render_from_world(position), traced.render_from_world(eye)});
+    }
+    return feet;
+}
+
+std::vector<Foot> feet_in_column(const TraceScene& traced, const CandidateRule& rule,
+                                 const glm::dvec3& column) {
+    if (rule.walkable == nullptr) return feet_on_floors(traced, rule.bounds, column);
+    return feet_on_walkable(traced, rule.bounds, *rule.walkable, column);
+}
+
 }  // namespace
 
 Result<std::vector<glm::dvec3>> lattice_candidates(const CandidateRule& rule) {
@@ -88,22 +131,21 @@ Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
     const auto columns = lines_along(rule, kUp);
     if (!columns) return columns.error();
     auto candidates = join_lines(*columns, rule, [&](const glm::dvec3& column, auto& found) {
-        for (const LineHit& hit : hits_along(traced, rule.bounds, column, kUp)) {
-            if (!is_floor(hit.side)) continue;
-            const glm::vec3 foot =
-                traced.ray_origin(hit.side, traced.render_from_world(hit.position), {0, 1, 0});
+        for (const Foot& foot : feet_in_column(traced, rule, column)) {
             for (const double height : rule.heights) {
                 const glm::vec3 top(0.0f, static_cast<float>(height), 0.0f);
-                if (!is_visible(traced, foot, foot + top)) continue;
-                const glm::dvec3 candidate = hit.position + glm::dvec3(0.0, height, 0.0);
+                if (!is_visible(traced, foot.eye, foot.base + top)) continue;
+                const glm::dvec3 candidate = foot.position + glm::dvec3(0.0, height, 0.0);
                 if (is_in(rule.bounds, candidate)) found.push_back(candidate);
             }
         }
     });
     if (candidates && candidates->empty()) {
-        return Error{ErrorCode::InvalidArgument, "mode", "layers",
-                     str_cat("there is no floor, or no room above it in the bounds, in any of ",
-                             columns->size(), " columns")};
+        return Error{
+            ErrorCode::InvalidArgument, "mode", "layers",
+            str_cat("there is no ", rule.walkable == nullptr ? "floor" : "walkable surface",
+                    ", or no room above it in the bounds, in any of ", columns->size(),
+                    " columns")};
     }
     return candidates;
 }

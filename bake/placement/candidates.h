@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <tetralight/bake/placement/walkable.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/scene/scene_bounds.h>
 #include <tetralight/base/result.h>
@@ -27,14 +28,18 @@ struct CandidateRule {
     std::vector<double> heights;
     uint64_t max_count = 0;
     uint32_t thread_count = 0;
+    /// Layers: the floor, if not null.
+    const WalkableSurface* walkable = nullptr;
 };
 
 /// A lattice (`make_lattice`).
 [[nodiscard]] Result<std::vector<glm::dvec3>> lattice_candidates(const CandidateRule& rule);
 
 /// Positions in columns `spacing` apart, at the heights above every floor in the bounds. A floor is
-/// a front face whose normal is less than 60° from up. Skips heights that a surface separates from
-/// the floor, and those outside of the bounds. Returns invalid_argument if there is no position.
+/// a front face whose normal is less than 60° from up; with a walkable surface, that surface alone
+/// is the floor. Skips heights that a surface of the scene separates from the floor (from 5 cm
+/// above a walkable surface), and those outside of the bounds. Returns invalid_argument if there is
+/// no position.
 [[nodiscard]] Result<std::vector<glm::dvec3>> layer_candidates(const TraceScene& traced,
                                                                const CandidateRule& rule);
 

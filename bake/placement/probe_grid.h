@@ -64,6 +64,10 @@ struct ProbeGridSettings {
     /// (adaptive: 5 000).
     std::optional<uint64_t> max_probes;
     AdaptiveSettings adaptive;
+    /// Triangles that objects move on, in world space; empty: objects move everywhere.
+    std::vector<std::array<glm::dvec3, 3>> walkable;
+    /// Metres above the walkable triangles up to which probes stand.
+    double agent_height = 2.0;
     /// 0 = all.
     uint32_t thread_count = 0;
 };

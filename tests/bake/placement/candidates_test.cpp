@@ -83,6 +83,49 @@ TEST(LayerCandidates, ASceneWithoutAFloorIsAnError) {
               "there is no floor, or no room above it in the bounds, in any of 4 columns");
 }
 
+WalkableSurface walkable_square(double half_size, double y) {
+    const glm::dvec3 a(-half_size, y, -half_size), b(-half_size, y, half_size);
+    const glm::dvec3 c(half_size, y, half_size), d(half_size, y, -half_size);
+    const WorldTriangle triangles[] = {{a, b, c}, {a, c, d}};
+    return *WalkableSurface::make(triangles);
+}
+
+TEST(LayerCandidates, TakeTheWalkableSurfaceAsTheOnlyFloor) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 5.0f);
+    test::add_floor(scene, test::grey(), 5.0f, 4.0f);
+    // Of the 16 columns at ±1 and ±3, four are over the walkable square, which lies a little below
+    // the lower floor and below the bounds.
+    const WalkableSurface walkable = walkable_square(2.0, -0.02);
+    CandidateRule rule = rule_for({{-4, 0, -4}, {4, 6, 4}}, 2.0);
+    rule.walkable = &walkable;
+    EXPECT_EQ(heights_of(layers_over(scene, rule)),
+              (std::multiset<double>{0.48, 0.48, 0.48, 0.48, 1.48, 1.48, 1.48, 1.48}));
+}
+
+TEST(LayerCandidates, FindNoRoomAboveAWalkableSurfaceBelowALowCeiling) {
+    Scene scene;
+    test::add_ceiling(scene, test::grey(), 5.0f, 1.0f);
+    const WalkableSurface walkable = walkable_square(2.0, 0.0);
+    CandidateRule rule = rule_for({{-2, 0, -2}, {2, 3, 2}}, 2.0);
+    rule.walkable = &walkable;
+    EXPECT_EQ(heights_of(layers_over(scene, rule)), (std::multiset<double>{0.5, 0.5, 0.5, 0.5}));
+}
+
+TEST(LayerCandidates, BesideTheWalkableSurfaceAreAnError) {
+    Scene scene;
+    test::add_floor(scene, test::grey(), 5.0f);
+    const auto traced = TraceScene::make_static(scene);
+    const WalkableSurface walkable = walkable_square(0.5, 0.0);
+    CandidateRule rule = rule_for({{2, 0, 2}, {4, 3, 4}}, 2.0);
+    rule.walkable = &walkable;
+    const auto found = layer_candidates(*traced, rule);
+    ASSERT_FALSE(found);
+    EXPECT_EQ(
+        error_text(found.error()),
+        "there is no walkable surface, or no room above it in the bounds, in any of 1 columns");
+}
+
 TEST(SurfaceCandidates, StandOnBothSidesAtTheClearance) {
     Scene scene;
     test::add_floor(scene, test::grey(), 2.0f, 1.0f);
