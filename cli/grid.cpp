@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include <tetralight/bake/placement/probe_grid.h>
+#include <tetralight/bake/placement/walkable.h>
 #include <tetralight/bake/scene/probe_groups_gltf.h>
 #include <tetralight/bake/scene/probe_groups_json.h>
 #include <tetralight/cli/commands.h>
@@ -35,23 +36,32 @@ std::string partial_path(const std::string& output) {
 
 struct Grid {
     SceneOptions scene_options;
+    std::string navmesh;
     std::string output;
     GridPreview preview;
     ProbeGridSettings settings;
+    /// The agent's height as a message writes it; empty if the user did not give it.
+    std::string given_agent_height;
     CommonOptions common;
 
     explicit Grid(const Values& values)
         : scene_options(values),
+          navmesh(values.text("navmesh")),
           output(values.text("output")),
           preview(values),
           settings(grid_settings(values)),
+          given_agent_height(values.is_given("agent_height") ? values.shown("agent_height") : ""),
           common(values) {
         if (output == "-" && preview.path == "-") {
             refuse(values, "preview", "stdout takes the probes already");
         }
     }
 
-    [[nodiscard]] std::vector<std::string> inputs() const { return scene_options.inputs(); }
+    [[nodiscard]] std::vector<std::string> inputs() const {
+        std::vector<std::string> all = scene_options.inputs();
+        all.push_back(navmesh);
+        return all;
+    }
 
     [[nodiscard]] Status check_files() const {
         if (auto status = check_output(output, inputs()); !status) return status;
@@ -70,6 +80,7 @@ struct Grid {
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
+        if (auto status = find_walkable(*scene); !status) return status;
         if (auto status = preview.choose_camera(*scene, scene_options.path); !status) return status;
         const auto grid = make_grid(*scene);
         if (!grid) return located(grid.error());
@@ -85,6 +96,21 @@ struct Grid {
         }
         common.report(output, grid_json(output, *grid), grid_text(output, *grid));
         return Ok{};
+    }
+
+    /// Where things move, from the file or else from the scene.
+    [[nodiscard]] Status find_walkable(const Scene& scene) {
+        if (navmesh.empty()) {
+            settings.walkable = walkable_triangles(scene);
+        } else {
+            auto read = read_walkable(navmesh);
+            if (!read) return read.error();
+            settings.walkable = std::move(*read);
+        }
+        if (!settings.walkable.empty() || given_agent_height.empty()) return Ok{};
+        return Error{ErrorCode::InvalidArgument, "agent_height", "",
+                     given_agent_height + ": " + scene_options.path +
+                         " has no node with extras.walkable, and no navmesh is given"};
     }
 
     [[nodiscard]] std::string interrupted() const {

@@ -75,6 +75,7 @@ ProbeGridSettings grid_settings(const Values& values) {
     if (auto status = check_characters(settings.name); !status) {
         refuse_because(values, "name", status.error());
     }
+    settings.agent_height = values.number("agent_height");
     if (values.is_given("max_probes")) settings.max_probes = values.integer("max_probes");
     settings.adaptive = adaptive_settings(values);
     settings.thread_count = values.integer32("threads");

@@ -97,6 +97,22 @@ TEST_F(Grid, SaysThatProbeGroupsAreNoScene) {
               "tetralight: groups.json: contains probe groups, not a scene\n");
 }
 
+TEST_F(Grid, NamesANavmeshThatIsMissingOrEmpty) {
+    write("bare.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"name": "lamp"}]})");
+    const auto message = [&](const char* navmesh) {
+        return fail({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--navmesh", navmesh});
+    };
+    EXPECT_TRUE(contains(message("gone.glb"), "gone.glb: ")) << message("gone.glb");
+    EXPECT_EQ(message("bare.gltf"), "tetralight: bare.gltf: contains no mesh to walk on\n");
+}
+
+TEST_F(Grid, RefusesAnAgentHeightWithoutAWalkableSurface) {
+    const std::string message =
+        fail({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--agent-height", "1.5"});
+    EXPECT_TRUE(contains(message, "--agent-height: ")) << message;
+    EXPECT_TRUE(contains(message, "has no node with extras.walkable")) << message;
+}
+
 TEST_F(Grid, SaysThatThereIsNoNodeOfThatName) {
     const std::string message =
         fail({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--bounds-of", "the moon"});
