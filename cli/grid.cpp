@@ -34,14 +34,22 @@ std::string partial_path(const std::string& output) {
     return path.replace_extension(".partial" + path.extension().string()).string();
 }
 
+/// The settings of a grid without a walkable surface.
+Status check_without_walkable(const Values& values) {
+    if (!values.is_given("agent_height")) return Ok{};
+    return values.error("agent_height", "needs a walkable surface, from " +
+                                            values.shown("navmesh") +
+                                            " or from nodes with extras.walkable");
+}
+
 struct Grid {
     SceneOptions scene_options;
     std::string navmesh;
     std::string output;
     GridPreview preview;
     ProbeGridSettings settings;
-    /// The agent's height as a message writes it; empty if the user did not give it.
-    std::string given_agent_height;
+    /// What is wrong if there is no walkable surface.
+    Status without_walkable;
     CommonOptions common;
 
     explicit Grid(const Values& values)
@@ -50,7 +58,7 @@ struct Grid {
           output(values.text("output")),
           preview(values),
           settings(grid_settings(values)),
-          given_agent_height(values.is_given("agent_height") ? values.shown("agent_height") : ""),
+          without_walkable(check_without_walkable(values)),
           common(values) {
         if (output == "-" && preview.path == "-") {
             refuse(values, "preview", "stdout takes the probes already");
@@ -107,10 +115,7 @@ struct Grid {
             if (!read) return read.error();
             settings.walkable = std::move(*read);
         }
-        if (!settings.walkable.empty() || given_agent_height.empty()) return Ok{};
-        return Error{ErrorCode::InvalidArgument, "agent_height", "",
-                     given_agent_height + ": " + scene_options.path +
-                         " has no node with extras.walkable, and no navmesh is given"};
+        return settings.walkable.empty() ? without_walkable : Ok{};
     }
 
     [[nodiscard]] std::string interrupted() const {
