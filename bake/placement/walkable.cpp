@@ -22,9 +22,10 @@ constexpr double kSink = 0.01;
 constexpr double kMaxExtent = 1e12;
 /// The search along a line ends after this number of triangles.
 constexpr int kMaxHits = 1024;
-/// A line and three lines around it. A straight gap between triangles can hide at most two of them.
+/// A line and lines around it, one in each quadrant, so that corners of the surface belong to it. A
+/// straight gap between triangles hides at most three of them.
 constexpr glm::dvec3 kAround[] = {
-    {0.0, 0.0, 0.0}, {0.9, 0.0, 0.4}, {-0.8, 0.0, 0.6}, {-0.1, 0.0, -1.0}};
+    {0.0, 0.0, 0.0}, {0.8, 0.0, 0.6}, {-0.6, 0.0, 0.8}, {-0.8, 0.0, -0.6}, {0.6, 0.0, -0.8}};
 
 glm::dvec3 normal_of(const WorldTriangle& triangle) {
     return glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);

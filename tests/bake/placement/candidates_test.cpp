@@ -123,7 +123,7 @@ TEST(LayerCandidates, BesideTheWalkableSurfaceAreAnError) {
     ASSERT_FALSE(found);
     EXPECT_EQ(
         error_text(found.error()),
-        "there is no walkable surface, or no room above it in the bounds, in any of 1 columns");
+        "there is no walkable surface, or no room above it in the bounds, in any of 4 columns");
 }
 
 TEST(SurfaceCandidates, StandOnBothSidesAtTheClearance) {
