@@ -86,7 +86,7 @@ class CoverSearch {
     }
 
     /// A probe that is closer to another one would hardly differ from it.
-    [[nodiscard]] double least_distance() const { return 0.5 * rule_.clearance; }
+    [[nodiscard]] double least_distance() const { return 0.5 * rule_.ends.clearance; }
 
     [[nodiscard]] bool is_crowded(const glm::dvec3& probe, double apart,
                                   std::span<const glm::dvec3> added) const {
@@ -114,8 +114,8 @@ class CoverSearch {
     /// probes first.
     [[nodiscard]] std::vector<glm::dvec3> ends_around(const glm::dvec3& place,
                                                       const std::vector<glm::dvec3>& probes) const {
-        const ReachRule rule{rule_.bounds, rule_.clearance, glm::bvec3(true), {}};
-        std::vector<glm::dvec3> ends = reach_walls(traced_, place, glm::dvec3(rule_.reach), rule);
+        std::vector<glm::dvec3> ends =
+            reach_walls(traced_, place, glm::dvec3(rule_.reach), rule_.ends);
         const glm::vec3 here = traced_.render_from_world(place);
         std::erase_if(ends, [&](const glm::dvec3& end) {
             return !is_visible(traced_, here, traced_.render_from_world(end));

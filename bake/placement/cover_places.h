@@ -9,16 +9,15 @@
 #include <vector>
 
 #include <tetralight/bake/placement/coverage.h>
+#include <tetralight/bake/placement/reach_walls.h>
 #include <tetralight/bake/rays/trace_scene.h>
-#include <tetralight/bake/scene/scene_bounds.h>
 
 namespace tetralight {
 
 /// What new probes may be.
 struct CoverRule {
-    /// Minimum distance of probes to surfaces, metres.
-    double clearance = 0.0;
-    WorldBox bounds;
+    /// The clearance, and how far probes may reach.
+    ReachRule ends;
     /// How far from an uncovered place its probe may be, metres: outside of the tetrahedra it goes
     /// to walls, edges and corners, so that they grow as far as they can.
     double reach = 1.0;

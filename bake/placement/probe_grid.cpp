@@ -133,6 +133,7 @@ class GridMaker {
         for (const Candidate& candidate : *candidates) {
             is_protected_.push_back(candidate.is_adjusted);
         }
+        keep_walkable();
         reach_out(*candidates);
         if (settings_.mode == PlacementMode::Surface) {
             drop_crowded(traced_, kCrowdedFraction * smallest(rule_.spacing), probes_);
@@ -140,10 +141,32 @@ class GridMaker {
         return Ok{};
     }
 
+    /// Drops what nothing on the walkable surface reaches.
+    void keep_walkable() {
+        if (rule_.walkable == nullptr) return;
+        for (PlacedProbe& probe : probes_) {
+            if (is_kept(probe.fate) && !is_walkable(probe.position)) probe.fate = Fate::Unreachable;
+        }
+    }
+
+    [[nodiscard]] bool is_walkable(const glm::dvec3& position) const {
+        return rule_.walkable == nullptr || rule_.walkable->holds(position, settings_.agent_height);
+    }
+
+    /// Where probes may reach out to.
+    [[nodiscard]] ReachRule reach_rule() const {
+        ReachRule rule{rule_.bounds, rule_.clearance, glm::bvec3(true), {}};
+        rule.axes.y = settings_.mode != PlacementMode::Layers;
+        if (rule_.walkable == nullptr) return rule;
+        rule.height_above = [this](const glm::dvec3& position) {
+            return settings_.agent_height - rule_.walkable->height_above(position).value_or(0.0);
+        };
+        return rule;
+    }
+
     /// Takes the last layers to the walls.
     void reach_out(const std::vector<Candidate>& candidates) {
-        const bool is_layers = settings_.mode == PlacementMode::Layers;
-        const ReachRule rule{rule_.bounds, rule_.clearance, {true, !is_layers, true}, {}};
+        const ReachRule rule = reach_rule();
         std::vector<std::vector<glm::dvec3>> reached(candidates.size());
         parallel_for(candidates.size(), rule_.thread_count, [&](size_t i) {
             if (!is_kept(probes_[i].fate)) return;
@@ -173,6 +196,7 @@ class GridMaker {
 
     void add(const glm::dvec3& position, bool is_protected) {
         if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return;
+        if (!is_walkable(position)) return;
         probes_.push_back({position, Fate::Added, 0.0f});
         is_protected_.push_back(is_protected);
     }
@@ -241,12 +265,13 @@ class GridMaker {
     [[nodiscard]] bool is_at_height(const glm::dvec3& position) const {
         if (settings_.mode != PlacementMode::Layers) return true;
         const auto [low, high] = std::ranges::minmax(rule_.heights);
-        const auto height = height_above_floor(traced_, position);
+        const auto height = rule_.walkable == nullptr ? height_above_floor(traced_, position)
+                                                      : rule_.walkable->height_above(position);
         return height && *height >= low && *height <= high;
     }
 
     [[nodiscard]] bool is_allowed(const glm::dvec3& position, double clearance) const {
-        if (!is_in(rule_.bounds, position)) return false;
+        if (!is_in(rule_.bounds, position) || !is_walkable(position)) return false;
         if (adjustment_at(scene_.probe_adjustments, position).forbids_probes) return false;
         return is_free_with_clearance(traced_, position, clearance) &&
                filled_.contains(map_.space_of(position));
@@ -263,12 +288,9 @@ class GridMaker {
         if (is_adaptive()) most *= kCoverFactor;
         const auto count = static_cast<double>(probes.size());
         const CoverRule rule{
-            rule_.clearance,
-            rule_.bounds,
-            smallest(rule_.spacing),
+            reach_rule(), smallest(rule_.spacing),
             [this](const glm::dvec3& position) { return is_allowed(position, rule_.clearance); },
-            static_cast<size_t>(std::max(most - count, 0.0)),
-            rule_.thread_count};
+            static_cast<size_t>(std::max(most - count, 0.0)), rule_.thread_count};
         for (const glm::dvec3& probe : cover_places(traced_, probes, places, rule)) {
             add(probe, false);
             probes_.back().surface_distance = distance_of(probes_.back());
@@ -371,12 +393,20 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
     for (const ProbeAdjustment& adjustment : scene.probe_adjustments) {
         if (auto status = check_adjustment(adjustment); !status) return status.error();
     }
-    const CandidateRule rule{padded_bounds(*bounds, *spacing, *clearance, settings),
-                             *spacing,
-                             *clearance,
-                             heights_apart(settings.heights, *clearance),
-                             probe_limit(settings),
-                             settings.thread_count};
+    CandidateRule rule{padded_bounds(*bounds, *spacing, *clearance, settings),
+                       *spacing,
+                       *clearance,
+                       heights_apart(settings.heights, *clearance),
+                       probe_limit(settings),
+                       settings.thread_count};
+    const auto triangles =
+        settings.walkable.empty() ? walkable_triangles(scene) : settings.walkable;
+    std::optional<WalkableSurface> walkable;
+    if (!triangles.empty()) {
+        auto made = WalkableSurface::make(triangles);
+        if (!made) return made.error();
+        rule.walkable = &walkable.emplace(std::move(*made));
+    }
     const Scene canonical = canonical_scene(scene);
     const auto traced = TraceScene::make_static(canonical);
     if (!traced) return traced.error();
