@@ -22,8 +22,10 @@
 namespace tetralight {
 namespace {
 
+/// Sensors off surfaces are a little farther from them than places that need not be covered.
+constexpr double kSlack = 1.001;
 /// The minimum number of sensors, sensors per probe, and the maximum number.
-constexpr size_t kMinSensors = 2048, kSensorsPerProbe = 10, kMaxSensors = 1 << 16;
+constexpr size_t kMinSensors = 6144, kSensorsPerProbe = 20, kMaxSensors = 1 << 17;
 /// One of this many sensors is not used for decisions; these give the reported error.
 constexpr uint32_t kCheckEvery = 4;
 /// New probes of a round, as a fraction of the current ones.
@@ -33,11 +35,11 @@ constexpr double kBeyondCount = 1.3, kBeyondError = 0.9;
 /// Refinement goes on until this share of places is uncovered, or hardly falls.
 constexpr double kUncovered = 0.005, kHardlyLess = 0.9;
 /// The maximum noise of the sensors, as a fraction of the error.
-constexpr double kMaxNoise = 0.5;
+constexpr double kMaxNoise = 0.3;
 /// Rounds of replacing the least useful probes at most, the fraction that is replaced at first, and
 /// the one at which it ends.
-constexpr int kReplacements = 24;
-constexpr double kReplacedFraction = 0.2, kLeastFraction = 0.02;
+constexpr int kReplacements = 48;
+constexpr double kReplacedFraction = 0.2, kLeastFraction = 0.02, kShrink = 0.7;
 
 class AdaptiveGrid {
   public:
@@ -47,9 +49,9 @@ class AdaptiveGrid {
           settings_(settings),
           callback_(callback),
           pool_(input.scene, pool_settings(input, settings)),
-          places_(input.traced, input.bounds, input.clearance, input.is_allowed),
+          places_(input.traced, input.bounds, kSlack * input.place_clearance, input.is_allowed),
           sights_(input.traced, pool_),
-          remover_({pool_, sights_, scale_}) {}
+          remover_(view()) {}
 
     Result<AdaptiveReport> run(std::vector<PlacedProbe>& probes,
                                const std::vector<bool>& is_protected) {
@@ -77,9 +79,10 @@ class AdaptiveGrid {
         std::vector<uint32_t> probes;  ///< indices in the pool
         ProbeVolume volume;
         std::vector<SensorError> errors;  ///< one for each sensor used for decisions
-        /// At the other sensors: the error without noise, the mean square, and the mean cost.
+        /// At the other sensors: the error without noise, and the share that is uncovered.
         double error = std::numeric_limits<double>::infinity();
-        double mean_square = 0.0;
+        double uncovered = 1.0;
+        /// Of all sensors used for decisions.
         double cost = std::numeric_limits<double>::infinity();
     };
 
@@ -102,8 +105,11 @@ class AdaptiveGrid {
 
     uint32_t add_to_pool(const glm::dvec3& position) {
         is_protected_.push_back(false);
+        is_to_cover_.push_back(distance_at(position) >= input_.place_clearance);
         return pool_.add(position);
     }
+
+    [[nodiscard]] SensorView view() { return {pool_, sights_, scale_, is_to_cover_}; }
 
     [[nodiscard]] bool is_time_over() const {
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
@@ -174,17 +180,22 @@ class AdaptiveGrid {
             if (auto status = bake(); !status) return status;
             if (!has_scale_) set_scale();
             set_.volume = volume_of(pool_, set_.probes);
-            const auto errors = sensor_errors(set_.volume, set_.probes, checks_,
-                                              {pool_, sights_, scale_}, input_.thread_count);
+            const auto errors =
+                sensor_errors(set_.volume, set_.probes, checks_, view(), input_.thread_count);
             const double error = mean_error(errors);
             const double noise = mean_noise(pool_, checks_, scale_);
             set_.error = std::sqrt(std::max(0.0, error * error - noise * noise));
-            set_.mean_square = error * error;
-            set_.cost = sum_of_costs(errors) / static_cast<double>(errors.size());
+            set_.uncovered = uncovered_share(errors);
         } while (add_samples());
-        set_.errors = sensor_errors(set_.volume, set_.probes, sensors_, {pool_, sights_, scale_},
-                                    input_.thread_count);
+        set_.errors =
+            sensor_errors(set_.volume, set_.probes, sensors_, view(), input_.thread_count);
+        set_.cost = sum_of_costs(set_.errors) / static_cast<double>(sensors_.size());
         return Ok{};
+    }
+
+    [[nodiscard]] static double uncovered_share(const std::vector<SensorError>& errors) {
+        const auto count = std::ranges::count(errors, false, &SensorError::is_covered);
+        return static_cast<double>(count) / static_cast<double>(errors.size());
     }
 
     [[nodiscard]] static double sum_of_costs(const std::vector<SensorError>& errors) {
@@ -201,11 +212,6 @@ class AdaptiveGrid {
         return Ok{};
     }
 
-    /// Of the sensors that are not used for decisions.
-    [[nodiscard]] static double uncovered_share(const Set& set) {
-        return (set.cost - set.mean_square) / SensorError::kUncovered;
-    }
-
     Status refine() {
         const double most = kBeyondCount * static_cast<double>(input_.max_probes);
         double uncovered = 1.0;
@@ -216,7 +222,7 @@ class AdaptiveGrid {
                 if (auto status = accept(); !status) return status;
             }
             report_.end = AdaptiveEnd::TargetReached;
-            const double before = std::exchange(uncovered, uncovered_share(set_));
+            const double before = std::exchange(uncovered, set_.uncovered);
             const bool is_covered = uncovered <= kUncovered || uncovered > kHardlyLess * before;
             if (is_covered && set_.error <= kBeyondError * settings_.target_error) return Ok{};
             report_.end = AdaptiveEnd::MaxProbes;
@@ -238,21 +244,26 @@ class AdaptiveGrid {
                                   return !is_member[sensor] &&
                                          has_clearance(pool_.position(sensor));
                               },
-                              std::min(room, std::max<size_t>(growth, 16))};
+                              std::min(room, std::max<size_t>(growth, 16)), input_.thread_count};
         const std::vector<uint32_t> found =
-            refine_cells({set_.volume, pool_, sensors_, set_.errors}, rule);
+            refine_cells({set_.probes, set_.volume, sensors_, set_.errors, view()}, rule);
         set_.probes.insert(set_.probes.end(), found.begin(), found.end());
         report_.peak_probe_count = std::max<uint64_t>(report_.peak_probe_count, set_.probes.size());
         return found.size();
     }
 
-    /// True if a probe at the position keeps the clearance. Sensors may be closer to surfaces.
-    [[nodiscard]] bool has_clearance(const glm::dvec3& world_position) const {
+    /// Metres to the nearest surface.
+    [[nodiscard]] double distance_at(const glm::dvec3& world_position) const {
         const glm::vec3 position = input_.traced.render_from_world(world_position);
         const auto nearest = input_.traced.nearest_surface(position);
+        return nearest ? double{glm::distance(*nearest, position)}
+                       : std::numeric_limits<double>::infinity();
+    }
+
+    /// True if a probe at the position keeps the clearance. Sensors may be closer to surfaces.
+    [[nodiscard]] bool has_clearance(const glm::dvec3& position) const {
         constexpr double kRounding = 0.99;
-        return !nearest ||
-               double{glm::distance(*nearest, position)} >= kRounding * input_.clearance;
+        return distance_at(position) >= kRounding * input_.clearance;
     }
 
     /// The sum of costs that corresponds to an error, in proportion to the set's, while no more
@@ -314,6 +325,18 @@ class AdaptiveGrid {
         return Ok{};
     }
 
+    /// Sensors that became probes and were the least useful at once are not tried again.
+    void forget_removed(const std::vector<uint32_t>& inserted) {
+        is_tried_.resize(pool_.size(), false);
+        for (const uint32_t probe : inserted) {
+            is_tried_[probe] = std::ranges::find(set_.probes, probe) == set_.probes.end();
+        }
+    }
+
+    [[nodiscard]] bool is_tried(uint32_t sensor) const {
+        return sensor < is_tried_.size() && is_tried_[sensor];
+    }
+
     /// Moves the least useful probes while that helps; fewer of them after a round that did not.
     Status replace() {
         double fraction = kReplacedFraction;
@@ -322,20 +345,24 @@ class AdaptiveGrid {
             const auto count = static_cast<size_t>(input_.max_probes);
             const size_t unused = count - std::min(count, set_.probes.size());
             const auto room = static_cast<size_t>(std::ceil(fraction * static_cast<double>(count)));
-            if (insert(unused + room) == 0) break;
+            const size_t inserted_count = insert(unused + room);
+            if (inserted_count == 0) break;
+            const std::vector<uint32_t> inserted(
+                set_.probes.end() - static_cast<std::ptrdiff_t>(inserted_count), set_.probes.end());
             if (auto status = measure_errors(); !status) return status;
             while (set_.probes.size() > count) {
                 const auto removed = remove(count, std::numeric_limits<double>::max());
                 if (!removed) return removed.error();
                 if (!*removed) break;
             }
+            forget_removed(inserted);
             const bool is_better = set_.cost < best_->cost && set_.probes.size() <= count;
             if (is_better) {
                 if (auto status = accept(); !status) return status;
                 continue;
             }
             set_ = *best_;
-            fraction *= 0.5;
+            fraction *= kShrink;
         }
         set_ = *best_;
         return Ok{};
@@ -354,11 +381,8 @@ class AdaptiveGrid {
         }
         std::ranges::sort(added);
         for (const uint32_t probe : added) {
-            const glm::vec3 position = input_.traced.render_from_world(pool_.position(probe));
-            const auto nearest = input_.traced.nearest_surface(position);
-            const float distance = nearest ? glm::distance(*nearest, position)
-                                           : std::numeric_limits<float>::infinity();
-            probes.push_back({pool_.position(probe), Fate::Kept, distance});
+            const double distance = distance_at(pool_.position(probe));
+            probes.push_back({pool_.position(probe), Fate::Kept, static_cast<float>(distance)});
         }
         report_.error = best_->error;
         report_.position_count = pool_.size();
@@ -373,11 +397,13 @@ class AdaptiveGrid {
     LightPool pool_;
     SensorSequence places_;
     ErrorScale scale_;
+    std::vector<bool> is_to_cover_;  ///< one for each position of the pool
     Sights sights_;
     ProbeRemover remover_;
     AdaptiveReport report_;
     Set set_;
     std::optional<Set> best_;
+    std::vector<bool> is_tried_;        ///< sensors that were no better than others
     std::vector<bool> is_protected_;    ///< one for each position of the pool
     std::vector<size_t> start_places_;  ///< index in the start of the first positions of the pool
     size_t start_count_ = 0;

@@ -77,6 +77,8 @@ struct AdaptiveInput {
     const TraceScene& traced;
     WorldBox bounds;
     double clearance = 0.0;
+    /// Least distance to surfaces of places that probes have to cover, metres.
+    double place_clearance = 0.0;
     /// Returns true if a free position may have a probe.
     std::function<bool(const glm::dvec3& position)> is_allowed;
     /// Returns the space of a position. Each space keeps probes that span what its start spans.

@@ -322,6 +322,7 @@ class GridMaker {
                                   traced_,
                                   rule_.bounds,
                                   rule_.clearance,
+                                  place_clearance(),
                                   [this](const glm::dvec3& position) {
                                       return is_allowed(position, kCloser * rule_.clearance);
                                   },

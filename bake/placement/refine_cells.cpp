@@ -4,92 +4,151 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <map>
 
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/cell_lists.h>
 #include <tetralight/base/contract.h>
 
 namespace tetralight {
 namespace {
 
-/// The refined cells hold this fraction of all costs at most; the others may be noise. Cells that
-/// cannot be refined do not count: they would end the refinement of all others.
-constexpr double kRefinedFraction = 0.9;
-/// Sensors of a cell that are tried.
-constexpr size_t kSensorTries = 8;
+/// Cells that are looked at for each new probe, and sensors that are tried in each.
+constexpr size_t kCellsPerProbe = 3, kMinCells = 64, kTrialsPerCell = 4;
 /// Minimum distance between new probes, as a fraction of the distance to their cell's corners.
 constexpr double kDistanceFraction = 0.5;
 
-/// The sensors of one cell, as indices into the errors.
-struct CellCost {
-    uint32_t cell = 0;
-    double sum = 0.0;
-    std::vector<uint32_t> sensors;
+/// A sensor of a cell and what it would save as a probe.
+struct Offer {
+    uint32_t sensor = kNoIndex;  ///< in the pool
+    double gain = 0.0;
+    double room = 0.0;  ///< metres to the nearest corner of its cell
 };
-
-std::vector<CellCost> costs_by_cell(const RefineInput& input) {
-    std::map<uint32_t, CellCost> by_cell;
-    for (uint32_t i = 0; i < input.errors.size(); ++i) {
-        const SensorError& error = input.errors[i];
-        if (error.cell == kNoIndex || !(error.cost() > 0.0)) continue;
-        CellCost& cost = by_cell[error.cell];
-        cost.cell = error.cell;
-        cost.sum += error.cost();
-        cost.sensors.push_back(i);
-    }
-    std::vector<CellCost> costs;
-    for (auto& [cell, cost] : by_cell) {
-        std::ranges::stable_sort(cost.sensors, std::greater{},
-                                 [&](uint32_t i) { return input.errors[i].cost(); });
-        costs.push_back(std::move(cost));
-    }
-    std::ranges::stable_sort(costs, std::greater{}, &CellCost::sum);
-    return costs;
-}
 
 class Refiner {
   public:
-    Refiner(const RefineInput& input, const RefineRule& rule) : input_(input), rule_(rule) {}
+    Refiner(const RefineInput& input, const RefineRule& rule)
+        : input_(input),
+          rule_(rule),
+          cells_(cells_of_probes(input.volume)),
+          sensors_(sensors_of_cells(input.volume, input.errors)) {}
 
     std::vector<uint32_t> run() {
-        const std::vector<CellCost> costs = costs_by_cell(input_);
-        double all = 0.0, done = 0.0;
-        for (const CellCost& cost : costs) all += cost.sum;
-        for (const CellCost& cost : costs) {
-            if (found_.size() == rule_.max_cell_count || done > kRefinedFraction * all) break;
-            if (refine(cost)) done += cost.sum;
+        const std::vector<uint32_t> cells = costly_cells();
+        std::vector<Offer> offers(cells.size());
+        parallel_for(cells.size(), rule_.thread_count,
+                     [&](size_t i) { offers[i] = best_offer(cells[i]); });
+        std::ranges::stable_sort(offers, std::greater{}, &Offer::gain);
+        std::vector<Offer> chosen;
+        for (const Offer& offer : offers) {
+            if (chosen.size() == rule_.max_count || !(offer.gain > 0.0)) break;
+            if (is_apart(offer, chosen)) chosen.push_back(offer);
         }
-        return std::move(found_);
+        std::vector<uint32_t> found;
+        for (const Offer& offer : chosen) found.push_back(offer.sensor);
+        return found;
     }
 
   private:
-    /// Returns true if a probe was added.
-    bool refine(const CellCost& cost) {
-        for (size_t k = 0; k < std::min(cost.sensors.size(), kSensorTries); ++k) {
-            const uint32_t sensor = input_.sensors[cost.sensors[k]];
-            if (!is_apart(cost.cell, input_.pool.position(sensor))) continue;
-            if (!rule_.may_become_probe(sensor)) continue;
-            found_.push_back(sensor);
-            return true;
-        }
-        return false;
+    [[nodiscard]] double cost_in(uint32_t cell) const {
+        double sum = 0.0;
+        for (const uint32_t i : sensors_[cell]) sum += input_.errors[i].cost();
+        return sum;
     }
 
-    /// True if a position is not too close to a corner of the cell or to a new probe.
-    [[nodiscard]] bool is_apart(uint32_t cell, const glm::dvec3& position) const {
+    /// The cells with costs that have a sensor which may become a probe, the largest costs first.
+    [[nodiscard]] std::vector<uint32_t> costly_cells() const {
+        const size_t most = std::max(kCellsPerProbe * rule_.max_count, kMinCells);
+        std::vector<double> costs(sensors_.size());
+        std::vector<uint32_t> cells;
+        for (uint32_t c = 0; c < sensors_.size(); ++c) {
+            costs[c] = cost_in(c);
+            if (costs[c] > 0.0) cells.push_back(c);
+        }
+        std::ranges::stable_sort(cells, std::greater{}, [&](uint32_t c) { return costs[c]; });
+        std::vector<uint32_t> found;
+        for (const uint32_t cell : cells) {
+            if (found.size() == most) break;
+            if (!candidates_in(cell).empty()) found.push_back(cell);
+        }
+        return found;
+    }
+
+    /// Sensors that may become probes: the one that costs most, and others at even ranks.
+    [[nodiscard]] std::vector<uint32_t> candidates_in(uint32_t cell) const {
+        std::vector<uint32_t> ranked = sensors_[cell];
+        std::ranges::stable_sort(ranked, std::greater{},
+                                 [&](uint32_t i) { return input_.errors[i].cost(); });
+        std::vector<uint32_t> candidates;
+        for (const uint32_t i : ranked) {
+            const uint32_t sensor = input_.sensors[i];
+            if (room_of(cell, sensor) > rule_.clearance && rule_.may_become_probe(sensor)) {
+                candidates.push_back(sensor);
+            }
+        }
+        if (candidates.size() <= kTrialsPerCell) return candidates;
+        std::vector<uint32_t> some;
+        for (size_t k = 0; k < kTrialsPerCell; ++k) {
+            some.push_back(candidates[k * candidates.size() / kTrialsPerCell]);
+        }
+        return some;
+    }
+
+    /// Metres to the nearest corner.
+    [[nodiscard]] double room_of(uint32_t cell, uint32_t sensor) const {
         double room = std::numeric_limits<double>::infinity();
         for (const uint32_t probe : input_.volume.cells[cell].vertices) {
             if (probe == kNoIndex) continue;
-            room = std::min(room, glm::distance(position, input_.volume.exact_positions[probe]));
+            room = std::min(room, glm::distance(input_.view.pool.position(sensor),
+                                                input_.volume.exact_positions[probe]));
         }
-        if (!(room > rule_.clearance)) return false;
-        return std::ranges::none_of(found_, [&](uint32_t other) {
-            return glm::distance(position, input_.pool.position(other)) < kDistanceFraction * room;
+        return room;
+    }
+
+    [[nodiscard]] Offer best_offer(uint32_t cell) const {
+        std::vector<uint32_t> around;
+        for (const uint32_t probe : input_.volume.cells[cell].vertices) {
+            if (probe == kNoIndex) continue;
+            around.insert(around.end(), cells_[probe].begin(), cells_[probe].end());
+        }
+        std::ranges::sort(around);
+        around.erase(std::ranges::unique(around).begin(), around.end());
+        std::vector<uint32_t> probes = named(probes_of_cells(input_.volume, around), input_.probes);
+        std::vector<uint32_t> sensors;
+        for (const uint32_t c : around) {
+            for (const uint32_t i : sensors_[c]) sensors.push_back(input_.sensors[i]);
+        }
+        const double before = cost_by(probes, sensors);
+        Offer best;
+        probes.push_back(kNoIndex);
+        for (const uint32_t candidate : candidates_in(cell)) {
+            probes.back() = candidate;
+            const double gain = before - cost_by(probes, sensors);
+            if (gain > best.gain) best = {candidate, gain, room_of(cell, candidate)};
+        }
+        return best;
+    }
+
+    [[nodiscard]] double cost_by(const std::vector<uint32_t>& probes,
+                                 const std::vector<uint32_t>& sensors) const {
+        const ProbeVolume volume = volume_of(input_.view.pool, probes);
+        double sum = 0.0;
+        for (const SensorError& error : sensor_errors(volume, probes, sensors, input_.view, 1)) {
+            sum += error.cost();
+        }
+        return sum;
+    }
+
+    [[nodiscard]] bool is_apart(const Offer& offer, const std::vector<Offer>& chosen) const {
+        const LightPool& pool = input_.view.pool;
+        return std::ranges::none_of(chosen, [&](const Offer& other) {
+            const double least = kDistanceFraction * std::min(offer.room, other.room);
+            return glm::distance(pool.position(offer.sensor), pool.position(other.sensor)) < least;
         });
     }
 
     const RefineInput& input_;
     const RefineRule& rule_;
-    std::vector<uint32_t> found_;
+    Lists cells_, sensors_;
 };
 
 }  // namespace

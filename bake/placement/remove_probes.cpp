@@ -8,32 +8,12 @@
 
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/placement/affine_dimension.h>
+#include <tetralight/bake/placement/cell_lists.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/probes/content_hash.h>
 
 namespace tetralight {
 namespace {
-
-/// Lists of numbers by what they belong to.
-using Lists = std::vector<std::vector<uint32_t>>;
-
-Lists cells_of_probes(const ProbeVolume& volume) {
-    Lists cells(volume.positions.size());
-    for (uint32_t c = 0; c < volume.cells.size(); ++c) {
-        for (const uint32_t probe : volume.cells[c].vertices) {
-            if (probe != kNoIndex) cells[probe].push_back(c);
-        }
-    }
-    return cells;
-}
-
-Lists sensors_of_cells(const ProbeVolume& volume, std::span<const SensorError> errors) {
-    Lists sensors(volume.cells.size());
-    for (uint32_t i = 0; i < errors.size(); ++i) {
-        if (errors[i].cell != kNoIndex) sensors[errors[i].cell].push_back(i);
-    }
-    return sensors;
-}
 
 /// What surrounds one probe.
 struct Star {
@@ -43,23 +23,12 @@ struct Star {
 
 Star star_of(uint32_t probe, const ProbeVolume& volume, const Lists& cells, const Lists& sensors) {
     Star star;
+    star.neighbors = probes_of_cells(volume, cells[probe]);
+    std::erase(star.neighbors, probe);
     for (const uint32_t c : cells[probe]) {
-        for (const uint32_t other : volume.cells[c].vertices) {
-            if (other != kNoIndex && other != probe) star.neighbors.push_back(other);
-        }
         star.sensors.insert(star.sensors.end(), sensors[c].begin(), sensors[c].end());
     }
-    std::ranges::sort(star.neighbors);
-    star.neighbors.erase(std::ranges::unique(star.neighbors).begin(), star.neighbors.end());
     return star;
-}
-
-/// Numbers in the pool of what a star names otherwise.
-std::vector<uint32_t> in_pool(const std::vector<uint32_t>& numbers,
-                              std::span<const uint32_t> pool_numbers) {
-    std::vector<uint32_t> result;
-    for (const uint32_t number : numbers) result.push_back(pool_numbers[number]);
-    return result;
 }
 
 /// The probes that are left in each space.
@@ -115,8 +84,8 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
     parallel_for(probes.size(), rule.thread_count, [&](size_t i) {
         const auto probe = static_cast<uint32_t>(i);
         Star& star = stars[i] = star_of(probe, volume, cells, sensors_in);
-        const std::vector<uint32_t> neighbors = in_pool(star.neighbors, probes);
-        const std::vector<uint32_t> around = in_pool(star.sensors, sensors);
+        const std::vector<uint32_t> neighbors = named(star.neighbors, probes);
+        const std::vector<uint32_t> around = named(star.sensors, sensors);
         ContentHash key;
         key.add(view_.pool.version());
         key.add(neighbors);

@@ -56,6 +56,7 @@ std::vector<SensorError> sensor_errors(const ProbeVolume& volume, std::span<cons
     const auto look = [&](size_t i) {
         const CellLocation location = locate(probe_view, glm::vec3(view.pool.position(sensors[i])));
         SensorError& error = errors[i];
+        error.is_covered = !view.is_to_cover[sensors[i]];
         error.cell = location.cell;
         SeenLight seen;
         if (location.cell != kNoIndex) {

@@ -18,6 +18,7 @@ struct SensorError {
     uint32_t cell = kNoIndex;
     /// The square of the error, by an `ErrorScale`.
     float square = 0.0f;
+    /// True also where nothing has to be.
     bool is_covered = false;
 
     /// The cost of a position that is not covered: more than any usual error of light.
@@ -32,6 +33,9 @@ struct SensorView {
     const LightPool& pool;
     Sights& sights;
     ErrorScale scale;
+    /// One for each position of the pool: false where probes need not cover it, such as closer to
+    /// surfaces than they may be.
+    const std::vector<bool>& is_to_cover;
 };
 
 /// A volume of some positions of the pool, without sources and names. Precondition: the positions
