@@ -16,6 +16,9 @@ constexpr uint32_t kProbeSamples = 1024;
 /// Defaults of the generator, metres.
 constexpr double kRegularClearance = 0.1, kAdaptiveClearance = 0.05;
 
+/// Regular grids with more probes than the adaptive ones by this factor are no baseline for them.
+constexpr double kComparable = 1.1;
+
 /// A point of a curve of error over probes.
 struct ErrorAt {
     double probe_count = 0.0;
@@ -68,7 +71,7 @@ class Comparison {
     GridComparison run() {
         if (!subject_.is_external()) measure_a_metre_apart();
         for (const uint64_t count : counts_.all) compare(count);
-        if (adaptive_.size() > 1) {
+        if (adaptive_.size() > 1 && !regular_.empty()) {
             const auto& [regular_count, error] = regular_.back();
             result_.probes_for_error = count_for(adaptive_, error) / regular_count;
             report("grid.probes_for_error." + subject_.name, *result_.probes_for_error,
@@ -113,9 +116,15 @@ class Comparison {
         }
         const LightErrors ours = errors_of("adaptive", asked, adaptive);
         const ProbeGrid regular = regular_grid(subject_, adaptive.probe_count());
-        const LightErrors baseline = errors_of("regular", asked, regular);
+        const auto regular_count = static_cast<double>(regular.probe_count());
         adaptive_.push_back({made, ours.rms});
-        regular_.push_back({static_cast<double>(regular.probe_count()), baseline.rms});
+        if (regular_count > kComparable * made) {
+            report(str_cat("grid.regular_needs.", subject_.name, ".", asked), regular_count,
+                   "probes: no regular grid that covers the scene has fewer");
+            return;
+        }
+        const LightErrors baseline = errors_of("regular", asked, regular);
+        regular_.push_back({regular_count, baseline.rms});
         result_.ratios.push_back(ours.rms / baseline.rms);
         report_errors(asked, ours, baseline, str_cat(regular.probe_count(), " regular probes"));
     }

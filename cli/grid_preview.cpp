@@ -6,9 +6,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <tetralight/bake/image/write_image.h>
+#include <tetralight/bake/placement/light_difference.h>
 #include <tetralight/pipeline/bake_volume.h>
 #include <tetralight/render/light_balls.h>
 #include <tetralight/render/render_scene.h>
@@ -34,6 +36,12 @@ std::vector<float> nearest_distances(const ProbeVolumeView& volume) {
     return nearest;
 }
 
+/// What the picture shows from its lower to its upper edge at a position, metres.
+double height_at(const Camera& camera, const glm::dvec3& position) {
+    return 2.0 * std::tan(0.5 * camera.fov_y_radians) *
+           glm::distance(position, glm::dvec3(camera.world_from_camera[3]));
+}
+
 /// Balls that do not touch, except those that would be too small to be visible.
 std::vector<LightBall> probe_balls(const ProbeVolumeView& volume, const Camera& camera) {
     constexpr float kOfSpacing = 0.35f;
@@ -43,12 +51,32 @@ std::vector<LightBall> probe_balls(const ProbeVolumeView& volume, const Camera& 
     std::vector<LightBall> balls;
     for (uint32_t i = 0; i < volume.probe_count(); ++i) {
         const glm::dvec3 center = volume.info.world_origin + glm::dvec3(volume.positions[i]);
-        const double height = 2.0 * std::tan(0.5 * camera.fov_y_radians) *
-                              glm::distance(center, glm::dvec3(camera.world_from_camera[3]));
+        const double height = height_at(camera, center);
         const float radius =
             std::clamp(kOfSpacing * nearest[i], static_cast<float>(kSmallest * height),
                        static_cast<float>(kLargest * height));
         balls.push_back({center, radius, volume.irradiance[i]});
+    }
+    return balls;
+}
+
+/// Small balls at places that no probe covers: red ones outside of the tetrahedra, violet ones out
+/// of sight. As bright as the brightest probes, so that they show at any exposure.
+std::vector<LightBall> uncovered_balls(const ProbeGrid& grid, const ProbeVolumeView& volume,
+                                       const Camera& camera) {
+    constexpr glm::vec3 kOutside(1.0f, 0.0f, 0.0f), kUnseen(0.7f, 0.0f, 1.0f);
+    constexpr double kRadius = 0.003;  // of the picture's height
+    double brightest = 0.0;
+    for (const IrradianceSh& light : volume.irradiance) {
+        brightest = std::max(brightest, mean_irradiance(light));
+    }
+    const auto scale = static_cast<float>(brightest > 0.0 ? brightest / std::numbers::pi : 1.0);
+    std::vector<LightBall> balls;
+    for (const UncoveredPlace& place : grid.uncovered) {
+        const glm::vec3 color = place.cover == Cover::HullCell ? kOutside : kUnseen;
+        balls.push_back({place.position,
+                         static_cast<float>(kRadius * height_at(camera, place.position)),
+                         irradiance_from_radiance(constant_radiance(scale * color))});
     }
     return balls;
 }
@@ -85,7 +113,10 @@ Status GridPreview::write(const Scene& scene, const ProbeGrid& grid, uint32_t th
     const ProbeVolumeView volume = baked->volume.view();
     const auto shader = SceneShader::make(scene, volume);
     if (!shader) return shader.error();
-    const auto balls = LightBalls::make(probe_balls(volume, camera_));
+    std::vector<LightBall> all = probe_balls(volume, camera_);
+    const std::vector<LightBall> marks = uncovered_balls(grid, volume, camera_);
+    all.insert(all.end(), marks.begin(), marks.end());
+    const auto balls = LightBalls::make(all);
     if (!balls) return balls.error();
     view.settings.thread_count = thread_count;
     const ImageF image =

@@ -138,8 +138,8 @@ constexpr Setting kOutput[] = {{.name = "name",
 constexpr Setting kPreviewFile[] = {
     {.name = "preview",
      .type = Type::Path,
-     .help = "Picture to write: the scene with its probes, lit by a quick bake; probes behind "
-             "walls show through (- = stdout)",
+     .help = "Picture to write: the scene with its probes, lit by a quick bake, and with places "
+             "that no probe covers, in red; balls behind walls show through (- = stdout)",
      .extensions = ".png",
      .without = "no picture",
      .access = Access::Command}};
