@@ -170,11 +170,12 @@ class GridMaker {
         std::vector<std::vector<glm::dvec3>> reached(candidates.size());
         parallel_for(candidates.size(), rule_.thread_count, [&](size_t i) {
             if (!is_kept(probes_[i].fate)) return;
-            reached[i] = reach_walls(traced_, probes_[i].position, candidates[i].spacing, rule);
+            const glm::dvec3 spacing = in_bounds(candidates[i].spacing);
+            reached[i] = reach_walls(traced_, probes_[i].position, spacing, rule);
         });
-        double same = smallest(rule_.spacing);
+        double same = smallest(in_bounds(rule_.spacing));
         for (const Candidate& candidate : candidates) {
-            same = std::min(same, smallest(candidate.spacing));
+            same = std::min(same, smallest(in_bounds(candidate.spacing)));
         }
         for (size_t i = 0; i < candidates.size(); ++i) {
             std::vector<glm::dvec3>& places = reached[i];
@@ -192,6 +193,16 @@ class GridMaker {
         align();
         drop_same(kSameFraction * same, candidates.size());
         measure_distances();
+    }
+
+    /// The spacing, where an axis of the bounds that is short has two layers.
+    [[nodiscard]] glm::dvec3 in_bounds(glm::dvec3 spacing) const {
+        constexpr double kFlat = 0.001;  // of the spacing: such an axis has one layer
+        for (int axis = 0; axis < 3; ++axis) {
+            const double size = rule_.bounds.size()[axis];
+            if (size >= kFlat * spacing[axis]) spacing[axis] = std::min(spacing[axis], 0.5 * size);
+        }
+        return spacing;
     }
 
     void add(const glm::dvec3& position, bool is_protected) {
@@ -258,7 +269,8 @@ class GridMaker {
 
     /// True if objects may be at a position, and probes.
     [[nodiscard]] bool is_to_cover(const glm::dvec3& position) const {
-        return is_allowed(position, place_clearance()) && is_at_height(position);
+        // The height first: it takes one ray.
+        return is_at_height(position) && is_allowed(position, place_clearance());
     }
 
     /// With layers: true between the lowest and the highest of their heights.

@@ -24,6 +24,8 @@ class Reach {
                std::vector<glm::dvec3>& found) const {
         // Walls this near have no room for a layer of their own; a gap of this width has one layer.
         constexpr double kAtWall = 0.01, kNarrow = 0.1;
+        // Layers are half a spacing from the sides of the bounds, up to rounding.
+        constexpr double kHalf = 0.501;
         const auto down = way(position, axis, -1.0, spacing);
         const auto up = way(position, axis, 1.0, spacing);
         const bool is_narrow = down && up && *down + *up < kNarrow * spacing;
@@ -33,7 +35,7 @@ class Reach {
             glm::dvec3 place = position;
             place[axis] += sign * *length;
             found.push_back(place);
-            is_taken = is_taken || *length <= 0.5 * spacing;
+            is_taken = is_taken || *length <= kHalf * spacing;
         }
         // At one wall already: the position is its layer.
         const bool is_at_wall =

@@ -41,12 +41,16 @@ ProbeGridSettings adaptive(uint64_t max_count, double target_error) {
     return settings;
 }
 
-TEST(AdaptiveGrid, StaysBelowTheMostProbesAndGetsBetterWithMore) {
-    const ProbeGrid few = grid_of(two_rooms(), adaptive(60, 1e-4));
-    const ProbeGrid many = grid_of(two_rooms(), adaptive(480, 1e-4));
-    EXPECT_LE(few.probe_count(), 60u);
-    EXPECT_LE(many.probe_count(), 480u);
+TEST(AdaptiveGrid, MakesTheProbesThatItMayAndGetsBetterWithMore) {
+    const ProbeGrid few = grid_of(two_rooms(), adaptive(100, 1e-4));
+    const ProbeGrid many = grid_of(two_rooms(), adaptive(400, 1e-4));
+    EXPECT_LE(few.probe_count(), 100u);
+    EXPECT_GE(few.probe_count(), 98u);
+    EXPECT_LE(many.probe_count(), 400u);
+    EXPECT_GE(many.probe_count(), 392u);
+    EXPECT_EQ(few.adaptive->end, AdaptiveEnd::MaxProbes);
     EXPECT_EQ(many.adaptive->end, AdaptiveEnd::MaxProbes);
+    EXPECT_GE(many.coverage.share(Cover::Covered), 0.98);
     EXPECT_LT(many.adaptive->error, 0.8 * few.adaptive->error);
     EXPECT_GT(many.adaptive->error, 0.0);
 }
@@ -61,17 +65,28 @@ TEST(AdaptiveGrid, StopsAtTheTargetWithNoMoreProbesThanItTakes) {
     EXPECT_EQ(grid.adaptive->end, AdaptiveEnd::TargetReached);
     EXPECT_LE(grid.adaptive->error, 0.3);
     EXPECT_LT(grid.probe_count(), 500u);
-    EXPECT_EQ(grid.probe_count() + grid.count(Fate::Redundant) + grid.count(Fate::Inside),
-              grid.candidate_count);
+    uint64_t all = 0;
+    for (const uint64_t count : grid.fate_counts) all += count;
+    EXPECT_EQ(all, grid.candidate_count);
+    EXPECT_GE(grid.coverage.share(Cover::Covered), 0.97);
 }
 
-TEST(AdaptiveGrid, PutsProbesWhereLightChanges) {
-    // Half of the volume holds the lamp, and with it most of the probes.
-    const ProbeGrid grid = grid_of(two_rooms(), adaptive(200, 1e-4));
+/// The share of the probes in the room with the lamp.
+double lit_share(const ProbeGrid& grid) {
     const auto positions = positions_of(grid);
-    const auto lit = std::count_if(positions.begin(), positions.end(),
-                                   [](const glm::dvec3& p) { return p.x < 0.0; });
-    EXPECT_GT(static_cast<double>(lit), 0.7 * static_cast<double>(positions.size()));
+    const auto lit = std::ranges::count_if(positions, [](const auto& p) { return p.x < 0.0; });
+    return static_cast<double>(lit) / static_cast<double>(positions.size());
+}
+
+TEST(AdaptiveGrid, PutsProbesWhereErrorsCount) {
+    // Absolute errors are where the lamp is, in half of the volume; relative ones also in the dark.
+    ProbeGridSettings settings = adaptive(200, 1e-4);
+    settings.adaptive.error_kind = ErrorKind::Absolute;
+    const double absolute = lit_share(grid_of(two_rooms(), settings));
+    settings.adaptive.error_kind = ErrorKind::Relative;
+    const double relative = lit_share(grid_of(two_rooms(), settings));
+    EXPECT_GT(absolute, 0.6);
+    EXPECT_GT(absolute, relative + 0.05);
 }
 
 TEST(AdaptiveGrid, StartsAtTheClearanceAndPutsNothingIntoWalls) {
@@ -180,9 +195,11 @@ TEST(AdaptiveGrid, FillsSpacesThatItsLatticeMisses) {
 
 TEST(AdaptiveGrid, TellsOfSpacesThatItLeavesEmpty) {
     const ProbeGrid grid = grid_of(hidden_room(), coarse_in_the_air());
-    ASSERT_EQ(grid.empty_spaces.size(), 1u);
-    EXPECT_FALSE(grid.empty_spaces[0].is_wanted);
-    const glm::dvec3 place = glm::abs(grid.empty_spaces[0].position);
+    ASSERT_EQ(grid.spaces.size(), 2u);
+    EXPECT_EQ(grid.spaces[1].fate, SpaceFate::Unreachable);
+    EXPECT_EQ(grid.spaces[1].probe_count, 0u);
+    EXPECT_TRUE(grid.spaces[1].light.has_lights);
+    const glm::dvec3 place = glm::abs(grid.spaces[1].position);
     EXPECT_LT(std::max({place.x, place.y, place.z}), 1.0);
 }
 
@@ -192,6 +209,7 @@ TEST(AdaptiveGrid, FewerProbesThanItsSpacesNeedAreRefused) {
     add_box(scene, test::grey(), Facing::Outward, {-1.2f, -1.2f, 2.8f}, {1.2f, 1.2f, 5.2f});
     ProbeGridSettings settings = coarse_in_the_air();
     settings.unreachable = UnreachableSpaces::Keep;
+    settings.dark = DarkSpaces::Keep;
     settings.max_probes = 11;
     EXPECT_EQ(error_of(scene, settings),
               "3 spaces need 12 probes at least, more than the limit of 11");

@@ -26,6 +26,10 @@ TEST(PlacementModes, LayersStandAboveTheFloor) {
     const ProbeGrid grid = grid_of(scene, settings);
     EXPECT_EQ(grid.probe_count(), 32u);
     EXPECT_EQ(layers(grid, 1), (std::vector<double>{1.0, 2.0}));
+    for (const int axis : {0, 2}) {
+        EXPECT_EQ(layers(grid, axis), (std::vector<double>{-4.0, -1.0, 1.0, 4.0}));
+    }
+    EXPECT_GE(grid.coverage.share(Cover::Covered), 0.99);  // between the heights
 }
 
 TEST(PlacementModes, LayersAreCountedByTheirColumns) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "tests/bake/placement/grid_support.h"
@@ -28,12 +29,21 @@ Scene solid_in_the_middle() {
     return scene;
 }
 
-TEST(ProbeGrid, StandsHalfASpacingInsideItsBounds) {
+/// The share of free space that is covered.
+double covered(const ProbeGrid& grid) {
+    return grid.coverage.share(Cover::Covered);
+}
+
+TEST(ProbeGrid, ReachesTheSidesOfItsBounds) {
+    // The layers at ±1.5 are taken to the sides.
     const ProbeGrid grid = grid_of(Scene{}, settings_for(kFour, 1.0));
     EXPECT_EQ(grid.candidate_count, 64u);
+    EXPECT_EQ(grid.count(Fate::Kept), 8u);
+    EXPECT_EQ(grid.count(Fate::Pushed), 56u);
     for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_EQ(layers(grid, axis), (std::vector<double>{-1.5, -0.5, 0.5, 1.5}));
+        EXPECT_EQ(layers(grid, axis), (std::vector<double>{-2.0, -0.5, 0.5, 2.0}));
     }
+    EXPECT_EQ(covered(grid), 1.0);
 }
 
 TEST(ProbeGrid, RoundingOfTheBoundsCostsNoLayer) {
@@ -49,42 +59,61 @@ TEST(ProbeGrid, SpacingIsPerAxis) {
     settings.spacing = {1.0, 2.0, 0.5};
     const ProbeGrid grid = grid_of(Scene{}, settings);
     EXPECT_EQ(layers(grid, 0).size(), 4u);
-    EXPECT_EQ(layers(grid, 1), (std::vector<double>{-1.0, 1.0}));
+    EXPECT_EQ(layers(grid, 1), (std::vector<double>{-2.0, 2.0}));
     EXPECT_EQ(layers(grid, 2).size(), 8u);
 }
 
-TEST(ProbeGrid, WhatDoesNotDivideEvenlyIsCentered) {
-    // 4 m hold two whole spacings of 1.5 m, around the middle, half a spacing or more inside.
+TEST(ProbeGrid, ASpacingThatDoesNotDivideTheBoundsHasOneMoreLayer) {
+    // 4 m take three layers 1.5 m apart: at ±1.5 and 0.
     const ProbeGrid grid = grid_of(Scene{}, settings_for(kFour, 1.5));
-    EXPECT_EQ(layers(grid, 0), (std::vector<double>{-0.75, 0.75}));
+    EXPECT_EQ(layers(grid, 0), (std::vector<double>{-2.0, 0.0, 2.0}));
 }
 
 TEST(ProbeGrid, DropsCandidatesInsideASolidAndCountsThem) {
-    // Of 4 x 4 x 4 candidates at ±0.5 and ±1.5 the 2 x 2 x 2 at ±0.5 lie in the box.
+    // Of 4 × 4 × 4 candidates at ±0.5 and ±1.5 the 2 × 2 × 2 at ±0.5 are in the box. Each of the
+    // 6 × 2 × 2 before one of its sides is taken to the bounds, and another is added at the box.
     const ProbeGrid grid = grid_of(solid_in_the_middle(), settings_for(kFour, 1.0));
-    EXPECT_EQ(grid.candidate_count, 64u);
     EXPECT_EQ(grid.count(Fate::Inside), 8u);
-    ASSERT_EQ(positions_of(grid).size(), 56u);
+    EXPECT_GE(grid.count(Fate::Added), 24u);
+    EXPECT_EQ(grid.count(Fate::Pushed), 56u);
+    EXPECT_EQ(grid.probe_count() + 8u, grid.candidate_count);
     for (const glm::dvec3& p : positions_of(grid)) {
-        EXPECT_GT(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.0);
+        EXPECT_GE(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.1 - 1e-5);
+    }
+    EXPECT_GE(covered(grid), 0.98);
+}
+
+TEST(ProbeGrid, FreeSpaceIsCoveredAndTheRestListed) {
+    const ProbeGrid grid = grid_of(solid_in_the_middle(), settings_for(kFour, 1.0));
+    EXPECT_EQ(grid.coverage.place_count(), 4096u);
+    EXPECT_EQ(grid.uncovered.size(), 4096u - grid.coverage.count(Cover::Covered));
+    for (const UncoveredPlace& place : grid.uncovered) {
+        EXPECT_NE(place.cover, Cover::Covered);
+        const glm::dvec3 p = glm::abs(place.position);
+        EXPECT_GE(std::max({p.x, p.y, p.z}), 1.1);
     }
 }
 
-TEST(ProbeGrid, OverAnOpenPlaneBothHeightsStay) {
+TEST(ProbeGrid, OverAnOpenPlaneItReachesFromTheClearanceToTheTop) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 4.0f);
     const ProbeGrid grid = grid_of(scene, {});  // bounds: the plane, and two spacings above it
     EXPECT_EQ(grid.count(Fate::Inside), 0u);
-    EXPECT_EQ(layers(grid, 1), (std::vector<double>{0.5, 1.5}));
+    const std::vector<double> heights = layers(grid, 1);
+    ASSERT_EQ(heights.size(), 2u);
+    EXPECT_NEAR(heights[0], 0.1, 2e-4);
+    EXPECT_EQ(heights[1], 2.0);
     EXPECT_EQ(positions_of(grid).size(), 128u);
 }
 
-TEST(ProbeGrid, FarApartProbesStillStandAmongTheScenesThings) {
+TEST(ProbeGrid, SpacingsWiderThanTheSceneStillCoverIt) {
     Scene scene = solid_in_the_middle();
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 8.0f, -1.0f);
     const ProbeGrid grid = grid_of(scene, settings_for({{-8, -1, -8}, {8, 3, 8}}, 1000.0));
-    EXPECT_EQ(layers(grid, 0), (std::vector<double>{-4, 4}));
-    EXPECT_EQ(layers(grid, 1), (std::vector<double>{0, 2}));
+    EXPECT_GE(covered(grid), 0.97);
+    EXPECT_LE(grid.probe_count(), 200u);
+    EXPECT_EQ(layers(grid, 0).front(), -8.0);
+    EXPECT_EQ(layers(grid, 0).back(), 8.0);
 }
 
 TEST(ProbeGrid, ThingsThatMoveNeitherGiveBoundsNorBuryProbes) {
@@ -101,7 +130,7 @@ TEST(ProbeGrid, OrderOfMeshesAndThreadsDoNotMatter) {
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 2.0f, -1.9f);
     test::add_point_light(scene, LightMode::Mixed, glm::vec3(1.0f), {0, 1.5f, 0});
     test::add_sun(scene, LightMode::Mixed, glm::vec3(1.0f));
-    ProbeGridSettings settings = settings_for(kFour, 0.25);
+    ProbeGridSettings settings = settings_for(kFour, 0.4);
     settings.thread_count = 1;
     const ProbeGrid grid = grid_of(scene, settings);
     std::swap(scene.instances[0], scene.instances[1]);
@@ -109,7 +138,10 @@ TEST(ProbeGrid, OrderOfMeshesAndThreadsDoNotMatter) {
     auto& indices = scene.meshes[0].indices;
     std::rotate(indices.begin(), indices.begin() + 6, indices.end());
     settings.thread_count = 2;
-    EXPECT_EQ(grid_of(scene, settings).groups, grid.groups);
+    const ProbeGrid other = grid_of(scene, settings);
+    EXPECT_EQ(other.groups, grid.groups);
+    EXPECT_EQ(other.spaces, grid.spaces);
+    EXPECT_EQ(other.coverage, grid.coverage);
 }
 
 TEST(ProbeGrid, GroupHasTheNameAndWorldSpace) {
@@ -161,7 +193,7 @@ TEST(ProbeGrid, RejectsTooManyCandidatesAndSaysHowMany) {
 TEST(ProbeGrid, RejectsAGridThatIsAllInside) {
     EXPECT_EQ(error_of(solid_in_the_middle(), settings_for({{-1, -1, -1}, {1, 1, 1}}, 1.0)),
               "no probe is left of 8: 8 inside geometry, 0 too close to it, 0 unreachable, 0 "
-              "forbidden");
+              "without light, 0 forbidden");
 }
 
 }  // namespace

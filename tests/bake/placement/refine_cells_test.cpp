@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -45,36 +46,6 @@ TEST(LightDifference, IsTheMeanOverTheNormals) {
     EXPECT_NEAR(mean_square(light), squares / 26.0, 1e-4);
 }
 
-std::vector<glm::dvec3> pair_through(const Scene& scene, double clearance) {
-    const auto traced = TraceScene::make_static(scene);
-    return pair_at_wall(*traced, {1, 1, 0}, {-1, 1, 0.4}, clearance, 1.0);
-}
-
-TEST(PairAtWall, StandsOnBothSidesOfASheet) {
-    Scene scene;
-    test::add_quad(scene, test::two_sided(), {0, -5, -5}, {0, 10, 0}, {0, 0, 10});
-    const auto pair = pair_through(scene, 0.1);
-    ASSERT_EQ(pair.size(), 2u);
-    EXPECT_LT(glm::distance(pair[0], glm::dvec3(0.1, 1, 0.2)), 1e-5);
-    EXPECT_LT(glm::distance(pair[1], glm::dvec3(-0.1, 1, 0.2)), 1e-5);
-}
-
-TEST(PairAtWall, StandsOnBothSidesOfASolidThinnerThanTheClearance) {
-    Scene scene;
-    add_box(scene, test::grey(), Facing::Outward, {-0.02f, -5, -5}, {0.02f, 5, 5});
-    const auto pair = pair_through(scene, 0.1);
-    ASSERT_EQ(pair.size(), 2u);
-    EXPECT_NEAR(pair[0].x, 0.12, 1e-5);
-    EXPECT_NEAR(pair[1].x, -0.12, 1e-4);
-}
-
-TEST(PairAtWall, IsAloneBeforeAThickWallAndNothingInTheOpen) {
-    Scene scene;
-    add_box(scene, test::grey(), Facing::Outward, {-9, -5, -5}, {0, 5, 5});
-    EXPECT_EQ(pair_through(scene, 0.1).size(), 1u);
-    EXPECT_TRUE(pair_through(Scene{}, 0.1).empty());
-}
-
 TEST(SensorSequence, AreFreeHalfOfThemOffSurfaces) {
     Scene scene;
     add_box(scene, test::grey(), Facing::Outward, {-1, -1, -1}, {1, 1, 1});
@@ -96,58 +67,136 @@ TEST(SensorSequence, AreFreeHalfOfThemOffSurfaces) {
     EXPECT_NE(places.next(10, 0), std::vector<glm::dvec3>(found.begin(), found.begin() + 10));
 }
 
-/// A cell with most of the error, where no probe may stand, does not end the refinement of others.
-TEST(RefineCells, GoesOnPastCellsThatCannotBeRefined) {
-    Scene scene;
-    scene.environment.radiance = glm::vec3(1.0f);
-    const auto traced = TraceScene::make_static(scene);
-    LightPool pool(scene, {});
-    std::vector<uint32_t> probes, sensors;
-    for (int i = 0; i < 27; ++i) probes.push_back(pool.add({i % 3, i / 3 % 3, i / 9}));
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i % 2, i / 2 % 2, i / 4);
-        sensors.push_back(pool.add(corner + glm::dvec3(0.45, 0.55, 0.52)));
+/// An even sky: the same light everywhere, in eight cells of 1 m with a sensor in each.
+class RefineCells : public testing::Test {
+  protected:
+    RefineCells() : scene_(under_even_sky()), pool_(scene_, {}) {
+        for (int i = 0; i < 27; ++i) probes_.push_back(pool_.add({i % 3, i / 3 % 3, i / 9}));
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 corner(i % 2, i / 2 % 2, i / 4);
+            sensors_.push_back(pool_.add(corner + glm::dvec3(0.45, 0.55, 0.52)));
+        }
+        EXPECT_TRUE(pool_.bake({}));
+        volume_ = volume_of(pool_, probes_);
+        Sights sights(*traced_, pool_);
+        const SensorView view{pool_, sights, {ErrorKind::Absolute, 1.0}};
+        errors_ = sensor_errors(volume_, probes_, sensors_, view, 1);
+        for (SensorError& error : errors_) error.square = 1.0f;
     }
-    ASSERT_TRUE(pool.bake({}));
-    const ProbeVolume volume = volume_of(pool, probes);
-    auto errors = sensor_errors(volume, pool, sensors, nullptr, 1);
-    for (SensorError& error : errors) error.square = error.visible_square = 1.0f;
-    errors[3].square = errors[3].visible_square = 1000.0f;
-    const RefineRule rule{0.05, [&](uint32_t sensor) { return sensor != sensors[3]; },
-                          [](const glm::dvec3&) { return true; }, 100};
-    Refinement refinement = refine_cells({volume, pool, sensors, errors, *traced}, rule);
-    std::ranges::sort(refinement.sensors);
-    std::vector<uint32_t> others = sensors;
+
+    static Scene under_even_sky() {
+        Scene scene;
+        scene.environment.radiance = glm::vec3(1.0f);
+        return scene;
+    }
+
+    [[nodiscard]] std::vector<uint32_t> refine(const RefineRule& rule) const {
+        return refine_cells({volume_, pool_, sensors_, errors_}, rule);
+    }
+
+    const Scene scene_;
+    const Result<TraceScene> traced_ = TraceScene::make_static(scene_);
+    LightPool pool_;
+    std::vector<uint32_t> probes_, sensors_;
+    ProbeVolume volume_;
+    std::vector<SensorError> errors_;
+};
+
+TEST_F(RefineCells, GoesOnPastCellsThatCannotBeRefined) {
+    // The cell with most of the error has no place for a probe.
+    errors_[3].square = 1000.0f;
+    auto found = refine({0.05, [&](uint32_t sensor) { return sensor != sensors_[3]; }, 100});
+    std::ranges::sort(found);
+    std::vector<uint32_t> others = sensors_;
     others.erase(others.begin() + 3);
-    EXPECT_EQ(refinement.sensors, others);
+    EXPECT_EQ(found, others);
 }
 
-TEST(ProbeRemover, RemovesWhatInterpolationMakesGoodAlready) {
-    // Light under an even sky is the same everywhere: only the fewest probes are left, and of
-    // those that are protected all.
-    Scene scene;
-    scene.environment.radiance = glm::vec3(1.0f);
-    LightPool pool(scene, {});
-    std::vector<uint32_t> probes, sensors;
-    for (int i = 0; i < 64; ++i) probes.push_back(pool.add({i % 4, i / 4 % 4, i / 16}));
+TEST_F(RefineCells, BeginsWithUncoveredPlaces) {
+    errors_[3].square = 5.0f;
+    errors_[6] = {.cell = errors_[6].cell, .square = 0.0f, .is_covered = false};
+    const auto any = [](uint32_t) { return true; };
+    EXPECT_EQ(refine({0.05, any, 1}), std::vector<uint32_t>{sensors_[6]});
+    auto two = refine({0.05, any, 2});
+    std::ranges::sort(two);
+    EXPECT_EQ(two, (std::vector<uint32_t>{sensors_[3], sensors_[6]}));
+}
+
+TEST_F(RefineCells, KeepsTheClearanceBetweenProbes) {
+    // The nearest probe of each sensor is √(0.45² + 0.45² + 0.48²) = 0.80 m away.
+    const auto any = [](uint32_t) { return true; };
+    EXPECT_EQ(refine({0.79, any, 100}).size(), 8u);
+    EXPECT_TRUE(refine({0.81, any, 100}).empty());
+}
+
+class RemoveProbes : public testing::Test {
+  protected:
+    RemoveProbes() : scene_(even_sky()), pool_(scene_, {}) {
+        for (int i = 0; i < 64; ++i) probes_.push_back(pool_.add({i % 4, i / 4 % 4, i / 16}));
+    }
+
+    static Scene even_sky() {
+        Scene scene;
+        scene.environment.radiance = glm::vec3(1.0f);
+        return scene;
+    }
+
+    /// Removes probes, pass by pass, with these sensors.
+    void remove_all(const std::vector<uint32_t>& sensors) {
+        ASSERT_TRUE(pool_.bake({}));
+        std::vector<bool> is_protected(pool_.size(), false);
+        is_protected[21] = true;
+        Sights sights(*traced_, pool_);
+        const SensorView view{pool_, sights, {ErrorKind::Absolute, 1.0}};
+        ProbeRemover remover(view);
+        RemoveRule rule;
+        rule.min_probe_count = 8;
+        rule.max_cost = 1.0;  // of noise; less than that of one uncovered place
+        for (int pass = 0; pass < 40 && probes_.size() > rule.min_probe_count; ++pass) {
+            const ProbeVolume volume = volume_of(pool_, probes_);
+            errors_ = sensor_errors(volume, probes_, sensors, view, 1);
+            const std::vector<uint32_t> spaces(probes_.size(), 0);  // all in one
+            probes_ = remover.pass({probes_, spaces, volume, sensors, errors_, is_protected}, rule);
+        }
+        errors_ = sensor_errors(volume_of(pool_, probes_), probes_, sensors, view, 1);
+        EXPECT_NE(std::ranges::find(probes_, 21u), probes_.end());
+    }
+
+    [[nodiscard]] size_t uncovered_count() const {
+        return static_cast<size_t>(std::ranges::count(errors_, false, &SensorError::is_covered));
+    }
+
+    const Scene scene_;
+    const Result<TraceScene> traced_ = TraceScene::make_static(scene_);
+    LightPool pool_;
+    std::vector<uint32_t> probes_;
+    std::vector<SensorError> errors_;
+};
+
+TEST_F(RemoveProbes, LeavesFewProbesWhereLightIsEven) {
+    // Around the centre, where eight probes can hold all sensors.
+    std::vector<uint32_t> sensors;
     for (int i = 0; i < 100; ++i) {
-        sensors.push_back(pool.add({0.03 * i, 1.5 + 0.01 * i, 3.0 - 0.03 * i}));
+        sensors.push_back(pool_.add({1.0 + 0.01 * i, 1.2 + 0.006 * i, 2.0 - 0.01 * i}));
     }
-    ASSERT_TRUE(pool.bake({}));
-    std::vector<bool> is_protected(pool.size(), false);
-    is_protected[21] = true;
-    ProbeRemover remover(pool);
-    RemoveRule rule;
-    rule.min_probe_count = 8;
-    rule.max_square_sum = 1.0;  // noise: of 128 directions
-    for (int pass = 0; pass < 40 && probes.size() > rule.min_probe_count; ++pass) {
-        const ProbeVolume volume = volume_of(pool, probes);
-        const auto errors = sensor_errors(volume, pool, sensors, nullptr, 1);
-        const std::vector<uint32_t> spaces(probes.size(), 0);  // all in one
-        probes = remover.pass({probes, spaces, volume, sensors, errors, is_protected}, rule);
+    remove_all(sensors);
+    EXPECT_LE(probes_.size(), 16u);
+    EXPECT_EQ(uncovered_count(), 0u);
+}
+
+TEST_F(RemoveProbes, KeepsWhatHoldsPlacesInsideTheTetrahedra) {
+    // In the corners: without a corner's probe its sensor is outside.
+    std::vector<uint32_t> sensors;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i % 2 * 3, i / 2 % 2 * 3, i / 4 * 3);
+        sensors.push_back(pool_.add(glm::mix(corner, glm::dvec3(1.5), 0.1)));
     }
-    EXPECT_EQ(probes.size(), 8u);
-    EXPECT_NE(std::find(probes.begin(), probes.end(), 21u), probes.end());
+    remove_all(sensors);
+    EXPECT_EQ(uncovered_count(), 0u);
+    for (const uint32_t corner : {0u, 3u, 12u, 15u, 48u, 51u, 60u, 63u}) {
+        EXPECT_NE(std::ranges::find(probes_, corner), probes_.end()) << corner;
+    }
+    EXPECT_LE(probes_.size(), 16u);
 }
 
 }  // namespace
