@@ -143,7 +143,14 @@ std::vector<Cover> cover_by(const TraceScene& traced, std::span<const glm::dvec3
     MergedProbes merged;
     merged.positions.assign(probes.begin(), probes.end());
     const ProbeVolume volume = make_probe_volume(merged);
-    return find_cover(traced, volume.view(), places, thread_count);
+    const ProbeVolumeView view = volume.view();
+    std::vector<Cover> covers = find_cover(traced, view, places, thread_count);
+    if (view.info.dimension == Dimension::Space) return covers;
+    for (size_t i = 0; i < places.size(); ++i) {
+        const CellLocation location = locate(view, glm::vec3(places[i]));
+        if (is_off_flat_cell(view, location, places[i])) covers[i] = Cover::HullCell;
+    }
+    return covers;
 }
 
 }  // namespace tetralight

@@ -36,8 +36,8 @@ struct CoverRule {
                                                    std::span<const glm::dvec3> places,
                                                    const CoverRule& rule);
 
-/// The cover of places by probes at these positions; all are in hull cells if there are too few
-/// probes for a cell.
+/// The cover of places by probes at these positions. Without tetrahedra, places off the plane, the
+/// line or the point of the probes are in hull cells.
 [[nodiscard]] std::vector<Cover> cover_by(const TraceScene& traced,
                                           std::span<const glm::dvec3> probes,
                                           std::span<const glm::dvec3> places,

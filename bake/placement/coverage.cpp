@@ -27,19 +27,31 @@ double rounding_at(const ProbeVolumeView& volume, const glm::dvec3& place) {
     return 4.0 * double{std::numeric_limits<float>::epsilon()} * size;
 }
 
+/// True if a place differs from the weighted mean of up to three corners by more than rounding.
+bool is_off_corners(const ProbeVolumeView& volume, const CellLocation& location,
+                    const glm::dvec3& place) {
+    glm::dvec3 mean = volume.info.world_origin;
+    for (int i = 0; i < 3; ++i) {
+        const uint32_t probe = volume.cells[location.cell].vertices[static_cast<size_t>(i)];
+        if (probe >= volume.probe_count()) continue;
+        mean += double{location.weights[i]} * glm::dvec3(volume.positions[probe]);
+    }
+    return glm::distance(mean, place) > rounding_at(volume, place);
+}
+
 }  // namespace
 
 bool is_in_hull_cell(const ProbeVolumeView& volume, const CellLocation& location,
                      const glm::dvec3& place) {
     if (location.cell >= volume.cells.size()) return true;
     if (location.cell < volume.info.inner_cell_count) return false;
-    glm::dvec3 on_hull = volume.info.world_origin;
-    for (int i = 0; i < 3; ++i) {
-        const uint32_t probe = volume.cells[location.cell].vertices[static_cast<size_t>(i)];
-        if (probe >= volume.probe_count()) continue;
-        on_hull += double{location.weights[i]} * glm::dvec3(volume.positions[probe]);
-    }
-    return glm::distance(on_hull, place) > rounding_at(volume, place);
+    return is_off_corners(volume, location, place);
+}
+
+bool is_off_flat_cell(const ProbeVolumeView& volume, const CellLocation& location,
+                      const glm::dvec3& place) {
+    if (location.cell >= volume.cells.size()) return true;
+    return volume.info.dimension != Dimension::Space && is_off_corners(volume, location, place);
 }
 
 bool sees_enough(const TraceScene& traced, const ProbeVolumeView& volume,

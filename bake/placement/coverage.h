@@ -33,6 +33,11 @@ inline constexpr float kMinSeenWeight = 0.25f;
 [[nodiscard]] bool is_in_hull_cell(const ProbeVolumeView& volume, const CellLocation& location,
                                    const glm::dvec3& place);
 
+/// True if the volume is a plane, a line or a point, and the place is off it. Cells of such volumes
+/// hold all places in front of them.
+[[nodiscard]] bool is_off_flat_cell(const ProbeVolumeView& volume, const CellLocation& location,
+                                    const glm::dvec3& place);
+
 /// True if the corners of its cell that a place sees have `kMinSeenWeight` together, or more. Rays
 /// decide (`blocked_fraction`), from where the probes sample their light: their exact positions and
 /// virtual offsets. `location` is that of the place, also in a hull cell.

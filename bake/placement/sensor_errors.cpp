@@ -61,8 +61,10 @@ std::vector<SensorError> sensor_errors(const ProbeVolume& volume, std::span<cons
         SeenLight seen;
         if (location.cell != kNoIndex) {
             seen = seen_light(volume, probes, sensors[i], location, view.sights);
-            error.is_covered =
-                location.cell < volume.info.inner_cell_count && seen.weight >= kMinSeenWeight;
+            const bool is_inside =
+                location.cell < volume.info.inner_cell_count &&
+                !is_off_flat_cell(probe_view, location, view.pool.position(sensors[i]));
+            error.is_covered = is_inside && seen.weight >= kMinSeenWeight;
         }
         constexpr float kNothing = 1e-3f;
         const IrradianceSh answer = seen.weight > kNothing
