@@ -64,7 +64,7 @@ std::vector<SensorError> sensor_errors(const ProbeVolume& volume, std::span<cons
             const bool is_inside =
                 location.cell < volume.info.inner_cell_count &&
                 !is_off_flat_cell(probe_view, location, view.pool.position(sensors[i]));
-            error.is_covered = is_inside && seen.weight >= kMinSeenWeight;
+            error.is_covered |= is_inside && seen.weight >= kMinSeenWeight;
         }
         constexpr float kNothing = 1e-3f;
         const IrradianceSh answer = seen.weight > kNothing

@@ -232,6 +232,7 @@ TEST(AdaptiveGrid, WithoutAPlaceToMeasureItReportsNoError) {
                               *traced,
                               {{-8, 0, -2}, {8, 3, 2}},
                               0.1,
+                              0.11,
                               [](const auto&) { return false; },
                               [](const auto&) { return 0u; },
                               {},

@@ -44,7 +44,7 @@ class CoverPlaces : public testing::Test {
         const auto is_allowed = [this](const glm::dvec3& position) {
             return is_free_with_clearance(*traced_, position, kClearance);
         };
-        return {kClearance, kRoom, 1.0, is_allowed, max_count, 0};
+        return {{kRoom, kClearance, glm::bvec3(true), {}}, 1.0, is_allowed, max_count, 0};
     }
 
     [[nodiscard]] double covered_by(std::vector<glm::dvec3> added) const {

@@ -67,21 +67,16 @@ TEST(SensorSequence, AreFreeHalfOfThemOffSurfaces) {
     EXPECT_NE(places.next(10, 0), std::vector<glm::dvec3>(found.begin(), found.begin() + 10));
 }
 
-/// An even sky: the same light everywhere, in eight cells of 1 m with a sensor in each.
+/// A cube of 2 m with probes at its corners under an even sky, and sensors on the x axis beside it:
+/// all light is the same, and what counts is which sensors are outside of the tetrahedra.
 class RefineCells : public testing::Test {
   protected:
     RefineCells() : scene_(under_even_sky()), pool_(scene_, {}) {
-        for (int i = 0; i < 27; ++i) probes_.push_back(pool_.add({i % 3, i / 3 % 3, i / 9}));
         for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 corner(i % 2, i / 2 % 2, i / 4);
-            sensors_.push_back(pool_.add(corner + glm::dvec3(0.45, 0.55, 0.52)));
+            probes_.push_back(pool_.add(glm::dvec3(2 * (i % 2), 2 * (i / 2 % 2), 2 * (i / 4))));
         }
+        for (const double x : {1.0, 2.5, 3.0, 4.0}) sensors_.push_back(pool_.add({x, 1.1, 0.9}));
         EXPECT_TRUE(pool_.bake({}));
-        volume_ = volume_of(pool_, probes_);
-        Sights sights(*traced_, pool_);
-        const SensorView view{pool_, sights, {ErrorKind::Absolute, 1.0}};
-        errors_ = sensor_errors(volume_, probes_, sensors_, view, 1);
-        for (SensorError& error : errors_) error.square = 1.0f;
     }
 
     static Scene under_even_sky() {
@@ -90,43 +85,39 @@ class RefineCells : public testing::Test {
         return scene;
     }
 
-    [[nodiscard]] std::vector<uint32_t> refine(const RefineRule& rule) const {
-        return refine_cells({volume_, pool_, sensors_, errors_}, rule);
+    [[nodiscard]] std::vector<uint32_t> refine(const RefineRule& rule) {
+        Sights sights(*traced_, pool_);
+        const std::vector<bool> is_to_cover(pool_.size(), true);
+        // Noise of the samples costs next to nothing.
+        const SensorView view{pool_, sights, {ErrorKind::Absolute, 100.0}, is_to_cover};
+        const ProbeVolume volume = volume_of(pool_, probes_);
+        const auto errors = sensor_errors(volume, probes_, sensors_, view, 1);
+        return refine_cells({probes_, volume, sensors_, errors, view}, rule);
     }
 
     const Scene scene_;
     const Result<TraceScene> traced_ = TraceScene::make_static(scene_);
     LightPool pool_;
     std::vector<uint32_t> probes_, sensors_;
-    ProbeVolume volume_;
-    std::vector<SensorError> errors_;
 };
 
-TEST_F(RefineCells, GoesOnPastCellsThatCannotBeRefined) {
-    // The cell with most of the error has no place for a probe.
-    errors_[3].square = 1000.0f;
-    auto found = refine({0.05, [&](uint32_t sensor) { return sensor != sensors_[3]; }, 100});
-    std::ranges::sort(found);
-    std::vector<uint32_t> others = sensors_;
-    others.erase(others.begin() + 3);
-    EXPECT_EQ(found, others);
+TEST_F(RefineCells, ChoosesTheSensorThatCoversMostOthers) {
+    // A probe at x = 4 takes those at 2.5 and 3 into the tetrahedra; one at 3 takes one.
+    const auto any = [](uint32_t) { return true; };
+    EXPECT_EQ(refine({0.05, any, 1, 0}), std::vector<uint32_t>{sensors_[3]});
 }
 
-TEST_F(RefineCells, BeginsWithUncoveredPlaces) {
-    errors_[3].square = 5.0f;
-    errors_[6] = {.cell = errors_[6].cell, .square = 0.0f, .is_covered = false};
-    const auto any = [](uint32_t) { return true; };
-    EXPECT_EQ(refine({0.05, any, 1}), std::vector<uint32_t>{sensors_[6]});
-    auto two = refine({0.05, any, 2});
-    std::ranges::sort(two);
-    EXPECT_EQ(two, (std::vector<uint32_t>{sensors_[3], sensors_[6]}));
+TEST_F(RefineCells, TakesTheNextBestWhereNoProbeMayBe) {
+    const auto others = [&](uint32_t sensor) { return sensor != sensors_[3]; };
+    EXPECT_EQ(refine({0.05, others, 1, 0}), std::vector<uint32_t>{sensors_[2]});
+    EXPECT_TRUE(refine({0.05, [](uint32_t) { return false; }, 1, 0}).empty());
 }
 
 TEST_F(RefineCells, KeepsTheClearanceBetweenProbes) {
-    // The nearest probe of each sensor is √(0.45² + 0.45² + 0.48²) = 0.80 m away.
+    // From x = 4 the nearest corners are √(2² + 0.9² + 0.9²) = 2.37 m away.
     const auto any = [](uint32_t) { return true; };
-    EXPECT_EQ(refine({0.79, any, 100}).size(), 8u);
-    EXPECT_TRUE(refine({0.81, any, 100}).empty());
+    EXPECT_EQ(refine({2.3, any, 1, 0}).size(), 1u);
+    EXPECT_TRUE(refine({2.4, any, 1, 0}).empty());
 }
 
 class RemoveProbes : public testing::Test {
@@ -147,7 +138,8 @@ class RemoveProbes : public testing::Test {
         std::vector<bool> is_protected(pool_.size(), false);
         is_protected[21] = true;
         Sights sights(*traced_, pool_);
-        const SensorView view{pool_, sights, {ErrorKind::Absolute, 1.0}};
+        const std::vector<bool> is_to_cover(pool_.size(), true);
+        const SensorView view{pool_, sights, {ErrorKind::Absolute, 1.0}, is_to_cover};
         ProbeRemover remover(view);
         RemoveRule rule;
         rule.min_probe_count = 8;

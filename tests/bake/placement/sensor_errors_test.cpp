@@ -26,7 +26,8 @@ class SensorErrors : public testing::Test {
         const uint32_t sensor = pool_.add(place);
         EXPECT_TRUE(pool_.bake({}));
         const ProbeVolume volume = volume_of(pool_, probes_);
-        const SensorView view{pool_, sights_, scale};
+        const std::vector<bool> is_to_cover(pool_.size(), is_to_cover_);
+        const SensorView view{pool_, sights_, scale, is_to_cover};
         return sensor_errors(volume, probes_, std::span(&sensor, 1), view, 1).front();
     }
 
@@ -35,6 +36,7 @@ class SensorErrors : public testing::Test {
     LightPool pool_{scene_, {}};
     Sights sights_{*traced_, pool_};
     std::vector<uint32_t> probes_;
+    bool is_to_cover_ = true;
 };
 
 const ErrorScale kScale(ErrorKind::Absolute, std::numbers::pi);
@@ -52,6 +54,11 @@ TEST_F(SensorErrors, OutsideOfTheTetrahedraNothingIsCovered) {
     EXPECT_NEAR(error.square, 0.0, 1e-6);
     EXPECT_FALSE(error.is_covered);
     EXPECT_GT(error.cost(), 9.0);
+}
+
+TEST_F(SensorErrors, WhereNothingHasToBeCoveredItIsNoCost) {
+    is_to_cover_ = false;
+    EXPECT_LT(error_at({0.2, 1.1, 0.9}, kScale).cost(), 1e-6);
 }
 
 TEST_F(SensorErrors, WithoutAProbeInSightTheyAreThoseOfAllCorners) {
