@@ -51,8 +51,8 @@ struct Counts {
             covered = 1000;
         }
         if (options.is_quick) {
-            all = {300};
-            covered = 300;
+            covered = subject.is_external() ? 1000 : 300;
+            all = {covered};
         }
     }
 };
