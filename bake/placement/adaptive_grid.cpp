@@ -283,11 +283,12 @@ class AdaptiveGrid {
         return spaces;
     }
 
-    /// Removes probes down to a number, while the error stays below the maximum. Returns false if
-    /// no probe could be removed.
-    Result<bool> remove(size_t min_count, double max_error) {
-        const RemoveRule rule{std::max<size_t>(min_count, 4), cost_at(max_error), 0.125,
-                              input_.thread_count};
+    /// Removes probes down to a number, while the error stays below the maximum, and no more
+    /// sensors are uncovered. Returns false if no probe could be removed.
+    Result<bool> remove(size_t min_count, double max_error,
+                        size_t max_uncovered = std::numeric_limits<size_t>::max()) {
+        const RemoveRule rule{std::max<size_t>(min_count, 4), cost_at(max_error), max_uncovered,
+                              0.125, input_.thread_count};
         auto left = remover_.pass({set_.probes, spaces_of(set_.probes), set_.volume, sensors_,
                                    set_.errors, is_protected_},
                                   rule);
@@ -315,8 +316,11 @@ class AdaptiveGrid {
     }
 
     Status remove_to_target() {
+        const auto uncovered =
+            static_cast<size_t>(std::ranges::count(set_.errors, false, &SensorError::is_covered));
+        const auto few = static_cast<size_t>(kUncovered * static_cast<double>(sensors_.size()));
         while (true) {
-            const auto removed = remove(4, settings_.target_error);
+            const auto removed = remove(4, settings_.target_error, std::max(uncovered, few));
             if (!removed) return removed.error();
             if (!*removed || set_.error > settings_.target_error) break;
             if (auto status = accept(); !status) return status;

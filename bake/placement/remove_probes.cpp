@@ -96,11 +96,15 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
             costs[i] = known->second;
             return;
         }
-        for (const uint32_t sensor : star.sensors) costs[i].change -= errors[sensor].cost();
+        for (const uint32_t sensor : star.sensors) {
+            costs[i].change -= errors[sensor].cost();
+            costs[i].uncovered -= !errors[sensor].is_covered;
+        }
         if (neighbors.empty()) return;
         const ProbeVolume without = volume_of(view_.pool, neighbors);
         for (const SensorError& e : sensor_errors(without, neighbors, around, view_, 1)) {
             costs[i].change += e.cost();
+            costs[i].uncovered += !e.is_covered;
         }
     });
     for (size_t i = 0; i < probes.size(); ++i) costs_[probes[i]] = costs[i];
@@ -110,6 +114,8 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
     std::ranges::stable_sort(queue, {}, [&](uint32_t i) { return costs[i].change; });
     double sum = 0.0;
     for (const SensorError& error : errors) sum += error.cost();
+    auto uncovered =
+        static_cast<int64_t>(std::ranges::count(errors, false, &SensorError::is_covered));
     const auto most = static_cast<size_t>(rule.max_fraction * static_cast<double>(probes.size()));
     std::vector<bool> is_gone(probes.size(), false), is_stale(probes.size(), false);
     ProbesOfSpaces left_in(view_.pool, probes, spaces);
@@ -119,8 +125,12 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
             break;
         if (is_stale[i] || is_protected[probes[i]]) continue;
         if (sum + costs[i].change > rule.max_cost) break;
+        const bool is_bared = uncovered + costs[i].uncovered >
+                              static_cast<int64_t>(std::min(rule.max_uncovered, errors.size()));
+        if (is_bared && costs[i].uncovered > 0) continue;
         if (!left_in.remove(i)) continue;
         sum += costs[i].change;
+        uncovered += costs[i].uncovered;
         is_gone[i] = true;
         ++gone;
         for (const uint32_t neighbor : stars[i].neighbors) is_stale[neighbor] = true;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
@@ -19,6 +20,8 @@ struct RemoveRule {
     size_t min_probe_count = 4;
     /// The maximum sum of the costs of all sensors (`SensorError::cost`).
     double max_cost = 0.0;
+    /// The maximum number of sensors that are not covered.
+    size_t max_uncovered = std::numeric_limits<size_t>::max();
     /// The maximum fraction of the probes that one pass removes.
     double max_fraction = 0.125;
     uint32_t thread_count = 0;
@@ -60,6 +63,7 @@ class ProbeRemover {
     struct Cost {
         uint64_t key = 0;  ///< of its neighbors and sensors
         double change = 0.0;
+        int uncovered = 0;  ///< change of the number of sensors that are not covered
     };
 
     SensorView view_;

@@ -61,9 +61,9 @@ std::vector<SensorError> sensor_errors(const ProbeVolume& volume, std::span<cons
         SeenLight seen;
         if (location.cell != kNoIndex) {
             seen = seen_light(volume, probes, sensors[i], location, view.sights);
-            const bool is_inside =
-                location.cell < volume.info.inner_cell_count &&
-                !is_off_flat_cell(probe_view, location, view.pool.position(sensors[i]));
+            const glm::dvec3& place = view.pool.position(sensors[i]);
+            const bool is_inside = !is_in_hull_cell(probe_view, location, place) &&
+                                   !is_off_flat_cell(probe_view, location, place);
             error.is_covered |= is_inside && seen.weight >= kMinSeenWeight;
         }
         constexpr float kNothing = 1e-3f;
