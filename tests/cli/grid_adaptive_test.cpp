@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `grid --mode adaptive`, its pictures, and what adjustment volumes change.
 #include <csignal>
+#include <set>
 #include <thread>
 
 #include "tests/cli/command_fixture.h"
@@ -34,6 +35,8 @@ TEST_F(GridAdaptive, ReportsTheErrorThatItReached) {
     const Json json = run_json({"grid", kCourtyard, "-o", "g.json", "--mode", "adaptive",
                                 "--max-probes", "120", "--target-error", "1%"});
     EXPECT_LE(json["probes"], 120);
+    EXPECT_GE(json["probes"], 118);
+    EXPECT_GE(json["coverage"]["covered"], 0.97);
     EXPECT_EQ(json["adaptive"]["end"], "most probes");
     EXPECT_GT(json["adaptive"]["error"], 0.01);
     EXPECT_EQ(count_in("g.json"), json["probes"]);
@@ -86,6 +89,21 @@ TEST_F(GridAdaptive, OptionsOfItsOwnAreForItAlone) {
                      "is for --mode adaptive"))
             << option;
     }
+}
+
+TEST_F(GridAdaptive, ErrorsAreRelativeToWhatIsAsked) {
+    const Arguments command{"grid",     kCourtyard,     "-o", "g.json",         "--mode",
+                            "adaptive", "--max-probes", "60", "--target-error", "1%"};
+    std::set<double> errors;
+    for (const char* kind : {"absolute", "relative", "mixed"}) {
+        Arguments arguments = command;
+        arguments.insert(arguments.end(), {"--error", kind});
+        errors.insert(run_json(arguments)["adaptive"]["error"].get<double>());
+    }
+    EXPECT_EQ(errors.size(), 3u);
+    EXPECT_TRUE(contains(
+        misuse({"grid", kCourtyard, "-o", "g.json", "--spacing", "2", "--error", "relative"}),
+        "is for --mode adaptive"));
 }
 
 TEST_F(GridAdaptive, PreviewIsAPicture) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <csignal>
+#include <initializer_list>
 #include <thread>
 
 #include "tests/cli/command_fixture.h"
@@ -14,23 +15,54 @@ TEST_F(Grid, WritesTheProbesThatItCounts) {
     const Json groups = Json::parse(read("grid.json"))["groups"];
     ASSERT_EQ(groups.size(), 1u);
     EXPECT_EQ(groups[0]["positions"].size(), json["probes"]);
-    EXPECT_EQ(json["kept_in_place"].get<int>() + json["pushed"].get<int>(), json["probes"]);
-    int all = json["probes"].get<int>();
-    for (const char* reason :
-         {"inside_geometry", "too_close", "unreachable", "forbidden", "crowded"}) {
-        all += json[reason].get<int>();
-    }
+    const auto sum = [&](std::initializer_list<const char*> keys) {
+        int count = 0;
+        for (const char* key : keys) count += json[key].get<int>();
+        return count;
+    };
+    EXPECT_EQ(sum({"kept_in_place", "pushed", "added"}), json["probes"]);
+    const int all = sum({"probes", "inside_geometry", "too_close", "unreachable", "without_light",
+                         "forbidden", "crowded"});
     EXPECT_EQ(all, json["candidates"]);
     int in_bins = 0;
     for (const Json& bin : json["surface_distance"]) in_bins += bin["probes"].get<int>();
     EXPECT_EQ(in_bins, json["probes"]);
 }
 
+TEST_F(Grid, ReportsSpacesAndCoverage) {
+    const Json json = run_json({"grid", kCourtyard, "-o", "grid.json", "--spacing", "4"});
+    int in_spaces = 0;
+    for (const Json& space : json["spaces"]) {
+        EXPECT_EQ(space["position"].size(), 3u);
+        EXPECT_GT(space["volume"], 0.0);
+        EXPECT_EQ(space["from"], false);
+        if (space["fate"] == "filled") in_spaces += space["probes"].get<int>();
+    }
+    EXPECT_EQ(in_spaces, json["probes"]);
+    EXPECT_EQ(json["spaces"][0]["sky"], true);
+    const Json& coverage = json["coverage"];
+    EXPECT_GT(coverage["places"], 1000);
+    EXPECT_GE(coverage["covered"], 0.97);
+    EXPECT_NEAR(coverage["covered"].get<double>() + coverage["outside"].get<double>() +
+                    coverage["unseen"].get<double>(),
+                1.0, 1e-9);
+}
+
+TEST_F(Grid, SaysWhichSpaceHoldsASeed) {
+    const Json json =
+        run_json({"grid", kCourtyard, "-o", "grid.json", "--spacing", "4", "--from", "0,2,0"});
+    for (const Json& space : json["spaces"]) {
+        EXPECT_EQ(space["from"], space["fate"] == "filled") << space;
+    }
+}
+
 TEST_F(Grid, SaysAsATableWhatItKeptAndDropped) {
     const std::string table =
         succeed({"grid", kCourtyard, "-o", "grid.json", "--spacing", "2"}).out;
-    for (const char* words : {"grid.json: ", " candidates\n", "kept where it stood", "pushed",
-                              "to the nearest surface:", "from 4 m on"}) {
+    for (const char* words :
+         {"grid.json: ", " candidates\n", "kept where it stood", "pushed, or taken to a wall",
+          "added at walls", "free space:", "covered", "outside of the tetrahedra",
+          "out of sight of probes", "to the nearest surface:", "from 4 m on"}) {
         EXPECT_TRUE(contains(table, words)) << words << "\n" << table;
     }
 }
@@ -52,7 +84,7 @@ TEST_F(Grid, AGlbBakesToTheVolumeOfTheJson) {
 TEST_F(Grid, KeepsAllSpacesWithoutAWordWhenAsked) {
     const CommandResult result =
         succeed({"grid", kCourtyard, "-o", "g.json", "--spacing", "2", "--min", "-10,-6,-10",
-                 "--max", "10,8,10", "--unreachable", "keep"});
+                 "--max", "10,8,10", "--unreachable", "keep", "--keep-dark"});
     EXPECT_EQ(result.err, "");
 }
 
@@ -72,7 +104,10 @@ TEST_F(Grid, RefusesWhatDoesNotGoTogether) {
     EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--heights", "1"}), "--heights"));
     EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--from", "1,2"}), "--from"));
     EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--clearance", "-1"}), "--clearance"));
+    EXPECT_TRUE(
+        contains(misuse_with({"--spacing", "1", "--agent-radius", "-1"}), "--agent-radius"));
     EXPECT_TRUE(contains(misuse_with({"--spacing", "1", "--mode", "best"}), "--mode"));
+    EXPECT_TRUE(contains(misuse_with({"--mode", "adaptive", "--error", "small"}), "--error"));
 }
 
 TEST_F(Grid, RefusesNumbersThatAreNone) {
