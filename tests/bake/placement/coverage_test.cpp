@@ -66,6 +66,17 @@ TEST(Coverage, WithoutProbesAllPlacesAreInHullCells) {
     EXPECT_EQ(cover_by(*traced, {}, places, 1), std::vector<Cover>(2, Cover::HullCell));
 }
 
+TEST(Coverage, WithoutTetrahedraPlacesOffTheProbesAreUncovered) {
+    const auto traced = TraceScene::make_static(Scene{});
+    const std::vector<glm::dvec3> plane{{-1, 0, -1}, {1, 0, -1}, {-1, 0, 1}, {1, 0, 1}};
+    const std::vector<glm::dvec3> places{{0.1, 0, 0.2}, {0.1, 0.5, 0.2}, {3, 0, 0.2}};
+    using enum Cover;
+    EXPECT_EQ(cover_by(*traced, plane, places, 1),
+              (std::vector<Cover>{Covered, HullCell, HullCell}));
+    EXPECT_EQ(cover_by(*traced, std::span(places).first(1), places, 1),
+              (std::vector<Cover>{Covered, HullCell, HullCell}));
+}
+
 TEST(Coverage, SharesAreOfAllPlaces) {
     using enum Cover;
     const std::vector<Cover> covers{Covered, Unseen,  Covered, HullCell,

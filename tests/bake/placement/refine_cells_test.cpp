@@ -120,6 +120,11 @@ TEST_F(RefineCells, KeepsTheClearanceBetweenProbes) {
     EXPECT_TRUE(refine({2.4, any, 1, 0}).empty());
 }
 
+/// Noise may cost this, which is less than one uncovered place does.
+constexpr RemoveRule kLittleCost{.min_probe_count = 8, .max_cost = 1.0};
+/// Any error is fine, but no uncovered place.
+constexpr RemoveRule kAllCovered{.min_probe_count = 8, .max_cost = 1e9, .max_uncovered = 0};
+
 class RemoveProbes : public testing::Test {
   protected:
     RemoveProbes() : scene_(even_sky()), pool_(scene_, {}) {
@@ -133,7 +138,7 @@ class RemoveProbes : public testing::Test {
     }
 
     /// Removes probes, pass by pass, with these sensors.
-    void remove_all(const std::vector<uint32_t>& sensors) {
+    void remove_all(const std::vector<uint32_t>& sensors, RemoveRule rule) {
         ASSERT_TRUE(pool_.bake({}));
         std::vector<bool> is_protected(pool_.size(), false);
         is_protected[21] = true;
@@ -141,9 +146,6 @@ class RemoveProbes : public testing::Test {
         const std::vector<bool> is_to_cover(pool_.size(), true);
         const SensorView view{pool_, sights, {ErrorKind::Absolute, 1.0}, is_to_cover};
         ProbeRemover remover(view);
-        RemoveRule rule;
-        rule.min_probe_count = 8;
-        rule.max_cost = 1.0;  // of noise; less than that of one uncovered place
         for (int pass = 0; pass < 40 && probes_.size() > rule.min_probe_count; ++pass) {
             const ProbeVolume volume = volume_of(pool_, probes_);
             errors_ = sensor_errors(volume, probes_, sensors, view, 1);
@@ -171,25 +173,29 @@ TEST_F(RemoveProbes, LeavesFewProbesWhereLightIsEven) {
     for (int i = 0; i < 100; ++i) {
         sensors.push_back(pool_.add({1.0 + 0.01 * i, 1.2 + 0.006 * i, 2.0 - 0.01 * i}));
     }
-    remove_all(sensors);
+    remove_all(sensors, kLittleCost);
     EXPECT_LE(probes_.size(), 16u);
     EXPECT_EQ(uncovered_count(), 0u);
 }
 
-TEST_F(RemoveProbes, KeepsWhatHoldsPlacesInsideTheTetrahedra) {
+class RemoveCorners : public RemoveProbes, public testing::WithParamInterface<RemoveRule> {};
+
+TEST_P(RemoveCorners, KeepsWhatHoldsPlacesInsideTheTetrahedra) {
     // In the corners: without a corner's probe its sensor is outside.
     std::vector<uint32_t> sensors;
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 corner(i % 2 * 3, i / 2 % 2 * 3, i / 4 * 3);
         sensors.push_back(pool_.add(glm::mix(corner, glm::dvec3(1.5), 0.1)));
     }
-    remove_all(sensors);
+    remove_all(sensors, GetParam());
     EXPECT_EQ(uncovered_count(), 0u);
     for (const uint32_t corner : {0u, 3u, 12u, 15u, 48u, 51u, 60u, 63u}) {
         EXPECT_NE(std::ranges::find(probes_, corner), probes_.end()) << corner;
     }
     EXPECT_LE(probes_.size(), 16u);
 }
+
+INSTANTIATE_TEST_SUITE_P(RemoveProbes, RemoveCorners, testing::Values(kLittleCost, kAllCovered));
 
 }  // namespace
 }  // namespace tetralight
