@@ -25,7 +25,7 @@ namespace {
 /// Sensors off surfaces are a little farther from them than places that need not be covered.
 constexpr double kSlack = 1.001;
 /// The minimum number of sensors, sensors per probe, and the maximum number.
-constexpr size_t kMinSensors = 6144, kSensorsPerProbe = 20, kMaxSensors = 1 << 17;
+constexpr size_t kMinSensors = 4096, kSensorsPerProbe = 20, kMaxSensors = 1 << 17;
 /// One of this many sensors is not used for decisions; these give the reported error.
 constexpr uint32_t kCheckEvery = 4;
 /// New probes of a round, as a fraction of the current ones.
@@ -40,6 +40,8 @@ constexpr double kMaxNoise = 0.3;
 /// the one at which it ends.
 constexpr int kReplacements = 48;
 constexpr double kReplacedFraction = 0.2, kLeastFraction = 0.02, kShrink = 0.7;
+/// A round that leaves more than this fraction of the cost hardly helps.
+constexpr double kHardlyBetter = 0.985;
 
 class AdaptiveGrid {
   public:
@@ -361,12 +363,13 @@ class AdaptiveGrid {
             }
             forget_removed(inserted);
             const bool is_better = set_.cost < best_->cost && set_.probes.size() <= count;
+            const bool is_much_better = is_better && set_.cost < kHardlyBetter * best_->cost;
             if (is_better) {
                 if (auto status = accept(); !status) return status;
-                continue;
+            } else {
+                set_ = *best_;
             }
-            set_ = *best_;
-            fraction *= kShrink;
+            if (!is_much_better) fraction *= kShrink;
         }
         set_ = *best_;
         return Ok{};

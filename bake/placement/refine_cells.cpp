@@ -13,7 +13,7 @@ namespace tetralight {
 namespace {
 
 /// Cells that are looked at for each new probe, and sensors that are tried in each.
-constexpr size_t kCellsPerProbe = 3, kMinCells = 64, kTrialsPerCell = 4;
+constexpr size_t kCellsPerProbe = 2, kMinCells = 32, kTrialsPerCell = 3;
 /// Minimum distance between new probes, as a fraction of the distance to their cell's corners.
 constexpr double kDistanceFraction = 0.5;
 
@@ -104,6 +104,15 @@ class Refiner {
         return room;
     }
 
+    /// True if two cells have two corners or more in common: a probe in one changes the light of
+    /// such cells most.
+    [[nodiscard]] bool shares_edge(uint32_t a, uint32_t b) const {
+        const auto& others = input_.volume.cells[b].vertices;
+        return std::ranges::count_if(input_.volume.cells[a].vertices, [&](uint32_t probe) {
+                   return probe != kNoIndex && std::ranges::find(others, probe) != others.end();
+               }) >= 2;
+    }
+
     [[nodiscard]] Offer best_offer(uint32_t cell) const {
         std::vector<uint32_t> around;
         for (const uint32_t probe : input_.volume.cells[cell].vertices) {
@@ -115,6 +124,7 @@ class Refiner {
         std::vector<uint32_t> probes = named(probes_of_cells(input_.volume, around), input_.probes);
         std::vector<uint32_t> sensors;
         for (const uint32_t c : around) {
+            if (!shares_edge(cell, c)) continue;
             for (const uint32_t i : sensors_[c]) sensors.push_back(input_.sensors[i]);
         }
         const double before = cost_by(probes, sensors);
