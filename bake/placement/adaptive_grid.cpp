@@ -35,7 +35,7 @@ constexpr double kBeyondCount = 1.3, kBeyondError = 0.9;
 /// Refinement goes on until this share of places is uncovered, or hardly falls.
 constexpr double kUncovered = 0.005, kHardlyLess = 0.9;
 /// The maximum noise of the sensors, as a fraction of the error.
-constexpr double kMaxNoise = 0.3;
+constexpr double kMaxNoise = 0.5;
 /// Rounds of replacing the least useful probes at most, the fraction that is replaced at first, and
 /// the one at which it ends.
 constexpr int kReplacements = 48;
