@@ -203,8 +203,12 @@ void FreeSpaceMap::append_reached(const glm::dvec3& position, int reach, float r
 }
 
 std::vector<uint32_t> FreeSpaceMap::reached_points(const glm::dvec3& position, float radius) const {
+    // From a corner of a room, points where the body fits are up to its radius away on each axis.
+    const double step =
+        std::min({lattice_.axes[0].spacing, lattice_.axes[1].spacing, lattice_.axes[2].spacing});
+    const int farthest = 1 + static_cast<int>(std::min(std::ceil(radius_ / step), 8.0));
     std::vector<uint32_t> points;
-    for (int reach = 0; reach <= 1 && points.empty(); ++reach)
+    for (int reach = 0; reach <= farthest && points.empty(); ++reach)
         append_reached(position, reach, radius, points);
     return points;
 }

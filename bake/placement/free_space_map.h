@@ -69,7 +69,7 @@ class FreeSpaceMap {
     [[nodiscard]] uint32_t root(uint32_t point) const;
     void unite(uint32_t a, uint32_t b);
     /// The points that a ball reaches from a position: corners of its cell, or else of the cells
-    /// around it.
+    /// around it, as far as the body is wide.
     [[nodiscard]] std::vector<uint32_t> reached_points(const glm::dvec3& position,
                                                        float radius) const;
     void append_reached(const glm::dvec3& position, int reach, float radius,

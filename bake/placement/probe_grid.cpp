@@ -120,6 +120,7 @@ class GridMaker {
             const bool is_outside = !bounds_in(rule_.bounds, adjustment);
             if (is_outside) grid_.adjustments_outside.push_back(adjustment.name);
         }
+        if (is_adaptive()) return Ok{};
         return check_candidate_count(static_cast<double>(kept_positions(probes_).size()),
                                      rule_.max_count);
     }
@@ -155,12 +156,13 @@ class GridMaker {
 
     /// Where probes may reach out to.
     [[nodiscard]] ReachRule reach_rule() const {
-        ReachRule rule{rule_.bounds, rule_.clearance, glm::bvec3(true), {}};
+        // Probes do not lie on surfaces, even without a clearance.
+        constexpr double kLeast = 1e-3;  // of the spacing
+        const double clearance = std::max(rule_.clearance, kLeast * smallest(rule_.spacing));
+        ReachRule rule{rule_.bounds, clearance, glm::bvec3(true), {}};
         rule.axes.y = settings_.mode != PlacementMode::Layers;
         if (rule_.walkable == nullptr) return rule;
-        rule.height_above = [this](const glm::dvec3& position) {
-            return settings_.agent_height - rule_.walkable->height_above(position).value_or(0.0);
-        };
+        rule.holds = [this](const glm::dvec3& position) { return is_walkable(position); };
         return rule;
     }
 
@@ -364,7 +366,14 @@ class GridMaker {
             ++grid_.fate_counts[static_cast<size_t>(probe.fate)];
             if (is_kept(probe.fate)) distances.push_back(probe.surface_distance);
         }
-        if (distances.empty()) return Error{ErrorCode::InvalidArgument, none_left(grid_)};
+        if (distances.empty()) {
+            std::string message = none_left(grid_);
+            if (rule_.walkable != nullptr) {
+                message += str_cat("; probes stand up to ", settings_.agent_height,
+                                   " m above the walkable surface only");
+            }
+            return Error{ErrorCode::InvalidArgument, message};
+        }
         const std::vector<glm::dvec3> positions = kept_positions(probes_);
         const std::vector<uint32_t> spaces = map_.spaces_of(positions, settings_.thread_count);
         for (const auto& [number, i] : filled_) {

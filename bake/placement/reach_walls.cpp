@@ -11,7 +11,6 @@
 namespace tetralight {
 namespace {
 
-constexpr int kUp = 1;
 /// Relative to the clearance: how far a position exceeds it, and the tolerance for rounding.
 constexpr double kSlack = 1e-3;
 
@@ -53,16 +52,38 @@ class Reach {
         const double side = sign < 0.0 ? position[axis] - rule_.bounds.min[axis]
                                        : rule_.bounds.max[axis] - position[axis];
         double end = std::max(side, 0.0);
-        if (axis == kUp && sign > 0.0 && rule_.height_above) {
-            end = std::min(end, std::max(rule_.height_above(position), 0.0));
-        }
         const double reach = spacing + rule_.clearance;
         const auto hit = traced_.intersect_side({from, direction, static_cast<float>(reach)});
         if (hit) end = std::min(end, double{hit->distance});
-        if (end >= reach) return std::nullopt;
+        bool is_found = end < reach;
+        if (rule_.holds) {
+            const double border = border_along(position, axis, sign, std::min(end, spacing));
+            is_found = is_found || border < std::min(end, spacing);
+            end = std::min(end, border);
+        }
+        if (!is_found) return std::nullopt;
         const double length = with_clearance(from, direction, end);
         if (length >= spacing) return std::nullopt;
         return length;
+    }
+
+    /// How far probes may be, at most `end`; by bisection.
+    [[nodiscard]] double border_along(const glm::dvec3& position, int axis, double sign,
+                                      double end) const {
+        constexpr int kSteps = 12;
+        const auto holds = [&](double length) {
+            glm::dvec3 place = position;
+            place[axis] += sign * length;
+            return rule_.holds(place);
+        };
+        // At a wall the position may be on the border of what is allowed, by rounding.
+        double low = 0.0, high = (1.0 - kSlack) * end;
+        if (holds(high)) return end;
+        for (int i = 0; i < kSteps; ++i) {
+            const double middle = 0.5 * (low + high);
+            (holds(middle) ? low : high) = middle;
+        }
+        return low;
     }
 
     /// The largest length up to `end` at which the way has clearance; 0 if there is none.

@@ -18,9 +18,9 @@ struct ReachRule {
     double clearance = 0.0;
     /// Axes along which they do.
     glm::bvec3 axes{true};
-    /// The free height above a position, metres, if something other than surfaces and the bounds
-    /// ends it; empty: nothing does.
-    std::function<double(const glm::dvec3& position)> height_above;
+    /// Returns true where probes may be, if more than surfaces and the bounds decides; its border
+    /// counts as a side of the bounds. Empty: everywhere.
+    std::function<bool(const glm::dvec3& position)> holds;
 };
 
 /// The positions that stand for one free position of a lattice, so that the last layer is at the

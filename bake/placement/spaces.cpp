@@ -152,25 +152,27 @@ class SpaceSearch {
         return Ok{};
     }
 
-    [[nodiscard]] bool is_left_dark(const Space& space) const {
-        return rule_.dark == DarkSpaces::Drop && is_any_lit_ && space.light.is_dark() &&
-               !space.has_seed;
+    /// True if no light reaches a space, but others have some.
+    [[nodiscard]] bool is_dark(const Space& space) const {
+        return is_any_lit_ && space.light.is_dark();
+    }
+
+    /// The fate of a space that is not the first lit one.
+    [[nodiscard]] SpaceFate fate_of(const Space& space) const {
+        if (space.has_seed) return SpaceFate::Filled;
+        if (is_dark(space) && rule_.dark == DarkSpaces::Drop) return SpaceFate::Dark;
+        const bool keeps_all = rule_.unreachable == UnreachableSpaces::Keep;
+        const bool keeps_dark = is_dark(space) && rule_.seeds.empty();
+        return keeps_all || keeps_dark ? SpaceFate::Filled : SpaceFate::Unreachable;
     }
 
     void choose() {
-        const bool keeps_all = rule_.unreachable == UnreachableSpaces::Keep;
-        bool is_first = true;
+        bool is_chosen = !rule_.seeds.empty();
         for (MappedSpace& found : spaces_) {
-            Space& space = found.space;
-            space.fate = SpaceFate::Filled;
-            if (is_left_dark(space)) {
-                space.fate = SpaceFate::Dark;
-                continue;
-            }
-            const bool is_chosen =
-                rule_.seeds.empty() ? is_first && found.number != kNoIndex : space.has_seed;
-            if (!keeps_all && !is_chosen) space.fate = SpaceFate::Unreachable;
-            if (found.number != kNoIndex) is_first = false;
+            found.space.fate = fate_of(found.space);
+            if (is_chosen || is_dark(found.space) || found.number == kNoIndex) continue;
+            found.space.fate = SpaceFate::Filled;
+            is_chosen = true;
         }
     }
 

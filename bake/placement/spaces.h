@@ -51,6 +51,7 @@ struct SpaceRule {
     std::span<const glm::dvec3> seeds;
     UnreachableSpaces unreachable = UnreachableSpaces::Drop;
     /// Spaces with a seed are kept even if they are dark, and so are all if no light reaches any.
+    /// Keep: dark ones are filled beside the one that is chosen, unless there are seeds.
     DarkSpaces dark = DarkSpaces::Drop;
     uint32_t thread_count = 0;
 };

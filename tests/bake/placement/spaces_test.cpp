@@ -132,14 +132,37 @@ TEST(Spaces, ADarkHollowIsLeftOut) {
 TEST(Spaces, ADarkHollowIsKeptIfAskedFor) {
     ProbeGridSettings settings = settings_for(kSix, 1.0);
     settings.dark = DarkSpaces::Keep;
-    EXPECT_EQ(hollow_of(grid_of(box_under_sky(), settings)).fate, SpaceFate::Unreachable);
-    settings.unreachable = UnreachableSpaces::Keep;
-    EXPECT_GE(count_inside(grid_of(box_under_sky(), settings)), 64u);
+    const ProbeGrid both = grid_of(box_under_sky(), settings);
+    EXPECT_GE(count_inside(both), 64u);
+    EXPECT_GT(both.probe_count(), count_inside(both));
     settings = settings_for(kSix, 1.0);
     settings.from = {{0.1, 0.2, 0.3}};
     const ProbeGrid seeded = grid_of(box_under_sky(), settings);
     EXPECT_GE(count_inside(seeded), 64u);
     EXPECT_EQ(count_inside(seeded), seeded.probe_count());
+}
+
+TEST(Spaces, DarkOnesAreFilledBesideTheLitOneNotInItsPlace) {
+    Scene scene = sealed_box();  // light in the hollow alone, which is smaller
+    test::add_point_light(scene, LightMode::Mixed, glm::vec3(1.0f), {0.1f, 0.2f, 0.3f});
+    ProbeGridSettings settings = settings_for(kSix, 1.0);
+    settings.dark = DarkSpaces::Keep;
+    const ProbeGrid grid = grid_of(scene, settings);
+    EXPECT_GE(count_inside(grid), 64u);
+    EXPECT_GT(grid.probe_count(), count_inside(grid));
+}
+
+TEST(Spaces, ABodyWiderThanTheClearanceStillReachesProbesInCorners) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_box(scene, test::two_sided(), test::Facing::Inward, {0, 0, 0}, {4, 3, 4});
+    ProbeGridSettings settings = settings_for({{0, 0, 0}, {4, 3, 4}}, 1.0);
+    settings.from = {{2, 1.5, 2}};
+    const uint64_t count = grid_of(scene, settings).probe_count();
+    settings.agent_radius = 0.35;
+    const ProbeGrid grid = grid_of(scene, settings);
+    EXPECT_EQ(grid.probe_count(), count);
+    EXPECT_EQ(grid.count(Fate::Unreachable), 0u);
 }
 
 TEST(Spaces, TheLitOneIsFilledEvenIfItIsSmaller) {
