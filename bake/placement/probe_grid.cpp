@@ -126,8 +126,12 @@ class GridMaker {
     }
 
     Status place_once() {
+        CandidateRule rule = rule_;
+        // The smallest lattice has eight probes; the adaptive mode removes some.
+        constexpr uint64_t kFewest = 8;
+        if (is_adaptive()) rule.max_count = std::max(rule.max_count, kFewest);
         auto candidates =
-            adjusted_candidates(traced_, scene_.probe_adjustments, settings_.mode, rule_);
+            adjusted_candidates(traced_, scene_.probe_adjustments, settings_.mode, rule);
         if (!candidates) return candidates.error();
         probes_ = place_candidates(traced_, scene_.probe_adjustments, *candidates, rule_);
         is_protected_.clear();
@@ -327,9 +331,10 @@ class GridMaker {
     Result<AdaptiveReport> adapt(const AdaptiveCallback& callback) {
         const size_t min_count = min_probe_count();
         if (min_count > rule_.max_count) {
-            return Error{ErrorCode::InvalidArgument, "max_probes", str_cat(rule_.max_count),
-                         str_cat(filled_.size(), " spaces need ", min_count,
-                                 " probes at least, more than the limit of ", rule_.max_count)};
+            return Error{
+                ErrorCode::InvalidArgument, "max_probes", str_cat(rule_.max_count),
+                str_cat(filled_.size(), filled_.size() == 1 ? " space needs " : " spaces need ",
+                        min_count, " probes at least, more than the limit of ", rule_.max_count)};
         }
         constexpr double kCloser = 0.5;  // sensors in corners may be closer to surfaces
         const AdaptiveInput input{scene_,

@@ -205,6 +205,12 @@ TEST(AdaptiveGrid, TellsOfSpacesThatItLeavesEmpty) {
     EXPECT_LT(std::max({place.x, place.y, place.z}), 1.0);
 }
 
+TEST(AdaptiveGrid, FourProbesAreEnoughForOneSpace) {
+    EXPECT_EQ(grid_of(two_rooms(), adaptive(4, 0.05)).probe_count(), 4u);
+    EXPECT_EQ(error_of(two_rooms(), adaptive(3, 0.05)),
+              "1 space needs 4 probes at least, more than the limit of 3");
+}
+
 TEST(AdaptiveGrid, FewerProbesThanItsSpacesNeedAreRefused) {
     // The air needs four, and each of six rooms one or more.
     Scene scene = hidden_room();
