@@ -16,7 +16,7 @@ constexpr uint32_t kProbeSamples = 1024;
 /// Defaults of the generator, metres.
 constexpr double kRegularClearance = 0.1, kAdaptiveClearance = 0.05;
 
-/// Regular grids with more probes than the adaptive ones by this factor are no baseline for them.
+/// A regular grid is a baseline if it has at most this factor times the adaptive probes.
 constexpr double kComparable = 1.1;
 
 /// A point of a curve of error over probes.

@@ -9,6 +9,7 @@
 
 #include <tetralight/bake/blocked_fraction.h>
 #include <tetralight/bake/parallel.h>
+#include <tetralight/bake/placement/coverage.h>
 #include <tetralight/bake/probe_visibility.h>
 #include <tetralight/bake/sampling/sampling.h>
 #include <tetralight/base/box.h>
@@ -154,12 +155,8 @@ ProbeEyes make_probe_eyes(const TraceScene& traced, const ProbeVolumeView& volum
                           float min_validity, uint32_t thread_count) {
     ProbeEyes eyes;
     const size_t count = volume.positions.size();
-    for (size_t i = 0; i < count; ++i) {
-        glm::dvec3 position = volume.exact_positions.size() == count
-                                  ? volume.exact_positions[i]
-                                  : volume.info.world_origin + glm::dvec3(volume.positions[i]);
-        if (volume.health.size() == count) position += volume.health[i].virtual_offset;
-        eyes.positions.push_back(traced.render_from_world(position));
+    for (uint32_t i = 0; i < count; ++i) {
+        eyes.positions.push_back(probe_eye(traced, volume, i));
     }
     eyes.is_inside.assign(count, 0);
     parallel_for(count, thread_count, [&](size_t i) {

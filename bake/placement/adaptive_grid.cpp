@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -32,7 +33,8 @@ constexpr uint32_t kCheckEvery = 4;
 constexpr double kGrowth = 0.25;
 /// Refinement goes beyond the targets by these factors, so that removal has a choice.
 constexpr double kBeyondCount = 1.3, kBeyondError = 0.9;
-/// Refinement goes on until this share of places is uncovered, or hardly falls.
+/// Refinement goes on until at most this share of sensors is uncovered, or until a round leaves
+/// more than this fraction of it.
 constexpr double kUncovered = 0.005, kHardlyLess = 0.9;
 /// The maximum noise of the sensors, as a fraction of the error.
 constexpr double kMaxNoise = 0.5;
@@ -107,7 +109,7 @@ class AdaptiveGrid {
 
     uint32_t add_to_pool(const glm::dvec3& position) {
         is_protected_.push_back(false);
-        is_to_cover_.push_back(distance_at(position) >= input_.place_clearance);
+        is_to_cover_.push_back(double{distance_at(position)} >= input_.place_clearance);
         return pool_.add(position);
     }
 
@@ -187,23 +189,13 @@ class AdaptiveGrid {
             const double error = mean_error(errors);
             const double noise = mean_noise(pool_, checks_, scale_);
             set_.error = std::sqrt(std::max(0.0, error * error - noise * noise));
-            set_.uncovered = uncovered_share(errors);
+            set_.uncovered =
+                static_cast<double>(uncovered_count(errors)) / static_cast<double>(errors.size());
         } while (add_samples());
         set_.errors =
             sensor_errors(set_.volume, set_.probes, sensors_, view(), input_.thread_count);
         set_.cost = sum_of_costs(set_.errors) / static_cast<double>(sensors_.size());
         return Ok{};
-    }
-
-    [[nodiscard]] static double uncovered_share(const std::vector<SensorError>& errors) {
-        const auto count = std::ranges::count(errors, false, &SensorError::is_covered);
-        return static_cast<double>(count) / static_cast<double>(errors.size());
-    }
-
-    [[nodiscard]] static double sum_of_costs(const std::vector<SensorError>& errors) {
-        double sum = 0.0;
-        for (const SensorError& error : errors) sum += error.cost();
-        return sum;
     }
 
     /// Makes the set the result so far.
@@ -255,17 +247,14 @@ class AdaptiveGrid {
     }
 
     /// Metres to the nearest surface.
-    [[nodiscard]] double distance_at(const glm::dvec3& world_position) const {
-        const glm::vec3 position = input_.traced.render_from_world(world_position);
-        const auto nearest = input_.traced.nearest_surface(position);
-        return nearest ? double{glm::distance(*nearest, position)}
-                       : std::numeric_limits<double>::infinity();
+    [[nodiscard]] float distance_at(const glm::dvec3& position) const {
+        return surface_distance(input_.traced, input_.traced.render_from_world(position));
     }
 
     /// True if a probe at the position keeps the clearance. Sensors may be closer to surfaces.
     [[nodiscard]] bool has_clearance(const glm::dvec3& position) const {
         constexpr double kRounding = 0.99;
-        return distance_at(position) >= kRounding * input_.clearance;
+        return double{distance_at(position)} >= kRounding * input_.clearance;
     }
 
     /// The sum of costs that corresponds to an error, in proportion to the set's, while no more
@@ -277,10 +266,12 @@ class AdaptiveGrid {
         return sum_of_costs(set_.errors) + squares * (ratio * ratio - 1.0);
     }
 
-    [[nodiscard]] std::vector<uint32_t> spaces_of(const std::vector<uint32_t>& probes) const {
+    [[nodiscard]] std::vector<uint32_t> spaces_of(const std::vector<uint32_t>& probes) {
         std::vector<uint32_t> spaces;
         for (const uint32_t probe : probes) {
-            spaces.push_back(input_.space_of(pool_.position(probe)));
+            const auto [known, is_new] = spaces_.try_emplace(probe, kNoIndex);
+            if (is_new) known->second = input_.space_of(pool_.position(probe));
+            spaces.push_back(known->second);
         }
         return spaces;
     }
@@ -300,14 +291,19 @@ class AdaptiveGrid {
         return true;
     }
 
-    Status remove_and_replace() {
-        is_removing_ = true;
-        constexpr double kAnyError = std::numeric_limits<double>::max();
+    /// Removes probes down to the maximum, whatever the error.
+    Status remove_surplus() {
         while (set_.probes.size() > input_.max_probes) {
-            const auto removed = remove(input_.max_probes, kAnyError);
+            const auto removed = remove(input_.max_probes, std::numeric_limits<double>::max());
             if (!removed) return removed.error();
             if (!*removed) break;  // all remaining probes are protected
         }
+        return Ok{};
+    }
+
+    Status remove_and_replace() {
+        is_removing_ = true;
+        if (auto status = remove_surplus(); !status) return status;
         if (best_ && best_->cost < set_.cost) set_ = *best_;
         if (auto status = accept(); !status) return status;
         if (report_.end == AdaptiveEnd::TargetReached || set_.error <= settings_.target_error) {
@@ -318,8 +314,7 @@ class AdaptiveGrid {
     }
 
     Status remove_to_target() {
-        const auto uncovered =
-            static_cast<size_t>(std::ranges::count(set_.errors, false, &SensorError::is_covered));
+        const size_t uncovered = uncovered_count(set_.errors);
         const auto few = static_cast<size_t>(kUncovered * static_cast<double>(sensors_.size()));
         while (true) {
             const auto removed = remove(4, settings_.target_error, std::max(uncovered, few));
@@ -331,18 +326,6 @@ class AdaptiveGrid {
         return Ok{};
     }
 
-    /// Sensors that became probes and were the least useful at once are not tried again.
-    void forget_removed(const std::vector<uint32_t>& inserted) {
-        is_tried_.resize(pool_.size(), false);
-        for (const uint32_t probe : inserted) {
-            is_tried_[probe] = std::ranges::find(set_.probes, probe) == set_.probes.end();
-        }
-    }
-
-    [[nodiscard]] bool is_tried(uint32_t sensor) const {
-        return sensor < is_tried_.size() && is_tried_[sensor];
-    }
-
     /// Moves the least useful probes while that helps; fewer of them after a round that did not.
     Status replace() {
         double fraction = kReplacedFraction;
@@ -351,17 +334,9 @@ class AdaptiveGrid {
             const auto count = static_cast<size_t>(input_.max_probes);
             const size_t unused = count - std::min(count, set_.probes.size());
             const auto room = static_cast<size_t>(std::ceil(fraction * static_cast<double>(count)));
-            const size_t inserted_count = insert(unused + room);
-            if (inserted_count == 0) break;
-            const std::vector<uint32_t> inserted(
-                set_.probes.end() - static_cast<std::ptrdiff_t>(inserted_count), set_.probes.end());
+            if (insert(unused + room) == 0) break;
             if (auto status = measure_errors(); !status) return status;
-            while (set_.probes.size() > count) {
-                const auto removed = remove(count, std::numeric_limits<double>::max());
-                if (!removed) return removed.error();
-                if (!*removed) break;
-            }
-            forget_removed(inserted);
+            if (auto status = remove_surplus(); !status) return status;
             const bool is_better = set_.cost < best_->cost && set_.probes.size() <= count;
             const bool is_much_better = is_better && set_.cost < kHardlyBetter * best_->cost;
             if (is_better) {
@@ -388,8 +363,8 @@ class AdaptiveGrid {
         }
         std::ranges::sort(added);
         for (const uint32_t probe : added) {
-            const double distance = distance_at(pool_.position(probe));
-            probes.push_back({pool_.position(probe), Fate::Kept, static_cast<float>(distance)});
+            const glm::dvec3& position = pool_.position(probe);
+            probes.push_back({position, Fate::Kept, distance_at(position)});
         }
         report_.error = best_->error;
         report_.position_count = pool_.size();
@@ -410,10 +385,10 @@ class AdaptiveGrid {
     AdaptiveReport report_;
     Set set_;
     std::optional<Set> best_;
-    std::vector<bool> is_tried_;        ///< sensors that were no better than others
     std::vector<bool> is_protected_;    ///< one for each position of the pool
     std::vector<size_t> start_places_;  ///< index in the start of the first positions of the pool
     size_t start_count_ = 0;
+    std::map<uint32_t, uint32_t> spaces_;  ///< of probes, by their index in the pool
     std::vector<uint32_t> sensors_, checks_;
     uint32_t sensor_count_ = 0;
     bool is_removing_ = false;

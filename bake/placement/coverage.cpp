@@ -11,16 +11,6 @@
 namespace tetralight {
 namespace {
 
-/// Where a probe samples its light, in render space.
-glm::vec3 eye_of(const TraceScene& traced, const ProbeVolumeView& volume, uint32_t probe) {
-    const size_t count = volume.positions.size();
-    glm::dvec3 position = volume.exact_positions.size() == count
-                              ? volume.exact_positions[probe]
-                              : volume.info.world_origin + glm::dvec3(volume.positions[probe]);
-    if (volume.health.size() == count) position += volume.health[probe].virtual_offset;
-    return traced.render_from_world(position);
-}
-
 /// Bound of the rounding of a float position in the volume, metres.
 double rounding_at(const ProbeVolumeView& volume, const glm::dvec3& place) {
     const double size = glm::length(place) + double{volume.info.extent};
@@ -40,6 +30,15 @@ bool is_off_corners(const ProbeVolumeView& volume, const CellLocation& location,
 }
 
 }  // namespace
+
+glm::vec3 probe_eye(const TraceScene& traced, const ProbeVolumeView& volume, uint32_t probe) {
+    const size_t count = volume.positions.size();
+    glm::dvec3 position = volume.exact_positions.size() == count
+                              ? volume.exact_positions[probe]
+                              : volume.info.world_origin + glm::dvec3(volume.positions[probe]);
+    if (volume.health.size() == count) position += volume.health[probe].virtual_offset;
+    return traced.render_from_world(position);
+}
 
 bool is_in_hull_cell(const ProbeVolumeView& volume, const CellLocation& location,
                      const glm::dvec3& place) {
@@ -64,7 +63,7 @@ bool sees_enough(const TraceScene& traced, const ProbeVolumeView& volume,
         const uint32_t probe = cell.vertices[static_cast<size_t>(i)];
         const float weight = location.weights[i];
         if (probe >= volume.probe_count() || !(weight > 0.0f)) continue;
-        const glm::vec3 eye = eye_of(traced, volume, probe);
+        const glm::vec3 eye = probe_eye(traced, volume, probe);
         (eye == here || !blocked_fraction(traced, eye, here) ? seen : hidden) += weight;
         if (seen >= kMinSeenWeight) return true;
         if (hidden > 1.0f - kMinSeenWeight) return false;

@@ -38,9 +38,13 @@ inline constexpr float kMinSeenWeight = 0.25f;
 [[nodiscard]] bool is_off_flat_cell(const ProbeVolumeView& volume, const CellLocation& location,
                                     const glm::dvec3& place);
 
+/// Where a probe samples its light, in render space: its exact position and its virtual offset.
+[[nodiscard]] glm::vec3 probe_eye(const TraceScene& traced, const ProbeVolumeView& volume,
+                                  uint32_t probe);
+
 /// True if the corners of its cell that a place sees have `kMinSeenWeight` together, or more. Rays
-/// decide (`blocked_fraction`), from where the probes sample their light: their exact positions and
-/// virtual offsets. `location` is that of the place, also in a hull cell.
+/// decide (`blocked_fraction`), from where the probes sample their light (`probe_eye`). `location`
+/// is that of the place, also in a hull cell.
 [[nodiscard]] bool sees_enough(const TraceScene& traced, const ProbeVolumeView& volume,
                                const CellLocation& location, const glm::dvec3& place);
 

@@ -18,11 +18,6 @@ namespace {
 /// Relative to the clearance: how far a push exceeds it, and the tolerance for rounding.
 constexpr float kSlack = 1e-3f;
 
-float surface_distance(const TraceScene& traced, glm::vec3 position) {
-    const auto nearest = traced.nearest_surface(position);
-    return nearest ? glm::distance(position, *nearest) : std::numeric_limits<float>::infinity();
-}
-
 /// The number of closed solids that contain the position: along a ray to the sky, the surfaces that
 /// it leaves through back faces minus those that it enters through front faces.
 int solids_around(const TraceScene& traced, glm::vec3 position, glm::vec3 direction) {
@@ -163,6 +158,19 @@ class Push {
 };
 
 }  // namespace
+
+float surface_distance(const TraceScene& traced, glm::vec3 position) {
+    const auto nearest = traced.nearest_surface(position);
+    return nearest ? glm::distance(position, *nearest) : std::numeric_limits<float>::infinity();
+}
+
+std::vector<glm::dvec3> kept_positions(std::span<const PlacedProbe> probes) {
+    std::vector<glm::dvec3> positions;
+    for (const PlacedProbe& probe : probes) {
+        if (is_kept(probe.fate)) positions.push_back(probe.position);
+    }
+    return positions;
+}
 
 PointClass classify_point(const TraceScene& traced, glm::vec3 position,
                           const ProbeVisibility& around) {

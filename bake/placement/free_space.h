@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include <tetralight/bake/probe_visibility.h>
 #include <tetralight/bake/rays/trace_scene.h>
@@ -32,6 +34,9 @@ inline constexpr int kFateCount = 10;
     return fate == Fate::Kept || fate == Fate::Pushed || fate == Fate::Added;
 }
 
+/// Metres from a position in render space to the nearest surface; infinite if there is none.
+[[nodiscard]] float surface_distance(const TraceScene& traced, glm::vec3 position);
+
 /// Which positions probes may have.
 struct ClearanceRule {
     /// Minimum distance to every surface, metres; 0 = anywhere outside of geometry.
@@ -52,6 +57,9 @@ struct PlacedProbe {
 
     bool operator==(const PlacedProbe&) const = default;
 };
+
+/// The positions of those that are kept, in their order.
+[[nodiscard]] std::vector<glm::dvec3> kept_positions(std::span<const PlacedProbe> probes);
 
 /// Keeps a free candidate, pushes one that is inside geometry or too close to a surface, or gives
 /// the reason if there is no free position. A push passes through no surface except the one that

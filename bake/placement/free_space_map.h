@@ -78,7 +78,7 @@ class FreeSpaceMap {
     const TraceScene& traced_;
     Lattice lattice_;
     float radius_;
-    /// From here on the body passes from point to point whatever the distance is, metres.
+    /// Distances are cut off here, metres: with this much room the body passes to any neighbor.
     float far_;
     std::vector<uint32_t> parent_;  ///< union-find: never larger than the point itself
     std::vector<float> distances_;  ///< `distance_at` the points

@@ -33,14 +33,6 @@ constexpr size_t kPlacesPerProbe = 8, kMinPlaces = 4096, kMaxPlaces = 1 << 15, k
 /// places first, even if this takes more probes than the maximum by this factor: it removes some.
 constexpr double kStartFraction = 0.9, kCoverFactor = 2.0;
 
-std::vector<glm::dvec3> kept_positions(const std::vector<PlacedProbe>& probes) {
-    std::vector<glm::dvec3> positions;
-    for (const PlacedProbe& probe : probes) {
-        if (is_kept(probe.fate)) positions.push_back(probe.position);
-    }
-    return positions;
-}
-
 double smallest(const glm::dvec3& spacing) {
     return std::min({spacing.x, spacing.y, spacing.z});
 }
@@ -94,7 +86,7 @@ class GridMaker {
         if (!found) return found.error();
         take_spaces(*found);
         cover();
-        if (settings_.mode == PlacementMode::Adaptive && !kept_positions(probes_).empty()) {
+        if (is_adaptive() && !kept_positions(probes_).empty()) {
             auto report = adapt(callback);
             if (!report) return report.error();
             grid_.adaptive = *report;
@@ -253,9 +245,7 @@ class GridMaker {
     }
 
     [[nodiscard]] float distance_of(const PlacedProbe& probe) const {
-        const glm::vec3 position = traced_.render_from_world(probe.position);
-        const auto nearest = traced_.nearest_surface(position);
-        return nearest ? glm::distance(*nearest, position) : std::numeric_limits<float>::infinity();
+        return surface_distance(traced_, traced_.render_from_world(probe.position));
     }
 
     void take_spaces(std::vector<MappedSpace>& found) {

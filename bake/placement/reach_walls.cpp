@@ -76,7 +76,7 @@ class Reach {
             place[axis] += sign * length;
             return rule_.holds(place);
         };
-        // At a wall the position may be on the border of what is allowed, by rounding.
+        // Rounding may put the end itself outside.
         double low = 0.0, high = (1.0 - kSlack) * end;
         if (holds(high)) return end;
         for (int i = 0; i < kSteps; ++i) {

@@ -141,11 +141,7 @@ class Refiner {
     [[nodiscard]] double cost_by(const std::vector<uint32_t>& probes,
                                  const std::vector<uint32_t>& sensors) const {
         const ProbeVolume volume = volume_of(input_.view.pool, probes);
-        double sum = 0.0;
-        for (const SensorError& error : sensor_errors(volume, probes, sensors, input_.view, 1)) {
-            sum += error.cost();
-        }
-        return sum;
+        return sum_of_costs(sensor_errors(volume, probes, sensors, input_.view, 1));
     }
 
     [[nodiscard]] bool is_apart(const Offer& offer, const std::vector<Offer>& chosen) const {

@@ -112,10 +112,8 @@ std::vector<uint32_t> ProbeRemover::pass(const RemoveInput& input, const RemoveR
     std::vector<uint32_t> queue(probes.size());
     std::iota(queue.begin(), queue.end(), 0u);
     std::ranges::stable_sort(queue, {}, [&](uint32_t i) { return costs[i].change; });
-    double sum = 0.0;
-    for (const SensorError& error : errors) sum += error.cost();
-    auto uncovered =
-        static_cast<int64_t>(std::ranges::count(errors, false, &SensorError::is_covered));
+    double sum = sum_of_costs(errors);
+    auto uncovered = static_cast<int64_t>(uncovered_count(errors));
     const auto most = static_cast<size_t>(rule.max_fraction * static_cast<double>(probes.size()));
     std::vector<bool> is_gone(probes.size(), false), is_stale(probes.size(), false);
     ProbesOfSpaces left_in(view_.pool, probes, spaces);

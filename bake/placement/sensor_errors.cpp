@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/placement/sensor_errors.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <tetralight/bake/parallel.h>
@@ -80,6 +81,16 @@ std::vector<SensorError> sensor_errors(const ProbeVolume& volume, std::span<cons
         parallel_for(sensors.size(), thread_count, look);
     }
     return errors;
+}
+
+double sum_of_costs(std::span<const SensorError> errors) {
+    double sum = 0.0;
+    for (const SensorError& error : errors) sum += error.cost();
+    return sum;
+}
+
+size_t uncovered_count(std::span<const SensorError> errors) {
+    return static_cast<size_t>(std::ranges::count(errors, false, &SensorError::is_covered));
 }
 
 double mean_error(std::span<const SensorError> errors) {

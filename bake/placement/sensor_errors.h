@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,6 +50,10 @@ struct SensorView {
                                                      std::span<const uint32_t> probes,
                                                      std::span<const uint32_t> sensors,
                                                      const SensorView& view, uint32_t thread_count);
+
+[[nodiscard]] double sum_of_costs(std::span<const SensorError> errors);
+
+[[nodiscard]] size_t uncovered_count(std::span<const SensorError> errors);
 
 /// Root mean square of the errors.
 [[nodiscard]] double mean_error(std::span<const SensorError> errors);

@@ -14,7 +14,7 @@ constexpr uint32_t kSky = 0, kLights = 1, kLayerCount = 2;
 /// Light counts if it reaches more than this fraction of the positions.
 constexpr double kLeastShare = 0.03;
 
-/// All lights in full, whatever their mode, apart from the sky.
+/// All lights as baked ones in one layer, the sky in another.
 LightPlan plan_for(const Scene& scene) {
     LightPlan plan;
     plan.light_modes.assign(scene.lights.size(), LightMode::Baked);

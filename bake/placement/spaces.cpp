@@ -37,14 +37,6 @@ Status check_seed(const TraceScene& traced, const FreeSpaceMap& map, const glm::
     return Ok{};
 }
 
-std::vector<glm::dvec3> kept_positions(const std::vector<PlacedProbe>& probes) {
-    std::vector<glm::dvec3> positions;
-    for (const PlacedProbe& probe : probes) {
-        if (is_kept(probe.fate)) positions.push_back(probe.position);
-    }
-    return positions;
-}
-
 /// What belongs to one space.
 struct Members {
     std::vector<glm::dvec3> points;  ///< of the map, in the bounds
