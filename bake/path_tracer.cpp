@@ -12,15 +12,25 @@
 namespace tetralight {
 namespace {
 
-/// Russian roulette starts after this many reflections, for paths with a throughput below one half.
+/// Russian roulette starts after this many reflections, for paths with a throughput below
+/// 1 / kSurvivalPerThroughput. Survivors have that throughput again, so that a path in a closed
+/// room continues with the albedo as probability. The values have the least product of variance and
+/// rays over the courtyard, Sponza and white rooms (docs/decisions/0048-all-light-by-default.md).
 constexpr uint32_t kRouletteStart = 2;
-constexpr float kSurvivalPerThroughput = 2.0f;
+constexpr float kSurvivalPerThroughput = 2.5f;
 
-/// The smallest survival probability: the throughput of a survivor grows at most tenfold.
-constexpr float kMinSurvival = 0.1f;
+/// The smallest survival probability: the throughput of a survivor grows at most fourfold.
+constexpr float kMinSurvival = 0.25f;
+
+/// The largest one, so that paths end in rooms without absorption too.
+constexpr float kMaxSurvival = 0.99f;
 
 float brightest(glm::vec3 c) {
     return std::max({c.r, c.g, c.b});
+}
+
+float mean(glm::vec3 c) {
+    return (c.r + c.g + c.b) / 3.0f;
 }
 
 /// Power heuristic with β = 2 for two sampling techniques (Veach & Guibas 1995). `pdf` may be
@@ -61,6 +71,8 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
     Ray ray{start.origin, start.direction};
     ShadingPoint shading_point{start.origin};
     float pdf = start.pdf;
+    glm::vec3 light_before_last(0.0f);
+    if (settings_.bounces == 0) sample.last_throughput = 1.0f;
     for (uint32_t bounce = 0;; ++bounce) {
         const auto arrival =
             bounce == 0 ? PathLightGroups::Arrival::Direct : PathLightGroups::Arrival::Reflected;
@@ -89,14 +101,17 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
             path.add(layer_of_geometry(surface->geometry), light, arrival);
         }
         throughput *= surface->albedo;  // cosine-weighted: albedo/π · cos θ over cos θ/π
+        if (bounce == settings_.bounces) sample.cut_throughput = mean(throughput);
         if (bounce == settings_.bounces || throughput == glm::vec3(0.0f)) break;
         if (bounce >= kRouletteStart) {
-            const float survival =
-                std::max(kMinSurvival, kSurvivalPerThroughput * brightest(throughput));
-            if (survival < 1.0f) {
-                if (path.sampler.next() >= survival) break;
-                throughput /= survival;
-            }
+            const float survival = std::clamp(kSurvivalPerThroughput * brightest(throughput),
+                                              kMinSurvival, kMaxSurvival);
+            if (path.sampler.next() >= survival) break;
+            throughput /= survival;
+        }
+        if (bounce + 1 == settings_.bounces) {
+            light_before_last = reflected;
+            sample.last_throughput = mean(throughput);
         }
         reflected += throughput * reflected_light(*surface, path);
 
@@ -105,6 +120,7 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
                sample_cosine_hemisphere(shading_point.normal, path.sampler.next2())};
         pdf = sample_cosine_hemisphere_pdf(shading_point.normal, ray.direction);
     }
+    if (sample.last_throughput > 0.0f) sample.last_light = reflected - light_before_last;
     const float brightness = brightest(reflected);
     if (settings_.clamp > 0.0f && brightness > settings_.clamp) {
         reflected *= settings_.clamp / brightness;

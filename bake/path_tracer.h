@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include <tetralight/bake/all_bounces.h>
 #include <tetralight/bake/light_plan.h>
 #include <tetralight/bake/lights/light_sampler.h>
 #include <tetralight/bake/path_light_groups.h>
@@ -25,7 +26,7 @@ enum class LightStrategy {
 
 struct PathSettings {
     /// Maximum number of reflections; 0 = only emission and sky that the first segment hits.
-    uint32_t bounces = 4;
+    uint32_t bounces = kAllBounces;
     /// Upper limit of the reflected radiance of one path, by its brightest channel: brighter light
     /// is scaled down to it, which loses energy. 0 = no limit.
     float clamp = 0.0f;
@@ -49,6 +50,14 @@ struct PathSample {
     /// The first ray hit the back face of a single-sided surface: it started inside geometry.
     bool hit_back_face = false;
     uint32_t ray_count = 0;
+    // What `PathSettings::bounces` cuts off is estimated from these (`CutLight`).
+    /// Reflected light of the highest order that is kept, before the clamp.
+    glm::vec3 last_light{0.0f};
+    /// Mean throughput over the channels on the segment after the last reflection; 0 if the path
+    /// ended before.
+    float last_throughput = 0.0f;
+    /// The same after the surface at its end, where the path is cut; 0 if the segment escaped.
+    float cut_throughput = 0.0f;
 };
 
 /// Estimates radiance by path tracing in a scene of Lambertian surfaces. At each surface one light
@@ -92,6 +101,9 @@ class PathTracer {
     [[nodiscard]] uint32_t layer_of(LightKind kind, const LightSample& sample) const;
 
     [[nodiscard]] const LightPlan& plan() const { return plan_; }
+
+    /// `PathSettings::bounces`.
+    [[nodiscard]] uint32_t bounces() const { return settings_.bounces; }
 
     [[nodiscard]] const TraceScene& trace_scene() const { return trace_scene_; }
 
