@@ -172,7 +172,7 @@ class AccumulatorBaker {
                              .expected_samples_before = expected_before,
                              .is_first = accumulator.round_count == 1,
                              .is_done = plan_.is_done(accumulator),
-                             .standard_error = accumulator.standard_error()});
+                             .sampling_error = accumulator.sampling_error()});
     }
 
     void add_light_groups(uint32_t probe, uint64_t round,
@@ -199,7 +199,7 @@ class AccumulatorBaker {
             if (next != probes.end() && *next == i) {
                 ++next;
             } else {
-                worst = std::max(worst, work_.accumulators[i].standard_error());
+                worst = std::max(worst, work_.accumulators[i].sampling_error());
             }
         }
         return worst;

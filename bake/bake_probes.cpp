@@ -23,6 +23,7 @@ BakedProbes make_baked_probes(std::span<const ProbeAccumulator> accumulators) {
         baked.radiance.push_back(accumulator.radiance());
         baked.validity.push_back(accumulator.validity());
         baked.standard_error.push_back(accumulator.standard_error());
+        baked.sampling_error.push_back(accumulator.sampling_error());
         baked.sample_count.push_back(accumulator.sample_count);
         baked.ray_count += accumulator.ray_count;
     }

@@ -24,6 +24,8 @@ struct BakedProbes {
     std::vector<float> validity;
     /// Relative standard error of the irradiance (`ProbeAccumulator::standard_error`).
     std::vector<float> standard_error;
+    /// The part of it that more samples reduce (`ProbeAccumulator::sampling_error`).
+    std::vector<float> sampling_error;
     /// Samples taken.
     std::vector<uint64_t> sample_count;
 

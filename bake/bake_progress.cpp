@@ -20,8 +20,8 @@ void ProgressReporter::add_round(const Round& round) {
     expected_samples_ +=
         round.expected_samples - (round.is_first ? 0 : round.expected_samples_before);
     float worst = worst_error_;
-    while (round.standard_error > worst &&
-           !worst_error_.compare_exchange_weak(worst, round.standard_error)) {
+    while (round.sampling_error > worst &&
+           !worst_error_.compare_exchange_weak(worst, round.sampling_error)) {
     }
 }
 

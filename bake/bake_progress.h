@@ -19,7 +19,7 @@ struct BakeProgress {
     /// Samples taken over samples expected for all probes, in [0, 1]. The expectation follows from
     /// the errors measured so far.
     double fraction_done = 0.0;
-    /// The largest relative standard error of a probe so far.
+    /// The largest sampling error of a probe so far (`ProbeAccumulator::sampling_error`).
     float worst_error = 0.0f;
 };
 
@@ -43,7 +43,7 @@ class ProgressReporter {
         uint64_t expected_samples_before = 0;  ///< expected in total, before this round
         bool is_first = false;
         bool is_done = false;
-        float standard_error = 0.0f;
+        float sampling_error = 0.0f;
     };
 
     void add_round(const Round& round);

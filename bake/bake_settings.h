@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <tetralight/bake/all_bounces.h>
 #include <tetralight/bake/light_plan.h>
 #include <tetralight/bake/scene/surface_color.h>
 
@@ -13,7 +14,7 @@ struct BakeSettings {
     /// there is no second round. 128 samples or more form eight independent estimates, fewer form
     /// one estimate per 16 samples; a standard error needs at least two estimates.
     uint32_t sample_count = 1024;
-    /// Relative standard error of the irradiance (`ProbeAccumulator::standard_error`) at which a
+    /// Relative standard error of the irradiance (`ProbeAccumulator::sampling_error`) at which a
     /// probe is done. Each round doubles the samples of the probes that are above it. 0 = no
     /// target.
     double target_error = 0.0;
@@ -26,8 +27,9 @@ struct BakeSettings {
     /// Largest radiance that the reflected light of one path may have (`PathSettings::clamp`),
     /// which trades energy for less noise. 0 = not clamped.
     float clamp = 0.0f;
-    /// Maximum number of reflections of a path; 0 = direct light only.
-    uint32_t bounces = 4;
+    /// Maximum number of reflections of a path; 0 = direct light only. Below `kAllBounces` the
+    /// light of longer paths is lost, and counts in the standard error.
+    uint32_t bounces = kAllBounces;
     SurfaceSettings surfaces;
     /// Which lights are baked, and which light groups are kept apart.
     LightPlan plan;

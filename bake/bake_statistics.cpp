@@ -38,8 +38,8 @@ BakeStatistics bake_statistics(const BakedProbes& baked, double target_error) {
     statistics.p99_error = quantile(errors, 0.99);
     statistics.worst_error = quantile(errors, 1.0);
     if (target_error > 0.0) {
-        statistics.over_target_count = static_cast<size_t>(
-            std::ranges::count_if(errors, [&](float error) { return error > target_error; }));
+        statistics.over_target_count = static_cast<size_t>(std::ranges::count_if(
+            baked.sampling_error, [&](float error) { return error > target_error; }));
     }
     return statistics;
 }

@@ -20,7 +20,7 @@ struct BakeStatistics {
     float median_error = 0.0f;
     float p99_error = 0.0f;  ///< 99th percentile
     float worst_error = 0.0f;
-    /// Probes whose error is above the target; 0 if there is no target.
+    /// Probes whose sampling error is above the target; 0 if there is no target.
     size_t over_target_count = 0;
 
     bool operator==(const BakeStatistics&) const = default;

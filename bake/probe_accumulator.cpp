@@ -57,6 +57,7 @@ void ProbeAccumulator::add_round(std::span<const ProbeEstimate> estimates) noexc
         samples += estimate.sample_count;
         back_face_count += estimate.back_face_count;
         ray_count += estimate.ray_count;
+        cut.add(estimate.cut);
     }
     for (int i = 0; i < kShCoefficientCount; ++i) radiance_sum[i] += sum[i];
     if (estimates.size() > 1) {
@@ -82,9 +83,17 @@ float ProbeAccumulator::validity() const noexcept {
                                         static_cast<double>(sample_count));
 }
 
-float ProbeAccumulator::standard_error() const noexcept {
+float ProbeAccumulator::sampling_error() const noexcept {
     const double square = irradiance_square(radiance_sum);  // both sums have a factor N²
     return square > 0.0 ? static_cast<float>(std::sqrt(variance_sum / square)) : 0.0f;
+}
+
+float ProbeAccumulator::standard_error() const noexcept {
+    const double square = irradiance_square(radiance_sum);
+    if (square <= 0.0 || variance_sum <= 0.0) return 0.0f;
+    Coefficients lost{};
+    lost[0] = cut.lost_radiance();
+    return static_cast<float>(std::sqrt((variance_sum + irradiance_square(lost)) / square));
 }
 
 }  // namespace tetralight

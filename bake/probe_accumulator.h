@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 
+#include <tetralight/bake/cut_light.h>
 #include <tetralight/bake/probe_estimator.h>
 #include <tetralight/probes/sh.h>
 
@@ -25,6 +26,8 @@ struct ProbeAccumulator {
     uint64_t back_face_count = 0;
     uint64_t ray_count = 0;
     uint64_t round_count = 0;
+    /// Of the light of paths that the limit of bounces cuts.
+    CutLight cut;
 
     /// Adds a round of independent estimates. Their order affects the last bits of the sums.
     void add_round(std::span<const ProbeEstimate> estimates) noexcept;
@@ -41,12 +44,23 @@ struct ProbeAccumulator {
     ///     √( Σ_i A_l² Var(L_i) / Σ_i A_l² L_i² ),   A = π, 2π/3, π/4
     ///
     /// Var follows from the spread of the estimates in each round. 0 if it is unknown (one
-    /// estimate) or no light arrives. Light that no sample has hit is not accounted for.
+    /// estimate) or no light arrives. Light that no sample has hit is not accounted for. More
+    /// samples reduce it.
+    [[nodiscard]] float sampling_error() const noexcept;
+
+    /// `sampling_error` and the light that the limit of bounces loses: the root mean square
+    /// difference to the light of paths of any length. The lost light D (`CutLight`) is taken to
+    /// arrive evenly from all directions:
+    ///
+    ///     √( sampling_error² + π² D² / Σ_i A_l² L_i² )
+    ///
+    /// The squares add because the error of an estimate of variance V and bias D has the mean
+    /// square V + D². 0 if the sampling error is.
     [[nodiscard]] float standard_error() const noexcept;
 
     bool operator==(const ProbeAccumulator&) const = default;
 };
 
-static_assert(sizeof(ProbeAccumulator) == 256 && std::is_trivially_copyable_v<ProbeAccumulator>);
+static_assert(sizeof(ProbeAccumulator) == 296 && std::is_trivially_copyable_v<ProbeAccumulator>);
 
 }  // namespace tetralight

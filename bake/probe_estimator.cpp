@@ -28,6 +28,13 @@ uint64_t key_of(uint64_t key, Purpose purpose) {
     return detail::mix(key + (static_cast<uint64_t>(purpose) + 1) * detail::kGoldenRatio64);
 }
 
+CutLight cut_light(const PathSample& sample) {
+    constexpr double kBasis = 0.28209479177387814;  // Y_0
+    return {kSphereSolidAngle * kBasis * glm::dvec3(sample.last_light),
+            static_cast<double>(sample.last_throughput),
+            static_cast<double>(sample.cut_throughput)};
+}
+
 /// What an estimate gathers: the sum, and the light groups.
 struct Gathered {
     ProbeEstimate estimate;
@@ -56,6 +63,7 @@ void add_paths(const PathTracer& tracer, const PathStart& start, const Direction
                                       kSphereSolidAngle / directions.size());
         estimate.back_face_count += sample.hit_back_face;
         estimate.ray_count += sample.ray_count;
+        estimate.cut.add(cut_light(sample));
     }
     estimate.radiance += radiance_from_sum(sum, kSphereSolidAngle / directions.size());
 }
@@ -135,6 +143,11 @@ ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_
         add_paths(tracer, {.origin = origin}, directions, key, gathered);
     }
     add_baked_lights(tracer, origin, key, gathered);
+    if (tracer.bounces() == 0) {
+        gathered.estimate.cut.last_radiance =
+            static_cast<double>(sample_count) *
+            glm::dvec3(gathered.estimate.radiance.coefficients[0]);
+    }
     gathered.estimate.light_groups = gathered.light_groups.values();
     return std::move(gathered.estimate);
 }

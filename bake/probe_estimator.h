@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include <tetralight/bake/cut_light.h>
 #include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/sampling/direction_set.h>
@@ -21,6 +22,8 @@ struct ProbeEstimate {
     /// Samples whose first hit is the back face of a single-sided surface.
     uint32_t back_face_count = 0;
     uint64_t ray_count = 0;
+    /// What is known of the light of longer paths than the tracer's limit of bounces.
+    CutLight cut;
     /// The light groups as a row of `LightGroupLayout`; empty if the plan has none.
     std::vector<float> light_groups;
 };

@@ -86,7 +86,7 @@ uint32_t RoundPlan::samples_in_estimate(uint64_t round, uint32_t estimate) const
 
 bool RoundPlan::is_done(const ProbeAccumulator& accumulator) const noexcept {
     if (accumulator.round_count == 0) return false;
-    if (target_error_ > 0.0 && accumulator.standard_error() <= target_error_) return true;
+    if (target_error_ > 0.0 && accumulator.sampling_error() <= target_error_) return true;
     return samples_in_round(accumulator.round_count) == 0;
 }
 
@@ -95,7 +95,7 @@ uint64_t RoundPlan::expected_samples(const ProbeAccumulator& accumulator) const 
     if (is_done(accumulator)) return accumulator.sample_count;
     if (target_error_ == 0.0) return max_samples_;
     // The error falls at least with the square root of the number of samples.
-    const double excess = accumulator.standard_error() / target_error_;
+    const double excess = accumulator.sampling_error() / target_error_;
     const double needed = static_cast<double>(accumulator.sample_count) * excess * excess;
     if (needed >= static_cast<double>(max_samples_)) return max_samples_;
     uint64_t round = accumulator.round_count + 1;

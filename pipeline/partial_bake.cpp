@@ -49,6 +49,18 @@ std::vector<T> read_section(const ProbeFile& file, std::string_view name) {
     return elements;
 }
 
+/// Returns unsupported if the accumulators are of an earlier or later version of the program.
+Status check_version(const ProbeFile& file) {
+    for (const ProbeFile::Section& section : file.sections()) {
+        if (section.name != "tallies" || section.element_size == sizeof(ProbeAccumulator)) continue;
+        return Error{ErrorCode::Unsupported, section.name, str_cat(section.element_size),
+                     str_cat("another version of the program wrote this part (its elements have ",
+                             section.element_size, " bytes instead of ", sizeof(ProbeAccumulator),
+                             "); bake it again")};
+    }
+    return Ok{};
+}
+
 /// A copy without the arrays that the end of a bake fills.
 ProbeVolume unlit_volume(ProbeVolumeView view) {
     view.occlusion = {};
@@ -168,6 +180,7 @@ Result<PartFile> make_part(const std::string& path, const ProbeFile& file) {
                      "is not a part of a bake (bake --probes writes parts)"};
     }
     const PartInfo& info = infos[0];
+    if (auto status = check_version(file); !status) return status.error();
     if (info.is_finished == 0) return Error{ErrorCode::InvalidArgument, "is not finished"};
     PartFile part;
     part.path = path;

@@ -194,7 +194,7 @@ const Table kBake{.command = "bake",
                   .summary = "Bake the light of a scene into a probe volume",
                   .examples =
                       "tetralight bake courtyard.glb -o courtyard.probes\n"
-                      "tetralight bake courtyard.glb --target-error 1% --bounces 8 "
+                      "tetralight bake courtyard.glb --target-error 1% --layers sun,sky "
                       "-o courtyard.probes",
                   .groups = kGroups};
 

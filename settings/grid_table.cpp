@@ -94,7 +94,7 @@ constexpr Setting kPlacement[] = {
 
 constexpr Setting bounces() {
     Setting setting = kBounces;
-    setting.help = "Reflections that light may take";
+    setting.help = "Most reflections of a path; 1000 = all light";
     return setting;
 }
 

@@ -57,13 +57,14 @@ constexpr Setting seed_setting(std::string_view help) {
             .default_text = "0"};
 }
 
-inline constexpr Setting kBounces{.name = "bounces",
-                                  .type = Type::Integer,
-                                  .help = "Reflections that light may take; 0 = direct light only",
-                                  .unit = "reflections",
-                                  .range = {0, 1000},
-                                  .default_text = "4",
-                                  .short_name = 'b'};
+inline constexpr Setting kBounces{
+    .name = "bounces",
+    .type = Type::Integer,
+    .help = "Most reflections of a path; 0 = direct light only, 1000 = all light",
+    .unit = "reflections",
+    .range = {0, 1000},
+    .default_text = "1000",
+    .short_name = 'b'};
 
 inline constexpr Setting kWeld{
     .name = "weld",

@@ -35,9 +35,9 @@ class LightPool {
 
     [[nodiscard]] const IrradianceSh& light(uint32_t i) const { return light_[i]; }
 
-    /// Standard error of the light, as a fraction of it.
+    /// Sampling error of the light, as a fraction of it.
     [[nodiscard]] float standard_error(uint32_t i) const {
-        return accumulators_[i].standard_error();
+        return accumulators_[i].sampling_error();
     }
 
     /// Asks for twice the samples of a position. Returns false if it has the maximum number.

@@ -14,9 +14,10 @@ TEST(BakeStatistics, TakesQuantilesOfAllProbes) {
     BakedProbes baked;
     for (int i = 200; i > 0; --i) {
         baked.standard_error.push_back(static_cast<float>(i));
+        baked.sampling_error.push_back(static_cast<float>(i) / 2.0f);
         baked.sample_count.push_back(10u * static_cast<unsigned>(i));
     }
-    const BakeStatistics statistics = bake_statistics(baked, 150.5);
+    const BakeStatistics statistics = bake_statistics(baked, 75.25);
     EXPECT_EQ(statistics.min_samples, 10u);
     EXPECT_EQ(statistics.median_samples, 1000u);
     EXPECT_EQ(statistics.max_samples, 2000u);

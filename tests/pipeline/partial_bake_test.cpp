@@ -77,6 +77,25 @@ TEST_F(PartialBakes, RefusesTalliesThatNoRoundsLeave) {
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].round_count = 2; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].round_count = ~uint64_t{0}; }), where);
     EXPECT_EQ(refusal([](auto& p) { p.accumulators[1] = {}; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].cut.last_radiance.y = NAN; }), where);
+    EXPECT_EQ(refusal([](auto& p) { p.accumulators[1].cut.cut_throughput = -1.0; }), where);
+}
+
+TEST_F(PartialBakes, RefusesPartsOfVersionsWithOtherTallies) {
+    const auto sound = open_probe_file(bake_part("sound", {3, 9}));
+    ASSERT_TRUE(sound);
+    const std::vector<std::byte> tallies(6 * 256);
+    constexpr uint64_t kPartSize = 56;
+    const std::vector<ExtraSection> sections{
+        {"part", *sound->section_bytes("part", kPartSize), kPartSize}, {"tallies", tallies, 256}};
+    ASSERT_TRUE(write_probe_file(path("old"), sound->view(), sections));
+    const auto part = read_part(path("old"));
+    ASSERT_FALSE(part);
+    EXPECT_EQ(part.error().code, ErrorCode::Unsupported);
+    EXPECT_EQ(error_text(part.error()),
+              path("old") +
+                  ": another version of the program wrote this part (its elements have "
+                  "256 bytes instead of 296); bake it again");
 }
 
 TEST_F(PartialBakes, RefusesRangesThatAreNone) {

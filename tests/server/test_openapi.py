@@ -123,7 +123,7 @@ class OpenApi(ServiceTest):
     def test_settings_have_the_description_limits_and_default_of_their_table(self):
         schemas = self.document["components"]["schemas"]
         bake = schemas["BakeOrder"]["properties"]
-        self.assertEqual(bake["bounces"]["default"], 4)
+        self.assertEqual(bake["bounces"]["default"], 1000)
         self.assertEqual((bake["min_validity"]["minimum"], bake["min_validity"]["maximum"]), (0, 1))
         self.assertIn("hann", bake["dering_window"]["enum"])
         self.assertEqual((bake["scene"]["x-stored"], bake["reuse"]["x-stored"]), ("scenes", "volumes"))

@@ -20,7 +20,7 @@ Values bake_values(const Json& more = Json::object()) {
 TEST(Values, HaveTheDefaultsOfTheTable) {
     const Values values = bake_values();
     EXPECT_EQ(values.number("min_validity"), 0.75);
-    EXPECT_EQ(values.integer("bounces"), 4u);
+    EXPECT_EQ(values.integer("bounces"), 1000u);
     EXPECT_FALSE(values.is_given("bounces"));
     EXPECT_EQ(values.text("dering_window"), "mildest");
     EXPECT_EQ(values.find("samples"), nullptr);
