@@ -79,7 +79,7 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
         glm::vec3& sum = bounce == 0 ? sample.radiance : reflected;
         ++path.ray_count;
         const std::optional<Surface> surface =
-            trace_scene_.intersect(ray, TraceScene::Detail::LightOnly);
+            trace_scene_.intersect(ray, TraceScene::Detail::LightOnly, TraceScene::kDiffuseSpread);
         if (!surface) {
             const glm::vec3 sky = environment_radiance(scene_.environment, ray.direction);
             const glm::vec3 light =

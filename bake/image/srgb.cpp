@@ -21,9 +21,13 @@ float linear_from_srgb(float encoded) noexcept {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-float linear_from_srgb8(uint8_t code) noexcept {
+const std::array<float, 256>& linear_from_srgb8_codes() noexcept {
     static const std::array<float, 256> table = make_decode_table();
-    return table[code];
+    return table;
+}
+
+float linear_from_srgb8(uint8_t code) noexcept {
+    return linear_from_srgb8_codes()[code];
 }
 
 float srgb_from_linear(float linear) noexcept {

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/rays/memory_estimate.h>
 
+#include <vector>
+
+#include <tetralight/bake/scene/reflectivity_map.h>
 #include <tetralight/bake/scene/surface_color.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
 
-/// Embree 3 at medium quality: indices, a BVH with its own copy of the corners, and its build.
-constexpr uint64_t kBytesPerTriangle = 300;
-/// A vertex in render space, ours and Embree's.
-constexpr uint64_t kBytesPerVertex = 24;
+/// Embree 3 at medium quality: indices, a BVH with its own copy of the corners, and its build; 64
+/// bytes of corners and texture coordinates for hits.
+constexpr uint64_t kBytesPerTriangle = 300 + 64;
+/// A vertex in Embree.
+constexpr uint64_t kBytesPerVertex = 12;
 /// Light bounds, the light tree, and its build.
 constexpr uint64_t kBytesPerEmissiveTriangle = 350;
 /// A value of the cumulative distribution, and the integral that it is computed from.
@@ -32,16 +36,21 @@ BakeMemory estimate_bake_memory(const Scene& scene, size_t probe_count, size_t l
     BakeMemory memory;
     memory.probe_count = probe_count;
     uint64_t vertex_count = 0, emissive_count = 0;
+    std::vector<bool> is_used(scene.materials.size());
     for (const MeshInstance& instance : scene.instances) {
         if (!instance.contributes_gi) continue;
         const Mesh& mesh = scene.meshes[instance.mesh];
         memory.triangle_count += mesh.indices.size() / 3;
         vertex_count += mesh.positions.size();
+        is_used[mesh.material] = true;
         if (emits(scene.materials[mesh.material])) emissive_count += mesh.indices.size() / 3;
     }
     memory.light_bytes = emissive_count * kBytesPerEmissiveTriangle +
                          scene.environment.image.pixels.size() * kBytesPerSkyTexel;
     memory.scene_bytes = memory.triangle_count * kBytesPerTriangle + vertex_count * kBytesPerVertex;
+    for (size_t i = 0; i < is_used.size(); ++i) {
+        if (is_used[i]) memory.scene_bytes += reflectivity_map_bytes(scene, scene.materials[i]);
+    }
     memory.probe_bytes =
         probe_count * (kBytesPerProbe + light_group_values * kBytesPerLightGroupValue);
     return memory;

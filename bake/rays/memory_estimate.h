@@ -14,7 +14,7 @@ namespace tetralight {
 struct BakeMemory {
     uint64_t triangle_count = 0;
     size_t probe_count = 0;
-    /// Triangles in the trace scene: copies of their vertices, and Embree's BVH.
+    /// Triangles in the trace scene: copies of their vertices, and Embree's BVH. Filtered textures.
     uint64_t scene_bytes = 0;
     /// Light sampling: emissive triangles with their light tree, and the texels of the sky.
     uint64_t light_bytes = 0;

@@ -11,6 +11,7 @@
 #include <tetralight/bake/sampling/sampling.h>
 #include <tetralight/bake/scene/check_lights.h>
 #include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/bake/scene/texture.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -34,9 +35,9 @@ glm::mat3 normal_from_mesh(const MeshInstance& instance) {
     return largest > 0.0 ? glm::mat3(cofactors / largest) : glm::mat3(0.0f);
 }
 
-MeshPoint hit_point(const Mesh& mesh, bool is_mirrored, const RayHit& hit) {
-    const glm::vec2 b = hit.barycentric;
-    return mesh_point(mesh, hit.primitive, is_mirrored ? glm::vec2(b.y, b.x) : b);
+template <class T>
+T blend(const std::array<T, 3>& corners, glm::vec3 weights) {
+    return corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
 }
 
 glm::vec3 shading_normal(const MeshPoint& point, const glm::mat3& from_mesh,
@@ -85,43 +86,46 @@ Result<std::vector<glm::vec3>> render_positions(const Mesh& mesh, const MeshInst
 
 /// Computes the hit point from the corners instead of the ray, whose error grows with its length
 /// (Wächter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection").
-void place_surface(const MeshPoint& point, const std::vector<glm::vec3>& corners,
-                   Surface& surface) {
-    const glm::vec3* triangle[3];
+void place_surface(const std::array<glm::vec3, 3>& corners, glm::vec3 weights, Surface& surface) {
     float extent = 0.0f;
-    for (int i = 0; i < 3; ++i) {
-        triangle[i] = &corners[point.corners[i]];
-        extent = std::max(extent, largest_coordinate(*triangle[i]));
-    }
+    for (const glm::vec3& corner : corners) extent = std::max(extent, largest_coordinate(corner));
     // Relative to one corner, so that weights whose sum is not exactly 1 keep the point in the
     // plane.
-    const glm::dvec3 first(*triangle[0]);
-    const glm::dvec3 position = first +
-                                (glm::dvec3(*triangle[1]) - first) * double{point.weights.y} +
-                                (glm::dvec3(*triangle[2]) - first) * double{point.weights.z};
+    const glm::dvec3 first(corners[0]);
+    const glm::dvec3 position = first + (glm::dvec3(corners[1]) - first) * double{weights.y} +
+                                (glm::dvec3(corners[2]) - first) * double{weights.z};
     surface.position = glm::vec3(position);
     surface.error_bound = error_bound(extent);
 }
 
-/// Fraction of rays that stop at a point.
-float opacity(const Scene& scene, const MeshPoint& point) {
-    const Material& material = scene.materials[point.mesh->material];
-    if (material.alpha_mode == AlphaMode::Opaque) return 1.0f;
-    const float alpha = base_color(scene, point).a;
-    if (material.alpha_mode == AlphaMode::Blend) return std::clamp(alpha, 0.0f, 1.0f);
-    return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
+/// Twice the area of a triangle.
+float double_area(const std::array<glm::vec3, 3>& corners) {
+    return glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
+float double_area(const std::array<glm::vec2, 3>& corners) {
+    const glm::vec2 first = corners[1] - corners[0], second = corners[2] - corners[0];
+    return std::abs(first.x * second.y - first.y * second.x);
+}
+
+/// The texture coordinates that the triangles of a mesh keep: see `Geometry::uv_set`.
+uint32_t used_uv_set(const Material& material, const Mesh& mesh) {
+    const TextureUse& use = material.base_color_texture.texture != kNoIndex
+                                ? material.base_color_texture
+                                : material.metallic_roughness_texture;
+    return use.texture == kNoIndex || mesh.uvs[use.uv_set].empty() ? kNoIndex : use.uv_set;
 }
 
 /// A key of the triangle of a hit, or of its edge or corner if the hit lies on one, by position. A
 /// ray through an edge may hit the triangles on both sides, and both have to give the same answer.
-uint64_t key_of_hit_place(const RayHit& hit, const MeshPoint& point,
-                          const std::vector<glm::vec3>& positions) {
+uint64_t key_of_hit_place(const RayHit& hit, const std::array<glm::vec3, 3>& corners,
+                          glm::vec3 weights) {
     constexpr float kOnEdge = 1e-5f;
     uint64_t key = 0;
     int corner_count = 0;
     for (int i = 0; i < 3; ++i) {
-        if (!(point.weights[i] > kOnEdge)) continue;
-        key += probe_key(0, glm::dvec3(positions[point.corners[i]]));
+        if (!(weights[i] > kOnEdge)) continue;
+        key += probe_key(0, glm::dvec3(corners[i]));
         ++corner_count;
     }
     return corner_count < 3 ? key : (uint64_t{hit.geometry} << 32 | hit.primitive);
@@ -146,6 +150,7 @@ Result<TraceScene> TraceScene::make_static(const Scene& scene, const SurfaceSett
     auto state = std::make_unique<State>();
     state->surfaces = surfaces;
     state->emission = Emission::Baked;
+    state->has_reflectivity_maps = true;
     const auto is_static = [](const MeshInstance& instance) { return instance.contributes_gi; };
     return make_from(scene, is_static, std::move(state));
 }
@@ -159,17 +164,18 @@ Result<TraceScene> TraceScene::make_from(const Scene& scene, const Selection& se
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const MeshInstance& instance = scene.instances[i];
         if (!selection(instance) || scene.meshes[instance.mesh].indices.empty()) continue;
-        Geometry geometry = make_geometry(scene, i);
-        auto positions = render_positions(*geometry.mesh, instance, state->origin);
+        Geometry geometry = make_geometry(*state, i);
+        const auto positions = render_positions(*geometry.mesh, instance, state->origin);
         if (!positions)
             return positions.error().in(str_cat("instance ", i, " \"", instance.name, '"'));
-        geometry.positions = std::move(*positions);
+        geometry.triangles = make_triangles(geometry, *positions);
         const auto& indices = geometry.mesh->indices;
         const bool is_opaque = geometry.material->alpha_mode == AlphaMode::Opaque;
-        caster.add_triangles(geometry.positions, geometry.is_mirrored ? mirrored(indices) : indices,
+        caster.add_triangles(*positions, geometry.is_mirrored ? mirrored(indices) : indices,
                              is_opaque ? RayCaster::Filtered::No : RayCaster::Filtered::Yes);
         state->geometries.push_back(std::move(geometry));
     }
+    if (state->has_reflectivity_maps) make_reflectivity_maps(*state);
     if (auto status = caster.commit(); !status) return status.error();
     return TraceScene(std::move(state), std::move(caster));
 }
@@ -187,44 +193,136 @@ Light TraceScene::render_from_world(Light light) const {
     return light;
 }
 
-TraceScene::Geometry TraceScene::make_geometry(const Scene& scene, uint32_t index) {
-    const MeshInstance& instance = scene.instances[index];
-    const Mesh& mesh = scene.meshes[instance.mesh];
+TraceScene::Geometry TraceScene::make_geometry(const State& state, uint32_t index) {
+    const MeshInstance& instance = state.scene->instances[index];
+    const Mesh& mesh = state.scene->meshes[instance.mesh];
+    const Material& material = state.scene->materials[mesh.material];
     const bool is_mirrored = glm::determinant(glm::dmat3(instance.world_from_mesh)) < 0.0;
-    return {index,
-            &mesh,
-            &scene.materials[mesh.material],
-            normal_from_mesh(instance) * (is_mirrored ? -1.0f : 1.0f),
-            is_mirrored,
-            {}};
+    Geometry geometry;
+    geometry.instance = index;
+    geometry.mesh = &mesh;
+    geometry.material = &material;
+    geometry.normal_from_mesh = normal_from_mesh(instance) * (is_mirrored ? -1.0f : 1.0f);
+    geometry.is_mirrored = is_mirrored;
+    geometry.uv_set = used_uv_set(material, mesh);
+    const EmissionSource emission = emission_source(material);
+    geometry.can_emit = takes_emission(state, material) && emission.factor != glm::vec3(0.0f);
+    geometry.has_constant_emission =
+        emission.texture.texture == kNoIndex && (!material.is_unlit || mesh.colors.empty());
+    geometry.constant_emission = emission.factor;
+    return geometry;
+}
+
+std::vector<TraceScene::Triangle> TraceScene::make_triangles(
+    const Geometry& geometry, const std::vector<glm::vec3>& positions) {
+    const Mesh& mesh = *geometry.mesh;
+    std::vector<Triangle> triangles(mesh.indices.size() / 3);
+    for (size_t i = 0; i < triangles.size(); ++i) {
+        Triangle& triangle = triangles[i];
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t vertex = mesh.indices[3 * i + k];
+            triangle.corners[k] = positions[vertex];
+            if (geometry.uv_set != kNoIndex) triangle.uvs[k] = mesh.uvs[geometry.uv_set][vertex];
+        }
+        const float ratio = double_area(triangle.uvs) / double_area(triangle.corners);
+        triangle.uv_per_metre = std::isfinite(ratio) ? std::sqrt(ratio) : 0.0f;
+    }
+    return triangles;
+}
+
+void TraceScene::make_reflectivity_maps(State& state) {
+    const Scene& scene = *state.scene;
+    state.reflectivity_maps.resize(scene.materials.size());
+    for (Geometry& geometry : state.geometries) {
+        const Material& material = *geometry.material;
+        const bool has_colors = !geometry.mesh->colors.empty();
+        if (!has_reflectivity_map(scene, material, state.surfaces, has_colors)) continue;
+        auto& map = state.reflectivity_maps[geometry.mesh->material];
+        if (!map) map = make_reflectivity_map(scene, material, state.surfaces);
+        if (map->levels.empty() || geometry.uv_set != kNoIndex) geometry.reflectivity = &*map;
+    }
+}
+
+/// Weights of the corners of a triangle in the order of the mesh.
+glm::vec3 TraceScene::corner_weights(const Geometry& geometry, const RayHit& hit) {
+    glm::vec2 b = hit.barycentric;
+    if (geometry.is_mirrored) std::swap(b.x, b.y);
+    return {1.0f - b.x - b.y, b.x, b.y};
+}
+
+MeshPoint TraceScene::mesh_point_of(const Geometry& geometry, const RayHit& hit) {
+    const glm::vec3 weights = corner_weights(geometry, hit);
+    return mesh_point(*geometry.mesh, hit.primitive, {weights.y, weights.z});
+}
+
+/// Fraction of rays that stop at a point.
+float TraceScene::opacity(const State& state, const Geometry& geometry, const RayHit& hit) {
+    const Material& material = *geometry.material;
+    if (material.alpha_mode == AlphaMode::Opaque) return 1.0f;
+    float alpha = material.base_color.a;
+    const TextureUse& use = material.base_color_texture;
+    if (use.texture != kNoIndex && geometry.uv_set != kNoIndex) {
+        const Triangle& triangle = geometry.triangles[hit.primitive];
+        const glm::vec2 uv = blend(triangle.uvs, corner_weights(geometry, hit));
+        alpha *= sample_texture_alpha(state.scene->textures[use.texture],
+                                      use.image_from_mesh * glm::vec3(uv, 1.0f));
+    }
+    if (!geometry.mesh->colors.empty()) {
+        alpha *= mesh_point_of(geometry, hit).blend(geometry.mesh->colors).a;
+    }
+    if (material.alpha_mode == AlphaMode::Blend) return std::clamp(alpha, 0.0f, 1.0f);
+    return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
 }
 
 bool TraceScene::accepts_hit(const void* context, const Ray& ray, const RayHit& hit) {
     const State& state = *static_cast<const State*>(context);
     const Geometry& geometry = state.geometries[hit.geometry];
-    const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, hit);
-    const float alpha = opacity(*state.scene, point);
+    const float alpha = opacity(state, geometry, hit);
     if (alpha <= 0.0f || alpha >= 1.0f) return alpha > 0.0f;
-    return hash_of(ray, key_of_hit_place(hit, point, geometry.positions)) < alpha;
+    const auto& corners = geometry.triangles[hit.primitive].corners;
+    return hash_of(ray, key_of_hit_place(hit, corners, corner_weights(geometry, hit))) < alpha;
 }
 
-std::optional<Surface> TraceScene::intersect(const Ray& ray, Detail detail) const {
+glm::vec3 TraceScene::albedo(const State& state, const Geometry& geometry, const RayHit& hit,
+                             float spread) {
+    if (spread > 0.0f && geometry.reflectivity != nullptr) {
+        const Triangle& triangle = geometry.triangles[hit.primitive];
+        const auto reflectivity = filtered_reflectivity(
+            *geometry.reflectivity, blend(triangle.uvs, corner_weights(geometry, hit)),
+            spread * hit.distance * triangle.uv_per_metre);
+        if (reflectivity) {
+            glm::vec3 color(*reflectivity);
+            if (!geometry.mesh->colors.empty()) {
+                color *= glm::vec3(mesh_point_of(geometry, hit).blend(geometry.mesh->colors));
+            }
+            return glm::clamp(color + reflectivity->a, 0.0f, state.surfaces.max_albedo);
+        }
+    }
+    const MeshPoint point = mesh_point_of(geometry, hit);
+    return adjusted_albedo(diffuse_reflectivity(*state.scene, point), state.surfaces);
+}
+
+glm::vec3 TraceScene::emission(const State& state, const Geometry& geometry, const RayHit& hit) {
+    if (geometry.has_constant_emission) return geometry.constant_emission;
+    return emitted_radiance(*state.scene, mesh_point_of(geometry, hit));
+}
+
+std::optional<Surface> TraceScene::intersect(const Ray& ray, Detail detail, float spread) const {
     const std::optional<RayHit> hit = caster_.intersect(ray);
     if (!hit) return std::nullopt;
-    const Scene& scene = *state_->scene;
     const Geometry& geometry = state_->geometries[hit->geometry];
-    const Material& material = *geometry.material;
-    const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, *hit);
 
-    Surface surface;
-    place_surface(point, geometry.positions, surface);
+    std::optional<Surface> result(std::in_place);  // no copy of a surface
+    Surface& surface = *result;
+    place_surface(geometry.triangles[hit->primitive].corners, corner_weights(geometry, *hit),
+                  surface);
     surface.geometric_normal = glm::normalize(hit->normal);
     if (detail == Detail::Full) {
-        surface.shading_normal =
-            shading_normal(point, geometry.normal_from_mesh, surface.geometric_normal);
+        surface.shading_normal = shading_normal(
+            mesh_point_of(geometry, *hit), geometry.normal_from_mesh, surface.geometric_normal);
     }
-    surface.albedo = adjusted_albedo(diffuse_reflectivity(scene, point), state_->surfaces);
-    if (takes_emission(*state_, material)) surface.emission = emitted_radiance(scene, point);
+    surface.albedo = albedo(*state_, geometry, *hit, spread);
+    if (geometry.can_emit) surface.emission = emission(*state_, geometry, *hit);
     surface.instance = geometry.instance;
     surface.geometry = hit->geometry;
     surface.primitive = hit->primitive;
@@ -232,9 +330,9 @@ std::optional<Surface> TraceScene::intersect(const Ray& ray, Detail detail) cons
         surface.geometric_normal = -surface.geometric_normal;
         surface.shading_normal = -surface.shading_normal;
         surface.is_from_behind = true;
-        surface.is_back_face = !material.is_double_sided;
+        surface.is_back_face = !geometry.material->is_double_sided;
     }
-    return surface;
+    return result;
 }
 
 glm::vec3 TraceScene::ray_origin(const SurfaceSide& side, glm::vec3 hit,
@@ -263,22 +361,18 @@ std::optional<Crossing> TraceScene::nearest_crossing(const Ray& ray) const {
     const std::optional<RayHit> hit = caster_.intersect_unfiltered(ray);
     if (!hit) return std::nullopt;
     const Geometry& geometry = state_->geometries[hit->geometry];
-    const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, *hit);
-    return Crossing{hit->distance, opacity(*state_->scene, point)};
+    return Crossing{hit->distance, opacity(*state_, geometry, *hit)};
 }
 
 uint32_t TraceScene::triangle_count(uint32_t geometry_index) const {
-    return static_cast<uint32_t>(state_->geometries[geometry_index].mesh->indices.size() / 3);
+    return static_cast<uint32_t>(state_->geometries[geometry_index].triangles.size());
 }
 
 std::array<glm::vec3, 3> TraceScene::triangle(uint32_t geometry_index, uint32_t primitive) const {
     const Geometry& geometry = state_->geometries[geometry_index];
-    const uint32_t* corners = &geometry.mesh->indices[size_t{primitive} * 3];
-    std::array<glm::vec3, 3> positions{geometry.positions[corners[0]],
-                                       geometry.positions[corners[1]],
-                                       geometry.positions[corners[2]]};
-    if (geometry.is_mirrored) std::swap(positions[1], positions[2]);
-    return positions;
+    std::array<glm::vec3, 3> corners = geometry.triangles[primitive].corners;
+    if (geometry.is_mirrored) std::swap(corners[1], corners[2]);
+    return corners;
 }
 
 bool TraceScene::is_double_sided(uint32_t geometry_index) const {
@@ -290,8 +384,7 @@ bool TraceScene::takes_emission(const State& state, const Material& material) {
 }
 
 bool TraceScene::can_emit(uint32_t geometry_index) const {
-    const Material& material = *state_->geometries[geometry_index].material;
-    return takes_emission(*state_, material) && emission_source(material).factor != glm::vec3(0.0f);
+    return state_->geometries[geometry_index].can_emit;
 }
 
 bool TraceScene::has_varied_emission(uint32_t geometry_index) const {
@@ -305,12 +398,11 @@ bool TraceScene::has_varied_emission(uint32_t geometry_index) const {
 glm::vec3 TraceScene::visible_emission(uint32_t geometry_index, uint32_t primitive,
                                        glm::vec2 barycentric) const {
     const Geometry& geometry = state_->geometries[geometry_index];
-    if (!takes_emission(*state_, *geometry.material)) return glm::vec3(0.0f);
+    if (!geometry.can_emit) return glm::vec3(0.0f);
     RayHit hit;
     hit.primitive = primitive;
     hit.barycentric = barycentric;
-    const MeshPoint point = hit_point(*geometry.mesh, geometry.is_mirrored, hit);
-    return emitted_radiance(*state_->scene, point) * opacity(*state_->scene, point);
+    return emission(*state_, geometry, hit) * opacity(*state_, geometry, hit);
 }
 
 bool TraceScene::has_blending() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <tetralight/bake/rays/ray_caster.h>
+#include <tetralight/bake/scene/reflectivity_map.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/bake/scene/surface_color.h>
 #include <tetralight/base/result.h>
@@ -101,8 +102,19 @@ class TraceScene {
         Full,
     };
 
-    [[nodiscard]] std::optional<Surface> intersect(const Ray& ray,
-                                                   Detail detail = Detail::Full) const;
+    /// Spread of the rays of a bake, radians: a probe keeps nothing as fine as this, nor does light
+    /// that a diffuse surface reflects. A ray of 1024 a sphere stands for a cone that is as wide,
+    /// √(4π / 1024) = 0.11.
+    static constexpr float kDiffuseSpread = 0.125f;
+
+    /// The nearest surface on a ray. `spread`, radians: the albedo is the mean over a part of the
+    /// surface with the width of the ray's cone, spread times distance (Akenine-Möller et al. 2021,
+    /// "Improved Shader and Texture Level of Detail Using Ray Cones"), at most 8 to 16 texels; the
+    /// direction must be a unit vector. Grazing rays have longer footprints, of which only the
+    /// width counts. 0, or a scene for pictures: the albedo at the point. Emission and transparency
+    /// are always those at the point.
+    [[nodiscard]] std::optional<Surface> intersect(const Ray& ray, Detail detail = Detail::Full,
+                                                   float spread = 0.0f) const;
 
     /// The side of the surface that `intersect` finds. Costs no more than the ray.
     [[nodiscard]] std::optional<SurfaceSide> intersect_side(const Ray& ray) const;
@@ -181,6 +193,19 @@ class TraceScene {
     [[nodiscard]] bool has_blending() const;
 
   private:
+    /// All that a hit reads of its triangle, in one cache line.
+    struct alignas(64) Triangle {
+        /// In render space, in the order of the mesh.
+        std::array<glm::vec3, 3> corners{};
+        /// Texture coordinates of the corners, in the set of `Geometry::uv_set`.
+        std::array<glm::vec2, 3> uvs{};
+        /// Length in texture coordinates of one metre on the triangle: the square root of the ratio
+        /// of their areas.
+        float uv_per_metre = 0.0f;
+    };
+
+    static_assert(sizeof(Triangle) == 64);
+
     /// An instance, as a geometry of the ray caster.
     struct Geometry {
         uint32_t instance = 0;
@@ -188,8 +213,16 @@ class TraceScene {
         const Material* material = nullptr;
         glm::mat3 normal_from_mesh{1.0f};
         bool is_mirrored = false;
-        /// The vertices of the mesh in render space, as in the ray caster.
-        std::vector<glm::vec3> positions;
+        /// The texture coordinates that `triangles` have: those of the base color if it has a
+        /// texture. kNoIndex = none.
+        uint32_t uv_set = kNoIndex;
+        bool can_emit = false;
+        /// True if no texture or vertex color changes the emission: it is `constant_emission`.
+        bool has_constant_emission = false;
+        glm::vec3 constant_emission{0.0f};
+        /// Null: hits read the textures.
+        const ReflectivityMap* reflectivity = nullptr;
+        std::vector<Triangle> triangles;
     };
 
     /// Which materials emit.
@@ -199,6 +232,9 @@ class TraceScene {
         const Scene* scene = nullptr;
         SurfaceSettings surfaces;
         Emission emission = Emission::All;
+        bool has_reflectivity_maps = false;
+        /// One a material; empty for those that have none, and in scenes for pictures.
+        std::vector<std::optional<ReflectivityMap>> reflectivity_maps;
         std::vector<Geometry> geometries;
         glm::dvec3 origin{0.0};
     };
@@ -208,8 +244,17 @@ class TraceScene {
 
     static Result<TraceScene> make_from(const Scene& scene, const Selection& selection,
                                         std::unique_ptr<State> state);
-    static Geometry make_geometry(const Scene& scene, uint32_t instance);
+    static Geometry make_geometry(const State& state, uint32_t instance);
+    static void make_reflectivity_maps(State& state);
+    static std::vector<Triangle> make_triangles(const Geometry& geometry,
+                                                const std::vector<glm::vec3>& positions);
     static bool takes_emission(const State& state, const Material& material);
+    static glm::vec3 corner_weights(const Geometry& geometry, const RayHit& hit);
+    static MeshPoint mesh_point_of(const Geometry& geometry, const RayHit& hit);
+    static float opacity(const State& state, const Geometry& geometry, const RayHit& hit);
+    static glm::vec3 albedo(const State& state, const Geometry& geometry, const RayHit& hit,
+                            float spread);
+    static glm::vec3 emission(const State& state, const Geometry& geometry, const RayHit& hit);
     static bool accepts_hit(const void* state, const Ray& ray, const RayHit& hit);
 
     std::unique_ptr<State> state_;  // on the heap: the hit filter points to it

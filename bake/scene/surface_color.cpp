@@ -50,6 +50,12 @@ glm::vec3 diffuse_reflectivity(glm::vec3 base_color, float metallic, float rough
            specular * (0.5f * roughness);
 }
 
+ReflectivityTerms reflectivity_terms(float metallic, float roughness) {
+    const float dielectric = 1.0f - metallic, wide = 0.5f * roughness;
+    return {dielectric * (1.0f - kDielectricF0) + metallic * wide,
+            dielectric * kDielectricF0 * wide};
+}
+
 glm::vec3 diffuse_reflectivity(const Scene& scene, const MeshPoint& point) {
     const Material& material = material_of(scene, point);
     if (material.is_unlit) return glm::vec3(0.0f);

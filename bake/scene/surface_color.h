@@ -52,6 +52,14 @@ struct MeshPoint {
 /// The same at a point, with textures; 0 if the material is unlit.
 [[nodiscard]] glm::vec3 diffuse_reflectivity(const Scene& scene, const MeshPoint& point);
 
+/// `diffuse_reflectivity` as a function of the base color: `per_color` · base + `colorless`.
+struct ReflectivityTerms {
+    float per_color = 0.0f;
+    float colorless = 0.0f;
+};
+
+[[nodiscard]] ReflectivityTerms reflectivity_terms(float metallic, float roughness);
+
 /// An albedo with the settings of a bake applied: first the boost, then the maximum.
 [[nodiscard]] glm::vec3 adjusted_albedo(glm::vec3 albedo, const SurfaceSettings& settings);
 

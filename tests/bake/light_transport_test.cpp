@@ -156,6 +156,30 @@ TEST(LightTransport, FurnaceSumsTheGeometricSeries) {
     }
 }
 
+TEST(LightTransport, FurnaceOfFineTexelsHasTheLightOfTheirMean) {
+    // Three texels in four have the albedo 0.96, one reflects nothing: a mean of 0.72.
+    Scene scene;
+    Texture texture{"texels", Image8{256, 256, {}}};
+    for (int i = 0; i < 256 * 256; ++i) {
+        const uint8_t code = i % 2 == 0 && i / 256 % 2 == 0 ? 0 : 255;
+        texture.image.pixels.push_back({code, code, code, 255});
+    }
+    scene.textures.push_back(std::move(texture));
+    Material material = test::diffuse(glm::vec3(0.96f), glm::vec3(2.0f));
+    material.base_color_texture.texture = 0;
+    test::add_box(scene, material, test::Facing::Inward, {-1, -2, -1}, {3, 1, 1});
+    for (const uint32_t bounces : {1u, 4u}) {
+        const double radiance = 2.0 * (1.0 - std::pow(0.72, bounces + 1)) / (1.0 - 0.72);
+        std::vector<RadianceSh> bakes;
+        for (uint64_t seed = 0; seed < 64; ++seed) {
+            bakes.push_back(bake(scene, {1, 0, 0}, 256, bounces, seed));
+        }
+        const MeanIrradiance light = mean_irradiance(bakes, {0, 1, 0});
+        EXPECT_NEAR(light.mean, kPi * radiance, 3.0 * light.error + 1e-3 * kPi * radiance);
+        EXPECT_LT(light.error, 0.01 * kPi * radiance);
+    }
+}
+
 // --- Emissive surfaces ---------------------------------------------------------------------------
 
 /// Light at the origin from a rectangle of radiance 1: ∫ Y_i cos θ / r² dA by the midpoint rule.

@@ -25,6 +25,17 @@ TEST(MemoryEstimate, CountsEveryStaticInstance) {
     EXPECT_EQ(estimate_bake_memory(scene, 0).probe_bytes, 0u);
 }
 
+TEST(MemoryEstimate, CountsFilteredTexturesOnce) {
+    Scene scene = instanced(1000);
+    const uint64_t untextured = estimate_bake_memory(scene, 0).scene_bytes;
+    scene.textures.push_back({"large", Image8{1024, 1024, {}}});
+    scene.materials[0].base_color_texture.texture = 0;
+    EXPECT_EQ(estimate_bake_memory(scene, 0).scene_bytes - untextured,
+              8u * (512 * 512 + 256 * 256 + 128 * 128));
+    for (MeshInstance& instance : scene.instances) instance.contributes_gi = false;
+    EXPECT_EQ(estimate_bake_memory(scene, 0).scene_bytes, 0u);
+}
+
 TEST(MemoryEstimate, CountsEmissiveTrianglesAndTheSky) {
     Scene scene = instanced(1000);
     EXPECT_EQ(estimate_bake_memory(scene, 0).light_bytes, 0u);

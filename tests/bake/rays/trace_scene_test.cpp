@@ -356,5 +356,80 @@ TEST(TraceScene, WithoutGeometryRaysMiss) {
     EXPECT_FALSE(look_down(trace_scene(scene), 0, 0));
 }
 
+/// A floor over [-1, 1]² with 64 × 64 texels in a checkerboard of white and black: 1/32 m each.
+/// White is opaque and black is not.
+Scene checkered_floor(AlphaMode mode) {
+    Scene scene;
+    Texture texture{"checkers", Image8{64, 64, {}}};
+    for (int i = 0; i < 64 * 64; ++i) {
+        const auto code = static_cast<uint8_t>((i % 64 + i / 64) % 2 == 0 ? 255 : 0);
+        texture.image.pixels.push_back({code, code, code, code});
+    }
+    scene.textures.push_back(std::move(texture));
+    Material material = test::diffuse(glm::vec3(0.96f));
+    material.base_color_texture.texture = 0;
+    material.alpha_mode = mode;
+    test::add_floor(scene, material, 1.0f);
+    return scene;
+}
+
+float albedo_below(const TraceScene& scene, float x, float z, float distance, float spread) {
+    const auto surface =
+        scene.intersect({{x, distance, z}, {0, -1, 0}}, TraceScene::Detail::LightOnly, spread);
+    return surface ? surface->albedo.x : -1.0f;
+}
+
+TEST(TraceScene, AlbedoIsTheMeanOverTheConeOfTheRay) {
+    const Scene scene = checkered_floor(AlphaMode::Opaque);
+    const TraceScene trace = trace_scene(scene);
+    const float x = 1.0f / 64.0f;  // center of a texel
+    const float point = albedo_below(trace, x, x, 10.0f, 0.0f);
+    EXPECT_TRUE(point == 0.96f || point == 0.0f);
+    // A cone of 1.9 texels is not filtered, one of 2.1 texels is: by 2 × 2 texels.
+    EXPECT_EQ(albedo_below(trace, x, x, 10.0f, 1.9f / 320.0f), point);
+    EXPECT_NEAR(albedo_below(trace, x, x, 10.0f, 2.1f / 320.0f), 0.48f, 3e-4f);
+    EXPECT_EQ(albedo_below(trace, x, x, 0.1f, 2.1f / 320.0f), point);
+}
+
+TEST(TraceScene, PicturesAreNotFiltered) {
+    const Scene scene = checkered_floor(AlphaMode::Opaque);
+    const auto trace = TraceScene::make(scene, [](const MeshInstance&) { return true; });
+    ASSERT_TRUE(trace);
+    const float x = 1.0f / 64.0f;
+    EXPECT_EQ(albedo_below(*trace, x, x, 10.0f, 1.0f), albedo_below(*trace, x, x, 10.0f, 0.0f));
+}
+
+TEST(TraceScene, FilteringDoesNotMoveCutOuts) {
+    const Scene scene = checkered_floor(AlphaMode::Mask);
+    const TraceScene trace = trace_scene(scene);
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<float> coordinate(-1.0f, 1.0f);
+    int hit_count = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const float x = coordinate(engine), z = coordinate(engine);
+        const float point = albedo_below(trace, x, z, 10.0f, 0.0f);
+        const float mean = albedo_below(trace, x, z, 10.0f, 0.125f);
+        EXPECT_EQ(mean < 0.0f, point < 0.0f);
+        if (mean < 0.0f) continue;
+        ++hit_count;
+        EXPECT_NEAR(mean, 0.96f, 5e-4f);  // what is cut out is not in the mean
+    }
+    EXPECT_NEAR(hit_count, 500, 60);
+}
+
+TEST(TraceScene, FilteredAlbedoHasVertexColorsAndSettings) {
+    Scene scene = checkered_floor(AlphaMode::Opaque);
+    scene.meshes[0].colors.assign(4, {0.5f, 0.25f, 1.0f, 1.0f});
+    const Ray ray{{0.1f, 10.0f, 0.2f}, {0, -1, 0}};
+    const auto albedo = [&](const SurfaceSettings& settings) {
+        const auto trace = TraceScene::make_static(scene, settings);
+        return trace->intersect(ray, TraceScene::Detail::LightOnly, 0.125f)->albedo;
+    };
+    EXPECT_LT(glm::distance(albedo({}), 0.48f * glm::vec3(0.5f, 0.25f, 1.0f)), 1e-3f);
+    scene.meshes[0].colors.clear();
+    // The mean of 0.4 and 0, and not the smaller one of 0.48 and 0.4.
+    EXPECT_LT(glm::distance(albedo({.max_albedo = 0.4f}), glm::vec3(0.2f)), 1e-3f);
+}
+
 }  // namespace
 }  // namespace tetralight

@@ -56,6 +56,18 @@ TEST(DiffuseReflectivity, HalfMetalsAreHalfWayBetween) {
     }
 }
 
+TEST(DiffuseReflectivity, IsAffineInTheBaseColor) {
+    for (int i = 0; i < 16; ++i) {
+        const float metallic = static_cast<float>(i % 4) / 3.0f;
+        const float roughness = static_cast<float>(i / 4) / 3.0f;
+        const ReflectivityTerms terms = reflectivity_terms(metallic, roughness);
+        for (const float base : {0.0f, 0.3f, 1.0f}) {
+            EXPECT_NEAR(terms.per_color * base + terms.colorless,
+                        reflectivity(base, metallic, roughness), 1e-6f);
+        }
+    }
+}
+
 TEST(DiffuseReflectivity, NothingGivesBackAllThatArrives) {
     for (int i = 0; i <= 1000; ++i) {
         const float base = static_cast<float>(i % 11) / 10.0f;

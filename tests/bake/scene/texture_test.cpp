@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include <tetralight/bake/image/srgb.h>
 
@@ -88,6 +89,28 @@ TEST(SampleTexture, FourTexelsAreWeightedByTheAreasAcross) {
 TEST(SampleTexture, AlphaIsLinear) {
     const Texture texture{"alpha", Image8{1, 1, {{0, 0, 0, 51}}}};
     EXPECT_FLOAT_EQ(sample_texture(texture, {0.5f, 0.5f}).w, 0.2f);
+}
+
+TEST(SampleTexture, AlphaAloneHasTheSameBits) {
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<float> coordinate(-3.0f, 3.0f);
+    Texture texture{"alphas", Image8{7, 5, {}}, TextureWrap::Repeat, TextureWrap::MirroredRepeat};
+    for (int i = 0; i < 35; ++i) {
+        texture.image.pixels.push_back({0, 0, 0, static_cast<uint8_t>(engine())});
+    }
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec2 uv(coordinate(engine), coordinate(engine));
+        EXPECT_EQ(sample_texture_alpha(texture, uv), sample_texture(texture, uv).w);
+    }
+}
+
+TEST(SampleTexture, LargeCoordinatesKeepTheirFraction) {
+    // 2^20 + 1/8 and -2^20 + 1/8 are floats; the first texel is centered at 1/8.
+    const Texture texture = row_texture(TextureWrap::Repeat);
+    EXPECT_EQ(red_at(texture, 0x1p20f + 0.125f), 1.0f);
+    EXPECT_EQ(red_at(texture, -0x1p20f + 0.125f), 1.0f);
+    EXPECT_EQ(red_at(texture, 0x1p23f), 0.5f);
+    EXPECT_EQ(red_at(texture, -0x1p30f), 0.5f);
 }
 
 TEST(SampleTexture, AnyCoordinateIsSafe) {
