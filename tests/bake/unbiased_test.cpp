@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/probe_estimator.h>
+#include <tetralight/bake/sampling/sampling.h>
+#include "tests/support/property.h"
+#include "tests/support/random_scene.h"
+#include "tests/support/simple_tracer.h"
+
+// The mean light of the baker in random scenes, whatever it samples, is that of a tracer that
+// samples nothing but the cosine.
+
+namespace tetralight {
+namespace {
+
+constexpr size_t kProbesPerScene = 2;
+constexpr uint32_t kBounces = 4;
+
+/// Estimates whose spread gives the error of their mean.
+constexpr uint32_t kTrials = 32, kReferenceTrials = 128;
+constexpr uint32_t kSamples = 1024, kReferenceSamples = 1024;
+
+/// A way to sample light.
+struct Way {
+    const char* name;
+    PathSettings settings;
+};
+
+const std::array<Way, 3> kWays{{{"both", {kBounces, 0.0f, LightStrategy::Mis}},
+                                {"lights", {kBounces, 0.0f, LightStrategy::LightOnly}},
+                                {"BSDF", {kBounces, 0.0f, LightStrategy::BsdfOnly}}}};
+
+constexpr size_t kValues = size_t{3} * kShCoefficientCount;
+
+/// Means over independent trials, and the squares of their standard errors.
+struct Means {
+    std::array<double, kValues> mean{}, variance{};
+};
+
+template <class Estimate>
+Means means_of(uint32_t trials, const Estimate& estimate) {
+    std::array<double, kValues> sum{}, squares{};
+    for (uint32_t trial = 0; trial < trials; ++trial) {
+        const RadianceSh light = estimate(trial);
+        for (size_t i = 0; i < kValues; ++i) {
+            const double value = light.coefficients[i / 3][static_cast<int>(i % 3)];
+            sum[i] += value;
+            squares[i] += value * value;
+        }
+    }
+    Means result;
+    for (size_t i = 0; i < kValues; ++i) {
+        result.mean[i] = sum[i] / trials;
+        const double spread = squares[i] / trials - result.mean[i] * result.mean[i];
+        result.variance[i] = std::max(0.0, spread) / (trials - 1);
+    }
+    return result;
+}
+
+/// A variable of Student's distribution as one of the normal distribution (Wallace 1959, "Bounds
+/// on Normal Approximations to Student's and the Chi-Square Distributions").
+double normal_from_student(double t, double freedom) {
+    const double size = std::sqrt(freedom * std::log1p(t * t / freedom)) * (8.0 * freedom + 1.0) /
+                        (8.0 * freedom + 3.0);
+    return std::copysign(size, t);
+}
+
+/// Differences of the means in their standard errors. 0 where both are exactly the same.
+std::array<double, kValues> differences(const Means& a, const Means& b) {
+    std::array<double, kValues> z{};
+    for (size_t i = 0; i < kValues; ++i) {
+        const double difference = a.mean[i] - b.mean[i];
+        // Float rounding of a mean.
+        const double rounding = 1e-6 * std::abs(b.mean[0]);
+        const double variance = a.variance[i] + b.variance[i] + rounding * rounding;
+        if (difference == 0.0 || variance == 0.0) continue;
+        // Degrees of freedom of a difference (Welch 1947).
+        const double freedom = variance * variance /
+                               (a.variance[i] * a.variance[i] / (kTrials - 1) +
+                                b.variance[i] * b.variance[i] / (kReferenceTrials - 1) + 1e-300);
+        z[i] = normal_from_student(difference / std::sqrt(variance), std::min(freedom, 1e6));
+    }
+    return z;
+}
+
+/// The differences of one way at one probe.
+using Differences = std::array<double, kValues>;
+
+/// The differences of all ways at all probes, by way and probe.
+class Comparison {
+  public:
+    Comparison() {
+        const size_t scenes = test::is_nightly() ? 300 : 30;
+        for (auto& of_probes : differences_) of_probes.resize(scenes * kProbesPerScene);
+        parallel_for(scenes, 0, [&](size_t scene) { compare(scene); });
+    }
+
+    [[nodiscard]] const std::vector<Differences>& of_way(size_t way) const {
+        return differences_[way];
+    }
+
+  private:
+    void compare(size_t scene_index) {
+        const test::RandomScene random = test::make_random_scene(scene_index, kProbesPerScene);
+        const auto traced = TraceScene::make_static(random.scene);
+        ASSERT_TRUE(traced);
+        const test::SimpleTracer simple(random.scene, *traced, kBounces);
+        std::vector<Means> references;
+        for (const glm::dvec3& probe : random.probes) {
+            references.push_back(means_of(kReferenceTrials, [&](uint32_t trial) {
+                return simple.gather(traced->render_from_world(probe), probe_key(trial, probe),
+                                     kReferenceSamples);
+            }));
+        }
+        const DirectionSet directions(kSamples);
+        for (size_t way = 0; way < kWays.size(); ++way) {
+            const PathTracer tracer(random.scene, *traced, kWays[way].settings);
+            for (size_t i = 0; i < kProbesPerScene; ++i) {
+                const glm::dvec3& probe = random.probes[i];
+                const Means means = means_of(kTrials, [&](uint32_t trial) {
+                    return estimate_probe(tracer, traced->render_from_world(probe),
+                                          probe_key(1000 + trial, probe), directions)
+                        .radiance;
+                });
+                differences_[way][scene_index * kProbesPerScene + i] =
+                    differences(means, references[i]);
+            }
+        }
+    }
+
+    std::array<std::vector<Differences>, kWays.size()> differences_;
+};
+
+/// The largest difference: all values of all ways pass with a probability of 1 − 1e-4 (Bonferroni).
+void expect_no_outlier(const std::vector<Differences>& probes) {
+    const double comparisons = static_cast<double>(probes.size() * kValues * kWays.size());
+    const double chance = 1e-4 / comparisons;
+    for (size_t i = 0; i < probes.size(); ++i) {
+        for (size_t k = 0; k < kValues; ++k) {
+            const double z = std::abs(probes[i][k]);
+            EXPECT_GT(std::erfc(z / std::sqrt(2.0)), chance)
+                << "scene " << i / kProbesPerScene << ", probe " << i % kProbesPerScene
+                << ", value " << k << ": " << probes[i][k];
+        }
+    }
+}
+
+/// The sums over the probes. The values of one probe depend on each other, those of different
+/// probes do not: with P probes the mean of z² has a variance of at most 2/P, whatever the
+/// dependence.
+void expect_no_trend(const std::vector<Differences>& probes) {
+    double squares = 0.0, lights = 0.0, count = 0.0;
+    for (const Differences& z : probes) {
+        for (const double value : z) squares += value * value;
+        lights += z[1];  // green of band 0
+        count += z[1] != 0.0;
+    }
+    EXPECT_NEAR(squares / (count * kValues), 1.0, 4.0 * std::sqrt(2.0 / count));
+    EXPECT_LT(std::abs(lights) / std::sqrt(count), 4.5);
+}
+
+TEST(Unbiased, MeansInRandomScenesAreThoseOfASimpleTracer) {
+    const Comparison comparison;
+    for (size_t way = 0; way < kWays.size(); ++way) {
+        SCOPED_TRACE(kWays[way].name);
+        expect_no_outlier(comparison.of_way(way));
+        expect_no_trend(comparison.of_way(way));
+    }
+}
+
+}  // namespace
+}  // namespace tetralight
