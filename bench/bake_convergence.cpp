@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
+#include <tetralight/bake/bake_probes.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/probe_estimator.h>
 #include <tetralight/bake/sampling/direction_set.h>
 #include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bench/bake_errors.h>
 #include <tetralight/bench/bake_scenes.h>
 #include <tetralight/bench/plain_tracer.h>
 
@@ -90,15 +93,40 @@ class Convergence {
     std::vector<RadianceSh> references_;
 };
 
+/// The darkest quarter of the probes.
+BakeSubject darkest(const std::string& name, const BakeSubject& subject) {
+    BakeSettings settings;
+    settings.sample_count = 8192;
+    const auto baked = bake_probes(subject.scene, subject.probes, settings);
+    require(bool(baked), "bake");
+    std::vector<std::pair<double, size_t>> order;
+    for (size_t i = 0; i < subject.probes.size(); ++i) {
+        order.emplace_back(mean_irradiance(baked->radiance[i]), i);
+    }
+    std::ranges::sort(order);
+    BakeSubject dark{name, subject.scene, {}};
+    for (size_t i = 0; i < order.size() / 4; ++i) {
+        dark.probes.push_back(subject.probes[order[i].second]);
+    }
+    return dark;
+}
+
 }  // namespace
 
 void write_convergence(const std::string& path, const Options& options) {
     std::ofstream csv(path);
     require(bool(csv), path + ": cannot be written");
     csv << "scene,method,rays,error\n";
-    for (const BakeSubject& subject : bake_subjects(options)) {
+    const auto write = [&](const BakeSubject& subject) {
         // One thread counts rays, under the processor modes of a bake.
         parallel_for(1, 1, [&](size_t) { Convergence(subject, csv).write(); });
+    };
+    for (const BakeSubject& subject : bake_subjects(options)) {
+        write(subject);
+        if (subject.name == "scene") write(darkest("halls", subject));
+    }
+    for (const RoomLight light : {RoomLight::Sun, RoomLight::SkyOnly}) {
+        if (is_selected(options, rooms_name(light))) write(rooms_subject(light));
     }
 }
 

@@ -127,13 +127,25 @@ Scene emitter_room() {
     return scene;
 }
 
+std::vector<glm::dvec3> some_probes(const BakeSubject& subject) {
+    std::vector<glm::dvec3> some;
+    for (size_t i = 0; i < subject.probes.size(); i += 4) some.push_back(subject.probes[i]);
+    return some;
+}
+
 std::vector<BakeSubject> bake_subjects(const Options& options) {
     std::vector<BakeSubject> subjects;
-    subjects.push_back(
-        read_subject("courtyard", TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb"));
-    if (options.scene) subjects.push_back(read_subject("scene", *options.scene));
-    subjects.push_back({"emitters", emitter_room(), {}});
-    subjects.back().probes = free_positions(subjects.back().scene, kProbeCount);
+    if (is_selected(options, "courtyard")) {
+        subjects.push_back(
+            read_subject("courtyard", TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb"));
+    }
+    if (options.scene && is_selected(options, "scene")) {
+        subjects.push_back(read_subject("scene", *options.scene));
+    }
+    if (is_selected(options, "emitters")) {
+        subjects.push_back({"emitters", emitter_room(), {}});
+        subjects.back().probes = free_positions(subjects.back().scene, kProbeCount);
+    }
     return subjects;
 }
 

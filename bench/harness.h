@@ -23,8 +23,10 @@ struct Options {
     bool is_quick = false;
     /// CSV file to which `bake` writes errors over rays instead of its figures.
     std::optional<std::string> convergence;
-    /// The scene that `grid` runs alone.
+    /// The scene that `bake`, `grid` and `relight` run alone.
     std::optional<std::string> only;
+    /// The figures that `bake` measures alone: the second part of their names.
+    std::optional<std::string> figure;
 };
 
 /// Two ways to do the same work. Each returns its seconds, so that preparation is not timed.
@@ -52,6 +54,13 @@ void report(const std::string& figure, double value, const std::string& unit);
 
 /// Seconds that `work` takes.
 [[nodiscard]] double seconds(const std::function<void()>& work);
+
+/// Seconds of processor time that `work` takes, on all threads together: other programs on the
+/// machine change it less than `seconds`.
+[[nodiscard]] double cpu_seconds(const std::function<void()>& work);
+
+/// True if `--only` names this scene or is not given.
+[[nodiscard]] bool is_selected(const Options& options, const std::string& scene);
 
 /// Ends the program with exit code 1 if `is_right` is false: an answer differs from the baseline's.
 void require(bool is_right, const std::string& what);

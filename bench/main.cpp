@@ -35,7 +35,13 @@ int main(int argc, char** argv) {
     app.add_option("--convergence", options.convergence,
                    "`bake` writes a CSV file of errors over rays instead of its figures");
     app.add_option("--only", options.only,
-                   "The scene that `grid` runs alone: courtyard, house, rooms, interior or scene");
+                   "The scene that `bake`, `grid` or `relight` runs alone. bake: courtyard, scene, "
+                   "rooms, rooms_sky, emitters or white_room. grid: courtyard, house, rooms, "
+                   "interior or scene. relight: courtyard, scene or emitters");
+    app.add_option("--figure", options.figure,
+                   "The figures that `bake` measures alone: time, rays, noise, layers, bounces, "
+                   "dering or threads")
+        ->check(CLI::IsMember({"time", "rays", "noise", "layers", "bounces", "dering", "threads"}));
     CLI11_PARSE(app, argc, argv);
     for (const auto& [name, bench] : benches) {
         if (names.empty() || std::ranges::find(names, name) != names.end()) bench(options);

@@ -3,7 +3,9 @@
 """Draws errors over rays, log-log, as an SVG.
 
     ./run bench bake --convergence errors.csv --scene SCENE.glb
-    python3 bench/plot_convergence.py errors.csv docs/images/convergence.svg
+    python3 bench/plot_convergence.py errors.csv docs/images/convergence.svg [SCENE...]
+
+Without scenes it draws all of the file. SCENE=TITLE draws a scene under another name.
 """
 import csv
 import math
@@ -23,6 +25,12 @@ def read(path):
             points = scenes.setdefault(row["scene"], {}).setdefault(row["method"], [])
             points.append((float(row["rays"]), float(row["error"])))
     return scenes
+
+
+def chosen(scenes, names):
+    """The scenes with these names, under their titles."""
+    titles = dict(name.split("=", 1) if "=" in name else (name, name) for name in names)
+    return {title: scenes[name] for name, title in titles.items()} or scenes
 
 
 def decades(values):
@@ -80,14 +88,14 @@ def draw(scenes):
         yield f'<text class="end" x="{middle:.1f}" y="{HEIGHT - 14}">rays a probe</text>'
         for k, (method, line) in enumerate(methods.items()):
             yield from panel.line(method, line)
-            x, y = panel.left + 16, HEIGHT - BOTTOM - 36 + 20 * k
+            x, y = panel.left + 16, HEIGHT - BOTTOM - 16 - 20 * (len(methods) - 1 - k)
             yield f'<circle cx="{x:.1f}" cy="{y}" r="5" fill="{COLORS[method]}"/>'
             yield f'<text x="{x + 12:.1f}" y="{y + 4}">{LABELS[method]}</text>'
     yield "</svg>"
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
     with open(sys.argv[2], "w") as out:
-        out.write("\n".join(draw(read(sys.argv[1]))) + "\n")
+        out.write("\n".join(draw(chosen(read(sys.argv[1]), sys.argv[3:]))) + "\n")
