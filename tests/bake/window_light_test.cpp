@@ -160,7 +160,7 @@ TEST(WindowLight, FurnaceWithAWindowHasRadianceOne) {
         SCOPED_TRACE(static_cast<int>(strategy));
         const PathTracer tracer(scene, *traced, {.strategy = strategy});
         double sum = 0.0, squares = 0.0;
-        constexpr int kTrials = 64;
+        constexpr int kTrials = 400;
         for (int trial = 0; trial < kTrials; ++trial) {
             const uint64_t key = probe_key(static_cast<uint64_t>(trial), kProbe);
             const glm::vec3 origin = traced->render_from_world(kProbe);
