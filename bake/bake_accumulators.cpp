@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include <tetralight/bake/layer_errors.h>
 #include <tetralight/bake/occlusion.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/path_tracer.h>
@@ -62,6 +63,8 @@ struct Work {
     const LightGroupRows& light_groups;
     /// The lights of the scene in render space.
     std::vector<Light> lights;
+    /// `mean_layer_light`; empty if layers have no target error.
+    std::vector<double> mean_layer_light;
 };
 
 /// True for the one estimate of a probe that includes its occlusion: the first of the first round.
@@ -78,9 +81,12 @@ class AccumulatorBaker {
           layout_(settings.plan),
           hooks_(hooks),
           progress_(hooks.progress, work.positions.size()) {
-        for (const ProbeAccumulator& accumulator : work.accumulators) {
-            progress_.resume_probe(accumulator.sample_count, plan_.expected_samples(accumulator),
-                                   plan_.is_done(accumulator));
+        for (uint32_t i = 0; i < work.accumulators.size(); ++i) {
+            const ProbeAccumulator& accumulator = work.accumulators[i];
+            const float layer_error = worst_layer_error(i);
+            progress_.resume_probe(accumulator.sample_count,
+                                   plan_.expected_samples(accumulator, layer_error),
+                                   plan_.is_done(accumulator, layer_error));
         }
     }
 
@@ -107,7 +113,8 @@ class AccumulatorBaker {
         uint64_t round = ~uint64_t{0};
         for (uint32_t i = 0; i < work_.accumulators.size(); ++i) {
             const ProbeAccumulator& accumulator = work_.accumulators[i];
-            if (accumulator.round_count > round || plan_.is_done(accumulator)) continue;
+            if (accumulator.round_count > round) continue;
+            if (plan_.is_done(accumulator, worst_layer_error(i))) continue;
             if (accumulator.round_count < round) probes.clear();
             round = accumulator.round_count;
             probes.push_back(i);
@@ -163,21 +170,23 @@ class AccumulatorBaker {
 
     void end_round(uint32_t probe, std::span<const ProbeEstimate> estimates) {
         ProbeAccumulator& accumulator = work_.accumulators[probe];
-        add_light_groups(probe, accumulator.round_count, estimates);
-        const uint64_t expected_before = plan_.expected_samples(accumulator);
+        const uint64_t expected_before =
+            plan_.expected_samples(accumulator, worst_layer_error(probe));
         const uint64_t samples_before = accumulator.sample_count;
+        add_light_groups(probe, accumulator.round_count, estimates);
         accumulator.add_round(estimates);
+        const float layer_error = worst_layer_error(probe);
         progress_.add_round({.samples = accumulator.sample_count - samples_before,
-                             .expected_samples = plan_.expected_samples(accumulator),
+                             .expected_samples = plan_.expected_samples(accumulator, layer_error),
                              .expected_samples_before = expected_before,
                              .is_first = accumulator.round_count == 1,
-                             .is_done = plan_.is_done(accumulator),
+                             .is_done = plan_.is_done(accumulator, layer_error),
                              .sampling_error = accumulator.sampling_error()});
     }
 
     void add_light_groups(uint32_t probe, uint64_t round,
                           std::span<const ProbeEstimate> estimates) {
-        const auto row = work_.light_groups.rows.subspan(probe * layout_.size(), layout_.size());
+        const auto row = row_of(probe);
         const size_t summed = layout_.occlusion_begin();
         for (const ProbeEstimate& estimate : estimates) {
             const auto weight = static_cast<double>(estimate.sample_count);
@@ -185,10 +194,22 @@ class AccumulatorBaker {
                 row[i] += weight * static_cast<double>(estimate.light_groups[i]);
             }
         }
+        add_layer_variances(layout_, estimates, row);
         if (!has_occlusion(layout_, round, 0)) return;
-        for (size_t i = summed; i < row.size(); ++i) {
+        for (size_t i = summed; i < layout_.variance_begin(); ++i) {
             row[i] = static_cast<double>(estimates[0].light_groups[i]);
         }
+    }
+
+    [[nodiscard]] std::span<double> row_of(uint32_t probe) const {
+        return work_.light_groups.rows.subspan(probe * layout_.size(), layout_.size());
+    }
+
+    /// 0 if the plan has no target for layers.
+    [[nodiscard]] float worst_layer_error(uint32_t probe) const {
+        if (work_.mean_layer_light.empty()) return 0.0f;
+        return tetralight::worst_layer_error(layout_, work_.accumulators[probe], row_of(probe),
+                                             work_.mean_layer_light);
     }
 
     /// The largest error of the probes that are not in `probes`, which are sorted.
@@ -257,7 +278,13 @@ Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positio
     const PathTracer tracer(scene, *trace_scene, {settings.bounces, settings.clamp}, settings.plan);
     std::vector<Light> lights;
     for (const Light& light : scene.lights) lights.push_back(trace_scene->render_from_world(light));
-    const Work work{*trace_scene, tracer, positions, accumulators, light_groups, std::move(lights)};
+    std::vector<double> mean_light;
+    if (settings.target_layer_error > 0.0 && layout.variance_count() > 0) {
+        mean_light = mean_layer_light(scene, tracer, settings.seed, settings.thread_count);
+    }
+    const Work work{*trace_scene,         tracer,       positions,
+                    accumulators,         light_groups, std::move(lights),
+                    std::move(mean_light)};
     const auto status = AccumulatorBaker(work, settings, hooks).run();
     return status ? check_light(positions, accumulators) : status;
 }

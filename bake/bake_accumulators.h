@@ -29,7 +29,8 @@ struct BakeHooks {
 /// the plan has no occlusion.
 struct LightGroupRows {
     /// One row per position, as `LightGroupLayout(settings.plan)` describes it: Σ samples · value
-    /// over all estimates for layers and transfer; the value itself for occlusion.
+    /// over all estimates for layers and transfer; the value itself for occlusion; Σ samples² ·
+    /// variance of the mean irradiance of a round for variances.
     std::span<double> rows = {};
     /// One element per position if the plan has occlusion, else empty.
     std::span<const OcclusionLights> occlusion_lights = {};

@@ -18,6 +18,9 @@ struct BakeSettings {
     /// probe is done. Each round doubles the samples of the probes that are above it. 0 = no
     /// target.
     double target_error = 0.0;
+    /// The same for the error of each layer of the plan (`worst_layer_error`), and of the light
+    /// that is in no layer. 0 = no target.
+    double target_layer_error = 0.0;
     /// Upper limit of the samples per probe over all rounds; 0 = 64 times `sample_count`.
     uint64_t max_sample_count = 0;
     /// Seconds after which no further round runs; the first round always completes. Without a
@@ -40,8 +43,12 @@ struct BakeSettings {
     bool operator==(const BakeSettings&) const = default;
 };
 
+/// `target_layer_error` of `tetralight bake` by default, if layers are kept.
+inline constexpr double kDefaultLayerError = 0.01;
+
 /// The settings of `tetralight bake` when neither samples, a target error nor a time budget is
-/// given: rounds up to 131 072 samples per probe, until the standard error is at most 0.5 %.
+/// given: rounds up to 131 072 samples per probe, until the standard error is at most 0.5 %. If
+/// layers are kept, the command also sets `kDefaultLayerError`.
 [[nodiscard]] inline BakeSettings with_default_target(BakeSettings settings) {
     settings.target_error = 0.005;
     settings.max_sample_count = 131'072;

@@ -10,11 +10,12 @@
 
 namespace tetralight {
 
-/// Sums the light groups of the samples of one estimate into a row of `LightGroupLayout`.
+/// Sums the layers and the transfer of the samples of one estimate into the begin of a row of
+/// `LightGroupLayout`, without occlusion and variances.
 class LightGroupSum {
   public:
     explicit LightGroupSum(const LightGroupLayout& layout)
-        : layout_(layout), sums_(layout.size(), 0.0) {}
+        : layout_(layout), sums_(layout.occlusion_begin(), 0.0) {}
 
     [[nodiscard]] bool is_empty() const { return sums_.empty(); }
 

@@ -23,6 +23,9 @@ struct LightPlan {
     std::vector<uint32_t> layer_of_material;
     uint32_t layer_of_sky = kNoIndex;
     uint32_t layer_count = 0;
+    /// Some light is in none of the layers: the total minus all layers is a layer of its own, with
+    /// error bars.
+    bool has_rest = false;
     /// Bake the transfer of distant light (probes/transfer.h).
     bool has_transfer = false;
     /// Bake the visibility of lights (bake/occlusion.h).
@@ -43,7 +46,8 @@ struct LightPlan {
 };
 
 /// Layout of the light groups of one probe as a row of values: the radiance of each layer (9 RGB
-/// coefficients), the direct transfer, the bounced transfer (RGB), and the four occlusion channels.
+/// coefficients), the direct transfer, the bounced transfer (RGB), the four occlusion channels, and
+/// the variance of each layer, the last that of the rest if there is one.
 struct LightGroupLayout {
     static constexpr size_t kLayerSize = 3 * size_t{kShCoefficientCount};
     static constexpr size_t kDirectSize = size_t{kShCoefficientCount} * kDistantCoefficientCount;
@@ -53,10 +57,12 @@ struct LightGroupLayout {
 
     explicit LightGroupLayout(const LightPlan& plan)
         : layer_count(plan.layer_count),
+          has_rest(plan.has_rest),
           has_transfer(plan.has_transfer),
           has_occlusion(plan.has_occlusion) {}
 
     uint32_t layer_count = 0;
+    bool has_rest = false;
     bool has_transfer = false;
     bool has_occlusion = false;
 
@@ -68,8 +74,15 @@ struct LightGroupLayout {
         return direct_begin() + (has_transfer ? kDirectSize + kBouncedSize : 0);
     }
 
+    [[nodiscard]] size_t variance_begin() const {
+        return occlusion_begin() + (has_occlusion ? 4 : 0);
+    }
+
+    /// Layers that have a variance: all, and the rest.
+    [[nodiscard]] uint32_t variance_count() const { return layer_count + (has_rest ? 1 : 0); }
+
     /// Values per row.
-    [[nodiscard]] size_t size() const { return occlusion_begin() + (has_occlusion ? 4 : 0); }
+    [[nodiscard]] size_t size() const { return variance_begin() + variance_count(); }
 
     bool operator==(const LightGroupLayout&) const = default;
 };

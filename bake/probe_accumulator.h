@@ -30,7 +30,7 @@ struct ProbeAccumulator {
     CutLight cut;
 
     /// Adds a round of independent estimates. Their order affects the last bits of the sums.
-    void add_round(std::span<const ProbeEstimate> estimates) noexcept;
+    void add_round(std::span<const ProbeEstimate> estimates);
 
     /// The mean over all samples; black before the first round.
     [[nodiscard]] RadianceSh radiance() const noexcept;

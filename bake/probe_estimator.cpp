@@ -129,9 +129,7 @@ void add_baked_lights(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
 ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_t key,
                              const DirectionSet& directions) {
     const uint32_t sample_count = directions.size();
-    LightGroupLayout layout(tracer.plan());
-    layout.has_occlusion = false;  // added by bake_accumulators
-    Gathered gathered{{}, LightGroupSum(layout)};
+    Gathered gathered{{}, LightGroupSum(LightGroupLayout(tracer.plan()))};
     gathered.estimate.sample_count = sample_count;
     if (tracer.can_sample_emission()) {
         const uint32_t light_sample_count = std::max(1u, sample_count / kSamplesPerLightSample);

@@ -24,7 +24,8 @@ struct ProbeEstimate {
     uint64_t ray_count = 0;
     /// What is known of the light of longer paths than the tracer's limit of bounces.
     CutLight cut;
-    /// The light groups as a row of `LightGroupLayout`; empty if the plan has none.
+    /// Layers and transfer as the begin of a row of `LightGroupLayout`; empty if the plan has none.
+    /// `bake_accumulators` appends the occlusion.
     std::vector<float> light_groups;
 };
 

@@ -18,7 +18,8 @@ constexpr uint64_t kMaxSamples = uint64_t{1} << 34;  // the samples of one estim
 constexpr uint64_t kMaxRounds = 32;
 
 bool has_rounds(const BakeSettings& settings) {
-    return settings.target_error > 0.0 || settings.time_budget_seconds > 0.0;
+    return settings.target_error > 0.0 || settings.target_layer_error > 0.0 ||
+           settings.time_budget_seconds > 0.0;
 }
 
 /// A target error or a time budget needs standard errors, so that the first round has samples
@@ -33,7 +34,8 @@ uint64_t first_round_samples(const BakeSettings& settings) {
 RoundPlan::RoundPlan(const BakeSettings& settings) noexcept
     : first_round_samples_(first_round_samples(settings)),
       max_samples_(first_round_samples_),
-      target_error_(settings.target_error) {
+      target_error_(settings.target_error),
+      target_layer_error_(settings.target_layer_error) {
     if (!has_rounds(settings)) return;
     const uint64_t wanted = settings.max_sample_count > 0 ? settings.max_sample_count
                                                           : kDefaultGrowth * first_round_samples_;
@@ -46,6 +48,7 @@ Status RoundPlan::check(const BakeSettings& settings) {
     }
     const std::pair<const char*, double> numbers[] = {
         {"target_error", settings.target_error},
+        {"target_layers", settings.target_layer_error},
         {"time_budget", settings.time_budget_seconds},
         {"clamp", static_cast<double>(settings.clamp)}};
     for (const auto& [name, number] : numbers) {
@@ -84,19 +87,29 @@ uint32_t RoundPlan::samples_in_estimate(uint64_t round, uint32_t estimate) const
     return static_cast<uint32_t>(samples / estimates + (estimate < samples % estimates));
 }
 
-bool RoundPlan::is_done(const ProbeAccumulator& accumulator) const noexcept {
+double RoundPlan::excess(const ProbeAccumulator& accumulator, float layer_error) const noexcept {
+    double excess = 0.0;
+    if (target_error_ > 0.0) excess = double{accumulator.sampling_error()} / target_error_;
+    if (target_layer_error_ > 0.0) {
+        excess = std::max(excess, double{layer_error} / target_layer_error_);
+    }
+    return excess;
+}
+
+bool RoundPlan::is_done(const ProbeAccumulator& accumulator, float layer_error) const noexcept {
     if (accumulator.round_count == 0) return false;
-    if (target_error_ > 0.0 && accumulator.sampling_error() <= target_error_) return true;
+    if (has_target() && excess(accumulator, layer_error) <= 1.0) return true;
     return samples_in_round(accumulator.round_count) == 0;
 }
 
-uint64_t RoundPlan::expected_samples(const ProbeAccumulator& accumulator) const noexcept {
+uint64_t RoundPlan::expected_samples(const ProbeAccumulator& accumulator,
+                                     float layer_error) const noexcept {
     if (accumulator.round_count == 0) return first_round_samples_;
-    if (is_done(accumulator)) return accumulator.sample_count;
-    if (target_error_ == 0.0) return max_samples_;
+    if (is_done(accumulator, layer_error)) return accumulator.sample_count;
+    if (!has_target()) return max_samples_;
     // The error falls at least with the square root of the number of samples.
-    const double excess = accumulator.sampling_error() / target_error_;
-    const double needed = static_cast<double>(accumulator.sample_count) * excess * excess;
+    const double ratio = excess(accumulator, layer_error);
+    const double needed = static_cast<double>(accumulator.sample_count) * ratio * ratio;
     if (needed >= static_cast<double>(max_samples_)) return max_samples_;
     uint64_t round = accumulator.round_count + 1;
     while (static_cast<double>(samples_before(round)) < needed) ++round;

@@ -38,16 +38,31 @@ class RoundPlan {
     /// Samples of one of these estimates. Within a round they differ by at most one.
     [[nodiscard]] uint32_t samples_in_estimate(uint64_t round, uint32_t estimate) const noexcept;
 
-    /// True if the probe needs no further round.
-    [[nodiscard]] bool is_done(const ProbeAccumulator& accumulator) const noexcept;
+    /// True if the errors of layers count (`BakeSettings::target_layer_error`).
+    [[nodiscard]] bool has_layer_target() const noexcept { return target_layer_error_ > 0.0; }
 
-    /// Samples that the probe is expected to have when it is done, from its error so far.
-    [[nodiscard]] uint64_t expected_samples(const ProbeAccumulator& accumulator) const noexcept;
+    /// True if the probe needs no further round. `layer_error`: that of its worst layer, if the
+    /// plan has a target for layers.
+    [[nodiscard]] bool is_done(const ProbeAccumulator& accumulator,
+                               float layer_error = 0.0f) const noexcept;
+
+    /// Samples that the probe is expected to have when it is done, from its errors so far.
+    [[nodiscard]] uint64_t expected_samples(const ProbeAccumulator& accumulator,
+                                            float layer_error = 0.0f) const noexcept;
 
   private:
+    [[nodiscard]] bool has_target() const noexcept {
+        return target_error_ > 0.0 || target_layer_error_ > 0.0;
+    }
+
+    /// The larger of both errors, each divided by its target; at most 1 if the targets are reached.
+    [[nodiscard]] double excess(const ProbeAccumulator& accumulator,
+                                float layer_error) const noexcept;
+
     uint64_t first_round_samples_ = 0;
     uint64_t max_samples_ = 0;
     double target_error_ = 0.0;
+    double target_layer_error_ = 0.0;
 };
 
 /// The random key of one estimate of a probe.

@@ -3,6 +3,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
+#include <tetralight/cli/layer_report.h>
 #include <tetralight/cli/leak_report.h>
 #include <tetralight/cli/walls_report.h>
 
@@ -73,6 +74,7 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
     json["unseen"] = to_json(report.unseen);
     json.update(work(report.ray_count, run));
     json.update(to_json(report.statistics));
+    json["layers"] = layer_noise_json(volume);
     json["seconds"] = {{"merge", report.merge_seconds},
                        {"prepare", report.prepare_seconds},
                        {"tetrahedralize", report.tetrahedralize_seconds},
@@ -88,7 +90,8 @@ void report_volume(const CommonOptions& common, const BakeRun& run, const BakedV
                           duration(report.merge_seconds), ", tetrahedralize ",
                           duration(report.tetrahedralize_seconds), ", bake ",
                           work_text(report.ray_count, run), "\n  ", to_text(report.statistics),
-                          walls_text(report), leaks == nullptr ? "" : "\n" + to_text(*leaks)));
+                          layer_noise_text(volume), walls_text(report),
+                          leaks == nullptr ? "" : "\n" + to_text(*leaks)));
 }
 
 void report_range(const CommonOptions& common, const BakeRun& run, const PartialBake& part,

@@ -55,11 +55,8 @@ Json lights_json(const ProbeVolumeView& volume) {
 }
 
 Json layers_json(const ProbeVolumeView& volume) {
-    const auto names = split_names(volume.layer_names);
-    Json layers = Json::array();
-    for (size_t i = 0; i < volume.layers.size() && i < names.size(); ++i) {
-        layers.push_back({{"name", names[i]}, {"weight", volume.layers[i].weight}});
-    }
+    Json layers = layer_noise_json(volume);
+    for (size_t i = 0; i < layers.size(); ++i) layers[i]["weight"] = volume.layers[i].weight;
     return layers;
 }
 
@@ -202,6 +199,7 @@ VolumeFacts make_volume_facts(const std::string& path, const ProbeFile& file) {
     facts.lights = lights_json(volume);
     facts.layers = layers_json(volume);
     facts.rendering_layers = rendering_layers_json(volume);
+    facts.noise = relit_noise(volume);
     facts.has_transfer = !volume.transfer.empty();
     facts.bounds = bounds_json(volume);
     facts.made_with = made_with(volume);
@@ -230,6 +228,7 @@ Json to_json(const VolumeFacts& facts) {
                  {"group_list", facts.groups},
                  {"lights", facts.lights},
                  {"layers", facts.layers},
+                 {"standard_error", to_json(facts.noise)},
                  {"rendering_layers", facts.rendering_layers},
                  {"has_transfer", facts.has_transfer},
                  {"made_with", facts.made_with}});

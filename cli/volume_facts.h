@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/layer_report.h>
 #include <tetralight/cli/walk_facts.h>
 #include <tetralight/pipeline/walls_metadata.h>
 #include <tetralight/probes/build/store_visibility.h>
@@ -35,6 +36,8 @@ struct VolumeFacts {
     Json groups;
     Json lights;
     Json layers;
+    /// With the weights that the layers have now.
+    NoiseStatistics noise;
     /// Null if all probes are on all rendering layers.
     Json rendering_layers;
     bool has_transfer = false;

@@ -149,7 +149,13 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
     rows.push_back({"unseen", facts.walls ? to_text(facts.walls->unseen) : "not known"});
     rows.push_back({"light", facts.is_baked ? "baked" : "none (not baked)"});
     rows.push_back({"lights", lights_text(facts.lights)});
+    rows.push_back({"standard error", to_text(facts.noise)});
     rows.push_back({"layers", layers_text(facts)});
+    const auto names = split_names(volume.layer_names);
+    const auto noise = layer_noise(volume);
+    for (size_t i = 0; i < std::min(names.size(), noise.size()); ++i) {
+        rows.push_back({"  " + printable(std::string(names[i])), to_text(noise[i])});
+    }
     if (!facts.rendering_layers.is_null()) {
         rows.push_back({"rendering layers", rendering_layers_text(facts.rendering_layers)});
     }

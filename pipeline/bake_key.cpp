@@ -139,22 +139,25 @@ void add(Hash& hash, const Scene& scene) {
 template <class Hash>
 void add(Hash& hash, const LightPlan& plan) {
     const auto& [light_modes, layer_of_light, layer_of_material, layer_of_sky, layer_count,
-                 has_transfer, has_occlusion] = plan;
+                 has_rest, has_transfer, has_occlusion] = plan;
     hash.add(light_modes);
     hash.add(layer_of_light);
     hash.add(layer_of_material);
     hash.add(layer_of_sky);
     hash.add(layer_count);
+    hash.add(has_rest);
     hash.add(has_transfer);
     hash.add(has_occlusion);
 }
 
 template <class Hash>
 void add(Hash& hash, const BakeSettings& settings) {
-    const auto& [sample_count, target_error, max_sample_count, time_budget_seconds, clamp, bounces,
-                 surfaces, plan, seed, thread_count] = settings;
+    const auto& [sample_count, target_error, target_layer_error, max_sample_count,
+                 time_budget_seconds, clamp, bounces, surfaces, plan, seed, thread_count] =
+        settings;
     hash.add(sample_count);
     hash.add(target_error);
+    hash.add(target_layer_error);
     hash.add(max_sample_count);
     hash.add(time_budget_seconds);
     hash.add(clamp);

@@ -25,6 +25,7 @@ void for_each_bake_member(Settings& settings, Use use) {
     use("virtual_offset", health.virtual_offset, Recorded::Always);
     use("invalid_probes", health.invalid, Recorded::Always);
     use("target_error", bake.target_error, Recorded::WhenChanged);
+    use("target_layers", bake.target_layer_error, Recorded::WhenChanged);
     use("max_samples", bake.max_sample_count, Recorded::WhenChanged);
     use("time_budget", bake.time_budget_seconds, Recorded::WhenChanged);
     use("clamp", bake.clamp, Recorded::WhenChanged);

@@ -213,6 +213,7 @@ class Planner {
     void add_rest() {
         const auto rest = static_cast<uint32_t>(plan_.layer_names.size());
         plan_.layer_names.push_back("rest");
+        plan_.bake.has_rest = true;
         for (size_t i = 0; i < scene_.lights.size(); ++i) {
             uint32_t& layer = plan_.light_states[i].layer;
             if (layer == kNoIndex && is_baked(plan_.bake, scene_, i)) layer = rest;

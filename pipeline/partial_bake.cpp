@@ -30,7 +30,8 @@ struct PartInfo {
     InvalidProbes invalid_probes = InvalidProbes::LeaveOut;
     DeringWindow dering_window = DeringWindow::Mildest;
     uint8_t dering_for_all_groups = 0;
-    std::array<uint8_t, 5> reserved{};
+    uint8_t reserved = 0;
+    float target_layer_error = 0.0f;
 };
 
 static_assert(sizeof(PartInfo) == 56 && std::is_trivially_copyable_v<PartInfo>);
@@ -67,6 +68,7 @@ ProbeVolume unlit_volume(ProbeVolumeView view) {
     view.validity = {};
     view.compact = {};
     view.layer_irradiance = {};
+    view.layer_errors = {};
     view.transfer = {};
     view.dering = {};
     return copy_volume(view);
@@ -87,6 +89,7 @@ BakeVolumeSettings settings_of(const PartInfo& info) {
     BakeVolumeSettings settings;
     settings.bake.sample_count = info.sample_count;
     settings.bake.target_error = info.target_error;
+    settings.bake.target_layer_error = static_cast<double>(info.target_layer_error);
     settings.bake.time_budget_seconds = info.time_budget_seconds;
     settings.bake.max_sample_count = info.max_sample_count;
     settings.health.invalid = info.invalid_probes;
@@ -241,7 +244,8 @@ Status write_part(const std::string& path, const PreparedBake& prepared,
                         prepared.settings.health.invalid,
                         prepared.settings.dering.window,
                         prepared.settings.dering.is_for_all_groups,
-                        {}};
+                        0,
+                        static_cast<float>(settings.target_layer_error)};
     const auto bytes_of = [](const std::vector<bool>& flags) {
         return std::vector<uint8_t>(flags.begin(), flags.end());
     };

@@ -31,6 +31,7 @@ Status check_arrays(const ProbeVolumeView& old) {
     if (is_missing(old.validity) || is_missing(old.health) || is_missing(old.exact_positions) ||
         is_missing(old.occlusion, !old.occlusion_lights.empty()) ||
         is_missing(old.layer_irradiance, !old.layers.empty()) ||
+        is_missing(old.layer_errors, !old.layers.empty()) ||
         is_missing(old.transfer, !old.sky.empty())) {
         return Error{ErrorCode::InvalidArgument, "a section is missing"};
     }

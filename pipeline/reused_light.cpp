@@ -41,6 +41,7 @@ void ReusedLight::append(const ReusedLight& other) {
     add(occlusion, other.occlusion);
     add(transfer, other.transfer);
     add(layer_irradiance, other.layer_irradiance);
+    add(layer_errors, other.layer_errors);
 }
 
 ReusedLight reused_light(const ProbeVolumeView& old, std::span<const uint32_t> old_probes) {
@@ -54,8 +55,9 @@ ReusedLight reused_light(const ProbeVolumeView& old, std::span<const uint32_t> o
     for (const uint32_t probe : from) {
         light.standard_error.push_back(old.health[probe].standard_error);
         for (size_t layer = 0; layer < old.layers.size(); ++layer) {
-            light.layer_irradiance.push_back(
-                old.layer_irradiance[layer * old.positions.size() + probe]);
+            const size_t element = layer * old.positions.size() + probe;
+            light.layer_irradiance.push_back(old.layer_irradiance[element]);
+            light.layer_errors.push_back(old.layer_errors[element]);
         }
     }
     light.validity = gather(old.validity, from);
@@ -81,6 +83,7 @@ ReusedLight slice(const ReusedLight& light, uint32_t begin, uint32_t end) {
     cut(light.occlusion, part.occlusion);
     cut(light.transfer, part.transfer);
     cut(light.layer_irradiance, part.layer_irradiance);
+    cut(light.layer_errors, part.layer_errors);
     return part;
 }
 
@@ -94,8 +97,9 @@ void copy_reused(const ReusedLight& light, ProbeVolume& volume) {
     const size_t probe_count = volume.positions.size();
     for (size_t i = 0; i < light.layer_irradiance.size(); ++i) {
         const size_t layer = i % layer_count;
-        volume.layer_irradiance[layer * probe_count + light.probes[i / layer_count]] =
-            light.layer_irradiance[i];
+        const size_t element = layer * probe_count + light.probes[i / layer_count];
+        volume.layer_irradiance[element] = light.layer_irradiance[i];
+        volume.layer_errors[element] = light.layer_errors[i];
     }
 }
 

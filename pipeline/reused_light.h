@@ -23,6 +23,7 @@ struct ReusedLight {
     std::vector<ProbeTransfer> transfer;
     /// All layers of the first probe, then of the next.
     std::vector<IrradianceSh> layer_irradiance;
+    std::vector<float> layer_errors;  ///< in the same order
 
     /// One for each probe of a volume: true if its light is reused.
     [[nodiscard]] std::vector<bool> flags(size_t probe_count) const;
@@ -43,6 +44,7 @@ void for_each_array(Light& light, const ProbeVolume& volume, Visit visit) {
     visit("reused_occlusion", light.occlusion, size_t{volume.occlusion_lights.empty() ? 0u : 1u});
     visit("reused_transfer", light.transfer, size_t{volume.sky.empty() ? 0u : 1u});
     visit("reused_layers", light.layer_irradiance, volume.layers.size());
+    visit("reused_layer_errors", light.layer_errors, volume.layers.size());
 }
 
 /// The light of probes of `old`. `old_probes` has one element for each probe of the new volume: the

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <tetralight/bake/layer_errors.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/recombine.h>
@@ -63,6 +64,7 @@ std::span<IrradianceSh> layer_light(ProbeVolume& volume, size_t layer) {
 LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept {
     LightGroupLayout layout;
     layout.layer_count = static_cast<uint32_t>(volume.layers.size()) - (has_rest(volume) ? 1 : 0);
+    layout.has_rest = has_rest(volume);
     layout.has_transfer = !volume.sky.empty();
     layout.has_occlusion = !volume.occlusion_lights.empty();
     return layout;
@@ -73,6 +75,7 @@ void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const
     const LightGroupLayout layout = split_layout(volume.view());
     TETRALIGHT_ASSERT(rows.size() == layout.size() * accumulators.size(), "one row a probe");
     volume.layer_irradiance.resize(volume.layers.size() * accumulators.size());
+    volume.layer_errors.resize(volume.layer_irradiance.size());
     if (layout.has_transfer) volume.transfer.resize(accumulators.size());
     if (layout.has_occlusion) volume.occlusion.resize(accumulators.size());
     for (size_t i = 0; i < accumulators.size(); ++i) {
@@ -83,6 +86,10 @@ void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const
         for (uint32_t layer = 0; layer < layout.layer_count; ++layer) {
             layer_light(volume, layer)[i] =
                 irradiance_from_row(row.subspan(layer * LightGroupLayout::kLayerSize), directions);
+        }
+        const std::vector<float> errors = layer_errors(layout, accumulators[i], row);
+        for (size_t layer = 0; layer < errors.size(); ++layer) {
+            volume.layer_errors[layer * accumulators.size() + i] = errors[layer];
         }
         if (layout.has_transfer) {
             volume.transfer[i] = transfer_from_row(row.subspan(layout.direct_begin()), directions);

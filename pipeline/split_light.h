@@ -17,7 +17,8 @@ namespace tetralight {
 /// occlusion if it has occlusion lights.
 [[nodiscard]] LightGroupLayout split_layout(const ProbeVolumeView& volume) noexcept;
 
-/// Fills layers (but for "rest"), transfer and occlusion from `rows`, one an accumulator.
+/// Fills layers (but for "rest"), the errors of all layers, transfer and occlusion from `rows`, one
+/// an accumulator.
 /// Precondition: rows of `split_layout(volume)`.
 void store_split(std::span<const ProbeAccumulator> accumulators, std::span<const double> rows,
                  ProbeVolume& volume);

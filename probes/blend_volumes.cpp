@@ -110,6 +110,7 @@ ProbeVolume without_light(const ProbeVolumeView& view) {
     kept.layers = {};
     kept.layer_names = {};
     kept.layer_irradiance = {};
+    kept.layer_errors = {};
     kept.transfer = {};
     kept.sky = {};
     kept.dering = {};

@@ -221,6 +221,9 @@ struct ProbeVolumeView {
     std::string_view layer_names;  ///< each ended by '\n'
     /// Layer after layer, one a probe each; `irradiance` is their weighted sum.
     std::span<const IrradianceSh> layer_irradiance;
+    /// As `layer_irradiance`: the relative standard error of the irradiance of each layer, without
+    /// the light that a limit of bounces cuts. 0: not known, or no light. Empty: not known.
+    std::span<const float> layer_errors;
     std::span<const ProbeTransfer> transfer;  ///< one a probe: how layer "sky" follows the sky
     std::span<const DistantLight> sky;        ///< one: the sky that layer "sky" comes from
     /// One a probe, when it has a transfer: 0, or 1 + the `DeringWindow` that its layers took.
@@ -265,6 +268,7 @@ struct ProbeVolume {
     std::vector<Layer> layers;
     std::string layer_names;
     std::vector<IrradianceSh> layer_irradiance;
+    std::vector<float> layer_errors;
     std::vector<ProbeTransfer> transfer;
     std::vector<DistantLight> sky;
     std::vector<uint8_t> dering;

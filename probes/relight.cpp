@@ -42,6 +42,9 @@ Status fill_layer(ProbeVolume& volume, uint32_t layer, LightOf light_of) {
             light[i].coefficients[0] = glm::max(light[i].coefficients[0], glm::vec3(0.0f));
         }
     }
+    if (volume.layer_errors.size() == volume.layer_irradiance.size()) {
+        std::ranges::fill(std::span(volume.layer_errors).subspan(layer * count, count), 0.0f);
+    }
     volume.layers[layer].largest = largest_coefficient(light);
     return recombine(volume, layer_weights(volume.view()));
 }

@@ -46,6 +46,7 @@ constexpr void for_each_volume_member(Visit&& visit) {
     visit("layers", Offline, &Owner::layers, &View::layers);
     visit("layer_names", Offline, &Owner::layer_names, &View::layer_names);
     visit("layer_irradiance", Offline, &Owner::layer_irradiance, &View::layer_irradiance);
+    visit("layer_errors", Offline, &Owner::layer_errors, &View::layer_errors);
     visit("transfer", Offline, &Owner::transfer, &View::transfer);
     visit("sky", Offline, &Owner::sky, &View::sky);
     visit("dering", Offline, &Owner::dering, &View::dering);

@@ -63,6 +63,12 @@ CopiedLight copy_light(const ProbeVolumeView& from, ProbeVolume& to) {
         const auto copied = copy_from_twins(layer, twins, IrradianceSh());
         to.layer_irradiance.insert(to.layer_irradiance.end(), copied.begin(), copied.end());
     }
+    to.layer_errors.clear();
+    for (size_t begin = 0; begin < from.layer_errors.size(); begin += from.positions.size()) {
+        const auto layer = from.layer_errors.subspan(begin, from.positions.size());
+        const auto copied = copy_from_twins(layer, twins, 0.0f);
+        to.layer_errors.insert(to.layer_errors.end(), copied.begin(), copied.end());
+    }
     return result;
 }
 

@@ -70,6 +70,7 @@ Status check_counts(const ProbeVolumeView& v) {
          {check_count("light_states", v.light_states.size(), v.lights.size()),
           check_count("occlusion_lights", v.occlusion_lights.size(), probes),
           check_count("layer_irradiance", v.layer_irradiance.size(), v.layers.size() * probes),
+          check_count("layer_errors", v.layer_errors.size(), v.layers.size() * probes),
           check_count("transfer", v.transfer.size(), probes), check_count("sky", v.sky.size(), 1),
           check_count("dering", v.dering.size(), probes)}) {
         if (!status) return status;
@@ -103,6 +104,7 @@ Status check_layers(const ProbeVolumeView& v) {
         return std::ranges::all_of(
             lights, [&](uint32_t light) { return is_index(light, v.lights.size()); });
     };
+    const auto is_error = [](float error) { return error >= 0.0f && std::isfinite(error); };
     const auto is_window = [](uint8_t window) {
         return window <= 1 + static_cast<uint8_t>(DeringWindow::Lanczos);
     };
@@ -112,6 +114,7 @@ Status check_layers(const ProbeVolumeView& v) {
           check_each("occlusion_lights", v.occlusion_lights, are_lights),
           check_each("layers", v.layers, is_in_range),
           check_floats("layer_irradiance", v.layer_irradiance, kLargestCoefficient),
+          check_each("layer_errors", v.layer_errors, is_error),
           check_floats("transfer", v.transfer, kLargestTransfer),
           check_floats("sky", v.sky, kLargestSky), check_each("dering", v.dering, is_window)}) {
         if (!status) return status;

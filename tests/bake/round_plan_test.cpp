@@ -38,6 +38,22 @@ ProbeAccumulator with_error(const RoundPlan& plan, double error) {
     return accumulator;
 }
 
+TEST(RoundPlan, TheErrorOfTheWorstLayerCountsIfItHasATarget) {
+    BakeSettings both = settings(1024, 0.01, 65536);
+    both.target_layer_error = 0.05;
+    const RoundPlan plan(both);
+    EXPECT_TRUE(plan.has_layer_target());
+    EXPECT_TRUE(plan.is_done(with_error(plan, 0.009), 0.049f));
+    EXPECT_FALSE(plan.is_done(with_error(plan, 0.009), 0.051f));
+    EXPECT_FALSE(plan.is_done(with_error(plan, 0.011), 0.0f));
+    EXPECT_EQ(plan.expected_samples(with_error(plan, 0.009), 0.19f), 16u * 1024);  // (19/5)² = 14.4
+    both.target_error = 0.0;
+    EXPECT_TRUE(RoundPlan(both).is_done(with_error(plan, 1.0), 0.049f));
+    EXPECT_FALSE(RoundPlan(settings(1024, 0.01)).has_layer_target());
+    both.target_layer_error = -1.0;
+    EXPECT_EQ(RoundPlan::check(both).error().field, "target_layers");
+}
+
 TEST(RoundPlan, WithoutATargetThereIsOneRoundOfEightEstimates) {
     const RoundPlan plan(settings(1024));
     EXPECT_EQ(rounds(plan), std::vector<uint64_t>{1024});

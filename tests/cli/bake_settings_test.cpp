@@ -29,6 +29,21 @@ TEST(BakeSettings, WithoutSamplesAnErrorIsTheTarget) {
     EXPECT_EQ(settings, with_default_target({}));
 }
 
+TEST(BakeSettings, LayersHaveATargetByDefaultAndOnlyThen) {
+    const Json layers{{"layers", {"sun"}}};
+    const auto target = [&](const Json& more) {
+        Json json = layers;
+        json.update(more);
+        return cli::bake_settings(values_of(json)).bake.target_layer_error;
+    };
+    EXPECT_EQ(target(Json::object()), kDefaultLayerError);
+    EXPECT_EQ(target({{"samples", 64}}), 0.0);
+    EXPECT_EQ(target({{"target_error", 0.01}}), 0.0);
+    EXPECT_EQ(target({{"target_error", 0.01}, {"target_layers", 0.03}}), 0.03);
+    EXPECT_EQ(target({{"target_layers", 0.03}, {"max_samples", 5000}}), 0.03);
+    EXPECT_EQ(cli::bake_settings(values_of(Json::object())).bake.target_layer_error, 0.0);
+}
+
 TEST(BakeSettings, AMaximumNeedsRounds) {
     EXPECT_THROW((void)cli::bake_settings(values_of({{"max_samples", 5}})), cli::UsageError);
     const Values values = values_of({{"max_samples", 5}, {"target_error", 0.01}});

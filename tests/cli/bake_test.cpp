@@ -77,15 +77,52 @@ TEST_F(Bake, JsonHasTheDocumentedFields) {
     const Json json = run_json({"bake", kCourtyard, "-o", "v.probes", "-s", "16"});
     std::vector<std::string> keys;
     for (const auto& [key, value] : json.items()) keys.push_back(key);
-    const std::vector<std::string> expected{"bounces",      "dilated",        "dimension",
-                                            "groups",       "hull_cells",     "inner_cells",
-                                            "largest_snap", "lattice_groups", "left_out",
-                                            "moved",        "output",         "over_target",
-                                            "probes",       "rays",           "rays_per_second",
-                                            "reused",       "samples",        "samples_per_probe",
-                                            "seconds",      "standard_error", "unseen",
-                                            "walls",        "welded"};  // sorted
+    const std::vector<std::string> expected{"bounces",
+                                            "dilated",
+                                            "dimension",
+                                            "groups",
+                                            "hull_cells",
+                                            "inner_cells",
+                                            "layers",
+                                            "largest_snap",
+                                            "lattice_groups",
+                                            "left_out",
+                                            "moved",
+                                            "output",
+                                            "over_target",
+                                            "probes",
+                                            "rays",
+                                            "rays_per_second",
+                                            "reused",
+                                            "samples",
+                                            "samples_per_probe",
+                                            "seconds",
+                                            "standard_error",
+                                            "unseen",
+                                            "walls",
+                                            "welded"};  // sorted
     EXPECT_EQ(keys, expected);
+}
+
+TEST_F(Bake, LayersTakeSamplesUntilEachIsAtItsTarget) {
+    const Arguments layers{"bake",          kCourtyard, "-o",           "v.probes",       "-g",
+                           "five.json",     "--layers", "sun,emission", "--target-error", "20%",
+                           "--max-samples", "16384"};
+    Arguments with_target = layers;
+    with_target.insert(with_target.end(), {"--target-layers", "5%"});
+    const Json without = run_json(layers);
+    const Json with = run_json(with_target);
+    EXPECT_EQ(with["layers"][1]["name"], "emission");
+    EXPECT_LT(with["layers"][1]["standard_error"]["median"], 0.05);
+    EXPECT_GT(with["samples_per_probe"]["max"], without["samples_per_probe"]["max"]);
+    EXPECT_TRUE(contains(succeed(with_target).out, "\n  layer emission: median "));
+}
+
+TEST_F(Bake, TargetsOfLayersNeedLayers) {
+    const std::string error =
+        misuse({"bake", kCourtyard, "-o", "v.probes", "--target-layers", "5%"});
+    EXPECT_TRUE(contains(error, "--target-layers")) << error;
+    EXPECT_TRUE(contains(error, "--layers")) << error;
 }
 
 TEST_F(Bake, TextSaysWhatWasMade) {

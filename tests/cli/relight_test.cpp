@@ -68,8 +68,24 @@ TEST_F(Relight, JsonSaysTheWeights) {
     EXPECT_EQ(json["layers"], Json::parse(R"([{"name": "sun", "weight": 2.0},
                                               {"name": "sky", "weight": 1.0}])"));
     const Json info = run_json({"info", "w.probes"});
-    EXPECT_EQ(info["layers"], json["layers"]);
+    ASSERT_EQ(info["layers"].size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(info["layers"][i]["name"], json["layers"][i]["name"]);
+        EXPECT_EQ(info["layers"][i]["weight"], json["layers"][i]["weight"]);
+    }
     EXPECT_EQ(info["has_transfer"], false);
+}
+
+TEST_F(Relight, InfoShowsTheNoiseOfWhatRemains) {
+    succeed({"bake", kCourtyard, "-o", "v.probes", "--layers", "sun,sky,emission", "-s", "256"});
+    const Json baked = run_json({"info", "v.probes"});
+    const Json& emission = baked["layers"][2]["standard_error"];
+    EXPECT_GT(emission["median"], baked["standard_error"]["median"]);
+    succeed({"relight", "v.probes", "--weights", "sun=0,sky=0", "-o", "night.probes"});
+    const Json night = run_json({"info", "night.probes"});
+    EXPECT_EQ(night["layers"][2]["standard_error"], emission);
+    EXPECT_GE(night["standard_error"]["median"], emission["median"]);
+    EXPECT_TRUE(contains(succeed({"info", "night.probes"}).out, "emission        median "));
 }
 
 TEST_F(Relight, AnotherSkyTakesThePlaceOfThatOfTheBake) {

@@ -102,6 +102,22 @@ TEST(Layers, OfWeightOneSumToTheBitsOfTheUnlayeredBake) {
     EXPECT_EQ(layered.health, plain.health);
 }
 
+TEST(Layers, HaveErrorsOfTheirOwnWithTheRest) {
+    const ProbeVolume layered = bake(court(), settings_of(kLayers));
+    const size_t count = layered.positions.size();
+    ASSERT_EQ(layered.layer_errors.size(), 5 * count);
+    for (size_t i = 0; i < 5 * count; ++i) EXPECT_GT(layered.layer_errors[i], 0.0f) << i;
+    // A scene with one layer alone has the error of the sum.
+    Scene dark = court();
+    for (Light& light : dark.lights) light.mode = LightMode::Realtime;
+    for (Material& material : dark.materials) material.emission = glm::vec3(0.0f);
+    const ProbeVolume sky = bake(dark, settings_of({"sky"}));
+    ASSERT_EQ(sky.layer_names, "sky\n");
+    for (size_t i = 0; i < count; ++i) {
+        EXPECT_NEAR(sky.layer_errors[i], sky.health[i].standard_error, 1e-4f * sky.layer_errors[i]);
+    }
+}
+
 TEST(Layers, EachIsWhatASceneWithThatLightAloneGives) {
     // Error bars of both bakes: the whole's standard error is an upper bound for a part's.
     const ProbeVolume layered = bake(court(), settings_of(kLayers, 4096));

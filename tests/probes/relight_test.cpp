@@ -48,7 +48,11 @@ ProbeVolume make_volume() {
 TEST(Relight, SkyLayerBecomesTheTransferOfTheNewSky) {
     ProbeVolume volume = make_volume();
     DistantLight sky = distant_sun(glm::vec3(0, 1, 0), {1, 2, 3});
+    volume.layer_errors.assign(60, 0.5f);
     ASSERT_TRUE(relight_sky(volume, sky));
+    for (size_t i = 0; i < 60; ++i) {  // those of the new light are not known
+        EXPECT_EQ(volume.layer_errors[i], i / 20 == 1 ? 0.0f : 0.5f);
+    }
     const IrradianceSh expected = transfer_light(volume.transfer[0], sky);
     for (size_t i = 0; i < 20; ++i) EXPECT_EQ(volume.layer_irradiance[20 + i], expected);
     EXPECT_EQ(volume.irradiance[3],

@@ -72,6 +72,13 @@ TEST(VerifyLayers, RefusesIndicesAndNumbersOutOfRange) {
               "section \"layers\": element 0: is out of range");
     EXPECT_EQ(error_after([](ProbeVolume& v) { v.layer_irradiance[7].coefficients[8].z = NAN; }),
               "section \"layer_irradiance\": element 7: is not finite, or above 1e+37");
+    for (const float wrong : {-0.1f, NAN, INFINITY}) {
+        EXPECT_EQ(error_after([=](ProbeVolume& v) {
+                      v.layer_errors.assign(v.layer_irradiance.size(), 0.5f);
+                      v.layer_errors[7] = wrong;
+                  }),
+                  "section \"layer_errors\": element 7: is out of range");
+    }
     EXPECT_EQ(error_after([](ProbeVolume& v) { v.transfer[3].bounced[8][15].z = INFINITY; }),
               "section \"transfer\": element 3: is not finite, or above 1e+06");
     EXPECT_EQ(error_after([](ProbeVolume& v) { v.sky[0].coefficients[15].z = NAN; }),
