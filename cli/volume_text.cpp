@@ -149,7 +149,7 @@ Rows summary(const VolumeFacts& facts, const ProbeVolumeView& volume) {
     rows.push_back({"unseen", facts.walls ? to_text(facts.walls->unseen) : "not known"});
     rows.push_back({"light", facts.is_baked ? "baked" : "none (not baked)"});
     rows.push_back({"lights", lights_text(facts.lights)});
-    rows.push_back({"standard error", to_text(facts.noise)});
+    if (facts.noise.probe_count > 0) rows.push_back({"noise", to_text(facts.noise)});
     rows.push_back({"layers", layers_text(facts)});
     const auto names = split_names(volume.layer_names);
     const auto noise = layer_noise(volume);
