@@ -106,6 +106,14 @@ void add(Hash& hash, const Environment& environment) {
     hash.add(rotation_radians);
 }
 
+template <class Hash>
+void add(Hash& hash, const Portal& portal) {
+    const auto& [name, center, along, across] = portal;
+    hash.add(center);
+    hash.add(along);
+    hash.add(across);
+}
+
 /// The name decides between volumes of the same size.
 template <class Hash>
 void add(Hash& hash, const ProbeAdjustment& adjustment) {
@@ -127,13 +135,14 @@ void add_each(Hash& hash, const std::vector<T>& elements) {
 template <class Hash>
 void add(Hash& hash, const Scene& scene) {
     const auto& [textures, materials, meshes, instances, nodes, lights, light_names, environment,
-                 cameras, probe_groups, probe_adjustments, warnings] = scene;
+                 cameras, probe_groups, probe_adjustments, portals, warnings] = scene;
     add_each(hash, textures);
     add_each(hash, materials);
     add_each(hash, meshes);
     add_each(hash, instances);
     hash.add(lights);
     add(hash, environment);
+    add_each(hash, portals);
 }
 
 template <class Hash>
@@ -194,7 +203,7 @@ uint64_t adjustments_key(const std::vector<ProbeAdjustment>& adjustments) {
 
 Sha256Digest light_key(const Scene& scene, const BakeSettings& settings) {
     KeyHash hash;
-    hash.add(std::string_view("light of probes 2, tetralight " TETRALIGHT_VERSION));
+    hash.add(std::string_view("light of probes 3, tetralight " TETRALIGHT_VERSION));
     add(hash, scene);
     add(hash, settings);
     return hash.digest();

@@ -10,6 +10,7 @@
 #include <tetralight/bake/scene/detail/gltf_materials.h>
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
 #include <tetralight/bake/scene/detail/gltf_nodes.h>
+#include <tetralight/bake/scene/detail/gltf_portals.h>
 #include <tetralight/bake/scene/detail/gltf_probe_adjustments.h>
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 #include <tetralight/base/str_cat.h>
@@ -57,12 +58,15 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     if (!probe_groups) return probe_groups.error();
     auto adjustments = detail::read_gltf_probe_adjustments(document, *nodes);
     if (!adjustments) return adjustments.error();
+    auto portals = detail::read_gltf_portals(document, *nodes);
+    if (!portals) return portals.error();
     auto instances = detail::read_instances(document, *nodes, probe_groups->is_probe, meshes);
     if (!instances) return instances.error();
     scene.lights = std::move(lights->lights);
     scene.light_names = std::move(lights->names);
     scene.probe_groups = std::move(probe_groups->groups);
     scene.probe_adjustments = std::move(*adjustments);
+    scene.portals = std::move(*portals);
     scene.instances = std::move(*instances);
     auto scene_nodes = detail::scene_nodes(document, *nodes);
     if (!scene_nodes) return scene_nodes.error();

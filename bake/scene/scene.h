@@ -142,6 +142,17 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+/// A rectangle through which light enters a room, such as a window (`extras.portal`). It is no
+/// surface: it tells a bake where to look for light.
+struct Portal {
+    std::string name;
+    /// Position of its centre; edges, perpendicular to each other.
+    glm::dvec3 center{0.0};
+    glm::dvec3 along{0.0}, across{0.0};
+
+    bool operator==(const Portal&) const = default;
+};
+
 struct Scene {
     std::vector<Texture> textures;
     std::vector<Material> materials;
@@ -156,6 +167,7 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<ProbeGroup> probe_groups;
     std::vector<ProbeAdjustment> probe_adjustments;
+    std::vector<Portal> portals;
     /// Warnings for the user, one line each: parts that were skipped or replaced.
     std::vector<std::string> warnings;
 

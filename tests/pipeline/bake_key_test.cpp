@@ -58,6 +58,10 @@ TEST_F(BakeKey, ChangesWithWhatTheBakeSeesOfTheScene) {
         [](BakeKey& t) { t.scene.lights[0].radius = 0.1f; },
         [](BakeKey& t) { t.scene.light_names[0] = "lamp"; },
         [](BakeKey& t) { t.scene.environment.rotation_radians = 1.0f; },
+        [](BakeKey& t) { t.scene.portals.resize(1); },
+        [](BakeKey& t) {
+            t.scene.portals = {{"", {0, 1e-9, 0}, {1, 0, 0}, {0, 1, 0}}};
+        },
         [](BakeKey& t) { t.scene.environment.image.pixels[1].z = 0.0f; },
     });
 }

@@ -167,6 +167,8 @@ struct GltfNode {
     bool dering = false;
     std::optional<uint32_t> rendering_layers;
     std::optional<GltfAdjustment> probe_adjustment;
+    /// Width and height of `extras.portal`.
+    std::optional<glm::dvec2> portal;
 };
 
 struct GltfDocument {

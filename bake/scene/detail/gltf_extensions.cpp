@@ -53,6 +53,12 @@ std::optional<bool> boolean_extra(const tinygltf::Value& extras, const char* key
     return extras.Get(key).Get<bool>();
 }
 
+std::optional<glm::dvec2> vec2_extra(const tinygltf::Value& extras, const char* key) {
+    if (!extras.Has(key)) return std::nullopt;
+    const tinygltf::Value& value = extras.Get(key);
+    return glm::dvec2(value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble());
+}
+
 double number_at(const tinygltf::Value& object, const char* key, double otherwise) {
     return object.Has(key) ? object.Get(key).GetNumberAsDouble() : otherwise;
 }

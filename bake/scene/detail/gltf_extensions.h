@@ -27,6 +27,9 @@ namespace tetralight::detail {
 /// The boolean, or nothing if the key is absent. Precondition: the value is a boolean.
 [[nodiscard]] std::optional<bool> boolean_extra(const tinygltf::Value& extras, const char* key);
 
+/// Two numbers, or nothing if the key is absent. Precondition: it is an array of two numbers.
+[[nodiscard]] std::optional<glm::dvec2> vec2_extra(const tinygltf::Value& extras, const char* key);
+
 /// `extras.bake_emission`: a string, or a boolean for "baked" and "none".
 [[nodiscard]] std::optional<std::string> bake_emission_from(const tinygltf::Value& extras);
 

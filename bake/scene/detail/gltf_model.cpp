@@ -150,6 +150,7 @@ GltfNode converted(const tinygltf::Node& node) {
     result.dering = boolean_extra(node.extras, "dering").value_or(false);
     result.rendering_layers = rendering_layers_extra(node.extras);
     result.probe_adjustment = adjustment_from(node.extras);
+    result.portal = vec2_extra(node.extras, "portal");
     return result;
 }
 

@@ -31,6 +31,7 @@ constexpr GltfRule kNodes[] = {
     {"extras/light_probe_group", Boolean},
     {"extras/dering", Boolean},
     {"extras/rendering_layers", RenderingLayers},
+    {"extras/portal", Numbers, "", 2},
     {"extras/probe_adjustment/shape", String, "", 0, kRequired},
     {"extras/probe_adjustment/size", Numbers, "", 3},
     {"extras/probe_adjustment/radius", Number},
