@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <tetralight/bake/layer_errors.h>
+#include <tetralight/bake/lights/scene_openings.h>
 #include <tetralight/bake/occlusion.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/path_tracer.h>
@@ -275,7 +276,8 @@ Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positio
     }
     const auto trace_scene = TraceScene::make_static(scene, settings.surfaces);
     if (!trace_scene) return trace_scene.error();
-    const PathTracer tracer(scene, *trace_scene, {settings.bounces, settings.clamp}, settings.plan);
+    const PathTracer tracer(scene, *trace_scene, {settings.bounces, settings.clamp}, settings.plan,
+                            openings_of(scene, *trace_scene));
     std::vector<Light> lights;
     for (const Light& light : scene.lights) lights.push_back(trace_scene->render_from_world(light));
     std::vector<double> mean_light;

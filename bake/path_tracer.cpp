@@ -5,11 +5,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
+#include <tetralight/bake/detail/mis.h>
 #include <tetralight/bake/sampling/sampling.h>
 #include <tetralight/bake/scene/environment.h>
 
 namespace tetralight {
+
+using detail::kSpherePdf;
+using detail::power_heuristic;
+
 namespace {
 
 /// Russian roulette starts after this many reflections, for paths with a throughput below
@@ -33,12 +39,11 @@ float mean(glm::vec3 c) {
     return (c.r + c.g + c.b) / 3.0f;
 }
 
-/// Power heuristic with β = 2 for two sampling techniques (Veach & Guibas 1995). `pdf` may be
-/// infinite, and the squares of the densities may overflow: only their ratio is squared.
-float power_heuristic(float pdf, float other_pdf) {
-    if (std::isinf(pdf)) return 1.0f;
-    const float ratio = other_pdf / pdf;
-    return 1.0f / (1.0f + ratio * ratio);
+/// A small weight as a larger one that is mostly 0, so that its rays are saved.
+float thin_out(float weight, Sampler& sampler) {
+    constexpr float kLeast = 0.25f;
+    if (weight >= kLeast) return weight;
+    return sampler.next() < weight / kLeast ? kLeast : 0.0f;
 }
 
 /// False also for lights so near that their irradiance overflows: their density has no MIS weight.
@@ -49,7 +54,8 @@ bool is_light(glm::vec3 irradiance) {
 }  // namespace
 
 PathTracer::PathTracer(const Scene& scene, const TraceScene& trace_scene,
-                       const PathSettings& settings, const LightPlan& plan)
+                       const PathSettings& settings, const LightPlan& plan,
+                       std::vector<Opening> openings)
     : scene_(scene),
       trace_scene_(trace_scene),
       settings_(settings),
@@ -60,17 +66,30 @@ PathTracer::PathTracer(const Scene& scene, const TraceScene& trace_scene,
         baked_lights_.push_back(trace_scene.render_from_world(scene.lights[i]));
         layer_of_baked_light_.push_back(plan.layer_of(plan.layer_of_light, i));
     }
+    const bool draws_openings = settings.bounces == kAllBounces && settings.clamp <= 0.0f &&
+                                settings.strategy == LightStrategy::Mis;
+    if (openings.empty() || !draws_openings) return;
+    std::vector<Light> lights;
+    for (const auto& [light, source] : light_sampler_.directional_lights()) {
+        lights.push_back(light);
+        opening_lights_.push_back(source);
+    }
+    openings_ = Openings(trace_scene, std::move(openings), std::move(lights));
 }
 
 PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
                              PathLightGroups* light_groups) const {
     PathSample sample;
     glm::vec3 reflected(0.0f);
-    Path path{sampler, glm::vec3(1.0f), 0, light_groups};
+    Path path{sampler, sampler.branch(), glm::vec3(1.0f), 0, light_groups};
     glm::vec3& throughput = path.throughput;
     Ray ray{start.origin, start.direction};
     ShadingPoint shading_point{start.origin};
     float pdf = start.pdf;
+    Draws draws;
+    if (start.has_draws) draws = draws_at(shading_point, 1.0f);
+    draws.chance_pdf = kSpherePdf;
+    float weight = 1.0f;  // of light that arrives at the start of the segment from its sources
     glm::vec3 light_before_last(0.0f);
     if (settings_.bounces == 0) sample.last_throughput = 1.0f;
     for (uint32_t bounce = 0;; ++bounce) {
@@ -81,9 +100,9 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
         const std::optional<Surface> surface =
             trace_scene_.intersect(ray, TraceScene::Detail::LightOnly, TraceScene::kDiffuseSpread);
         if (!surface) {
-            const glm::vec3 sky = environment_radiance(scene_.environment, ray.direction);
-            const glm::vec3 light =
-                throughput * sky * mis_weight_bsdf(pdf, light_sampler_.pdf(ray.direction));
+            const glm::vec3 light = throughput *
+                                    environment_radiance(scene_.environment, ray.direction) *
+                                    (weight * sky_weight(draws, ray.direction, pdf));
             sum += light;
             path.add(plan_.layer_of_sky, light, arrival);
             if (light_groups != nullptr)
@@ -95,8 +114,9 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
             break;
         }
         if (surface->emission != glm::vec3(0.0f)) {
-            const float weight = mis_weight_bsdf(pdf, light_sampler_.pdf(shading_point, *surface));
-            const glm::vec3 light = throughput * surface->emission * weight;
+            const float light_pdf = light_sampler_.pdf(shading_point, *surface);
+            const glm::vec3 light =
+                throughput * surface->emission * (weight * mis_weight_bsdf(pdf, light_pdf));
             sum += light;
             path.add(layer_of_geometry(surface->geometry), light, arrival);
         }
@@ -113,12 +133,21 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
             light_before_last = reflected;
             sample.last_throughput = mean(throughput);
         }
-        reflected += throughput * reflected_light(*surface, path);
-
+        const float drawn = direction_density(draws, ray.direction);
+        weight = 1.0f;
+        if (drawn > 0.0f) {
+            weight = thin_out(power_heuristic(draws.chance_pdf, drawn), path.draw_sampler);
+        }
         shading_point = {surface->position, surface->geometric_normal};
+        const Draws arrival_draws =
+            std::exchange(draws, draws_at(shading_point, std::min(1.0f, brightest(throughput))));
+        reflected += throughput * reflected_light(*surface, path, weight, arrival_draws, draws);
+
         ray = {TraceScene::ray_origin(*surface, shading_point.normal),
                sample_cosine_hemisphere(shading_point.normal, path.sampler.next2())};
         pdf = sample_cosine_hemisphere_pdf(shading_point.normal, ray.direction);
+        draws.chance_pdf = pdf;
+        reflected += drawn_light(draws, ray.origin, path);
     }
     if (sample.last_throughput > 0.0f) sample.last_light = reflected - light_before_last;
     const float brightness = brightest(reflected);
@@ -139,7 +168,13 @@ bool PathTracer::can_sample_emission() const {
 LightSample PathTracer::sample_emission(LightKind kind, const ShadingPoint& shading_point,
                                         float path_pdf, Sampler& sampler) const {
     LightSample sample = light_sampler_.sample(kind, shading_point, sampler);
-    sample.irradiance *= mis_weight_light(sample.pdf, path_pdf);
+    float other_pdf = path_pdf;
+    if (kind == LightKind::Sky && !openings_.is_empty()) {
+        // Draws are as many as paths, whose density is uniform.
+        const float drawn = direction_density(draws_at(shading_point, 1.0f), sample.to_light);
+        other_pdf *= std::hypot(1.0f, drawn / kSpherePdf);
+    }
+    sample.irradiance *= mis_weight_light(sample.pdf, other_pdf);
     if (!is_light(sample.irradiance) || occluded(shading_point.position, sample)) return {};
     return sample;
 }
@@ -154,7 +189,8 @@ bool PathTracer::occluded(glm::vec3 origin, const LightSample& sample, float ble
     return trace_scene_.occluded({origin, (sample.target - origin) * scale, 1.0f / scale});
 }
 
-glm::vec3 PathTracer::reflected_light(const Surface& surface, Path& path) const {
+glm::vec3 PathTracer::reflected_light(const Surface& surface, Path& path, float weight,
+                                      const Draws& arrival, const Draws& here) const {
     const ShadingPoint shading_point{surface.position, surface.geometric_normal};
     const glm::vec3 ray_origin = TraceScene::ray_origin(surface, shading_point.normal);
     glm::vec3 irradiance(0.0f);
@@ -164,11 +200,17 @@ glm::vec3 PathTracer::reflected_light(const Surface& surface, Path& path) const 
         const LightSample sample = light_sampler_.sample(kind, shading_point, path.sampler);
         const float cosine = glm::dot(shading_point.normal, sample.to_light);
         if (cosine <= 0.0f || !is_light(sample.irradiance)) continue;
-        const float weight = mis_weight_light(sample.pdf, cosine * std::numbers::inv_pi_v<float>);
-        if (weight <= 0.0f) continue;
+        float other_pdf = cosine * std::numbers::inv_pi_v<float>;
+        if (kind == LightKind::Sky)
+            other_pdf = std::hypot(other_pdf, direction_density(here, sample.to_light));
+        const float mis =
+            mis_weight_light(sample.pdf, other_pdf) *
+            (kind == LightKind::Directional ? spot_weight(arrival, surface, sample, weight)
+                                            : weight);
+        if (mis <= 0.0f) continue;
         ++path.ray_count;
         if (occluded(ray_origin, sample)) continue;
-        const glm::vec3 light = sample.irradiance * (cosine * weight);
+        const glm::vec3 light = sample.irradiance * (cosine * mis);
         irradiance += light;
         path.add(layer_of(kind, sample), path.throughput * light * std::numbers::inv_pi_v<float>,
                  PathLightGroups::Arrival::Reflected);

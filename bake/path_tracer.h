@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <tetralight/bake/all_bounces.h>
 #include <tetralight/bake/light_plan.h>
 #include <tetralight/bake/lights/light_sampler.h>
+#include <tetralight/bake/lights/openings.h>
 #include <tetralight/bake/path_light_groups.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/sampling/sobol.h>
@@ -42,6 +44,8 @@ struct PathStart {
     /// Density of the direction per steradian, relative to one light sample of each kind that is
     /// taken at the origin too (`sample_emission`); infinite = no light samples are taken there.
     float pdf = std::numeric_limits<float>::infinity();
+    /// `PathTracer::draw_from_openings` is called once at the origin for each path.
+    bool has_draws = false;
 };
 
 /// The radiance that one path found.
@@ -64,11 +68,17 @@ struct PathSample {
 /// of each kind is sampled (next-event estimation), weighted by multiple importance sampling with
 /// the power heuristic (Veach & Guibas 1995, "Optimally Combining Sampling Techniques"). Russian
 /// roulette ends paths of low throughput. Thread-safe.
+///
+/// In enclosed places, where light enters through openings, each surface also samples a direction
+/// through an opening and a point of a sunlit spot. Both reach their light by one more reflection;
+/// weights by the power heuristic hold for that light alone.
 class PathTracer {
   public:
     /// Keeps references to both scenes. The plan selects the baked lights and the light groups.
+    /// `openings`: in render space. They do not change the expected value, and are not sampled if
+    /// the settings limit bounces or light, or select a light strategy.
     PathTracer(const Scene& scene, const TraceScene& trace_scene, const PathSettings& settings,
-               const LightPlan& plan = {});
+               const LightPlan& plan = {}, std::vector<Opening> openings = {});
 
     /// Radiance that arrives along a path. Excludes the direct light of punctual and area lights,
     /// which rays cannot hit. `light_groups` receives the same light by source, and does not change
@@ -83,6 +93,22 @@ class PathTracer {
     /// directions have the density `path_pdf`, with its MIS weight. Zero irradiance if occluded.
     [[nodiscard]] LightSample sample_emission(LightKind kind, const ShadingPoint& shading_point,
                                               float path_pdf, Sampler& sampler) const;
+
+    [[nodiscard]] const Openings& openings() const { return openings_; }
+
+    /// Light that arrives at the start of paths by one reflection, from samples of openings.
+    struct OpeningSample {
+        glm::vec3 to_light{0.0f};
+        /// Radiance divided by the density of the direction, with its MIS weight.
+        glm::vec3 irradiance{0.0f};
+    };
+
+    /// Two samples at the start of paths that `has_draws`: through an opening, and of a spot.
+    /// `light_samples`: number of light samples of each kind there for each path.
+    /// `light_groups` (null or one each) receive their light by source. Adds to `ray_count`.
+    [[nodiscard]] std::array<OpeningSample, 2> draw_from_openings(
+        glm::vec3 origin, float light_samples, Sampler sampler,
+        std::array<PathLightGroups*, 2> light_groups, uint64_t& ray_count) const;
 
     /// True if a surface lies between a position and the light of a sample. `blend_seed` in [0, 1)
     /// selects the random decisions of alpha-blended surfaces on the way.
@@ -113,6 +139,7 @@ class PathTracer {
     /// State of a path between two surfaces.
     struct Path {
         Sampler sampler;
+        Sampler draw_sampler;  ///< of what is drawn beside the path
         glm::vec3 throughput{1.0f};
         uint32_t ray_count = 0;
         PathLightGroups* light_groups = nullptr;
@@ -122,8 +149,41 @@ class PathTracer {
         }
     };
 
-    /// Direct light of all kinds that a surface reflects, divided by its albedo.
-    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, Path& path) const;
+    /// What is drawn from openings at the start of a segment.
+    struct Draws {
+        ShadingPoint from;
+        Openings::Weights weights;
+        float directions = 0.0f;  ///< expected number of directions through openings
+        float spots = 0.0f;       ///< expected number of points of spots
+        /// Density of the direction of the segment among directions that are not drawn.
+        float chance_pdf = 0.0f;
+        /// The direction was drawn through an opening.
+        bool is_drawn = false;
+    };
+
+    /// Direct light of all kinds that a surface reflects, divided by its albedo. `weight`: of all
+    /// light but that of spots. Draws at the start of the segment that ends at the surface, and at
+    /// the surface.
+    [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, Path& path, float weight,
+                                            const Draws& arrival, const Draws& here) const;
+    /// The other part of it: emission and sky that a ray in proportion to the cosine hits.
+    [[nodiscard]] glm::vec3 reflected_by_chance(const Surface& surface, Path& path) const;
+    /// MIS weight of the sky on a segment: against light samples and draws.
+    [[nodiscard]] float sky_weight(const Draws& draws, glm::vec3 direction, float pdf) const;
+
+    [[nodiscard]] Draws draws_at(const ShadingPoint& shading_point, float count) const;
+    /// Expected number of draws of a direction per steradian.
+    [[nodiscard]] float direction_density(const Draws& draws, glm::vec3 direction) const;
+    /// Expected number of draws per steradian of a point of a spot that a light sample lights.
+    [[nodiscard]] float spot_density(const Draws& draws, const Surface& surface,
+                                     const LightSample& sample) const;
+    [[nodiscard]] float spot_weight(const Draws& draws, const Surface& surface,
+                                    const LightSample& sample, float weight) const;
+    [[nodiscard]] OpeningSample draw_direction(const Draws& draws, glm::vec3 ray_origin,
+                                               float light_samples, Path& path) const;
+    [[nodiscard]] OpeningSample draw_spot(const Draws& draws, glm::vec3 ray_origin,
+                                          Path& path) const;
+    [[nodiscard]] glm::vec3 drawn_light(const Draws& draws, glm::vec3 ray_origin, Path& path) const;
     [[nodiscard]] uint32_t layer_of_geometry(uint32_t geometry) const;
     [[nodiscard]] float mis_weight_light(float light_pdf, float bsdf_pdf) const;
     [[nodiscard]] float mis_weight_bsdf(float bsdf_pdf, float light_pdf) const;
@@ -133,6 +193,8 @@ class PathTracer {
     PathSettings settings_;
     LightPlan plan_;
     LightSampler light_sampler_;
+    Openings openings_;
+    std::vector<uint32_t> opening_lights_;  ///< of `openings_`: indices in the scene
     std::vector<Light> baked_lights_;
     std::vector<uint32_t> layer_of_baked_light_;
 };

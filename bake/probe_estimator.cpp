@@ -2,6 +2,7 @@
 #include <tetralight/bake/probe_estimator.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/mat3x3.hpp>
 #include <numbers>
 #include <utility>
@@ -22,7 +23,7 @@ constexpr uint32_t kSamplesPerLightSample = 2;
 constexpr uint32_t kSamplesPerShadowRay = 4;
 
 /// The independent random decisions of an estimate. Each has its own key.
-enum class Purpose : uint64_t { Rotation, Paths, Emission, BakedLights };
+enum class Purpose : uint64_t { Rotation, Paths, Emission, BakedLights, Openings };
 
 uint64_t key_of(uint64_t key, Purpose purpose) {
     return detail::mix(key + (static_cast<uint64_t>(purpose) + 1) * detail::kGoldenRatio64);
@@ -91,6 +92,30 @@ void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint
     estimate.radiance += radiance_from_sum(sum, 1.0 / count);
 }
 
+/// Adds light that enters through openings: two samples for each path.
+void add_openings(const PathTracer& tracer, glm::vec3 origin, uint64_t key, float light_samples,
+                  Gathered& gathered) {
+    ProbeEstimate& estimate = gathered.estimate;
+    const uint64_t openings_key = key_of(key, Purpose::Openings);
+    std::array<PathLightGroups, 2> light_groups{PathLightGroups(tracer.plan().layer_count),
+                                                PathLightGroups(tracer.plan().layer_count)};
+    std::array<PathLightGroups*, 2> used_groups{};
+    if (tracer.plan().has_light_groups()) used_groups = {&light_groups[0], &light_groups[1]};
+    const double weight = 1.0 / estimate.sample_count;
+    RadianceShSum sum;
+    for (uint32_t i = 0; i < estimate.sample_count; ++i) {
+        for (PathLightGroups& groups : light_groups) groups.clear();
+        const auto samples = tracer.draw_from_openings(
+            origin, light_samples, Sampler(openings_key, i), used_groups, estimate.ray_count);
+        for (size_t k = 0; k < samples.size(); ++k) {
+            if (samples[k].irradiance == glm::vec3(0.0f)) continue;
+            sum.add(samples[k].to_light, samples[k].irradiance);
+            gathered.light_groups.add(samples[k].to_light, light_groups[k], weight);
+        }
+    }
+    estimate.radiance += radiance_from_sum(sum, weight);
+}
+
 /// Adds the direct light of one baked light, with `count` shadow rays.
 void add_baked_light(const PathTracer& tracer, size_t light_index, glm::vec3 origin, uint64_t key,
                      uint32_t count, Gathered& gathered) {
@@ -131,15 +156,18 @@ ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_
     const uint32_t sample_count = directions.size();
     Gathered gathered{{}, LightGroupSum(LightGroupLayout(tracer.plan()))};
     gathered.estimate.sample_count = sample_count;
+    PathStart start{.origin = origin, .has_draws = !tracer.openings().is_empty()};
+    float light_samples = 0.0f;  // per path
     if (tracer.can_sample_emission()) {
         const uint32_t light_sample_count = std::max(1u, sample_count / kSamplesPerLightSample);
-        const double pdf = sample_count / (kSphereSolidAngle * light_sample_count);
-        const PathStart start{.origin = origin, .pdf = static_cast<float>(pdf)};
+        light_samples = static_cast<float>(light_sample_count) / static_cast<float>(sample_count);
+        start.pdf = static_cast<float>(1.0 / (kSphereSolidAngle * double{light_samples}));
         add_paths(tracer, start, directions, key, gathered);
         add_emission(tracer, origin, key, light_sample_count, gathered);
     } else {
-        add_paths(tracer, {.origin = origin}, directions, key, gathered);
+        add_paths(tracer, start, directions, key, gathered);
     }
+    if (start.has_draws) add_openings(tracer, origin, key, light_samples, gathered);
     add_baked_lights(tracer, origin, key, gathered);
     if (tracer.bounces() == 0) {
         gathered.estimate.cut.last_radiance =

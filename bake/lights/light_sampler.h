@@ -3,6 +3,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <utility>
 #include <vector>
 
 #include <tetralight/bake/lights/emissive_triangles.h>
@@ -46,6 +47,11 @@ class LightSampler {
 
     [[nodiscard]] float pdf(glm::vec3 sky_direction) const noexcept {
         return sky_.pdf(sky_direction);
+    }
+
+    /// The directional lights, scaled, with their indices in the scene.
+    [[nodiscard]] std::vector<std::pair<Light, uint32_t>> directional_lights() const {
+        return punctual_lights_.directional_lights();
     }
 
   private:

@@ -61,6 +61,14 @@ PunctualLights::PunctualLights(std::span<const Light> lights) {
     tree_ = LightTree(bounds);
 }
 
+std::vector<std::pair<Light, uint32_t>> PunctualLights::directional_lights() const {
+    std::vector<std::pair<Light, uint32_t>> lights;
+    for (size_t i = 0; i < directional_.size(); ++i) {
+        lights.emplace_back(directional_[i], directional_sources_[i]);
+    }
+    return lights;
+}
+
 LightSample PunctualLights::sample_directional(const ShadingPoint& shading_point,
                                                Sampler& sampler) const noexcept {
     float choice = 0.0f;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <tetralight/bake/lights/light_tree.h>
@@ -26,6 +27,8 @@ class PunctualLights {
     [[nodiscard]] bool has_directional() const { return !directional_.empty(); }
 
     [[nodiscard]] bool has_local() const { return !tree_.is_empty(); }
+
+    [[nodiscard]] std::vector<std::pair<Light, uint32_t>> directional_lights() const;
 
     /// Light of one directional light, without shadows. Takes two pairs of sample dimensions.
     [[nodiscard]] LightSample sample_directional(const ShadingPoint& shading_point,

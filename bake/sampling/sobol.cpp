@@ -62,6 +62,12 @@ void Sampler::skip() noexcept {
     key_ += detail::kGoldenRatio64;
 }
 
+Sampler Sampler::branch() const noexcept {
+    Sampler other = *this;
+    other.key_ = detail::mix(~key_);
+    return other;
+}
+
 Sampler::Pair Sampler::next_pair() noexcept {
     skip();
     const uint64_t order = detail::mix(key_);

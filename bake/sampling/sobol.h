@@ -28,6 +28,9 @@ class Sampler {
     /// Skips a pair of dimensions.
     void skip() noexcept;
 
+    /// A sampler of the same path whose values are independent of those of this one.
+    [[nodiscard]] Sampler branch() const noexcept;
+
     /// Uniform in [0, 1) with 48 bits, to select one of many items. Takes one pair.
     [[nodiscard]] double next_double() noexcept;
 

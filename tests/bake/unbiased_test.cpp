@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
 #include <vector>
 
+#include <tetralight/bake/lights/scene_openings.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/probe_estimator.h>
 #include <tetralight/bake/sampling/sampling.h>
 #include "tests/support/property.h"
+#include "tests/support/random_probes.h"
 #include "tests/support/random_scene.h"
 #include "tests/support/simple_tracer.h"
 
@@ -20,21 +24,54 @@ namespace tetralight {
 namespace {
 
 constexpr size_t kProbesPerScene = 2;
-constexpr uint32_t kBounces = 4;
 
 /// Estimates whose spread gives the error of their mean.
 constexpr uint32_t kTrials = 32, kReferenceTrials = 128;
 constexpr uint32_t kSamples = 1024, kReferenceSamples = 1024;
 
+/// Which openings are sampled.
+enum class Drawn { None, Found, Random };
+
 /// A way to sample light.
 struct Way {
     const char* name;
     PathSettings settings;
+    Drawn drawn = Drawn::None;
 };
 
-const std::array<Way, 3> kWays{{{"both", {kBounces, 0.0f, LightStrategy::Mis}},
-                                {"lights", {kBounces, 0.0f, LightStrategy::LightOnly}},
-                                {"BSDF", {kBounces, 0.0f, LightStrategy::BsdfOnly}}}};
+constexpr uint32_t kBounces = 4;
+
+const std::vector<Way> kWays{{"both", {kBounces, 0.0f, LightStrategy::Mis}},
+                             {"lights", {kBounces, 0.0f, LightStrategy::LightOnly}},
+                             {"BSDF", {kBounces, 0.0f, LightStrategy::BsdfOnly}}};
+
+/// Openings are sampled by paths of all lengths only. The others forget less than a millionth of
+/// the light: no albedo is larger than 0.8.
+constexpr uint32_t kManyBounces = 60;
+
+const std::vector<Way> kOpeningWays{{"found openings", {}, Drawn::Found},
+                                    {"random openings", {}, Drawn::Random}};
+
+/// Rectangles in all directions in and around a room. None is a window but by chance.
+std::vector<Opening> random_openings(uint64_t seed) {
+    std::mt19937_64 engine(seed);
+    std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+    std::vector<Opening> openings(4);
+    for (Opening& opening : openings) {
+        const glm::vec3 normal = test::random_direction(engine);
+        const glm::vec3 side = glm::normalize(glm::cross(normal, test::random_direction(engine)));
+        opening = {2.5f * glm::vec3(uniform(engine), 0.6f * uniform(engine), uniform(engine)),
+                   (1.0f + 0.5f * uniform(engine)) * side,
+                   (1.0f + 0.5f * uniform(engine)) * glm::cross(normal, side), normal};
+    }
+    return openings;
+}
+
+std::vector<Opening> openings_for(Drawn drawn, const Scene& scene, const TraceScene& traced,
+                                  uint64_t seed) {
+    if (drawn == Drawn::Found) return openings_of(scene, traced);
+    return drawn == Drawn::Random ? random_openings(seed) : std::vector<Opening>{};
+}
 
 constexpr size_t kValues = size_t{3} * kShCoefficientCount;
 
@@ -95,7 +132,9 @@ using Differences = std::array<double, kValues>;
 /// The differences of all ways at all probes, by way and probe.
 class Comparison {
   public:
-    Comparison() {
+    /// `reference_bounces`: of the simple tracer.
+    Comparison(const std::vector<Way>& ways, uint32_t reference_bounces)
+        : ways_(ways), reference_bounces_(reference_bounces), differences_(ways.size()) {
         const size_t scenes = test::is_nightly() ? 300 : 30;
         for (auto& of_probes : differences_) of_probes.resize(scenes * kProbesPerScene);
         parallel_for(scenes, 0, [&](size_t scene) { compare(scene); });
@@ -110,7 +149,7 @@ class Comparison {
         const test::RandomScene random = test::make_random_scene(scene_index, kProbesPerScene);
         const auto traced = TraceScene::make_static(random.scene);
         ASSERT_TRUE(traced);
-        const test::SimpleTracer simple(random.scene, *traced, kBounces);
+        const test::SimpleTracer simple(random.scene, *traced, reference_bounces_);
         std::vector<Means> references;
         for (const glm::dvec3& probe : random.probes) {
             references.push_back(means_of(kReferenceTrials, [&](uint32_t trial) {
@@ -119,8 +158,10 @@ class Comparison {
             }));
         }
         const DirectionSet directions(kSamples);
-        for (size_t way = 0; way < kWays.size(); ++way) {
-            const PathTracer tracer(random.scene, *traced, kWays[way].settings);
+        for (size_t way = 0; way < ways_.size(); ++way) {
+            const PathTracer tracer(
+                random.scene, *traced, ways_[way].settings, {},
+                openings_for(ways_[way].drawn, random.scene, *traced, scene_index));
             for (size_t i = 0; i < kProbesPerScene; ++i) {
                 const glm::dvec3& probe = random.probes[i];
                 const Means means = means_of(kTrials, [&](uint32_t trial) {
@@ -134,12 +175,14 @@ class Comparison {
         }
     }
 
-    std::array<std::vector<Differences>, kWays.size()> differences_;
+    const std::vector<Way>& ways_;
+    uint32_t reference_bounces_;
+    std::vector<std::vector<Differences>> differences_;
 };
 
 /// The largest difference: all values of all ways pass with a probability of 1 − 1e-4 (Bonferroni).
-void expect_no_outlier(const std::vector<Differences>& probes) {
-    const double comparisons = static_cast<double>(probes.size() * kValues * kWays.size());
+void expect_no_outlier(const std::vector<Differences>& probes, size_t way_count) {
+    const double comparisons = static_cast<double>(probes.size() * kValues * way_count);
     const double chance = 1e-4 / comparisons;
     for (size_t i = 0; i < probes.size(); ++i) {
         for (size_t k = 0; k < kValues; ++k) {
@@ -165,13 +208,21 @@ void expect_no_trend(const std::vector<Differences>& probes) {
     EXPECT_LT(std::abs(lights) / std::sqrt(count), 4.5);
 }
 
-TEST(Unbiased, MeansInRandomScenesAreThoseOfASimpleTracer) {
-    const Comparison comparison;
-    for (size_t way = 0; way < kWays.size(); ++way) {
-        SCOPED_TRACE(kWays[way].name);
-        expect_no_outlier(comparison.of_way(way));
+void expect_the_means_of_a_simple_tracer(const std::vector<Way>& ways, uint32_t bounces) {
+    const Comparison comparison(ways, bounces);
+    for (size_t way = 0; way < ways.size(); ++way) {
+        SCOPED_TRACE(ways[way].name);
+        expect_no_outlier(comparison.of_way(way), ways.size());
         expect_no_trend(comparison.of_way(way));
     }
+}
+
+TEST(Unbiased, MeansInRandomScenesAreThoseOfASimpleTracer) {
+    expect_the_means_of_a_simple_tracer(kWays, kBounces);
+}
+
+TEST(Unbiased, SamplesOfOpeningsDoNotChangeTheMeans) {
+    expect_the_means_of_a_simple_tracer(kOpeningWays, kManyBounces);
 }
 
 }  // namespace

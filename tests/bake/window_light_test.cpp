@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
@@ -11,41 +12,22 @@
 #include <tetralight/bake/probe_estimator.h>
 #include <tetralight/bake/sampling/sampling.h>
 #include <tetralight/base/error_text.h>
-#include "tests/support/scenes.h"
+#include "tests/support/window_room.h"
 
 // A room whose light comes through one window.
 
 namespace tetralight {
 namespace {
 
+using test::kUp;
+using test::kWindow;
+using test::kWindowAlong;
+using test::wall_material;
+using test::window_room;
+
 constexpr double kBand0 = 0.28209479177387814;
 
 enum class Outside { Sun, Sky };
-
-Material wall_material(glm::vec3 albedo = glm::vec3(0.6f), glm::vec3 emission = glm::vec3(0.0f)) {
-    Material material = test::diffuse(albedo, emission);
-    material.is_double_sided = true;
-    return material;
-}
-
-/// Where something in the window of `room` stands.
-constexpr glm::vec3 kSill(-0.5f, 1.0f, -2.0f), kSillAlong(1, 0, 0), kUp(0, 1, 0);
-
-/// A room of 4 × 3 × 4 m around the Y axis, with a window of 1 m² in the wall at z = −2. The floor
-/// is its first instance.
-Scene room(const Material& walls = wall_material()) {
-    Scene scene;
-    test::add_floor(scene, walls, 2.0f);
-    test::add_ceiling(scene, walls, 2.0f, 3.0f);
-    test::add_quad(scene, walls, {-2, 0, 2}, {0, 3, 0}, {4, 0, 0});
-    test::add_quad(scene, walls, {-2, 0, -2}, {0, 3, 0}, {0, 0, 4});
-    test::add_quad(scene, walls, {2, 0, -2}, {0, 0, 4}, {0, 3, 0});
-    test::add_quad(scene, walls, {-2, 0, -2}, {1.5f, 0, 0}, {0, 3, 0});
-    test::add_quad(scene, walls, {0.5f, 0, -2}, {1.5f, 0, 0}, {0, 3, 0});
-    test::add_quad(scene, walls, {-0.5f, 0, -2}, {1, 0, 0}, {0, 1, 0});
-    test::add_quad(scene, walls, {-0.5f, 2, -2}, {1, 0, 0}, {0, 1, 0});
-    return scene;
-}
 
 void add_light(Scene& scene, Outside outside) {
     if (outside == Outside::Sky) {
@@ -90,13 +72,13 @@ void expect_ratio(const Measured& actual, const Measured& expected, double ratio
 
 TEST(WindowLight, PaneTransmitsItsFraction) {
     for (const Outside outside : {Outside::Sun, Outside::Sky}) {
-        Scene open = room();
+        Scene open = window_room();
         add_light(open, outside);
         Scene glazed = open;
         Material pane = wall_material(glm::vec3(0.0f));
         pane.alpha_mode = AlphaMode::Blend;
         pane.base_color.a = 0.4f;
-        test::add_quad(glazed, pane, kSill, kSillAlong, kUp);
+        test::add_quad(glazed, pane, kWindow, kWindowAlong, kUp);
         expect_ratio(light_at(glazed, 1), light_at(open, 2), 0.6);
     }
 }
@@ -104,7 +86,7 @@ TEST(WindowLight, PaneTransmitsItsFraction) {
 TEST(WindowLight, CutOutScreenTransmitsTheFractionOfItsHoles) {
     // Stripes of 1 cm, half of them holes.
     for (const Outside outside : {Outside::Sun, Outside::Sky}) {
-        Scene open = room();
+        Scene open = window_room();
         add_light(open, outside);
         Scene screened = open;
         Texture stripes;
@@ -114,7 +96,7 @@ TEST(WindowLight, CutOutScreenTransmitsTheFractionOfItsHoles) {
         screen.alpha_mode = AlphaMode::Mask;
         screen.base_color_texture.texture = 0;
         screen.base_color_texture.image_from_mesh[0][0] = 50.0f;
-        test::add_quad(screened, screen, kSill, kSillAlong, kUp);
+        test::add_quad(screened, screen, kWindow, kWindowAlong, kUp);
         expect_ratio(light_at(screened, 1), light_at(open, 2), 0.5);
     }
 }
@@ -122,7 +104,7 @@ TEST(WindowLight, CutOutScreenTransmitsTheFractionOfItsHoles) {
 TEST(WindowLight, MetalFloorReflectsAsADiffuseOneOfItsDiffuseReflectivity) {
     // Half of the colour times the roughness.
     for (const Outside outside : {Outside::Sun, Outside::Sky}) {
-        Scene metal = room();
+        Scene metal = window_room();
         add_light(metal, outside);
         Scene matt = metal;
         Material& floor = metal.materials[metal.meshes[metal.instances[0].mesh].material];
@@ -138,7 +120,7 @@ TEST(WindowLight, MetalFloorReflectsAsADiffuseOneOfItsDiffuseReflectivity) {
 TEST(WindowLight, IsTheSameTenKilometresAway) {
     const glm::dvec3 far(1e4, -1e4, 1e4);
     for (const Outside outside : {Outside::Sun, Outside::Sky}) {
-        Scene here = room();
+        Scene here = window_room();
         add_light(here, outside);
         Scene there = here;
         for (MeshInstance& instance : there.instances) {
@@ -150,7 +132,7 @@ TEST(WindowLight, IsTheSameTenKilometresAway) {
 
 TEST(WindowLight, FurnaceWithAWindowHasRadianceOne) {
     // Walls emit what they absorb, and the sky has radiance 1.
-    Scene scene = room(wall_material(glm::vec3(0.5f), glm::vec3(0.5f)));
+    Scene scene = window_room(wall_material(glm::vec3(0.5f), glm::vec3(0.5f)));
     scene.environment.radiance = glm::vec3(1.0f);
     const auto traced = TraceScene::make_static(scene);
     ASSERT_TRUE(traced);
@@ -175,9 +157,95 @@ TEST(WindowLight, FurnaceWithAWindowHasRadianceOne) {
     }
 }
 
+/// The light of the probe with openings, or without, of the mean of some estimates.
+Measured estimated(const Scene& scene, const LightPlan& plan, std::vector<Opening> openings,
+                   const std::function<RadianceSh(const ProbeEstimate&)>& light_of) {
+    const auto traced = TraceScene::make_static(scene);
+    const PathTracer tracer(scene, *traced, {}, plan, std::move(openings));
+    const DirectionSet directions(1024);
+    double sum = 0.0, squares = 0.0;
+    constexpr int kTrials = 64;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        const uint64_t key = probe_key(static_cast<uint64_t>(trial), kProbe);
+        const double light =
+            light_of(estimate_probe(tracer, traced->render_from_world(kProbe), key, directions))
+                .coefficients[0]
+                .g;
+        sum += light / kTrials;
+        squares += light * light / kTrials;
+    }
+    return {sum, std::sqrt(std::max(0.0, squares - sum * sum) / (kTrials - 1))};
+}
+
+RadianceSh all_light(const ProbeEstimate& estimate) {
+    return estimate.radiance;
+}
+
+std::vector<Opening> the_window(const Scene& scene) {
+    const auto traced = TraceScene::make_static(scene);
+    return {{traced->render_from_world(kWindow), kWindowAlong, kUp, {0, 0, 1}}};
+}
+
+TEST(WindowLight, IsTheSameWithLessNoiseIfTheWindowIsKnown) {
+    for (const Outside outside : {Outside::Sun, Outside::Sky}) {
+        Scene scene = window_room();
+        add_light(scene, outside);
+        const Measured known = estimated(scene, {}, the_window(scene), all_light);
+        const Measured unknown = estimated(scene, {}, {}, all_light);
+        expect_ratio(known, unknown, 1.0);
+        EXPECT_LT(known.error, 0.7 * unknown.error) << static_cast<int>(outside);
+    }
+}
+
+TEST(WindowLight, LimitsOfBouncesAndLightIgnoreOpenings) {
+    Scene scene = window_room();
+    add_light(scene, Outside::Sun);
+    const auto traced = TraceScene::make_static(scene);
+    const DirectionSet directions(64);
+    const glm::vec3 origin = traced->render_from_world(kProbe);
+    for (const PathSettings& settings : {PathSettings{.bounces = 3}, PathSettings{.clamp = 1.0f},
+                                         PathSettings{.strategy = LightStrategy::BsdfOnly}}) {
+        const PathTracer with(scene, *traced, settings, {}, the_window(scene));
+        const PathTracer without(scene, *traced, settings);
+        EXPECT_TRUE(with.openings().is_empty());
+        EXPECT_EQ(estimate_probe(with, origin, 1, directions).radiance,
+                  estimate_probe(without, origin, 1, directions).radiance);
+    }
+}
+
+TEST(WindowLight, LayersOfSunAndSkyAreTheirLight) {
+    Scene sun = window_room(), sky = sun;
+    add_light(sun, Outside::Sun);
+    add_light(sky, Outside::Sky);
+    Scene both = sun;
+    add_light(both, Outside::Sky);
+    LightPlan plan;
+    plan.layer_count = 2;
+    plan.layer_of_light = {0};
+    plan.layer_of_sky = 1;
+    for (const uint32_t layer : {0u, 1u}) {
+        const auto layer_light = [layer](const ProbeEstimate& estimate) {
+            RadianceSh light;
+            light.coefficients[0].g = static_cast<float>(estimate.light_groups[layer * 27 + 1]);
+            return light;
+        };
+        const Scene& alone = layer == 0 ? sun : sky;
+        expect_ratio(estimated(both, plan, the_window(both), layer_light),
+                     estimated(alone, {}, {}, all_light), 1.0);
+    }
+    const auto sum_of_layers = [](const ProbeEstimate& estimate) {
+        RadianceSh rest = estimate.radiance;
+        rest.coefficients[0].g -=
+            static_cast<float>(estimate.light_groups[1] + estimate.light_groups[28]);
+        EXPECT_NEAR(rest.coefficients[0].g, 0.0f, 1e-5f * estimate.radiance.coefficients[0].g);
+        return rest;
+    };
+    estimated(both, plan, the_window(both), sum_of_layers);
+}
+
 TEST(WindowLight, ASealedRoomBesideItIsBlack) {
     for (const bool is_double_sided : {false, true}) {
-        Scene scene = room();
+        Scene scene = window_room();
         add_light(scene, Outside::Sun);
         add_light(scene, Outside::Sky);
         test::add_point_light(scene, LightMode::Baked, glm::vec3(50.0f), {1, 1, 1}).radius = 0.2f;
@@ -193,7 +261,7 @@ TEST(WindowLight, ASealedRoomBesideItIsBlack) {
 }
 
 TEST(WindowLight, SameBitsForAnyThreadsAndOtherPositions) {
-    Scene scene = room();
+    Scene scene = window_room();
     add_light(scene, Outside::Sun);
     add_light(scene, Outside::Sky);
     std::vector<glm::dvec3> positions;

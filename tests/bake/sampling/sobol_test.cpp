@@ -57,6 +57,18 @@ TEST(Sampler, OnePathIsUniformOverKeys) {
     EXPECT_LT(test::chi_square(bins, kCount / 256.0), test::chi_square_limit(bins.size()));
 }
 
+TEST(Sampler, ABranchIsIndependentOfItsPath) {
+    std::array<int, 256> bins{};
+    constexpr int kCount = 256 * 400;
+    for (int key = 0; key < kCount; ++key) {
+        Sampler sampler(static_cast<uint64_t>(key), 5);
+        Sampler branch = sampler.branch();
+        ++bins[static_cast<size_t>(sampler.next() * 16.0f) * 16 +
+               static_cast<size_t>(branch.next() * 16.0f)];
+    }
+    EXPECT_LT(test::chi_square(bins, kCount / 256.0), test::chi_square_limit(bins.size()));
+}
+
 TEST(Sampler, PairsOfDimensionsAreIndependent) {
     // Padding: which point of one pair meets which point of another is shuffled.
     std::array<int, 256> bins{};

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/lights/find_openings.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+
+#include <tetralight/bake/lights/fit_hole.h>
+#include <tetralight/bake/sampling/mix.h>
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bake/sampling/sobol.h>
+
+namespace tetralight {
+namespace {
+
+/// Places on surfaces at first, and rays that tell whether a place is enclosed: at most
+/// `kMaxEscaped` of them escape.
+constexpr uint32_t kPlaces = 2048, kRaysPerPlace = 16, kMaxEscaped = 2;
+
+/// Steps of walks from enclosed places, in all.
+constexpr uint32_t kSteps = 40'000;
+constexpr uint32_t kStepsPerWalk = 16;
+
+/// Most rays that are kept.
+constexpr size_t kMaxRays = 768;
+
+/// No triangle gets more than this share of the places.
+constexpr double kMaxShare = 1.0 / 64.0;
+
+/// Metres in scenes that are not smaller than 5 m.
+constexpr float kStep = 0.15f;         ///< between positions along a ray
+constexpr float kMaxClearance = 2.5f;  ///< half of the width of an opening
+constexpr float kMaxLength = 40.0f;    ///< of the part of a ray that is searched
+constexpr float kLink = 0.75f;         ///< largest distance of neighbors in an opening
+constexpr size_t kMinPoints = 6;
+
+struct Place {
+    glm::vec3 origin{0.0f};  ///< of rays
+    glm::vec3 normal{0.0f};
+};
+
+class Finder {
+  public:
+    explicit Finder(const TraceScene& trace_scene) : trace_scene_(trace_scene) {}
+
+    std::vector<Opening> find() {
+        measure();
+        if (triangles_.empty()) return {};
+        find_enclosed();
+        if (enclosed_.empty()) return {};
+        walk();
+        return cluster();
+    }
+
+  private:
+    struct Triangle {
+        std::array<glm::vec3, 3> corners;
+        double end = 0.0;  ///< cumulative weight
+    };
+
+    void measure() {
+        glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+        std::vector<double> areas;
+        for (uint32_t g = 0; g < trace_scene_.geometry_count(); ++g) {
+            for (uint32_t i = 0; i < trace_scene_.triangle_count(g); ++i) {
+                const auto corners = trace_scene_.triangle(g, i);
+                const double area =
+                    0.5 * glm::length(glm::cross(glm::dvec3(corners[1]) - glm::dvec3(corners[0]),
+                                                 glm::dvec3(corners[2]) - glm::dvec3(corners[0])));
+                if (!(area > 0.0) || !std::isfinite(area)) continue;
+                for (const glm::vec3& corner : corners) {
+                    low = glm::min(low, corner);
+                    high = glm::max(high, corner);
+                }
+                triangles_.push_back({corners});
+                areas.push_back(area);
+            }
+        }
+        if (areas.empty()) return;
+        const glm::vec3 extent = high - low;
+        scale_ = std::min(1.0f, std::max({extent.x, extent.y, extent.z}) / 5.0f);
+        // Lower the largest areas until none has more than its share.
+        double limit = *std::ranges::max_element(areas);
+        for (int i = 0; i < 64; ++i) {
+            double sum = 0.0;
+            for (const double area : areas) sum += std::min(area, limit);
+            if (limit <= kMaxShare * sum * 1.01 || areas.size() < 64) break;
+            limit = kMaxShare * sum;
+        }
+        double end = 0.0;
+        for (size_t i = 0; i < areas.size(); ++i)
+            triangles_[i].end = end += std::min(areas[i], limit);
+    }
+
+    [[nodiscard]] std::optional<SurfaceSide> intersect(const Ray& ray) const {
+        return trace_scene_.intersect_side(ray);
+    }
+
+    /// Where a ray goes on after a hit; none at a back face.
+    [[nodiscard]] std::optional<Place> place_of(const Ray& ray,
+                                                const std::optional<SurfaceSide>& side) const {
+        if (!side || side->is_back_face) return std::nullopt;
+        const glm::vec3 hit = ray.origin + side->distance * ray.direction;
+        return Place{trace_scene_.ray_origin(*side, hit, side->normal), side->normal};
+    }
+
+    [[nodiscard]] uint32_t escaped(const Place& place, uint64_t key) const {
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < kRaysPerPlace; ++i) {
+            Sampler sampler(key, i);
+            const glm::vec3 direction = sample_cosine_hemisphere(place.normal, sampler.next2());
+            if (!intersect({place.origin, direction})) ++count;
+        }
+        return count;
+    }
+
+    void find_enclosed() {
+        for (uint32_t i = 0; i < kPlaces; ++i) {
+            Sampler sampler(1, i);
+            const double chosen = sampler.next_double() * triangles_.back().end;
+            const auto it = std::ranges::upper_bound(triangles_, chosen, {}, &Triangle::end);
+            const Triangle& triangle = it == triangles_.end() ? triangles_.back() : *it;
+            const glm::vec2 u = sampler.next2();
+            const float root = std::sqrt(u.x);
+            const glm::vec3 position = triangle.corners[0] * (1.0f - root) +
+                                       triangle.corners[1] * (root * (1.0f - u.y)) +
+                                       triangle.corners[2] * (root * u.y);
+            const glm::vec3 normal =
+                glm::normalize(glm::cross(triangle.corners[1] - triangle.corners[0],
+                                          triangle.corners[2] - triangle.corners[0]));
+            const float height = 1e-3f * scale_;
+            const Ray ray{position + height * normal, -normal, 2.0f * height};
+            const auto place = place_of(ray, intersect(ray));
+            if (place && escaped(*place, detail::mix(i)) <= kMaxEscaped)
+                enclosed_.push_back(*place);
+        }
+    }
+
+    /// Walks from enclosed places and keeps where their rays are narrow before they escape.
+    void walk() {
+        uint32_t steps = 0;
+        for (uint32_t i = 0; steps < kSteps && narrow_.size() < kMaxRays; ++i) {
+            Place place = enclosed_[i % enclosed_.size()];
+            Sampler sampler(2, i);
+            for (uint32_t step = 0; step < kStepsPerWalk; ++step, ++steps) {
+                const Ray ray{place.origin,
+                              sample_cosine_hemisphere(place.normal, sampler.next2())};
+                const auto surface = intersect(ray);
+                if (!surface) {
+                    if (escaped(place, detail::mix(~uint64_t{i})) <= kMaxEscaped)
+                        add(ray, kMaxLength * scale_);
+                    break;
+                }
+                const auto next = place_of(ray, surface);
+                if (!next) break;
+                if (is_open(*next, i + step)) {
+                    if (escaped(place, detail::mix(~uint64_t{i})) <= kMaxEscaped)
+                        add(ray,
+                            std::min(glm::distance(next->origin, ray.origin), kMaxLength * scale_));
+                    break;
+                }
+                place = *next;
+            }
+        }
+    }
+
+    /// True if two of four rays escape, and a quarter of as many as tell enclosed places.
+    [[nodiscard]] bool is_open(const Place& place, uint64_t key) const {
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < 4; ++i) {
+            Sampler sampler(detail::mix(key), i);
+            const glm::vec3 direction = sample_cosine_hemisphere(place.normal, sampler.next2());
+            if (!intersect({place.origin, direction})) ++count;
+        }
+        return count >= 2 && escaped(place, detail::mix(~key)) >= kRaysPerPlace / 4;
+    }
+
+    /// Keeps the narrowest place of a ray after its start, the first if there are several.
+    void add(const Ray& ray, float length) {
+        const float step = kStep * scale_;
+        const float reach = kMaxClearance * scale_;
+        const auto clearance = [&](float distance) {
+            const glm::vec3 position = ray.origin + distance * ray.direction;
+            const auto nearest = trace_scene_.nearest_surface(position, reach);
+            return nearest ? glm::distance(position, *nearest) : reach;
+        };
+        float narrowest = reach, at = -1.0f;
+        float before = 0.0f;
+        bool has_fallen = false;
+        float t = step;
+        while (t < length) {
+            const float now = clearance(t);
+            has_fallen = has_fallen || now < before - 1e-3f * step;
+            if (has_fallen && now < narrowest) {
+                narrowest = now;
+                at = t;
+            }
+            if (at > 0.0f && now >= reach) break;
+            before = now;
+            // Nothing is nearer than this: clearance falls by at most the distance moved.
+            t += std::max(step, now - narrowest);
+        }
+        if (at > 0.0f) narrow_.push_back({ray.origin + at * ray.direction, ray.direction});
+    }
+
+    /// Fits a hole to each group of near places, the largest first.
+    std::vector<Opening> cluster() {
+        std::vector<std::pair<size_t, Opening>> found;
+        std::vector<bool> is_taken(narrow_.size());
+        for (;;) {
+            const std::vector<size_t> group = largest_group(is_taken);
+            if (group.size() < std::max(kMinPoints, narrow_.size() / 20)) break;
+            for (const size_t i : group) is_taken[i] = true;
+            std::vector<NarrowPlace> places;
+            for (const size_t i : group) places.push_back(narrow_[i]);
+            if (const auto opening = fit_hole(trace_scene_, places, scale_))
+                found.emplace_back(group.size(), *opening);
+            if (found.size() >= 2 * Openings::kMaxCount) break;
+        }
+        std::ranges::stable_sort(found, std::ranges::greater{}, &std::pair<size_t, Opening>::first);
+        std::vector<Opening> openings;
+        for (const auto& [size, opening] : found) openings.push_back(opening);
+        return openings;
+    }
+
+    /// The largest group of places that short distances connect.
+    [[nodiscard]] std::vector<size_t> largest_group(const std::vector<bool>& is_taken) const {
+        std::vector<size_t> best;
+        std::vector<bool> is_seen = is_taken;
+        const float link = kLink * scale_;
+        for (size_t seed = 0; seed < narrow_.size(); ++seed) {
+            if (is_seen[seed]) continue;
+            std::vector<size_t> group{seed};
+            is_seen[seed] = true;
+            for (size_t k = 0; k < group.size(); ++k) {
+                for (size_t i = 0; i < narrow_.size(); ++i) {
+                    if (is_seen[i]) continue;
+                    if (glm::distance(narrow_[i].position, narrow_[group[k]].position) > link)
+                        continue;
+                    is_seen[i] = true;
+                    group.push_back(i);
+                }
+            }
+            if (group.size() > best.size()) best = std::move(group);
+        }
+        return best;
+    }
+
+    const TraceScene& trace_scene_;
+    std::vector<Triangle> triangles_;
+    float scale_ = 1.0f;
+    std::vector<Place> enclosed_;
+    std::vector<NarrowPlace> narrow_;
+};
+
+}  // namespace
+
+std::vector<Opening> find_openings(const TraceScene& trace_scene) {
+    return Finder(trace_scene).find();
+}
+
+}  // namespace tetralight
