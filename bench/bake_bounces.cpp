@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <tetralight/bake/bake_settings.h>
+#include <tetralight/bake/lights/scene_openings.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/probe_estimator.h>
@@ -29,7 +30,8 @@ struct Bounced {
 
 Bounced trace(const BakeSubject& subject, uint32_t bounces, uint32_t seeds) {
     const TraceScene scene = *TraceScene::make_static(subject.scene);
-    const PathTracer tracer(subject.scene, scene, {.bounces = bounces});
+    const PathTracer tracer(subject.scene, scene, {.bounces = bounces}, {},
+                            openings_of(subject.scene, scene));
     const DirectionSet directions(kSamples);
     const size_t probes = std::min(kProbes, subject.probes.size());
     std::vector<RadianceSh> light(probes * seeds);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <tetralight/bake/bake_probes.h>
+#include <tetralight/bake/lights/scene_openings.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/probe_estimator.h>
@@ -28,7 +29,8 @@ class Convergence {
     Convergence(const BakeSubject& subject, std::ostream& csv)
         : subject_(subject),
           scene_(*TraceScene::make_static(subject.scene)),
-          tracer_(subject.scene, scene_, {kBounces}),
+          tracer_(subject.scene, scene_, {}, {}, openings_of(subject.scene, scene_)),
+          without_openings_(subject.scene, scene_, {}),
           csv_(csv) {
         scene_.listen(
             {[](void* rays, const Ray&, RayKind, float) { ++*static_cast<uint64_t*>(rays); },
@@ -37,16 +39,21 @@ class Convergence {
 
     void write() {
         for (size_t i = 0; i < std::min(kProbes, subject_.probes.size()); ++i) {
-            const RadianceSh light = ours(subject_.probes[i], kTrials, kReference);
+            const RadianceSh light = ours(tracer_, subject_.probes[i], kTrials, kReference);
             if (light == RadianceSh{}) continue;
             probes_.push_back(subject_.probes[i]);
             references_.push_back(light);
         }
         for (uint32_t n = kFewest; n <= kMost; n *= 4) {
             write_line("ours", [&](const glm::dvec3& probe, uint64_t trial) {
-                return ours(probe, trial, n);
+                return ours(tracer_, probe, trial, n);
             });
-            PlainTracer plain(subject_.scene, scene_, kBounces);
+            if (!tracer_.openings().is_empty()) {
+                write_line("without openings", [&](const glm::dvec3& probe, uint64_t trial) {
+                    return ours(without_openings_, probe, trial, n);
+                });
+            }
+            PlainTracer plain(subject_.scene, scene_);
             write_line("random", [&](const glm::dvec3& probe, uint64_t trial) {
                 return plain.gather(scene_.render_from_world(probe), n, trial);
             });
@@ -54,14 +61,15 @@ class Convergence {
     }
 
   private:
-    [[nodiscard]] RadianceSh ours(const glm::dvec3& probe, uint64_t trial, uint32_t n) const {
+    [[nodiscard]] RadianceSh ours(const PathTracer& tracer, const glm::dvec3& probe, uint64_t trial,
+                                  uint32_t n) const {
         constexpr uint32_t kSets = 8;
         const DirectionSet directions(n / kSets);
         RadianceSh sum;
         for (uint64_t set = 0; set < kSets; ++set) {
             const uint64_t key = probe_key(kSets * trial + set, probe);
             sum +=
-                estimate_probe(tracer_, scene_.render_from_world(probe), key, directions).radiance;
+                estimate_probe(tracer, scene_.render_from_world(probe), key, directions).radiance;
         }
         return (1.0f / kSets) * sum;
     }
@@ -86,7 +94,7 @@ class Convergence {
 
     const BakeSubject& subject_;
     TraceScene scene_;
-    PathTracer tracer_;
+    PathTracer tracer_, without_openings_;
     std::ostream& csv_;
     uint64_t rays_ = 0;
     std::vector<glm::dvec3> probes_;

@@ -2,6 +2,7 @@
 // The whole baker against tracing the same rays only.
 #include <limits>
 
+#include <tetralight/bake/lights/scene_openings.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/probe_estimator.h>
@@ -37,7 +38,7 @@ class RayContest {
     explicit RayContest(const BakeSubject& subject)
         : subject_(subject),
           scene_(*TraceScene::make_static(subject.scene)),
-          tracer_(subject.scene, scene_, {kBounces}),
+          tracer_(subject.scene, scene_, {}, {}, openings_of(subject.scene, scene_)),
           rays_(kEstimates * subject.probes.size()) {
         parallel_for(rays_.size(), 1, [&](size_t item) {
             scene_.listen({record_ray, &rays_[item]});

@@ -12,9 +12,6 @@
 
 namespace tetralight::bench {
 
-/// Number of bounces in all benchmarks.
-inline constexpr uint32_t kBounces = 4;
-
 /// A scene and the positions at which its light is measured.
 struct BakeSubject {
     std::string name;

@@ -19,8 +19,8 @@ constexpr float kPi = std::numbers::pi_v<float>;
 
 }  // namespace
 
-PlainTracer::PlainTracer(const Scene& scene, const TraceScene& traced, uint32_t bounces)
-    : scene_(scene), traced_(traced), bounces_(bounces) {
+PlainTracer::PlainTracer(const Scene& scene, const TraceScene& traced)
+    : scene_(scene), traced_(traced) {
     for (const Light& light : scene.lights) lights_.push_back(traced.render_from_world(light));
     for (const MeshInstance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
@@ -59,9 +59,14 @@ glm::vec3 PlainTracer::trace(Ray ray) {
         }
         if (surface->is_back_face) return radiance;
         if (bounce == 0) radiance += surface->emission;
-        if (bounce == bounces_) return radiance;
         const glm::vec3 origin = TraceScene::ray_origin(*surface, surface->geometric_normal);
         throughput *= surface->albedo;
+        if (bounce >= 3) {
+            const float survival =
+                std::min(0.95f, std::max({throughput.r, throughput.g, throughput.b}));
+            if (!(next() < survival)) return radiance;
+            throughput /= survival;
+        }
         radiance += throughput * reflected_light(*surface, origin);
         const float u = next();
         ray = {origin, sample_cosine_hemisphere(surface->geometric_normal, {u, next()})};

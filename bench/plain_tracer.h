@@ -12,11 +12,12 @@
 namespace tetralight::bench {
 
 /// A path tracer without the baker's sampling: independent uniform directions, one emitter chosen
-/// uniformly at each vertex, no multiple importance sampling. Its expected result is the same.
+/// uniformly at each vertex, no multiple importance sampling, and Russian roulette by the
+/// throughput after three bounces. Its expected result is the same.
 class PlainTracer {
   public:
     /// Keeps references.
-    PlainTracer(const Scene& scene, const TraceScene& traced, uint32_t bounces);
+    PlainTracer(const Scene& scene, const TraceScene& traced);
 
     [[nodiscard]] RadianceSh gather(glm::vec3 origin, uint32_t sample_count, uint64_t seed);
 
@@ -32,7 +33,6 @@ class PlainTracer {
 
     const Scene& scene_;
     const TraceScene& traced_;
-    uint32_t bounces_;
     std::vector<Light> lights_;
     std::vector<Triangle> emitters_;
     std::mt19937_64 engine_;

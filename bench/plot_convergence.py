@@ -13,8 +13,8 @@ import sys
 
 WIDTH, HEIGHT = 860, 400
 TOP, BOTTOM, LEFT, GAP = 50, 60, 70, 60
-COLORS = {"ours": "#0a7e8c", "random": "#c8553d"}
-LABELS = {"ours": "Tetralight", "random": "plain path tracer"}
+COLORS = {"ours": "#0a7e8c", "without openings": "#8a6fb0", "random": "#c8553d"}
+LABELS = {"ours": "Tetralight", "without openings": "the same without openings", "random": "plain path tracer"}
 
 
 def read(path):

@@ -47,9 +47,12 @@ GizmoSettings gizmo_settings(const Values& values) {
             settings.has_cells = true;
         } else if (word == "lppv") {
             settings.has_proxies = true;
+        } else if (word == "openings") {
+            settings.has_openings = true;
         } else {
             refuse(values, "show",
-                   str_cat("\"", word, "\" is none of probes, cells, lppv, selection=x,y,z"));
+                   str_cat("\"", word,
+                           "\" is none of probes, cells, lppv, openings, selection=x,y,z"));
         }
     }
     return settings;

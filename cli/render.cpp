@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include <tetralight/bake/image/write_image.h>
@@ -12,6 +14,7 @@
 #include <tetralight/cli/renderer_kind.h>
 #include <tetralight/cli/view_options.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/render/opening_lines.h>
 #include <tetralight/render/render_gizmos.h>
 #include <tetralight/render/with_walls.h>
 #ifdef TETRALIGHT_HAS_GL
@@ -21,6 +24,10 @@
 
 namespace tetralight::cli {
 namespace {
+
+bool is_empty(const GizmoLines& group) {
+    return group.lines.empty();
+}
 
 struct Render {
     std::string scene_path;
@@ -49,7 +56,15 @@ struct Render {
                                       const Camera& camera) const {
         auto light = make_scene_light(scene, volume, probes);
         if (!light) return light.error().in(scene_path);
-        const Gizmos shown = make_gizmos(volume, light->proxy_volumes, gizmos);
+        Gizmos shown = make_gizmos(volume, light->proxy_volumes, gizmos);
+        if (gizmos.has_openings) {
+            auto openings = make_opening_lines(scene);
+            if (!openings) return openings.error().in(scene_path);
+            if (std::ranges::all_of(*openings, &is_empty)) {
+                common.warn({"no opening was found through which light enters a dark place"});
+            }
+            std::ranges::move(*openings, std::back_inserter(shown.lines));
+        }
         const auto render = [&](const PictureSource& source) {
             return render_gizmos(source, volume, camera, view.settings, shown, gizmos.probe_color);
         };

@@ -74,8 +74,16 @@ render gallery_selection plain.probes --show selection=0.6,1.3,6.2 --ball-radius
 bake "$scene" -g "$work/few.json" --only-given-groups -o "$work/few.probes" --samples 1024
 "$tetralight" check-leaks "$work/few.probes" --scene "$scene" --picture "$out/check_leaks.png" --quiet
 
+# The window of a room, and where the sun falls through it.
+python3 -B examples/scenes/make_window_room.py "$work/window_room.glb"
+room=("$work/window_room.glb" -g "$work/window_room.json" -o "$work/window_room.probes" --quiet)
+"$tetralight" grid "${room[0]}" -o "${room[2]}" --spacing 0.5 --from 2.5,1.5,2 --min=-0.2,0,0 --max 10.2,3,4 --quiet
+"$tetralight" bake "${room[@]}" --target-error 1%
+"$tetralight" render "${room[0]}" "${room[4]}" -o "$out/openings.png" --show openings --camera camera --exposure 4 \
+    --width 640 --height 360 --quiet
+
 if command -v pngquant >/dev/null; then
-    for picture in "$out"/gallery_*.png "$out"/courtyard_cells.png "$out"/check_leaks.png; do
+    for picture in "$out"/gallery_*.png "$out"/courtyard_cells.png "$out"/check_leaks.png "$out"/openings.png; do
         pngquant 256 --speed 1 --force --output "$picture" "$picture"
     done
 fi

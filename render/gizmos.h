@@ -23,6 +23,8 @@ struct GizmoSettings {
     bool has_probes = false;
     /// The grid points of proxy volumes as balls.
     bool has_proxies = false;
+    /// The openings that a bake samples (`make_opening_lines`).
+    bool has_openings = false;
     /// A position: shows its cell, the cell's probes with their weights, and the interpolated
     /// light.
     std::optional<glm::dvec3> selection = std::nullopt;
@@ -53,6 +55,7 @@ struct Gizmos {
     std::vector<GizmoLabel> labels;
 };
 
+/// All but the openings, which belong to the scene and not to the volume.
 [[nodiscard]] Gizmos make_gizmos(const ProbeVolumeView& volume, std::span<const Lppv> proxies,
                                  const GizmoSettings& settings);
 

@@ -13,8 +13,9 @@ constexpr Setting kShown[] = {
      .type = Type::Text,
      .help = "Draw over the scene, with commas between: probes (balls with the light of each "
              "probe), cells (their edges; hull edges in orange), lppv (points of proxy volumes), "
-             "selection=x,y,z (the cell at a position, its probes with their weights, and the "
-             "interpolated light)",
+             "openings (windows and doors where bakes look for light, and where the sun falls "
+             "through them), selection=x,y,z (the cell at a position, its probes with their "
+             "weights, and the interpolated light)",
      .without = "the scene only",
      .value_name = "LIST"},
     {.name = "ball_radius",

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <optional>
 
-#include <tetralight/bake/lights/fit_hole.h>
+#include <tetralight/bake/lights/fit_holes.h>
 #include <tetralight/bake/sampling/mix.h>
 #include <tetralight/bake/sampling/sampling.h>
 #include <tetralight/bake/sampling/sobol.h>
@@ -19,7 +17,10 @@ namespace {
 
 /// Places on surfaces at first, and rays that tell whether a place is enclosed: at most
 /// `kMaxEscaped` of them escape.
-constexpr uint32_t kPlaces = 2048, kRaysPerPlace = 16, kMaxEscaped = 2;
+constexpr uint32_t kPlaces = 2048, kRaysPerPlace = 16, kMaxEscaped = 4;
+
+/// At least so many escape from an open place.
+constexpr uint32_t kMinEscaped = 6;
 
 /// Steps of walks from enclosed places, in all.
 constexpr uint32_t kSteps = 40'000;
@@ -31,12 +32,18 @@ constexpr size_t kMaxRays = 768;
 /// No triangle gets more than this share of the places.
 constexpr double kMaxShare = 1.0 / 64.0;
 
-/// Metres in scenes that are not smaller than 5 m.
-constexpr float kStep = 0.15f;         ///< between positions along a ray
+/// Ratio of the clearance before and behind an opening to that in it, at least: the open side of a
+/// room, or a place along a corridor, is none.
+constexpr float kMinWidening = 1.5f;
+
+// Metres, times the scale.
+constexpr float kStep = 0.1f;          ///< between positions along a ray
 constexpr float kMaxClearance = 2.5f;  ///< half of the width of an opening
 constexpr float kMaxLength = 40.0f;    ///< of the part of a ray that is searched
 constexpr float kLink = 0.75f;         ///< largest distance of neighbors in an opening
 constexpr size_t kMinPoints = 6;
+
+constexpr size_t kMaxOpenings = 4 * Openings::kMaxCount;
 
 struct Place {
     glm::vec3 origin{0.0f};  ///< of rays
@@ -52,6 +59,7 @@ class Finder {
         if (triangles_.empty()) return {};
         find_enclosed();
         if (enclosed_.empty()) return {};
+        find_scale();
         walk();
         return cluster();
     }
@@ -63,7 +71,6 @@ class Finder {
     };
 
     void measure() {
-        glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
         std::vector<double> areas;
         for (uint32_t g = 0; g < trace_scene_.geometry_count(); ++g) {
             for (uint32_t i = 0; i < trace_scene_.triangle_count(g); ++i) {
@@ -72,17 +79,11 @@ class Finder {
                     0.5 * glm::length(glm::cross(glm::dvec3(corners[1]) - glm::dvec3(corners[0]),
                                                  glm::dvec3(corners[2]) - glm::dvec3(corners[0])));
                 if (!(area > 0.0) || !std::isfinite(area)) continue;
-                for (const glm::vec3& corner : corners) {
-                    low = glm::min(low, corner);
-                    high = glm::max(high, corner);
-                }
                 triangles_.push_back({corners});
                 areas.push_back(area);
             }
         }
         if (areas.empty()) return;
-        const glm::vec3 extent = high - low;
-        scale_ = std::min(1.0f, std::max({extent.x, extent.y, extent.z}) / 5.0f);
         // Lower the largest areas until none has more than its share.
         double limit = *std::ranges::max_element(areas);
         for (int i = 0; i < 64; ++i) {
@@ -129,15 +130,32 @@ class Finder {
             const glm::vec3 position = triangle.corners[0] * (1.0f - root) +
                                        triangle.corners[1] * (root * (1.0f - u.y)) +
                                        triangle.corners[2] * (root * u.y);
-            const glm::vec3 normal =
-                glm::normalize(glm::cross(triangle.corners[1] - triangle.corners[0],
-                                          triangle.corners[2] - triangle.corners[0]));
-            const float height = 1e-3f * scale_;
+            const glm::vec3 across = glm::cross(triangle.corners[1] - triangle.corners[0],
+                                                triangle.corners[2] - triangle.corners[0]);
+            const glm::vec3 normal = glm::normalize(across);
+            const float height = 1e-3f * std::sqrt(glm::length(across));
             const Ray ray{position + height * normal, -normal, 2.0f * height};
             const auto place = place_of(ray, intersect(ray));
             if (place && escaped(*place, detail::mix(i)) <= kMaxEscaped)
                 enclosed_.push_back(*place);
         }
+    }
+
+    /// Scenes are in metres, but for rooms of a size that no house has. The size is one that a
+    /// tenth of rays exceed: many are short, between parts of walls that overlap for example.
+    void find_scale() {
+        constexpr float kUsual = 4.5f, kLeast = 1.0f, kMost = 50.0f;
+        std::vector<float> lengths;
+        for (size_t i = 0; i < enclosed_.size(); ++i) {
+            Sampler sampler(4, static_cast<uint32_t>(i));
+            const Ray ray{enclosed_[i].origin,
+                          sample_cosine_hemisphere(enclosed_[i].normal, sampler.next2())};
+            if (const auto side = intersect(ray)) lengths.push_back(side->distance);
+        }
+        if (lengths.empty()) return;
+        const auto size = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() * 9 / 10);
+        std::ranges::nth_element(lengths, size);
+        if (*size < kLeast || *size > kMost) scale_ = *size / kUsual;
     }
 
     /// Walks from enclosed places and keeps where their rays are narrow before they escape.
@@ -168,7 +186,7 @@ class Finder {
         }
     }
 
-    /// True if two of four rays escape, and a quarter of as many as tell enclosed places.
+    /// Asks four rays first.
     [[nodiscard]] bool is_open(const Place& place, uint64_t key) const {
         uint32_t count = 0;
         for (uint32_t i = 0; i < 4; ++i) {
@@ -176,10 +194,10 @@ class Finder {
             const glm::vec3 direction = sample_cosine_hemisphere(place.normal, sampler.next2());
             if (!intersect({place.origin, direction})) ++count;
         }
-        return count >= 2 && escaped(place, detail::mix(~key)) >= kRaysPerPlace / 4;
+        return count >= 2 && escaped(place, detail::mix(~key)) >= kMinEscaped;
     }
 
-    /// Keeps the narrowest place of a ray after its start, the first if there are several.
+    /// Keeps the narrowest place of a ray that has more room before and behind.
     void add(const Ray& ray, float length) {
         const float step = kStep * scale_;
         const float reach = kMaxClearance * scale_;
@@ -189,41 +207,50 @@ class Finder {
             return nearest ? glm::distance(position, *nearest) : reach;
         };
         float narrowest = reach, at = -1.0f;
-        float before = 0.0f;
-        bool has_fallen = false;
+        bool is_falling = false;
+        float peak = 0.0f;                      // the last one
+        float bottom = 0.0f, bottom_at = 0.0f;  // since then
         float t = step;
         while (t < length) {
             const float now = clearance(t);
-            has_fallen = has_fallen || now < before - 1e-3f * step;
-            if (has_fallen && now < narrowest) {
-                narrowest = now;
-                at = t;
+            if (!is_falling) {
+                is_falling = now < peak;
+                if (!is_falling) peak = now;
+                bottom = now;
+                bottom_at = t;
+            } else if (now < bottom) {
+                bottom = now;
+                bottom_at = t;
+            } else if (now > std::max(bottom + step, kMinWidening * bottom)) {
+                if (bottom < narrowest && peak > kMinWidening * bottom) {
+                    narrowest = bottom;
+                    at = bottom_at;
+                }
+                is_falling = false;
+                peak = now;
             }
             if (at > 0.0f && now >= reach) break;
-            before = now;
             // Nothing is nearer than this: clearance falls by at most the distance moved.
             t += std::max(step, now - narrowest);
         }
         if (at > 0.0f) narrow_.push_back({ray.origin + at * ray.direction, ray.direction});
     }
 
-    /// Fits a hole to each group of near places, the largest first.
+    /// Fits holes to each group of near places, the largest first.
     std::vector<Opening> cluster() {
-        std::vector<std::pair<size_t, Opening>> found;
-        std::vector<bool> is_taken(narrow_.size());
-        for (;;) {
-            const std::vector<size_t> group = largest_group(is_taken);
-            if (group.size() < std::max(kMinPoints, narrow_.size() / 20)) break;
-            for (const size_t i : group) is_taken[i] = true;
-            std::vector<NarrowPlace> places;
-            for (const size_t i : group) places.push_back(narrow_[i]);
-            if (const auto opening = fit_hole(trace_scene_, places, scale_))
-                found.emplace_back(group.size(), *opening);
-            if (found.size() >= 2 * Openings::kMaxCount) break;
-        }
-        std::ranges::stable_sort(found, std::ranges::greater{}, &std::pair<size_t, Opening>::first);
         std::vector<Opening> openings;
-        for (const auto& [size, opening] : found) openings.push_back(opening);
+        std::vector<bool> is_taken(narrow_.size());
+        while (openings.size() < kMaxOpenings) {
+            const std::vector<size_t> group = largest_group(is_taken);
+            if (group.size() < kMinPoints) break;
+            std::vector<NarrowPlace> places;
+            for (const size_t i : group) {
+                is_taken[i] = true;
+                places.push_back(narrow_[i]);
+            }
+            const std::vector<Opening> found = fit_holes(trace_scene_, places, scale_);
+            openings.insert(openings.end(), found.begin(), found.end());
+        }
         return openings;
     }
 
@@ -252,7 +279,7 @@ class Finder {
 
     const TraceScene& trace_scene_;
     std::vector<Triangle> triangles_;
-    float scale_ = 1.0f;
+    float scale_ = 1.0f;  ///< metres a unit of the constants
     std::vector<Place> enclosed_;
     std::vector<NarrowPlace> narrow_;
 };

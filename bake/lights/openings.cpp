@@ -19,6 +19,11 @@ namespace {
 /// Rays by which a spot is found.
 constexpr uint32_t kSpotRays = 64;
 
+/// Distance of the sampled rectangle from an opening, towards its dark side, in its edges: light
+/// that enters at a point is followed both ways from there, so that a pane in the plane of the
+/// opening must be on one side of it. Not a round number, as those of panes may be.
+constexpr float kPlaneOffset = 1.37e-3f;
+
 /// The smallest radius of a spot, in edges of its opening, so that the other spots are not
 /// forgotten close to it.
 constexpr float kMinSpotRadius = 0.1f;
@@ -94,8 +99,11 @@ Openings::Openings(const TraceScene& trace_scene, std::vector<Opening> openings,
     : trace_scene_(&trace_scene), openings_(std::move(openings)), lights_(std::move(lights)) {
     if (openings_.size() > kMaxCount) openings_.resize(kMaxCount);
     if (openings_.empty()) return;
+    for (Opening& opening : openings_) {
+        areas_.push_back(opening.area());
+        opening.corner += kPlaneOffset * std::sqrt(opening.area()) * opening.normal;
+    }
     for (uint32_t i = 0; i < openings_.size(); ++i) {
-        areas_.push_back(openings_[i].area());
         for (uint32_t k = 0; k < lights_.size(); ++k) find_spot(i, k);
     }
     std::ranges::stable_sort(spots_, std::ranges::greater{}, &LitSpot::power);

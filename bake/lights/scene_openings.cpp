@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include <tetralight/bake/lights/find_openings.h>
 #include <tetralight/bake/sampling/sampling.h>
@@ -14,7 +16,7 @@ namespace tetralight {
 namespace {
 
 /// Fraction of rays on one side of an opening that escape.
-double openness(const TraceScene& trace_scene, const Opening& opening, glm::vec3 normal) {
+float openness(const TraceScene& trace_scene, const Opening& opening, glm::vec3 normal) {
     constexpr uint32_t kRays = 256;
     uint32_t escaped = 0;
     for (uint32_t i = 0; i < kRays; ++i) {
@@ -23,27 +25,38 @@ double openness(const TraceScene& trace_scene, const Opening& opening, glm::vec3
         const Ray ray{origin, sample_cosine_hemisphere(normal, sampler.next2())};
         if (!trace_scene.intersect_side(ray)) ++escaped;
     }
-    return static_cast<double>(escaped) / kRays;
+    return static_cast<float>(escaped) / kRays;
+}
+
+/// About the light that an opening lets in.
+struct Candidate {
+    Opening opening;
+    float light = 0.0f;
+};
+
+/// The opening, turned towards its darker side; none if that is hardly darker.
+std::optional<Candidate> candidate_from(const TraceScene& trace_scene, Opening opening) {
+    float dark = openness(trace_scene, opening, opening.normal);
+    float bright = openness(trace_scene, opening, -opening.normal);
+    if (dark > bright) {
+        std::swap(dark, bright);
+        opening.normal = -opening.normal;
+    }
+    if (!(2.0f * dark < bright)) return std::nullopt;
+    return Candidate{opening, opening.area() * (bright - dark)};
 }
 
 Opening opening_from(const Portal& portal, const TraceScene& trace_scene) {
-    Opening opening;
-    opening.corner =
-        trace_scene.render_from_world(portal.center - 0.5 * (portal.along + portal.across));
-    opening.along = glm::vec3(portal.along);
-    opening.across = glm::vec3(portal.across);
-    opening.normal = glm::vec3(glm::normalize(glm::cross(portal.along, portal.across)));
-    if (openness(trace_scene, opening, opening.normal) >
-        openness(trace_scene, opening, -opening.normal)) {
-        opening.normal = -opening.normal;
-    }
-    return opening;
+    return {trace_scene.render_from_world(portal.center - 0.5 * (portal.along + portal.across)),
+            glm::vec3(portal.along), glm::vec3(portal.across),
+            glm::vec3(glm::normalize(glm::cross(portal.along, portal.across)))};
 }
 
 /// True if two openings are about the same.
 bool is_same(const Opening& a, const Opening& b) {
     const float reach = 0.25f * glm::length(a.along + a.across);
-    return std::abs(glm::dot(a.normal, b.normal)) > 0.9f &&
+    const float ratio = a.area() / b.area();
+    return ratio > 0.5f && ratio < 2.0f && std::abs(glm::dot(a.normal, b.normal)) > 0.9f &&
            glm::distance(a.point(glm::vec2(0.5f)), b.point(glm::vec2(0.5f))) < reach;
 }
 
@@ -54,18 +67,23 @@ std::vector<Opening> openings_of(const Scene& scene, const TraceScene& trace_sce
     const bool has_sun = std::ranges::any_of(scene.lights, [](const Light& light) {
         return light.type == LightType::Directional && light.mode != LightMode::Realtime;
     });
-    std::vector<Opening> openings;
-    if (!has_sky && !has_sun) return openings;
-    for (const Portal& portal : scene.portals) {
-        openings.push_back(opening_from(portal, trace_scene));
-    }
-    const size_t portal_count = openings.size();
+    if (!has_sky && !has_sun) return {};
+    std::vector<Candidate> candidates;
+    const auto add = [&](const Opening& opening) {
+        if (const auto candidate = candidate_from(trace_scene, opening))
+            candidates.push_back(*candidate);
+    };
+    for (const Portal& portal : scene.portals) add(opening_from(portal, trace_scene));
+    const size_t portal_count = candidates.size();
     for (const Opening& found : find_openings(trace_scene)) {
-        const auto portals = std::span(openings).first(portal_count);
-        if (std::ranges::none_of(portals, [&](const Opening& o) { return is_same(o, found); })) {
-            openings.push_back(found);
-        }
+        const auto portals = std::span(candidates).first(portal_count);
+        const auto is_found = [&](const Candidate& c) { return is_same(c.opening, found); };
+        if (std::ranges::none_of(portals, is_found)) add(found);
     }
+    std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::light);
+    if (candidates.size() > Openings::kMaxCount) candidates.resize(Openings::kMaxCount);
+    std::vector<Opening> openings;
+    for (const Candidate& candidate : candidates) openings.push_back(candidate.opening);
     return openings;
 }
 

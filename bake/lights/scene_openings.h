@@ -9,9 +9,10 @@
 
 namespace tetralight {
 
-/// The openings of a scene, in render space: its portals, oriented by rays towards the side that
-/// sees less of the sky, and those that `find_openings` finds elsewhere. None if no light can enter
-/// through them: the scene has neither a sky nor directional lights that are baked.
+/// The openings of a scene that let in most light, at most `Openings::kMaxCount`, in render space:
+/// its portals, turned by rays towards the side that sees less of the sky, and those that
+/// `find_openings` finds elsewhere. Those whose sides see about as much of it are left out. None if
+/// the scene has neither a sky nor directional lights that are baked.
 [[nodiscard]] std::vector<Opening> openings_of(const Scene& scene, const TraceScene& trace_scene);
 
 }  // namespace tetralight

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <random>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/probe_estimator.h>
 #include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bake/scene/scene_bounds.h>
 #include "tests/support/property.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/random_scene.h"
@@ -30,7 +32,7 @@ constexpr uint32_t kTrials = 32, kReferenceTrials = 128;
 constexpr uint32_t kSamples = 1024, kReferenceSamples = 1024;
 
 /// Which openings are sampled.
-enum class Drawn { None, Found, Random };
+enum class Drawn { None, Found, Wrong };
 
 /// A way to sample light.
 struct Way {
@@ -50,9 +52,9 @@ const std::vector<Way> kWays{{"both", {kBounces, 0.0f, LightStrategy::Mis}},
 constexpr uint32_t kManyBounces = 60;
 
 const std::vector<Way> kOpeningWays{{"found openings", {}, Drawn::Found},
-                                    {"random openings", {}, Drawn::Random}};
+                                    {"wrong openings", {}, Drawn::Wrong}};
 
-/// Rectangles in all directions in and around a room. None is a window but by chance.
+/// Four rectangles in all directions in and around a room.
 std::vector<Opening> random_openings(uint64_t seed) {
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
@@ -67,10 +69,34 @@ std::vector<Opening> random_openings(uint64_t seed) {
     return openings;
 }
 
+/// Four rectangles that are walls, panes, screens and emitters of the scene.
+std::vector<Opening> surfaces_as_openings(const Scene& scene, const TraceScene& traced,
+                                          uint64_t seed) {
+    std::vector<Opening> openings;
+    for (const MeshInstance& instance : scene.instances) {
+        const std::vector<glm::vec3>& positions = scene.meshes[instance.mesh].positions;
+        if (positions.size() != 4) continue;
+        const auto at = [&](size_t i) {
+            return traced.render_from_world(world_position(instance, positions[i]));
+        };
+        const glm::vec3 along = at(1) - at(0), across = at(3) - at(0);
+        const glm::vec3 normal = glm::normalize(glm::cross(along, across));
+        // Towards the middle.
+        const float sign = glm::dot(normal, at(0)) > 0.0f ? -1.0f : 1.0f;
+        openings.push_back({at(0), along, across, sign * normal});
+    }
+    std::ranges::shuffle(openings, std::mt19937_64(seed));
+    openings.resize(std::min<size_t>(openings.size(), 4));
+    return openings;
+}
+
 std::vector<Opening> openings_for(Drawn drawn, const Scene& scene, const TraceScene& traced,
                                   uint64_t seed) {
+    if (drawn == Drawn::None) return {};
     if (drawn == Drawn::Found) return openings_of(scene, traced);
-    return drawn == Drawn::Random ? random_openings(seed) : std::vector<Opening>{};
+    std::vector<Opening> openings = random_openings(seed);
+    std::ranges::move(surfaces_as_openings(scene, traced, seed), std::back_inserter(openings));
+    return openings;
 }
 
 constexpr size_t kValues = size_t{3} * kShCoefficientCount;

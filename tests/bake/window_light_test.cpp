@@ -197,6 +197,20 @@ TEST(WindowLight, IsTheSameWithLessNoiseIfTheWindowIsKnown) {
     }
 }
 
+TEST(WindowLight, APaneInThePlaneOfAnOpeningCountsOnce) {
+    // Light that enters at the opening is followed both ways from there.
+    for (const Outside outside : {Outside::Sun, Outside::Sky}) {
+        Scene scene = window_room();
+        add_light(scene, outside);
+        Material pane = wall_material(glm::vec3(0.3f));
+        pane.alpha_mode = AlphaMode::Blend;
+        pane.base_color.a = 0.3f;
+        test::add_quad(scene, pane, kWindow, kWindowAlong, kUp);
+        expect_ratio(estimated(scene, {}, the_window(scene), all_light),
+                     estimated(scene, {}, {}, all_light), 1.0);
+    }
+}
+
 TEST(WindowLight, LimitsOfBouncesAndLightIgnoreOpenings) {
     Scene scene = window_room();
     add_light(scene, Outside::Sun);

@@ -93,6 +93,12 @@ TEST_F(Render, DrawsTheCellsWhenAsked) {
         contains(misuse(arguments({"--show", "probes", "--ball-radius", "0"})), "--ball-radius"));
 }
 
+TEST_F(Render, WarnsIfThereAreNoOpeningsToShow) {
+    const std::string warning = "warning: no opening was found";
+    EXPECT_EQ(succeed(arguments({"--show", "openings"})).err.find(warning), 0u);
+    EXPECT_TRUE(contains(misuse(arguments({"--show", "windows"})), "openings"));
+}
+
 TEST_F(Render, ShowsLightThroughWallsWhenAsked) {
     const Arguments inside{"--camera", "camera_interior"};
     Arguments hidden = inside, ignored = inside;

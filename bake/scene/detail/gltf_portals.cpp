@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/detail/gltf_portals.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include <tetralight/bake/scene/detail/error_field.h>
@@ -9,6 +8,9 @@
 
 namespace tetralight::detail {
 namespace {
+
+/// Metres, as for vertices.
+constexpr double kMaxDistance = 1e12;
 
 constexpr const char* kPortalMember = ".extras.portal";
 
@@ -22,11 +24,16 @@ Result<Portal> converted(const glm::dvec2& size, const glm::dmat4& world_from_no
     if (length2 > 0.0) {
         portal.across -= portal.along * (glm::dot(portal.along, portal.across) / length2);
     }
-    const double area = glm::length(glm::cross(portal.along, portal.across));
-    if (size.x > 0.0 && size.y > 0.0 && area > 0.0 && std::isfinite(area)) return portal;
     const std::string value = str_cat("[", size.x, ", ", size.y, "]");
-    return Error{ErrorCode::InvalidArgument, "", value,
-                 str_cat("extras.portal ", value, " is not the size of a rectangle")};
+    const auto error = [&value](const char* what) {
+        return Error{ErrorCode::InvalidArgument, "", value, str_cat("extras.portal ", value, what)};
+    };
+    const double width = glm::length(portal.along), height = glm::length(portal.across);
+    if (!(size.x > 0.0 && size.y > 0.0)) return error(" is not a width and a height above 0");
+    if (!(width * height > 0.0)) return error(" has no area: see the scale of the node");
+    if (!(glm::length(portal.center) + width + height <= kMaxDistance))
+        return error(" reaches farther than 1e+12 m from the origin");
+    return portal;
 }
 
 }  // namespace

@@ -11,7 +11,8 @@
 namespace tetralight::detail {
 
 /// The rectangles of `extras.portal`: around the origin of their nodes, width along X and height
-/// along Y, with the scale of the node. Returns invalid_argument if one has no area or is infinite.
+/// along Y, with the scale of the node. Returns invalid_argument if one has no area, or
+/// reaches farther than 1e12 m from the origin.
 [[nodiscard]] Result<std::vector<Portal>> read_gltf_portals(const GltfDocument& document,
                                                             std::span<const GltfWorldNode> nodes);
 

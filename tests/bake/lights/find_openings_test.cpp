@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
@@ -52,7 +53,7 @@ TEST(FindOpenings, FindsItOnOpenGround) {
 }
 
 TEST(FindOpenings, FindsItInAnyPlaceSizeAndDirection) {
-    for (const double scale : {1.0, 0.02, 3.0}) {
+    for (const double scale : {1.0, 0.01, 3.0, 100.0}) {
         const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), glm::dvec3(1e4, -1e4, 1e4)) *
                                  glm::rotate(glm::dmat4(1.0), 0.6, glm::dvec3(0, 1, 0)) *
                                  glm::rotate(glm::dmat4(1.0), 0.2, glm::dvec3(1, 0, 0)) *
@@ -87,6 +88,60 @@ TEST(FindOpenings, FindsTwoWindows) {
     const std::vector<Opening> found = openings_in(scene);
     ASSERT_EQ(found.size(), 2u);
     EXPECT_LT(glm::dot(found[0].normal, found[1].normal), -0.99f);
+}
+
+TEST(FindOpenings, FindsEachOfTheWindowsOfAWall) {
+    // Three windows of 0.8 × 1 m, 0.4 m apart.
+    Scene scene;
+    const Material walls = test::wall_material();
+    test::add_floor(scene, walls, 2.0f);
+    test::add_ceiling(scene, walls, 2.0f, 3.0f);
+    test::add_quad(scene, walls, {-2, 0, 2}, {0, 3, 0}, {4, 0, 0});
+    test::add_quad(scene, walls, {-2, 0, -2}, {0, 3, 0}, {0, 0, 4});
+    test::add_quad(scene, walls, {2, 0, -2}, {0, 0, 4}, {0, 3, 0});
+    test::add_quad(scene, walls, {-2, 0, -2}, {4, 0, 0}, {0, 1, 0});
+    test::add_quad(scene, walls, {-2, 2, -2}, {4, 0, 0}, {0, 1, 0});
+    test::add_quad(scene, walls, {-2, 1, -2}, {0.4f, 0, 0}, {0, 1, 0});
+    for (int i = 0; i < 3; ++i) {
+        const float right = -1.6f + 1.2f * static_cast<float>(i) + 0.8f;
+        test::add_quad(scene, walls, {right, 1, -2}, {0.4f, 0, 0}, {0, 1, 0});
+    }
+    const TraceScene trace_scene = *TraceScene::make_static(scene);
+    std::vector<double> centers;
+    for (const Opening& opening : find_openings(trace_scene)) {
+        EXPECT_NEAR(opening.area(), 0.8f, 0.2f);
+        centers.push_back(trace_scene.world_from_render(opening.point(glm::vec2(0.5f))).x);
+    }
+    std::ranges::sort(centers);
+    ASSERT_EQ(centers.size(), 3u);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(centers[static_cast<size_t>(i)], 1.2 * (i - 1), 0.1);
+}
+
+TEST(FindOpenings, FindsTheWindowsOfManyRooms) {
+    Scene scene;
+    const Scene room = test::window_room();
+    scene.materials = room.materials;
+    scene.meshes = room.meshes;
+    for (int i = 0; i < 25; ++i) {
+        const glm::dvec3 place(5.0 * (i % 5), 0.0, 8.0 * (i / 5));
+        for (MeshInstance instance : room.instances) {
+            instance.world_from_mesh = glm::translate(glm::dmat4(1.0), place);
+            scene.instances.push_back(instance);
+        }
+    }
+    EXPECT_GE(openings_in(scene).size(), 20u);
+}
+
+TEST(FindOpenings, TheOpenSideOfARoomIsNone) {
+    Scene scene;
+    const Material walls = test::wall_material();
+    test::add_floor(scene, walls, 2.0f);
+    test::add_ceiling(scene, walls, 2.0f, 3.0f);
+    test::add_quad(scene, walls, {-2, 0, 2}, {0, 3, 0}, {4, 0, 0});
+    test::add_quad(scene, walls, {-2, 0, -2}, {0, 3, 0}, {0, 0, 4});
+    test::add_quad(scene, walls, {2, 0, -2}, {0, 0, 4}, {0, 3, 0});
+    test::add_floor(scene, walls, 30.0f, -0.05f);
+    EXPECT_TRUE(openings_in(scene).empty());
 }
 
 TEST(FindOpenings, FindsNothingInSealedRoomsAndUnderTheOpenSky) {

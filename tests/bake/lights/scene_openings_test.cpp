@@ -45,11 +45,37 @@ TEST(SceneOpenings, PortalsPointToTheDarkSide) {
     }
 }
 
+/// Around a position inside the room, facing the window.
+Portal portal_at(const glm::dvec3& center, double width = 1.0) {
+    return {"elsewhere", center, {width, 0, 0}, {0, width, 0}};
+}
+
 TEST(SceneOpenings, OtherWindowsAreFound) {
     Scene scene = test::window_room();
     scene.environment.radiance = glm::vec3(1.0f);
-    scene.portals = {{"elsewhere", {0, 1.5, 0}, {1, 0, 0}, {0, 1, 0}}};
+    scene.portals = {portal_at({0, 1.5, 0})};
     EXPECT_EQ(openings_in(scene).size(), 2u);
+    // Much smaller or larger ones do not stand for the window.
+    scene.portals = {portal_at({0, 1.5, -2}, 0.1), portal_at({0, 1.5, -2}, 3.0)};
+    EXPECT_EQ(openings_in(scene).size(), 3u);
+}
+
+TEST(SceneOpenings, RectanglesInTheOpenAirAreLeftOut) {
+    Scene scene = test::window_room();
+    scene.environment.radiance = glm::vec3(1.0f);
+    for (int i = 0; i < 40; ++i) scene.portals.push_back(portal_at({3.0 * i, 30, 0}));
+    const std::vector<Opening> openings = openings_in(scene);
+    ASSERT_EQ(openings.size(), 1u);
+    EXPECT_NEAR(openings[0].area(), 1.0f, 0.2f);
+}
+
+TEST(SceneOpenings, ThoseThatLetInMostLightAreUsed) {
+    Scene scene = test::window_room();
+    scene.environment.radiance = glm::vec3(1.0f);
+    for (int i = 0; i < 40; ++i) scene.portals.push_back(portal_at({0, 1.5, -2}, 0.3));
+    const std::vector<Opening> openings = openings_in(scene);
+    ASSERT_EQ(openings.size(), Openings::kMaxCount);
+    EXPECT_NEAR(openings[0].area(), 1.0f, 0.2f) << "the window was found last";
 }
 
 }  // namespace

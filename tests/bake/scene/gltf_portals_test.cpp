@@ -66,11 +66,15 @@ TEST(GltfPortals, AreNoSurfaces) {
 
 TEST(GltfPortals, ErrorsNameTheNodeAndTheValue) {
     const std::string start = "scene.glb: node 0 \"window\": ";
-    const std::string not_a_size = " is not the size of a rectangle";
+    const std::string not_a_size = " is not a width and a height above 0";
     EXPECT_EQ(with_portal({0, 1}).error(), start + "extras.portal [0, 1]" + not_a_size);
     EXPECT_EQ(with_portal({1, -2}).error(), start + "extras.portal [1, -2]" + not_a_size);
     EXPECT_EQ(with_portal({1, 2}, {{"scale", {1, 0, 1}}}).error(),
-              start + "extras.portal [1, 2]" + not_a_size);
+              start + "extras.portal [1, 2] has no area: see the scale of the node");
+    const std::string too_far = " reaches farther than 1e+12 m from the origin";
+    EXPECT_EQ(with_portal({1e20, 1}).error(), start + "extras.portal [1e+20, 1]" + too_far);
+    EXPECT_EQ(with_portal({1, 1}, {{"translation", {0, 1e13, 0}}}).error(),
+              start + "extras.portal [1, 1]" + too_far);
     for (const Json& wrong : {Json("wide"), Json(1), Json({1}), Json({1, 2, 3}), Json({1, "2"})}) {
         const std::string error = with_portal(wrong).error();
         EXPECT_NE(error.find("portal"), std::string::npos) << error;

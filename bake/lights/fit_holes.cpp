@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/lights/fit_hole.h>
+#include <tetralight/bake/lights/fit_holes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ constexpr int kGrid = 48;
 constexpr int kAttempts = 4;
 
 /// Largest ratio of the distances of the places from their plane and from their center.
-constexpr double kMaxFlatness = 0.3;
+constexpr double kMaxFlatness = 0.5;
 
 /// A plane with two axes.
 struct Plane {
@@ -74,17 +74,23 @@ std::optional<Plane> plane_of(std::span<const NarrowPlace> places) {
     return Plane(glm::vec3(center), glm::vec3(normal));
 }
 
-/// Free cells around a hole.
+/// Cells of a plane. Those of holes have the number of their hole.
 struct Grid {
-    enum Cell : char { kWall, kFree, kHole };
+    static constexpr int kWall = -2, kFree = -1;
 
-    glm::vec2 from{0.0f}, cell_size{0.0f};
-    std::vector<Cell> cells = std::vector<Cell>(size_t{kGrid} * kGrid, kWall);
-    int hole_count = 0;
-    int border_count = 0;  ///< cells of the hole at the border of the grid
-    int rim_count = 0;     ///< cells of the hole beside a wall
+    /// Free cells that are connected.
+    struct Hole {
+        int border_count = 0;  ///< cells at the border of the grid
+        int rim_count = 0;     ///< cells beside a wall
+    };
 
-    [[nodiscard]] Cell& at(int x, int y) { return cells[static_cast<size_t>(y) * kGrid + x]; }
+    Grid(glm::vec2 lower_corner, glm::vec2 size) : from(lower_corner), cell_size(size) {}
+
+    glm::vec2 from, cell_size;
+    std::vector<int> cells = std::vector<int>(size_t{kGrid} * kGrid, kWall);
+    std::vector<Hole> holes;
+
+    [[nodiscard]] int& at(int x, int y) { return cells[static_cast<size_t>(y) * kGrid + x]; }
 
     [[nodiscard]] bool is_beside_wall(int x, int y) {
         return at(x - 1, y) == kWall || at(x + 1, y) == kWall || at(x, y - 1) == kWall ||
@@ -97,10 +103,10 @@ class HoleFitter {
     HoleFitter(const TraceScene& trace_scene, std::span<const NarrowPlace> places, float scale)
         : trace_scene_(trace_scene), places_(places), scale_(scale) {}
 
-    [[nodiscard]] std::optional<Opening> fit() const {
+    [[nodiscard]] std::vector<Opening> fit() const {
         const auto plane = plane_of(places_);
-        if (!plane) return std::nullopt;
-        return hole_in(Plane(plane->center, normal_of_wall(*plane)));
+        if (!plane) return {};
+        return holes_in(Plane(plane->center, normal_of_wall(*plane)));
     }
 
   private:
@@ -124,28 +130,35 @@ class HoleFitter {
         return count >= 8 ? glm::normalize(sum) : plane.normal;
     }
 
-    /// Looks farther until it finds the edge of the hole: the places may be few.
-    [[nodiscard]] std::optional<Opening> hole_in(const Plane& plane) const {
+    /// Looks farther until it finds the edges of all holes: the places may be few.
+    [[nodiscard]] std::vector<Opening> holes_in(const Plane& plane) const {
         glm::vec2 low(0.0f), high(0.0f);
         for (const NarrowPlace& place : places_) {
             const glm::vec2 p = plane.coordinates(place.position);
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
+        Grid grid(low, high);
         for (int attempt = 0; attempt < kAttempts; ++attempt) {
             const glm::vec2 margin = 0.25f * (high - low) + kMargin * scale_;
             low -= margin;
             high += margin;
-            Grid grid{low, (high - low) / static_cast<float>(kGrid)};
+            grid = Grid(low, (high - low) / static_cast<float>(kGrid));
             find_free_cells(plane, grid);
-            fill_hole(plane, grid);
-            if (grid.hole_count == 0) return std::nullopt;
-            // A little leak, through a gap at the floor for example, does not matter.
-            const bool is_last = attempt + 1 == kAttempts;
-            if (grid.border_count == 0 || (is_last && 4 * grid.border_count < grid.rim_count))
-                return smallest_rectangle(grid, plane);
+            find_holes(plane, grid);
+            if (std::ranges::all_of(
+                    grid.holes, [](const Grid::Hole& hole) { return hole.border_count == 0; })) {
+                break;
+            }
         }
-        return std::nullopt;
+        std::vector<Opening> openings;
+        for (size_t i = 0; i < grid.holes.size(); ++i) {
+            // A little leak, through a gap at the floor for example, does not matter.
+            const Grid::Hole& hole = grid.holes[i];
+            if (hole.border_count == 0 || 4 * hole.border_count < hole.rim_count)
+                openings.push_back(smallest_rectangle(grid, static_cast<int>(i), plane));
+        }
+        return openings;
     }
 
     void find_free_cells(const Plane& plane, Grid& grid) const {
@@ -154,46 +167,63 @@ class HoleFitter {
             for (int x = 0; x < kGrid; ++x) {
                 const glm::vec2 p = grid.from + grid.cell_size * (glm::vec2(x, y) + 0.5f);
                 const glm::vec3 from = plane.center + plane.direction(p) - half * plane.normal;
-                if (!trace_scene_.occluded({from, plane.normal, 2.0f * half}))
-                    grid.at(x, y) = Grid::kFree;
+                if (is_free({from, plane.normal, 2.0f * half})) grid.at(x, y) = Grid::kFree;
             }
         }
     }
 
+    /// True if a ray meets glass at most.
+    [[nodiscard]] bool is_free(Ray ray) const {
+        constexpr int kMostPanes = 4;
+        constexpr float kOpaque = 0.95f;
+        const float gap = 1e-3f * ray.max_distance;
+        for (int i = 0; i <= kMostPanes; ++i) {
+            const auto crossing = trace_scene_.nearest_crossing(ray);
+            if (!crossing) return true;
+            if (crossing->opacity >= kOpaque) return false;
+            ray.origin += (crossing->distance + gap) * ray.direction;
+            ray.max_distance -= crossing->distance + gap;
+            if (ray.max_distance <= 0.0f) return true;
+        }
+        return false;
+    }
+
     /// Marks the free cells that are connected to those of the places.
-    void fill_hole(const Plane& plane, Grid& grid) const {
+    void find_holes(const Plane& plane, Grid& grid) const {
         std::vector<glm::ivec2> stack;
-        const auto push = [&](int x, int y) {
+        const auto push = [&](int x, int y, int hole) {
             if (x < 0 || y < 0 || x >= kGrid || y >= kGrid) return;
             if (grid.at(x, y) != Grid::kFree) return;
-            grid.at(x, y) = Grid::kHole;
+            grid.at(x, y) = hole;
             stack.emplace_back(x, y);
         };
         for (const NarrowPlace& place : places_) {
             const glm::ivec2 cell((plane.coordinates(place.position) - grid.from) / grid.cell_size);
-            push(cell.x, cell.y);
-        }
-        while (!stack.empty()) {
-            const int x = stack.back().x, y = stack.back().y;
-            stack.pop_back();
-            ++grid.hole_count;
-            if (x == 0 || y == 0 || x == kGrid - 1 || y == kGrid - 1) {
-                ++grid.border_count;
-            } else if (grid.is_beside_wall(x, y)) {
-                ++grid.rim_count;
+            const auto number = static_cast<int>(grid.holes.size());
+            push(cell.x, cell.y, number);
+            if (stack.empty()) continue;
+            Grid::Hole& hole = grid.holes.emplace_back();
+            while (!stack.empty()) {
+                const int x = stack.back().x, y = stack.back().y;
+                stack.pop_back();
+                if (x == 0 || y == 0 || x == kGrid - 1 || y == kGrid - 1) {
+                    ++hole.border_count;
+                } else if (grid.is_beside_wall(x, y)) {
+                    ++hole.rim_count;
+                }
+                push(x - 1, y, number);
+                push(x + 1, y, number);
+                push(x, y - 1, number);
+                push(x, y + 1, number);
             }
-            push(x - 1, y);
-            push(x + 1, y);
-            push(x, y - 1);
-            push(x, y + 1);
         }
     }
 
-    [[nodiscard]] static Opening smallest_rectangle(Grid& grid, const Plane& plane) {
+    [[nodiscard]] static Opening smallest_rectangle(Grid& grid, int hole, const Plane& plane) {
         std::vector<glm::vec2> corners;
         for (int i = 0; i < kGrid * kGrid * 4; ++i) {
             const int x = i / 4 % kGrid, y = i / 4 / kGrid;
-            if (grid.at(x, y) != Grid::kHole) continue;
+            if (grid.at(x, y) != hole) continue;
             corners.push_back(grid.from + grid.cell_size * glm::vec2(x + i % 2, y + i / 2 % 2));
         }
         constexpr int kTurns = 18;
@@ -226,8 +256,8 @@ class HoleFitter {
 
 }  // namespace
 
-std::optional<Opening> fit_hole(const TraceScene& trace_scene, std::span<const NarrowPlace> places,
-                                float scale) {
+std::vector<Opening> fit_holes(const TraceScene& trace_scene, std::span<const NarrowPlace> places,
+                               float scale) {
     return HoleFitter(trace_scene, places, scale).fit();
 }
 
