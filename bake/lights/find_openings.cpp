@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
+#include <limits>
 #include <optional>
 
 #include <tetralight/bake/lights/fit_holes.h>
@@ -23,8 +25,13 @@ constexpr uint32_t kPlaces = 2048, kRaysPerPlace = 16, kMaxEscaped = 4;
 constexpr uint32_t kMinEscaped = 6;
 
 /// Steps of walks from enclosed places, in all.
-constexpr uint32_t kSteps = 40'000;
+constexpr uint32_t kSteps = 60'000;
 constexpr uint32_t kStepsPerWalk = 16;
+
+/// Steps that take as long as the search of a ray.
+constexpr uint32_t kStepsPerSearch = 16;
+
+constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 /// Most rays that are kept.
 constexpr size_t kMaxRays = 768;
@@ -41,6 +48,7 @@ constexpr float kStep = 0.1f;          ///< between positions along a ray
 constexpr float kMaxClearance = 2.5f;  ///< half of the width of an opening
 constexpr float kMaxLength = 40.0f;    ///< of the part of a ray that is searched
 constexpr float kLink = 0.75f;         ///< largest distance of neighbors in an opening
+constexpr float kMaxArea = 10.0f;      ///< m²; larger openings are met by chance
 constexpr size_t kMinPoints = 6;
 
 constexpr size_t kMaxOpenings = 4 * Openings::kMaxCount;
@@ -164,21 +172,17 @@ class Finder {
         for (uint32_t i = 0; steps < kSteps && narrow_.size() < kMaxRays; ++i) {
             Place place = enclosed_[i % enclosed_.size()];
             Sampler sampler(2, i);
-            for (uint32_t step = 0; step < kStepsPerWalk; ++step, ++steps) {
+            for (uint32_t step = 0; step < kStepsPerWalk; ++step) {
+                ++steps;
                 const Ray ray{place.origin,
                               sample_cosine_hemisphere(place.normal, sampler.next2())};
                 const auto surface = intersect(ray);
-                if (!surface) {
-                    if (escaped(place, detail::mix(~uint64_t{i})) <= kMaxEscaped)
-                        add(ray, kMaxLength * scale_);
-                    break;
-                }
                 const auto next = place_of(ray, surface);
-                if (!next) break;
-                if (is_open(*next, i + step)) {
+                if (surface && !next) break;
+                if (!next || is_open(*next, i + step)) {
+                    steps += kStepsPerSearch;
                     if (escaped(place, detail::mix(~uint64_t{i})) <= kMaxEscaped)
-                        add(ray,
-                            std::min(glm::distance(next->origin, ray.origin), kMaxLength * scale_));
+                        search(ray, next ? glm::distance(next->origin, ray.origin) : kEndless);
                     break;
                 }
                 place = *next;
@@ -198,7 +202,7 @@ class Finder {
     }
 
     /// Keeps the narrowest place of a ray that has more room before and behind.
-    void add(const Ray& ray, float length) {
+    void search(const Ray& ray, float length) {
         const float step = kStep * scale_;
         const float reach = kMaxClearance * scale_;
         const auto clearance = [&](float distance) {
@@ -211,7 +215,7 @@ class Finder {
         float peak = 0.0f;                      // the last one
         float bottom = 0.0f, bottom_at = 0.0f;  // since then
         float t = step;
-        while (t < length) {
+        while (t < std::min(length, kMaxLength * scale_)) {
             const float now = clearance(t);
             if (!is_falling) {
                 is_falling = now < peak;
@@ -248,8 +252,10 @@ class Finder {
                 is_taken[i] = true;
                 places.push_back(narrow_[i]);
             }
-            const std::vector<Opening> found = fit_holes(trace_scene_, places, scale_);
-            openings.insert(openings.end(), found.begin(), found.end());
+            const float max_area = kMaxArea * scale_ * scale_;
+            std::ranges::copy_if(fit_holes(trace_scene_, places, scale_),
+                                 std::back_inserter(openings),
+                                 [&](const Opening& hole) { return hole.area() < max_area; });
         }
         return openings;
     }

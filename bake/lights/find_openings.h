@@ -10,8 +10,8 @@ namespace tetralight {
 
 /// Finds windows, doors and arches through which enclosed places see the sky: where rays that leave
 /// such places are closest to surfaces before they escape. Each opening is a rectangle around the
-/// hole in the plane of these points. Sorted by the number of rays that found them. Takes about
-/// 200 000 rays at most. A pure function of the scene.
+/// hole in the plane of these points; large ones, which are met by chance, are left out. Takes up
+/// to 300 000 rays and searches for the nearest surface. A pure function of the scene.
 [[nodiscard]] std::vector<Opening> find_openings(const TraceScene& trace_scene);
 
 }  // namespace tetralight

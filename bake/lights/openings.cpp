@@ -32,6 +32,9 @@ constexpr float kMinSpotRadius = 0.1f;
 /// and the views from all the cubes of a landscape would be made.
 constexpr float kMinSolidAngle = 1.0f / 512.0f;
 
+/// Larger openings are met by chance.
+constexpr float kMaxSolidAngle = 0.5f;
+
 /// Distance at which a ray leaves the dark side through an opening; none if it does not.
 std::optional<float> crossing(const Opening& opening, glm::vec3 origin, glm::vec3 direction) {
     const float slope = glm::dot(direction, opening.normal);
@@ -51,14 +54,15 @@ bool is_above(const ShadingPoint& shading_point, glm::vec3 offset, float radius)
            glm::dot(shading_point.normal, offset) + radius > 0.0f;
 }
 
-/// About the solid angle of an opening; 0 far away, on its bright side and below the surface.
+/// About the solid angle of an opening; 0 far away, close by, on its bright side and below the
+/// surface.
 float opening_weight(const Opening& opening, float area, const ShadingPoint& shading_point) {
     const glm::vec3 offset = opening.point(glm::vec2(0.5f)) - shading_point.position;
     if (glm::dot(opening.normal, offset) >= 0.0f) return 0.0f;
     const float radius = 0.5f * glm::length(opening.along + opening.across);
     if (!is_above(shading_point, offset, radius)) return 0.0f;
-    const float distance2 = glm::dot(offset, offset);
-    return area > kMinSolidAngle * distance2 ? area / (distance2 + area) : 0.0f;
+    const float solid_angle = area / (glm::dot(offset, offset) + area);
+    return solid_angle > kMinSolidAngle && solid_angle < kMaxSolidAngle ? solid_angle : 0.0f;
 }
 
 /// About the light that a spot sends; 0 far away and below the surface.
