@@ -92,13 +92,8 @@ TEST(FindOpenings, FindsTwoWindows) {
 
 TEST(FindOpenings, FindsEachOfTheWindowsOfAWall) {
     // Three windows of 0.8 × 1 m, 0.4 m apart.
-    Scene scene;
+    Scene scene = test::room_with_an_open_side();
     const Material walls = test::wall_material();
-    test::add_floor(scene, walls, 2.0f);
-    test::add_ceiling(scene, walls, 2.0f, 3.0f);
-    test::add_quad(scene, walls, {-2, 0, 2}, {0, 3, 0}, {4, 0, 0});
-    test::add_quad(scene, walls, {-2, 0, -2}, {0, 3, 0}, {0, 0, 4});
-    test::add_quad(scene, walls, {2, 0, -2}, {0, 0, 4}, {0, 3, 0});
     test::add_quad(scene, walls, {-2, 0, -2}, {4, 0, 0}, {0, 1, 0});
     test::add_quad(scene, walls, {-2, 2, -2}, {4, 0, 0}, {0, 1, 0});
     test::add_quad(scene, walls, {-2, 1, -2}, {0.4f, 0, 0}, {0, 1, 0});
@@ -133,14 +128,8 @@ TEST(FindOpenings, FindsTheWindowsOfManyRooms) {
 }
 
 TEST(FindOpenings, TheOpenSideOfARoomIsNone) {
-    Scene scene;
-    const Material walls = test::wall_material();
-    test::add_floor(scene, walls, 2.0f);
-    test::add_ceiling(scene, walls, 2.0f, 3.0f);
-    test::add_quad(scene, walls, {-2, 0, 2}, {0, 3, 0}, {4, 0, 0});
-    test::add_quad(scene, walls, {-2, 0, -2}, {0, 3, 0}, {0, 0, 4});
-    test::add_quad(scene, walls, {2, 0, -2}, {0, 0, 4}, {0, 3, 0});
-    test::add_floor(scene, walls, 30.0f, -0.05f);
+    Scene scene = test::room_with_an_open_side();
+    test::add_floor(scene, test::wall_material(), 30.0f, -0.05f);
     EXPECT_TRUE(openings_in(scene).empty());
 }
 
