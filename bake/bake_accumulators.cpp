@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <tetralight/bake/layer_errors.h>
@@ -276,8 +277,10 @@ Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positio
     }
     const auto trace_scene = TraceScene::make_static(scene, settings.surfaces);
     if (!trace_scene) return trace_scene.error();
-    const PathTracer tracer(scene, *trace_scene, {settings.bounces, settings.clamp}, settings.plan,
-                            openings_of(scene, *trace_scene));
+    const PathSettings path_settings{settings.bounces, settings.clamp};
+    std::vector<Opening> openings;
+    if (path_settings.samples_openings()) openings = openings_of(scene, *trace_scene);
+    const PathTracer tracer(scene, *trace_scene, path_settings, settings.plan, std::move(openings));
     std::vector<Light> lights;
     for (const Light& light : scene.lights) lights.push_back(trace_scene->render_from_world(light));
     std::vector<double> mean_light;

@@ -32,11 +32,21 @@ float reflection_factor(const ShadingPoint& shading_point, float pdf) {
 
 }  // namespace
 
+PathTracer::Draws PathTracer::draws_at(const PathStart& start) {
+    if (start.opening_weights == nullptr) return {};
+    return draws_with({start.origin}, *start.opening_weights, 1.0f);
+}
+
 PathTracer::Draws PathTracer::draws_at(const ShadingPoint& shading_point, float count) const {
+    if (openings_.is_empty()) return {};
+    return draws_with(shading_point, openings_.weights(shading_point), count);
+}
+
+PathTracer::Draws PathTracer::draws_with(const ShadingPoint& shading_point,
+                                         const Openings::Weights& weights, float count) {
     Draws draws;
-    if (openings_.is_empty()) return draws;
     draws.from = shading_point;
-    draws.weights = openings_.weights(shading_point);
+    draws.weights = weights;
     if (draws.weights.opening_sum > 0.0f) draws.directions = count;
     if (draws.weights.spot_sum > 0.0f) draws.spots = count;
     return draws;
@@ -194,14 +204,15 @@ glm::vec3 PathTracer::drawn_light(const Draws& draws, glm::vec3 ray_origin, Path
 }
 
 std::array<PathTracer::OpeningSample, 2> PathTracer::draw_from_openings(
-    glm::vec3 origin, float light_samples, Sampler sampler,
+    const PathStart& start, float light_samples, Sampler sampler,
     std::array<PathLightGroups*, 2> light_groups, uint64_t& ray_count) const {
     std::array<OpeningSample, 2> samples;
-    const Draws draws = draws_at({origin}, 1.0f);
+    const Draws draws = draws_at(start);
     Path path{sampler, sampler, glm::vec3(1.0f), 0, light_groups[0]};
-    if (draws.directions > 0.0f) samples[0] = draw_direction(draws, origin, light_samples, path);
+    if (draws.directions > 0.0f)
+        samples[0] = draw_direction(draws, start.origin, light_samples, path);
     path.light_groups = light_groups[1];
-    if (draws.spots > 0.0f) samples[1] = draw_spot(draws, origin, path);
+    if (draws.spots > 0.0f) samples[1] = draw_spot(draws, start.origin, path);
     ray_count += path.ray_count;
     return samples;
 }

@@ -66,9 +66,7 @@ PathTracer::PathTracer(const Scene& scene, const TraceScene& trace_scene,
         baked_lights_.push_back(trace_scene.render_from_world(scene.lights[i]));
         layer_of_baked_light_.push_back(plan.layer_of(plan.layer_of_light, i));
     }
-    const bool draws_openings = settings.bounces == kAllBounces && settings.clamp <= 0.0f &&
-                                settings.strategy == LightStrategy::Mis;
-    if (openings.empty() || !draws_openings) return;
+    if (openings.empty() || !settings.samples_openings()) return;
     std::vector<Light> lights;
     for (const auto& [light, source] : light_sampler_.directional_lights()) {
         lights.push_back(light);
@@ -86,8 +84,7 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
     Ray ray{start.origin, start.direction};
     ShadingPoint shading_point{start.origin};
     float pdf = start.pdf;
-    Draws draws;
-    if (start.has_draws) draws = draws_at(shading_point, 1.0f);
+    Draws draws = draws_at(start);
     draws.chance_pdf = kSpherePdf;
     float weight = 1.0f;  // of light that arrives at the start of the segment from its sources
     glm::vec3 light_before_last(0.0f);
@@ -165,17 +162,17 @@ bool PathTracer::can_sample_emission() const {
            (light_sampler_.has(LightKind::Triangle) || light_sampler_.has(LightKind::Sky));
 }
 
-LightSample PathTracer::sample_emission(LightKind kind, const ShadingPoint& shading_point,
-                                        float path_pdf, Sampler& sampler) const {
-    LightSample sample = light_sampler_.sample(kind, shading_point, sampler);
-    float other_pdf = path_pdf;
-    if (kind == LightKind::Sky && !openings_.is_empty()) {
+LightSample PathTracer::sample_emission(LightKind kind, const PathStart& start,
+                                        Sampler& sampler) const {
+    LightSample sample = light_sampler_.sample(kind, {start.origin}, sampler);
+    float other_pdf = start.pdf;
+    if (kind == LightKind::Sky && start.opening_weights != nullptr) {
         // Draws are as many as paths, whose density is uniform.
-        const float drawn = direction_density(draws_at(shading_point, 1.0f), sample.to_light);
+        const float drawn = direction_density(draws_at(start), sample.to_light);
         other_pdf *= std::hypot(1.0f, drawn / kSpherePdf);
     }
     sample.irradiance *= mis_weight_light(sample.pdf, other_pdf);
-    if (!is_light(sample.irradiance) || occluded(shading_point.position, sample)) return {};
+    if (!is_light(sample.irradiance) || occluded(start.origin, sample)) return {};
     return sample;
 }
 

@@ -35,6 +35,11 @@ struct PathSettings {
     LightStrategy strategy = LightStrategy::Mis;
 
     bool operator==(const PathSettings&) const = default;
+
+    /// False if openings are ignored: MIS weights hold for paths of any length and brightness only.
+    [[nodiscard]] bool samples_openings() const {
+        return bounces == kAllBounces && clamp <= 0.0f && strategy == LightStrategy::Mis;
+    }
 };
 
 /// The first ray of a path.
@@ -44,8 +49,9 @@ struct PathStart {
     /// Density of the direction per steradian, relative to one light sample of each kind that is
     /// taken at the origin too (`sample_emission`); infinite = no light samples are taken there.
     float pdf = std::numeric_limits<float>::infinity();
-    /// `PathTracer::draw_from_openings` is called once at the origin for each path.
-    bool has_draws = false;
+    /// The weights at the origin, where `PathTracer::draw_from_openings` is called once for each
+    /// path; null = it is not.
+    const Openings::Weights* opening_weights = nullptr;
 };
 
 /// The radiance that one path found.
@@ -75,8 +81,8 @@ struct PathSample {
 class PathTracer {
   public:
     /// Keeps references to both scenes. The plan selects the baked lights and the light groups.
-    /// `openings`: in render space. They do not change the expected value, and are not sampled if
-    /// the settings limit bounces or light, or select a light strategy.
+    /// `openings`: in render space. They do not change the expected value, and are ignored unless
+    /// `PathSettings::samples_openings`.
     PathTracer(const Scene& scene, const TraceScene& trace_scene, const PathSettings& settings,
                const LightPlan& plan = {}, std::vector<Opening> openings = {});
 
@@ -89,10 +95,10 @@ class PathTracer {
     /// True if the strategy samples lights and the scene has emission that rays can hit.
     [[nodiscard]] bool can_sample_emission() const;
 
-    /// Direct light of one emissive triangle or sky direction (`kind`) at the start of paths whose
-    /// directions have the density `path_pdf`, with its MIS weight. Zero irradiance if occluded.
-    [[nodiscard]] LightSample sample_emission(LightKind kind, const ShadingPoint& shading_point,
-                                              float path_pdf, Sampler& sampler) const;
+    /// Direct light of one emissive triangle or sky direction (`kind`) at the start of paths, with
+    /// its MIS weight. Zero irradiance if occluded.
+    [[nodiscard]] LightSample sample_emission(LightKind kind, const PathStart& start,
+                                              Sampler& sampler) const;
 
     [[nodiscard]] const Openings& openings() const { return openings_; }
 
@@ -103,11 +109,12 @@ class PathTracer {
         glm::vec3 irradiance{0.0f};
     };
 
-    /// Two samples at the start of paths that `has_draws`: through an opening, and of a spot.
+    /// Two samples at the start of paths: through an opening, and of a spot. Precondition: the
+    /// start has the weights of openings.
     /// `light_samples`: number of light samples of each kind there for each path.
     /// `light_groups` (null or one each) receive their light by source. Adds to `ray_count`.
     [[nodiscard]] std::array<OpeningSample, 2> draw_from_openings(
-        glm::vec3 origin, float light_samples, Sampler sampler,
+        const PathStart& start, float light_samples, Sampler sampler,
         std::array<PathLightGroups*, 2> light_groups, uint64_t& ray_count) const;
 
     /// True if a surface lies between a position and the light of a sample. `blend_seed` in [0, 1)
@@ -139,7 +146,7 @@ class PathTracer {
     /// State of a path between two surfaces.
     struct Path {
         Sampler sampler;
-        Sampler draw_sampler;  ///< of what is drawn beside the path
+        Sampler draw_sampler;  ///< for samples of openings
         glm::vec3 throughput{1.0f};
         uint32_t ray_count = 0;
         PathLightGroups* light_groups = nullptr;
@@ -171,6 +178,9 @@ class PathTracer {
     /// MIS weight of the sky on a segment: against light samples and draws.
     [[nodiscard]] float sky_weight(const Draws& draws, glm::vec3 direction, float pdf) const;
 
+    [[nodiscard]] static Draws draws_at(const PathStart& start);
+    [[nodiscard]] static Draws draws_with(const ShadingPoint& shading_point,
+                                          const Openings::Weights& weights, float count);
     [[nodiscard]] Draws draws_at(const ShadingPoint& shading_point, float count) const;
     /// Expected number of draws of a direction per steradian.
     [[nodiscard]] float direction_density(const Draws& draws, glm::vec3 direction) const;

@@ -70,18 +70,16 @@ void add_paths(const PathTracer& tracer, const PathStart& start, const Direction
 }
 
 /// Adds the direct light of `count` sampled emissive triangles and `count` sampled sky directions.
-void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint32_t count,
+void add_emission(const PathTracer& tracer, const PathStart& start, uint64_t key, uint32_t count,
                   Gathered& gathered) {
     ProbeEstimate& estimate = gathered.estimate;
-    const double samples_each = static_cast<double>(estimate.sample_count) / count;
-    const auto path_pdf = static_cast<float>(samples_each / kSphereSolidAngle);
     const uint64_t emission_key = key_of(key, Purpose::Emission);
     RadianceShSum sum;
     for (uint32_t i = 0; i < count; ++i) {
         Sampler sampler(emission_key, i);
         for (const LightKind kind : {LightKind::Triangle, LightKind::Sky}) {
             if (!tracer.light_sampler().has(kind)) continue;
-            const LightSample sample = tracer.sample_emission(kind, {origin}, path_pdf, sampler);
+            const LightSample sample = tracer.sample_emission(kind, start, sampler);
             ++estimate.ray_count;
             if (sample.irradiance == glm::vec3(0.0f)) continue;
             sum.add(sample.to_light, sample.irradiance);
@@ -93,8 +91,8 @@ void add_emission(const PathTracer& tracer, glm::vec3 origin, uint64_t key, uint
 }
 
 /// Adds light that enters through openings: two samples for each path.
-void add_openings(const PathTracer& tracer, glm::vec3 origin, uint64_t key, float light_samples,
-                  Gathered& gathered) {
+void add_openings(const PathTracer& tracer, const PathStart& start, uint64_t key,
+                  float light_samples, Gathered& gathered) {
     ProbeEstimate& estimate = gathered.estimate;
     const uint64_t openings_key = key_of(key, Purpose::Openings);
     std::array<PathLightGroups, 2> light_groups{PathLightGroups(tracer.plan().layer_count),
@@ -106,7 +104,7 @@ void add_openings(const PathTracer& tracer, glm::vec3 origin, uint64_t key, floa
     for (uint32_t i = 0; i < estimate.sample_count; ++i) {
         for (PathLightGroups& groups : light_groups) groups.clear();
         const auto samples = tracer.draw_from_openings(
-            origin, light_samples, Sampler(openings_key, i), used_groups, estimate.ray_count);
+            start, light_samples, Sampler(openings_key, i), used_groups, estimate.ray_count);
         for (size_t k = 0; k < samples.size(); ++k) {
             if (samples[k].irradiance == glm::vec3(0.0f)) continue;
             sum.add(samples[k].to_light, samples[k].irradiance);
@@ -156,18 +154,23 @@ ProbeEstimate estimate_probe(const PathTracer& tracer, glm::vec3 origin, uint64_
     const uint32_t sample_count = directions.size();
     Gathered gathered{{}, LightGroupSum(LightGroupLayout(tracer.plan()))};
     gathered.estimate.sample_count = sample_count;
-    PathStart start{.origin = origin, .has_draws = !tracer.openings().is_empty()};
+    PathStart start{.origin = origin};
+    Openings::Weights opening_weights;
+    if (!tracer.openings().is_empty()) {
+        opening_weights = tracer.openings().weights({origin});
+        start.opening_weights = &opening_weights;
+    }
     float light_samples = 0.0f;  // per path
     if (tracer.can_sample_emission()) {
         const uint32_t light_sample_count = std::max(1u, sample_count / kSamplesPerLightSample);
         light_samples = static_cast<float>(light_sample_count) / static_cast<float>(sample_count);
-        start.pdf = static_cast<float>(1.0 / (kSphereSolidAngle * double{light_samples}));
+        start.pdf = static_cast<float>(sample_count / (kSphereSolidAngle * light_sample_count));
         add_paths(tracer, start, directions, key, gathered);
-        add_emission(tracer, origin, key, light_sample_count, gathered);
+        add_emission(tracer, start, key, light_sample_count, gathered);
     } else {
         add_paths(tracer, start, directions, key, gathered);
     }
-    if (start.has_draws) add_openings(tracer, origin, key, light_samples, gathered);
+    if (start.opening_weights != nullptr) add_openings(tracer, start, key, light_samples, gathered);
     add_baked_lights(tracer, origin, key, gathered);
     if (tracer.bounces() == 0) {
         gathered.estimate.cut.last_radiance =

@@ -109,7 +109,7 @@ class Finder {
         return trace_scene_.intersect_side(ray);
     }
 
-    /// Where a ray goes on after a hit; none at a back face.
+    /// The hit point, as the origin of the next ray; none if the ray hit a back face.
     [[nodiscard]] std::optional<Place> place_of(const Ray& ray,
                                                 const std::optional<SurfaceSide>& side) const {
         if (!side || side->is_back_face) return std::nullopt;
@@ -117,9 +117,11 @@ class Finder {
         return Place{trace_scene_.ray_origin(*side, hit, side->normal), side->normal};
     }
 
-    [[nodiscard]] uint32_t escaped(const Place& place, uint64_t key) const {
+    /// How many of some rays escape.
+    [[nodiscard]] uint32_t escaped(const Place& place, uint64_t key,
+                                   uint32_t ray_count = kRaysPerPlace) const {
         uint32_t count = 0;
-        for (uint32_t i = 0; i < kRaysPerPlace; ++i) {
+        for (uint32_t i = 0; i < ray_count; ++i) {
             Sampler sampler(key, i);
             const glm::vec3 direction = sample_cosine_hemisphere(place.normal, sampler.next2());
             if (!intersect({place.origin, direction})) ++count;
@@ -192,13 +194,8 @@ class Finder {
 
     /// Asks four rays first.
     [[nodiscard]] bool is_open(const Place& place, uint64_t key) const {
-        uint32_t count = 0;
-        for (uint32_t i = 0; i < 4; ++i) {
-            Sampler sampler(detail::mix(key), i);
-            const glm::vec3 direction = sample_cosine_hemisphere(place.normal, sampler.next2());
-            if (!intersect({place.origin, direction})) ++count;
-        }
-        return count >= 2 && escaped(place, detail::mix(~key)) >= kMinEscaped;
+        return escaped(place, detail::mix(key), 4) >= 2 &&
+               escaped(place, detail::mix(~key)) >= kMinEscaped;
     }
 
     /// Keeps the narrowest place of a ray that has more room before and behind.
