@@ -28,6 +28,21 @@ namespace detail {
 
 }  // namespace detail
 
+/// The value of a finite half-precision float (IEEE 754), exactly. Halves that are infinite or NaN
+/// become finite numbers of magnitude 65536 to 131008, so that sums over the bytes of a corrupt
+/// file stay finite. Without branches and denormal floats, so that loops over it vectorize and have
+/// the same speed for all values: Giesen 2012, "Half to float done quic(k)".
+[[nodiscard]] inline float float_from_half(uint16_t half) noexcept {
+    constexpr uint32_t kBiasDifference = 112u << 23, kSmallestNormal = 1u << 23;
+    const uint32_t magnitude = (half & 0x7fffu) << 13;
+    const uint32_t normal = magnitude + kBiasDifference;
+    // With the exponent of 2^-14 the mantissa of a denormal half counts from there.
+    const float shifted = std::bit_cast<float>(normal + kSmallestNormal);
+    const uint32_t denormal = std::bit_cast<uint32_t>(shifted - 0x1p-14f);
+    const uint32_t finite = magnitude < kSmallestNormal ? denormal : normal;
+    return std::bit_cast<float>((half & 0x8000u) << 16 | finite);
+}
+
 /// The nearest half-precision float (IEEE 754, ties to even), as processors convert: infinite from
 /// 65520 on. NaN stays NaN.
 [[nodiscard]] inline uint16_t half_from_float(float value) noexcept {

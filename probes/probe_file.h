@@ -2,16 +2,15 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <tetralight/base/file.h>
 #include <tetralight/base/result.h>
 #include <tetralight/probes/probe_volume.h>
+#include <tetralight/probes/section_members.h>
 
 // The `.probes` file: little-endian, 64-byte aligned sections with an xxh3 checksum each, mapped
 // and used in place. docs/file_format.md has the layout byte by byte.
@@ -25,17 +24,12 @@ namespace tetralight {
 /// An open probe file. Its view is valid as long as it lives; moving it keeps the view valid.
 class ProbeFile {
   public:
-    [[nodiscard]] const ProbeVolumeView& view() const noexcept { return view_; }
+    [[nodiscard]] const ProbeVolumeView& view() const noexcept { return file_.view; }
 
     /// One section as the file's table lists it.
-    struct Section {
-        std::string name;
-        uint64_t offset = 0;
-        uint64_t size = 0;
-        uint64_t element_size = 1;
-    };
+    using Section = FileSection;
 
-    [[nodiscard]] const std::vector<Section>& sections() const noexcept { return sections_; }
+    [[nodiscard]] const std::vector<Section>& sections() const noexcept { return file_.sections; }
 
     /// The bytes of a section, aligned to 64 bytes: for sections that are not members of the
     /// volume. None if the file has no section of this name and element size.
@@ -46,9 +40,7 @@ class ProbeFile {
     friend struct ProbeFileReader;
     ProbeFile() = default;
 
-    MappedFile mapping_;
-    ProbeVolumeView view_;
-    std::vector<Section> sections_;
+    detail::MappedSections<ProbeVolumeView> file_;
 };
 
 /// Opens a file and verifies all of it: checksums, structure, every index and number. Reads the
@@ -72,13 +64,6 @@ class ProbeFile {
 /// Checks that a volume in memory holds what every query relies on: counts that agree, indices in
 /// range, neighbors that are each other's neighbors, finite numbers.
 [[nodiscard]] Status verify(const ProbeVolumeView& volume);
-
-/// A section that is not a member of the volume: data of a tool. Readers skip it.
-struct ExtraSection {
-    std::string_view name;  ///< at most 24 bytes; not the name of a member of the volume
-    std::span<const std::byte> bytes;
-    uint64_t element_size = 1;
-};
 
 /// Writes a volume and verifies what was written; the old file stays whole on failure. Returns
 /// corrupt if the volume does not pass `verify`. The same volume gives the same bytes.

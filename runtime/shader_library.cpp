@@ -13,6 +13,7 @@ namespace {
 bool is_part_of(std::string_view file, ShaderPart part) {
     if (file == "begin.glsl" || file == "sh.glsl" || file == "end.glsl") return true;
     if (part == ShaderPart::Lppv) return file == "lppv.glsl";
+    if (part == ShaderPart::Lightmap) return file == "lightmap.glsl";
     return part == ShaderPart::Query && file.starts_with("query");
 }
 

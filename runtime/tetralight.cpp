@@ -29,6 +29,7 @@ using detail::check_pointer;
 using detail::check_receivers;
 using detail::check_walls;
 using detail::elements_of;
+using detail::file_error;
 using detail::finish;
 using detail::output_of;
 using detail::PositionBlocks;
@@ -39,14 +40,6 @@ static_assert(TETRALIGHT_NO_CELL == kNoIndex);
 static_assert(sizeof(PackedSh) == sizeof(tetralight_light::packed));
 
 using OpenFile = Result<ProbeFile> (*)(const std::string& path);
-
-/// The error of opening or verifying a file. An unusable path (too long, or a folder) means that
-/// there is no such file.
-CallError file_error(const Error& error) {
-    CallError failed(error);
-    if (failed.status == TETRALIGHT_BAD_VALUE) failed.status = TETRALIGHT_BAD_FILE;
-    return failed;
-}
 
 tetralight_status open_with(OpenFile open, const char* path, tetralight_volume** volume,
                             tetralight_error* error) {

@@ -70,7 +70,7 @@ typedef enum tetralight_status {
     TETRALIGHT_SHORT_BUFFER = 3,
     /** There is no such file, or the path does not lead to a regular file. */
     TETRALIGHT_BAD_FILE = 4,
-    /** The volume does not contain the requested item. */
+    /** The volume or the lightmaps do not contain the requested item. */
     TETRALIGHT_NOT_THERE = 5,
     /** The system refuses the number of bytes that the message gives. */
     TETRALIGHT_OUT_OF_MEMORY = 6,
@@ -383,6 +383,59 @@ TETRALIGHT_API tetralight_status tetralight_get_shader_array(
 /** Frees the arrays; does nothing if `made` is NULL. */
 TETRALIGHT_API void tetralight_free_shader_volume(tetralight_shader_volume* made)
     TETRALIGHT_NOEXCEPT;
+
+/** Open lightmaps (lightmap/lightmaps.h). */
+typedef struct tetralight_lightmaps tetralight_lightmaps;
+
+/** The page of an instance without a lightmap, which takes its light from probes. */
+#define TETRALIGHT_NO_PAGE 0xffffffffu
+
+/** The contents of lightmaps. */
+typedef struct tetralight_lightmaps_info {
+    /** Texels along each side of every page. */
+    uint32_t page_size;
+    uint32_t page_count;
+    /** Instances of the scene, with or without a lightmap. */
+    uint32_t instance_count;
+    /** 1 if normal maps have an effect, else 0. */
+    uint32_t has_light;
+    /** What halves of textures are multiplied by. */
+    float scale;
+} tetralight_lightmaps_info;
+
+/** The place of an instance: uv_page = uv * scale + offset, with the unwrapped uv (TEXCOORD_1) of
+ * its mesh. */
+typedef struct tetralight_lightmap_place {
+    float scale[2], offset[2];
+    /** Or TETRALIGHT_NO_PAGE; scale and offset are 0 then. */
+    uint32_t page;
+} tetralight_lightmap_place;
+
+/** Opens a file and verifies all of it. Close `*lightmaps` after use. All other calls may run on
+ * one `lightmaps` at the same time, but for close. */
+TETRALIGHT_API tetralight_status
+tetralight_lightmaps_open(const char* path, tetralight_lightmaps** lightmaps,
+                          tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Closes lightmaps; does nothing if they are NULL. */
+TETRALIGHT_API void tetralight_lightmaps_close(tetralight_lightmaps* lightmaps) TETRALIGHT_NOEXCEPT;
+
+TETRALIGHT_API tetralight_status tetralight_lightmaps_get_info(
+    const tetralight_lightmaps* lightmaps, tetralight_lightmaps_info* info,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The place of an instance, by its index in the scene. Returns TETRALIGHT_NOT_THERE if there is no
+ * such instance. */
+TETRALIGHT_API tetralight_status tetralight_lightmaps_rectangle(
+    const tetralight_lightmaps* lightmaps, uint32_t instance, tetralight_lightmap_place* place,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Irradiance (three floats) at a place of a page (two floats), bilinear, not divided by pi. With a
+ * unit normal (three floats) near the baked one it is that on this normal, as normal maps give;
+ * `normal` may be NULL. Returns TETRALIGHT_NOT_THERE if there is no such page. */
+TETRALIGHT_API tetralight_status tetralight_lightmaps_sample(
+    const tetralight_lightmaps* lightmaps, uint32_t page, const float* uv_page, const float* normal,
+    float* irradiance, tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 #ifdef __cplusplus
 }

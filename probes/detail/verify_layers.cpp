@@ -9,9 +9,9 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/compact_probes.h>
 #include <tetralight/probes/dering.h>
-#include <tetralight/probes/detail/section_error.h>
-#include <tetralight/probes/detail/verify_text.h>
 #include <tetralight/probes/is_finite.h>
+#include <tetralight/probes/section_error.h>
+#include <tetralight/probes/section_text.h>
 
 namespace tetralight::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <tetralight/base/str_cat.h>
-#include <tetralight/probes/detail/section_error.h>
+#include <tetralight/probes/section_error.h>
 #include <tetralight/probes/seed_grid.h>
 
 namespace tetralight::detail {

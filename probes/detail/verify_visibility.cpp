@@ -5,8 +5,8 @@
 #include <string>
 
 #include <tetralight/base/str_cat.h>
-#include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/edge_visibility.h>
+#include <tetralight/probes/section_error.h>
 
 namespace tetralight::detail {
 namespace {

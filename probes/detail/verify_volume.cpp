@@ -8,15 +8,15 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/compact_probes.h>
-#include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/detail/verify_info.h>
 #include <tetralight/probes/detail/verify_layers.h>
 #include <tetralight/probes/detail/verify_seed_grid.h>
-#include <tetralight/probes/detail/verify_text.h>
 #include <tetralight/probes/detail/verify_visibility.h>
 #include <tetralight/probes/farthest_position.h>
 #include <tetralight/probes/is_finite.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/probes/section_error.h>
+#include <tetralight/probes/section_text.h>
 
 namespace tetralight {
 namespace {

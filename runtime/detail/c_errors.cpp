@@ -36,6 +36,12 @@ tetralight_status status_of(ErrorCode code) noexcept {
     return TETRALIGHT_BAD_VALUE;
 }
 
+CallError file_error(const Error& error) {
+    CallError failed(error);
+    if (failed.status == TETRALIGHT_BAD_VALUE) failed.status = TETRALIGHT_BAD_FILE;
+    return failed;
+}
+
 tetralight_status finish(const CallError& result, tetralight_error* error) {
     if (error) {
         const size_t length = std::min(result.message.size(), sizeof error->message - 1);

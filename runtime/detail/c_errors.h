@@ -25,6 +25,10 @@ struct CallError {
 /// The status that stands for an error code of the library.
 [[nodiscard]] tetralight_status status_of(ErrorCode code) noexcept;
 
+/// The error of opening or verifying a file. An unusable path (too long, or a folder) means that
+/// there is no such file.
+[[nodiscard]] CallError file_error(const Error& error);
+
 /// Writes the message, empty if the call succeeded, and returns the status.
 tetralight_status finish(const CallError& result, tetralight_error* error);
 

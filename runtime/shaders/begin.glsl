@@ -15,6 +15,7 @@
 #error "HLSL reads the volume from structured buffers: do not define TETRALIGHT_TEXTURES"
 #endif
 #define TETRALIGHT_CONST static const
+#define vec2 float2
 #define vec3 float3
 #define vec4 float4
 #define uvec4 uint4
@@ -27,16 +28,21 @@
 #define TETRALIGHT_TEXTURE_3D(name) Texture3D<float4> name, SamplerState name##_sampler
 #define TETRALIGHT_PASS_3D(name) name, name##_sampler
 #define TETRALIGHT_SAMPLE_3D(name, uvw) name.SampleLevel(name##_sampler, uvw, 0.0f)
+#define TETRALIGHT_TEXTURE_ARRAY(name) Texture2DArray<float4> name, SamplerState name##_sampler
+#define TETRALIGHT_SAMPLE_ARRAY(name, uv, i) name.SampleLevel(name##_sampler, float3(uv, i), 0.0f)
 #else
 #define TETRALIGHT_CONST const
 #define TETRALIGHT_MUL(matrix, vector) ((matrix) * (vector))
 #define TETRALIGHT_TEXTURE_3D(name) sampler3D name
 #define TETRALIGHT_PASS_3D(name) name
 #define TETRALIGHT_SAMPLE_3D(name, uvw) textureLod(name, uvw, 0.0f)
+#define TETRALIGHT_TEXTURE_ARRAY(name) sampler2DArray name
+#define TETRALIGHT_SAMPLE_ARRAY(name, uv, i) textureLod(name, vec3(uv, i), 0.0f)
 #ifdef GL_ES
 precision highp float;
 precision highp int;
 precision highp sampler3D;
+precision highp sampler2DArray;
 #endif
 #if (defined(GL_ES) || __VERSION__ < 430) && !defined(TETRALIGHT_TEXTURES)
 #define TETRALIGHT_TEXTURES

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The last file of the shader library: undefines the names that begin.glsl defines for HLSL.
 #if defined(TETRALIGHT_HLSL)
+#undef vec2
 #undef vec3
 #undef vec4
 #undef uvec4

@@ -83,6 +83,16 @@ const std::vector<Use>& uses() {
          R"(TetralightCellLocation location = tetralight_locate(v.xyz, uint(v.w));
             TetralightPackedProbe probe = tetralight_interpolate(location);
             return tetralight_sample_sh9(probe.sh, float3(0.0, 1.0, 0.0)) * probe.occlusion.x;)"},
+        {"lightmap", ShaderPart::Lightmap,
+         R"(vec2 uv = tetralight_page_uv(v, v.xy);
+            return tetralight_lightmap_irradiance(pages, uv, v.z, v.w) +
+                   tetralight_lightmap_directional(pages, uv, v.z, v.w, v.xyz);)",
+         R"(float2 uv = tetralight_page_uv(v, v.xy);
+            return tetralight_lightmap_irradiance(pages, pages_sampler, uv, v.z, v.w) +
+                   tetralight_lightmap_directional(pages, pages_sampler, uv, v.z, v.w, v.xyz);)",
+         "#ifdef VULKAN\nlayout(binding = 7)\n#endif\nuniform sampler2DArray pages;\n",
+         "Texture2DArray<float4> pages : register(t7);\n"
+         "SamplerState pages_sampler : register(s8);\n"},
     };
     return all;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/detail/probe_file_layout.h>
+#include <tetralight/probes/section_file.h>
 
 #include <algorithm>
 #include <cstring>
 #include <set>
-#include <vector>
+#include <utility>
 
 #include <tetralight/base/str_cat.h>
-#include <tetralight/probes/detail/section_error.h>
+#include <tetralight/probes/section_error.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -15,8 +15,8 @@
 namespace tetralight::detail {
 namespace {
 
-Error not_a_probe_file(const char* why) {
-    return {ErrorCode::Corrupt, std::string("not a probe file (") + why + ")"};
+Error wrong_kind(const SectionFileKind& kind, const char* why) {
+    return {ErrorCode::Corrupt, str_cat("not a ", kind.name, " (", why, ")")};
 }
 
 Status check_entry(const SectionEntry& entry, uint64_t end_of_previous, uint64_t file_size) {
@@ -31,6 +31,16 @@ Status check_entry(const SectionEntry& entry, uint64_t end_of_previous, uint64_t
                           entry.offset, " do not fit in the file of ", file_size, " bytes"));
     }
     return Ok{};
+}
+
+uint64_t aligned(uint64_t offset) {
+    return (offset + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+/// What lies between two sections.
+std::span<const std::byte> zeros(uint64_t count) {
+    static constexpr std::array<std::byte, kAlignment> kZeros{};
+    return std::span(kZeros).first(count);
 }
 
 bool are_zero(std::span<const std::byte> bytes) {
@@ -56,15 +66,16 @@ std::string section_name(const SectionEntry& entry) {
     return {entry.name.begin(), end};
 }
 
-Result<std::span<const SectionEntry>> read_section_table(std::span<const std::byte> file) {
+Result<std::span<const SectionEntry>> read_section_table(const SectionFileKind& kind,
+                                                         std::span<const std::byte> file) {
     FileHeader header;
-    if (file.size() < sizeof header) return not_a_probe_file("shorter than a header");
+    if (file.size() < sizeof header) return wrong_kind(kind, "shorter than a header");
     std::memcpy(&header, file.data(), sizeof header);
-    if (header.magic != kMagic) return not_a_probe_file("wrong first bytes");
-    if (header.version != kFileVersion) {
+    if (header.magic != kind.magic) return wrong_kind(kind, "wrong first bytes");
+    if (header.version != kind.version) {
         return Error{ErrorCode::Unsupported, "version", str_cat(header.version),
                      str_cat("file version ", header.version,
-                             " is not supported (this program reads ", kFileVersion, ")")};
+                             " is not supported (this program reads ", kind.version, ")")};
     }
     if (header.file_size != file.size()) {
         return Error{ErrorCode::Corrupt, str_cat("the file has ", file.size(),
@@ -111,6 +122,58 @@ Status verify_checksums(std::span<const std::byte> file, std::span<const Section
     if (!are_zero(file.subspan(end)))
         return Error{ErrorCode::Corrupt, "bytes after the last section are not zero"};
     return Ok{};
+}
+
+std::optional<std::span<const std::byte>> find_section_bytes(std::span<const std::byte> file,
+                                                             std::span<const FileSection> sections,
+                                                             std::string_view name,
+                                                             uint64_t element_size) noexcept {
+    for (const FileSection& section : sections) {
+        if (section.name != name || section.element_size != element_size) continue;
+        return file.subspan(section.offset, section.size);
+    }
+    return std::nullopt;
+}
+
+SectionPart::SectionPart(std::string_view name, std::span<const std::byte> elements,
+                         size_t element_size)
+    : bytes(elements) {
+    std::memcpy(entry.name.data(), name.data(), std::min(name.size(), entry.name.size()));
+    entry.element_size = element_size;
+    entry.element_count = bytes.size() / element_size;
+    entry.checksum = detail::checksum(bytes);
+}
+
+SectionFileImage make_file_image(const SectionFileKind& kind, std::vector<SectionPart> parts) {
+    const size_t head_size = sizeof(FileHeader) + parts.size() * sizeof(SectionEntry);
+    SectionFileImage image{std::vector<std::byte>(head_size), {{}}};
+    std::vector<SectionEntry> table;
+    uint64_t offset = head_size;
+    for (SectionPart& part : parts) {
+        part.entry.offset = aligned(offset);
+        image.pieces.push_back(zeros(part.entry.offset - offset));
+        image.pieces.push_back(part.bytes);
+        offset = part.entry.offset + part.bytes.size();
+        table.push_back(part.entry);
+    }
+    image.pieces.push_back(zeros(aligned(offset) - offset));
+
+    FileHeader header{
+        kind.magic, kind.version, static_cast<uint32_t>(parts.size()), aligned(offset), 0, {}};
+    header.checksum = header_checksum(header, table);
+    std::memcpy(image.head.data(), &header, sizeof header);
+    std::memcpy(image.head.data() + sizeof header, table.data(), head_size - sizeof header);
+    image.pieces[0] = image.head;
+    return image;
+}
+
+std::vector<std::byte> joined(const SectionFileImage& image) {
+    size_t size = 0;
+    for (const auto& piece : image.pieces) size += piece.size();
+    std::vector<std::byte> file;
+    file.reserve(size);
+    for (const auto& piece : image.pieces) file.insert(file.end(), piece.begin(), piece.end());
+    return file;
 }
 
 }  // namespace tetralight::detail

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/probes/detail/verify_text.h>
+#include <tetralight/probes/section_text.h>
 
 #include <algorithm>
 #include <string>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/utf8.h>
-#include <tetralight/probes/detail/section_error.h>
 #include <tetralight/probes/probe_volume.h>
+#include <tetralight/probes/section_error.h>
 
 namespace tetralight::detail {
 

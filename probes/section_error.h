@@ -9,7 +9,7 @@
 
 namespace tetralight::detail {
 
-/// Corrupt: what is wrong with a section of a probe file.
+/// Corrupt: what is wrong with a section of a file.
 [[nodiscard]] inline Error section_error(std::string_view section, const std::string& what) {
     return {ErrorCode::Corrupt, std::string(section), "",
             str_cat("section \"", section, "\": ", what)};

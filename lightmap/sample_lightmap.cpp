@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/lightmap/sample_lightmap.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <tetralight/base/contract.h>
+#include <tetralight/base/half.h>
+
+namespace tetralight {
+namespace {
+
+/// The pages whose texels are there.
+template <class Texel>
+struct TexelPages {
+    const Texel* texels = nullptr;
+    uint32_t page_count = 0;
+    uint32_t page_size = 0;
+    float scale = 0.0f;
+};
+
+template <class Texel>
+TexelPages<Texel> pages_of(const LightmapInfo& info, std::span<const Texel> texels) noexcept {
+    const bool is_sound = info.page_size > 0 && info.page_size <= kLargestPageSize &&
+                          info.scale > 0.0f && info.scale <= kLargestLightmapScale;
+    if (!is_sound) return {};
+    const uint64_t count = texels.size() / (uint64_t{info.page_size} * info.page_size);
+    return {texels.data(), static_cast<uint32_t>(std::min<uint64_t>(count, info.page_count)),
+            info.page_size, info.scale};
+}
+
+/// Along one axis: the first of two texels, whether the second is another one, and its weight.
+struct Step {
+    uint32_t first = 0;
+    uint32_t next = 0;
+    float weight = 0.0f;
+};
+
+/// Not a number becomes 0.
+inline Step step_along(float coordinate, uint32_t page_size) noexcept {
+    const auto last = static_cast<float>(page_size - 1);
+    const float place = coordinate * static_cast<float>(page_size) - 0.5f;
+    const float clamped = place > 0.0f ? std::min(place, last) : 0.0f;
+    Step step;
+    step.first = static_cast<uint32_t>(clamped);
+    step.next = step.first + 1 < page_size ? 1 : 0;
+    step.weight = clamped - static_cast<float>(step.first);
+    return step;
+}
+
+/// Four texels and their weights times the scale, which are 0 if the page is out of range.
+struct Corners {
+    std::array<size_t, 4> texels;
+    std::array<float, 4> weights;
+};
+
+/// Precondition: there is a page.
+template <class Texel>
+inline Corners corners_at(const TexelPages<Texel>& pages, uint32_t page, glm::vec2 uv) noexcept {
+    const bool is_there = page < pages.page_count;
+    const float scale = is_there ? pages.scale : 0.0f;
+    const size_t size = pages.page_size;
+    const Step x = step_along(uv.x, pages.page_size), y = step_along(uv.y, pages.page_size);
+    const size_t first = (is_there ? page : 0u) * size * size + y.first * size + x.first;
+    const size_t below = first + y.next * size;
+    const float upper = (1.0f - y.weight) * scale, lower = y.weight * scale;
+    return {
+        {first, first + x.next, below, below + x.next},
+        {upper * (1.0f - x.weight), upper * x.weight, lower * (1.0f - x.weight), lower * x.weight}};
+}
+
+/// Samples that are worked on together: their texels fit in the fastest cache.
+constexpr size_t kSampleBlock = 32;
+
+using CornerBlock = std::array<Corners, kSampleBlock>;
+
+void fetch_block(const TexelPages<IrradianceTexel>& pages, std::span<const uint32_t> numbers,
+                 std::span<const glm::vec2> uvs, CornerBlock& block) noexcept {
+    for (size_t i = 0; i < uvs.size(); ++i) {
+        block[i] = corners_at(pages, numbers[i], uvs[i]);
+        __builtin_prefetch(pages.texels + block[i].texels[0]);
+        __builtin_prefetch(pages.texels + block[i].texels[2]);
+    }
+}
+
+// Four lanes: the halves of an IrradianceTexel. GCC and Clang compile these types for every
+// processor.
+using Halves = uint16_t __attribute__((vector_size(8)));
+using Words = int32_t __attribute__((vector_size(16)));
+using Floats = float __attribute__((vector_size(16)));
+
+/// `float_from_half` of the magnitude of four halves: irradiance is not negative.
+inline Floats floats_of(const IrradianceTexel& texel) noexcept {
+    constexpr int32_t kBiasDifference = 112 << 23, kSmallestNormal = 1 << 23;
+    static_assert(sizeof(Halves) == sizeof texel);
+    Halves halves;
+    std::memcpy(&halves, &texel, sizeof halves);
+    const Words magnitude = (__builtin_convertvector(halves, Words) & 0x7fff) << 13;
+    const Words normal = magnitude + kBiasDifference;
+    const Words denormal =
+        reinterpret_cast<Words>(reinterpret_cast<Floats>(normal + kSmallestNormal) - 0x1p-14f);
+    const Words is_denormal = magnitude < kSmallestNormal;
+    return reinterpret_cast<Floats>((is_denormal & denormal) | (~is_denormal & normal));
+}
+
+inline glm::vec3 blended(const IrradianceTexel* texels, const Corners& corners) noexcept {
+    const Floats sum = corners.weights[0] * floats_of(texels[corners.texels[0]]) +
+                       corners.weights[1] * floats_of(texels[corners.texels[1]]) +
+                       corners.weights[2] * floats_of(texels[corners.texels[2]]) +
+                       corners.weights[3] * floats_of(texels[corners.texels[3]]);
+    return {sum[0], sum[1], sum[2]};
+}
+
+/// The sums of one texel's vectors times the corners' weights: v of each channel.
+std::array<glm::vec3, 3> blended_vectors(const LightmapTexel* texels,
+                                         const Corners& corners) noexcept {
+    std::array<glm::vec3, 3> vectors{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
+    for (size_t corner = 0; corner < 4; ++corner) {
+        const auto& texel = texels[corners.texels[corner]].vector;
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const auto& [x, y, z] = texel[channel];
+            vectors[channel] +=
+                corners.weights[corner] *
+                glm::vec3(float_from_half(x), float_from_half(y), float_from_half(z));
+        }
+    }
+    return vectors;
+}
+
+}  // namespace
+
+glm::vec2 page_uv(const LightmapRectangle& rectangle, glm::vec2 uv) noexcept {
+    return uv * rectangle.scale + rectangle.offset;
+}
+
+glm::vec3 sample_irradiance(const LightmapsView& lightmaps, uint32_t page,
+                            glm::vec2 uv_page) noexcept {
+    const auto pages = pages_of(lightmaps.info, lightmaps.irradiance);
+    if (page >= pages.page_count) return glm::vec3(0.0f);
+    const Corners corners = corners_at(pages, page, uv_page);
+    return blended(pages.texels, corners);
+}
+
+glm::vec3 sample_lightmap(const LightmapsView& lightmaps, uint32_t page, glm::vec2 uv_page,
+                          glm::vec3 normal) noexcept {
+    if (lightmaps.light.empty()) return sample_irradiance(lightmaps, page, uv_page);
+    const auto pages = pages_of(lightmaps.info, lightmaps.light);
+    if (page >= pages.page_count) return glm::vec3(0.0f);
+    const auto v = blended_vectors(pages.texels, corners_at(pages, page, uv_page));
+    const glm::vec3 irradiance(glm::dot(normal, v[0]), glm::dot(normal, v[1]),
+                               glm::dot(normal, v[2]));
+    return glm::max(irradiance, glm::vec3(0.0f));
+}
+
+void sample_irradiance(const LightmapsView& lightmaps, std::span<const uint32_t> pages,
+                       std::span<const glm::vec2> uvs_page,
+                       std::span<glm::vec3> irradiance) noexcept {
+    TETRALIGHT_ASSERT(pages.size() == uvs_page.size() && pages.size() == irradiance.size(),
+                      "spans of different sizes");
+    const auto texels = pages_of(lightmaps.info, lightmaps.irradiance);
+    if (texels.page_count == 0) {
+        std::ranges::fill(irradiance, glm::vec3(0.0f));
+        return;
+    }
+    const auto fetch = [&](size_t first, CornerBlock& block) {
+        if (first >= pages.size()) return;
+        const size_t count = std::min(kSampleBlock, pages.size() - first);
+        fetch_block(texels, pages.subspan(first, count), uvs_page.subspan(first, count), block);
+    };
+    std::array<CornerBlock, 2> blocks;
+    fetch(0, blocks[0]);
+    size_t block = 0;
+    for (size_t first = 0; first < pages.size(); first += kSampleBlock, block ^= 1) {
+        fetch(first + kSampleBlock, blocks[block ^ 1]);
+        const size_t count = std::min(kSampleBlock, pages.size() - first);
+        for (size_t i = 0; i < count; ++i) {
+            irradiance[first + i] = blended(texels.texels, blocks[block][i]);
+        }
+    }
+}
+
+}  // namespace tetralight

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <glm/gtc/type_ptr.hpp>
+#include <new>
+#include <utility>
+
+#include <tetralight/lightmap/lightmap_file.h>
+#include <tetralight/lightmap/sample_lightmap.h>
+#include <tetralight/runtime/detail/c_arrays.h>
+#include <tetralight/runtime/tetralight.h>
+
+struct tetralight_lightmaps {
+    tetralight::LightmapFile file;
+};
+
+namespace {
+
+using namespace tetralight;
+using detail::CallError;
+using detail::check_floats;
+using detail::check_pointer;
+using detail::file_error;
+using detail::finish;
+using detail::succeed;
+
+static_assert(TETRALIGHT_NO_PAGE == kNoIndex);
+
+}  // namespace
+
+tetralight_status tetralight_lightmaps_open(const char* path, tetralight_lightmaps** lightmaps,
+                                            tetralight_error* error) noexcept {
+    if (auto wrong = check_pointer("path", path)) return finish(wrong, error);
+    if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
+    auto file = open_lightmap_file(path);
+    if (!file) return finish(file_error(file.error()), error);
+    auto* opened = new (std::nothrow) tetralight_lightmaps{std::move(*file)};
+    if (!opened) return finish({TETRALIGHT_OUT_OF_MEMORY, "no memory for lightmaps"}, error);
+    *lightmaps = opened;
+    return succeed(error);
+}
+
+void tetralight_lightmaps_close(tetralight_lightmaps* lightmaps) noexcept {
+    delete lightmaps;
+}
+
+tetralight_status tetralight_lightmaps_get_info(const tetralight_lightmaps* lightmaps,
+                                                tetralight_lightmaps_info* info,
+                                                tetralight_error* error) noexcept {
+    if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
+    if (auto wrong = check_pointer("info", info)) return finish(wrong, error);
+    const LightmapsView& view = lightmaps->file.view();
+    *info = {view.info.page_size, view.info.page_count,
+             static_cast<uint32_t>(view.rectangles.size()), view.light.empty() ? 0u : 1u,
+             view.info.scale};
+    return succeed(error);
+}
+
+tetralight_status tetralight_lightmaps_rectangle(const tetralight_lightmaps* lightmaps,
+                                                 uint32_t instance,
+                                                 tetralight_lightmap_place* place,
+                                                 tetralight_error* error) noexcept {
+    if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
+    if (auto wrong = check_pointer("place", place)) return finish(wrong, error);
+    const auto rectangles = lightmaps->file.view().rectangles;
+    if (instance >= rectangles.size()) {
+        return finish({TETRALIGHT_NOT_THERE, str_cat("instance ", instance, " is not there; there ",
+                                                     "are ", rectangles.size())},
+                      error);
+    }
+    const LightmapRectangle& rectangle = rectangles[instance];
+    *place = {{rectangle.scale.x, rectangle.scale.y},
+              {rectangle.offset.x, rectangle.offset.y},
+              rectangle.page};
+    return succeed(error);
+}
+
+tetralight_status tetralight_lightmaps_sample(const tetralight_lightmaps* lightmaps, uint32_t page,
+                                              const float* uv_page, const float* normal,
+                                              float* irradiance, tetralight_error* error) noexcept {
+    if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
+    if (auto wrong = check_floats("uv_page", uv_page, 2)) return finish(wrong, error);
+    if (normal) {
+        if (auto wrong = check_floats("normal", normal, 3)) return finish(wrong, error);
+    }
+    if (auto wrong = check_pointer("irradiance", irradiance)) return finish(wrong, error);
+    const LightmapsView& view = lightmaps->file.view();
+    if (page >= view.info.page_count) {
+        return finish({TETRALIGHT_NOT_THERE,
+                       str_cat("page ", page, " is not there; there are ", view.info.page_count)},
+                      error);
+    }
+    const glm::vec2 uv = glm::make_vec2(uv_page);
+    const glm::vec3 sampled = normal ? sample_lightmap(view, page, uv, glm::make_vec3(normal))
+                                     : sample_irradiance(view, page, uv);
+    std::memcpy(irradiance, &sampled, sizeof sampled);
+    return succeed(error);
+}

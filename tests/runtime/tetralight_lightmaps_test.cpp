@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lightmaps through the C API.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include <tetralight/lightmap/lightmap_file.h>
+#include <tetralight/lightmap/sample_lightmap.h>
+#include <tetralight/runtime/tetralight.h>
+#include "tests/lightmap/lightmap_fixture.h"
+#include "tests/support/temp_folder.h"
+
+namespace tetralight {
+namespace {
+
+class CApiLightmaps : public testing::Test {
+  protected:
+    CApiLightmaps() {
+        EXPECT_EQ(tetralight_lightmaps_open(path.c_str(), &lightmaps, &error), TETRALIGHT_OK)
+            << error.message;
+    }
+
+    ~CApiLightmaps() override { tetralight_lightmaps_close(lightmaps); }
+
+    CApiLightmaps(const CApiLightmaps&) = delete;
+    CApiLightmaps& operator=(const CApiLightmaps&) = delete;
+
+    const TempFolder folder;
+    const Lightmaps data = test::make_full_lightmaps();
+    const std::string path = folder.write("test.lightmaps", lightmap_file_bytes(data.view()));
+    tetralight_lightmaps* lightmaps = nullptr;
+    tetralight_error error{};
+    const float uv[2]{0.3f, 0.6f};
+    const float normal[3]{0.0f, 0.8f, 0.6f};
+    float rgb[3]{-7.0f, -7.0f, -7.0f};
+};
+
+TEST_F(CApiLightmaps, HasWhatTheFileHas) {
+    tetralight_lightmaps_info info{};
+    ASSERT_EQ(tetralight_lightmaps_get_info(lightmaps, &info, &error), TETRALIGHT_OK);
+    EXPECT_EQ(info.page_size, 4u);
+    EXPECT_EQ(info.page_count, 2u);
+    EXPECT_EQ(info.instance_count, 3u);
+    EXPECT_EQ(info.has_light, 1u);
+    EXPECT_EQ(info.scale, data.info.scale);
+}
+
+TEST_F(CApiLightmaps, KnowsThePlacesOfInstances) {
+    tetralight_lightmap_place place{};
+    ASSERT_EQ(tetralight_lightmaps_rectangle(lightmaps, 1, &place, &error), TETRALIGHT_OK);
+    EXPECT_EQ(place.page, 1u);
+    EXPECT_EQ(place.scale[0], 0.75f);
+    EXPECT_EQ(place.offset[1], 0.25f);
+    ASSERT_EQ(tetralight_lightmaps_rectangle(lightmaps, 2, &place, nullptr), TETRALIGHT_OK);
+    EXPECT_EQ(place.page, TETRALIGHT_NO_PAGE);
+    EXPECT_EQ(tetralight_lightmaps_rectangle(lightmaps, 3, &place, &error), TETRALIGHT_NOT_THERE);
+    EXPECT_GT(std::strlen(error.message), 5u);
+}
+
+TEST_F(CApiLightmaps, SamplesWhatTheLibrarySamples) {
+    ASSERT_EQ(tetralight_lightmaps_sample(lightmaps, 1, uv, nullptr, rgb, &error), TETRALIGHT_OK);
+    EXPECT_EQ(glm::vec3(rgb[0], rgb[1], rgb[2]), sample_irradiance(data.view(), 1, {uv[0], uv[1]}));
+    ASSERT_EQ(tetralight_lightmaps_sample(lightmaps, 1, uv, normal, rgb, &error), TETRALIGHT_OK);
+    EXPECT_EQ(glm::vec3(rgb[0], rgb[1], rgb[2]),
+              sample_lightmap(data.view(), 1, {uv[0], uv[1]}, {0.0f, 0.8f, 0.6f}));
+}
+
+TEST_F(CApiLightmaps, WrongArgumentsAreErrorsAndWriteNothing) {
+    const float nan[3]{std::nanf(""), 0.0f, 0.0f};
+    const auto sample = [&](const float* at, const float* on, uint32_t page) {
+        return tetralight_lightmaps_sample(lightmaps, page, at, on, rgb, &error);
+    };
+    EXPECT_EQ(sample(nullptr, normal, 0), TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(sample(nan, normal, 0), TETRALIGHT_BAD_VALUE);
+    EXPECT_EQ(sample(uv, nan, 0), TETRALIGHT_BAD_VALUE);
+    EXPECT_EQ(sample(uv, normal, 2), TETRALIGHT_NOT_THERE);
+    EXPECT_EQ(sample(uv, normal, TETRALIGHT_NO_PAGE), TETRALIGHT_NOT_THERE);
+    EXPECT_EQ(tetralight_lightmaps_sample(nullptr, 0, uv, normal, rgb, &error),
+              TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_sample(lightmaps, 0, uv, normal, nullptr, nullptr),
+              TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(rgb[0], -7.0f);
+}
+
+TEST_F(CApiLightmaps, NullPointersAreErrors) {
+    tetralight_lightmaps* none = nullptr;
+    tetralight_lightmaps_info info;
+    tetralight_lightmap_place place;
+    EXPECT_EQ(tetralight_lightmaps_open(nullptr, &none, &error), TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_open(path.c_str(), nullptr, &error), TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_get_info(nullptr, &info, &error), TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_get_info(lightmaps, nullptr, &error), TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_rectangle(nullptr, 0, &place, &error), TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_rectangle(lightmaps, 0, nullptr, &error),
+              TETRALIGHT_BAD_POINTER);
+    tetralight_lightmaps_close(nullptr);
+}
+
+TEST_F(CApiLightmaps, FilesThatCannotBeOpenedHaveAStatusOfTheirOwn) {
+    tetralight_lightmaps* none = nullptr;
+    const std::string missing = folder.path("none.lightmaps");
+    EXPECT_EQ(tetralight_lightmaps_open(missing.c_str(), &none, &error), TETRALIGHT_BAD_FILE);
+    auto bytes = lightmap_file_bytes(data.view());
+    bytes.back() ^= std::byte{1};
+    const std::string corrupt = folder.write("corrupt.lightmaps", bytes);
+    EXPECT_EQ(tetralight_lightmaps_open(corrupt.c_str(), &none, &error), TETRALIGHT_CORRUPT);
+    EXPECT_EQ(none, nullptr);
+}
+
+}  // namespace
+}  // namespace tetralight
