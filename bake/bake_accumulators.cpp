@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -28,28 +29,32 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Status check_positions(std::span<const glm::dvec3> positions) {
-    for (size_t i = 0; i < positions.size(); ++i) {
-        const glm::dvec3& p = positions[i];
+/// What a message calls a place.
+const char* name_of(const BakePlaces& places) {
+    return places.surfaces.texels.empty() ? "probe" : "texel";
+}
+
+Status check_positions(const BakePlaces& places) {
+    for (size_t i = 0; i < places.positions.size(); ++i) {
+        const glm::dvec3& p = places.positions[i];
         if (!is_finite(p)) {
             const std::string value = str_cat("(", p.x, ", ", p.y, ", ", p.z, ")");
             return Error{ErrorCode::InvalidArgument, str_cat("positions[", i, "]"), value,
-                         str_cat("probe ", i, ": position is not finite ", value)};
+                         str_cat(name_of(places), " ", i, ": position is not finite ", value)};
         }
     }
     return Ok{};
 }
 
 /// Returns invalid_argument if the irradiance of a probe exceeds the range of float.
-Status check_light(std::span<const glm::dvec3> positions,
-                   std::span<const ProbeAccumulator> accumulators) {
+Status check_light(const BakePlaces& places, std::span<const ProbeAccumulator> accumulators) {
     for (size_t i = 0; i < accumulators.size(); ++i) {
         const IrradianceSh irradiance = irradiance_from_radiance(accumulators[i].radiance());
         const auto is_good = [](const glm::vec3& c) { return is_finite(c); };
         if (std::ranges::all_of(irradiance.coefficients, is_good)) continue;
-        const glm::dvec3& p = positions[i];
+        const glm::dvec3& p = places.positions[i];
         return Error{ErrorCode::InvalidArgument,
-                     str_cat("probe ", i, " at (", p.x, ", ", p.y, ", ", p.z,
+                     str_cat(name_of(places), " ", i, " at (", p.x, ", ", p.y, ", ", p.z,
                              "): its light is too bright for floats; a light, an emission or the "
                              "sky is far out of range")};
     }
@@ -60,7 +65,7 @@ Status check_light(std::span<const glm::dvec3> positions,
 struct Work {
     const TraceScene& trace_scene;
     const PathTracer& tracer;
-    std::span<const glm::dvec3> positions;
+    const BakePlaces& places;
     std::span<ProbeAccumulator> accumulators;
     const LightGroupRows& light_groups;
     /// The lights of the scene in render space.
@@ -79,10 +84,10 @@ class AccumulatorBaker {
     AccumulatorBaker(const Work& work, const BakeSettings& settings, const BakeHooks& hooks)
         : work_(work),
           settings_(settings),
-          plan_(settings),
+          plan_(settings, work.places.measure()),
           layout_(settings.plan),
           hooks_(hooks),
-          progress_(hooks.progress, work.positions.size()) {
+          progress_(hooks.progress, work.places.positions.size()) {
         for (uint32_t i = 0; i < work.accumulators.size(); ++i) {
             const ProbeAccumulator& accumulator = work.accumulators[i];
             const float layer_error = worst_layer_error(i);
@@ -157,9 +162,13 @@ class AccumulatorBaker {
 
     [[nodiscard]] ProbeEstimate estimate(uint32_t probe, uint64_t round, uint32_t number,
                                          const DirectionSet& directions) const {
-        const glm::dvec3& position = work_.positions[probe];
+        const glm::dvec3& position = work_.places.positions[probe];
         const glm::vec3 origin = work_.trace_scene.render_from_world(position);
         const uint64_t key = estimate_key(probe_key(settings_.seed, position), round, number);
+        if (plan_.measure() == ErrorMeasure::OwnNormal) {
+            return estimate_texel(work_.tracer, origin, work_.places.surfaces[probe], key,
+                                  directions.size());
+        }
         ProbeEstimate estimate = estimate_probe(work_.tracer, origin, key, directions);
         if (has_occlusion(layout_, round, number)) {
             const glm::vec4 occlusion =
@@ -176,14 +185,14 @@ class AccumulatorBaker {
             plan_.expected_samples(accumulator, worst_layer_error(probe));
         const uint64_t samples_before = accumulator.sample_count;
         add_light_groups(probe, accumulator.round_count, estimates);
-        accumulator.add_round(estimates);
+        accumulator.add_round(estimates, plan_.measure());
         const float layer_error = worst_layer_error(probe);
         progress_.add_round({.samples = accumulator.sample_count - samples_before,
                              .expected_samples = plan_.expected_samples(accumulator, layer_error),
                              .expected_samples_before = expected_before,
                              .is_first = accumulator.round_count == 1,
                              .is_done = plan_.is_done(accumulator, layer_error),
-                             .sampling_error = accumulator.sampling_error()});
+                             .sampling_error = accumulator.sampling_error(plan_.measure())});
     }
 
     void add_light_groups(uint32_t probe, uint64_t round,
@@ -196,7 +205,7 @@ class AccumulatorBaker {
                 row[i] += weight * static_cast<double>(estimate.light_groups[i]);
             }
         }
-        add_layer_variances(layout_, estimates, row);
+        add_layer_variances(layout_, estimates, row, plan_.measure());
         if (!has_occlusion(layout_, round, 0)) return;
         for (size_t i = summed; i < layout_.variance_begin(); ++i) {
             row[i] = static_cast<double>(estimates[0].light_groups[i]);
@@ -211,7 +220,7 @@ class AccumulatorBaker {
     [[nodiscard]] float worst_layer_error(uint32_t probe) const {
         if (work_.mean_layer_light.empty()) return 0.0f;
         return tetralight::worst_layer_error(layout_, work_.accumulators[probe], row_of(probe),
-                                             work_.mean_layer_light);
+                                             work_.mean_layer_light, plan_.measure());
     }
 
     /// The largest error of the probes that are not in `probes`, which are sorted.
@@ -222,7 +231,7 @@ class AccumulatorBaker {
             if (next != probes.end() && *next == i) {
                 ++next;
             } else {
-                worst = std::max(worst, work_.accumulators[i].sampling_error());
+                worst = std::max(worst, work_.accumulators[i].sampling_error(plan_.measure()));
             }
         }
         return worst;
@@ -258,9 +267,10 @@ class AccumulatorBaker {
 
 }  // namespace
 
-Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positions,
-                         const BakeSettings& settings, std::span<ProbeAccumulator> accumulators,
-                         const BakeHooks& hooks, const LightGroupRows& light_groups) {
+Status bake_accumulators(const Scene& scene, const BakePlaces& places, const BakeSettings& settings,
+                         std::span<ProbeAccumulator> accumulators, const BakeHooks& hooks,
+                         const LightGroupRows& light_groups) {
+    const std::span positions = places.positions;
     TETRALIGHT_ASSERT(accumulators.size() == positions.size(), "one accumulator for each position");
     const LightGroupLayout layout(settings.plan);
     TETRALIGHT_ASSERT(light_groups.rows.size() == layout.size() * positions.size(),
@@ -268,8 +278,11 @@ Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positio
     TETRALIGHT_ASSERT(
         !layout.has_occlusion || light_groups.occlusion_lights.size() == positions.size(),
         "the occlusion lights of each position");
+    TETRALIGHT_ASSERT(
+        places.surfaces.texels.empty() || places.surfaces.texels.size() == positions.size(),
+        "no surfaces, or one for each position");
     if (auto status = RoundPlan::check(settings); !status) return status;
-    if (auto status = check_positions(positions); !status) return status;
+    if (auto status = check_positions(places); !status) return status;
     if (auto status =
             check_bake_memory(estimate_bake_memory(scene, positions.size(), layout.size()));
         !status) {
@@ -286,12 +299,16 @@ Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positio
     std::vector<double> mean_light;
     if (settings.target_layer_error > 0.0 && layout.variance_count() > 0) {
         mean_light = mean_layer_light(scene, tracer, settings.seed, settings.thread_count);
+        if (places.measure() == ErrorMeasure::OwnNormal) {
+            // From the sum over all normals to one of them.
+            for (double& light : mean_light) light /= std::sqrt(4.0 * std::numbers::pi);
+        }
     }
-    const Work work{*trace_scene,         tracer,       positions,
+    const Work work{*trace_scene,         tracer,       places,
                     accumulators,         light_groups, std::move(lights),
                     std::move(mean_light)};
     const auto status = AccumulatorBaker(work, settings, hooks).run();
-    return status ? check_light(positions, accumulators) : status;
+    return status ? check_light(places, accumulators) : status;
 }
 
 }  // namespace tetralight

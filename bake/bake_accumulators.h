@@ -9,6 +9,7 @@
 #include <tetralight/bake/bake_settings.h>
 #include <tetralight/bake/probe_accumulator.h>
 #include <tetralight/bake/scene/scene.h>
+#include <tetralight/bake/texel_surface.h>
 #include <tetralight/base/result.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -36,25 +37,37 @@ struct LightGroupRows {
     std::span<const OcclusionLights> occlusion_lights = {};
 };
 
-/// Bakes probes at world positions and adds the samples to `accumulators`, one per position. An
-/// accumulator that already has samples continues after its last round.
+/// The probes or texels that are baked.
+struct BakePlaces {
+    /// World positions, by which random numbers are keyed.
+    std::span<const glm::dvec3> positions;
+    /// Empty for probes; for texels, one surface a position.
+    TexelSurfaces surfaces{};
+
+    [[nodiscard]] ErrorMeasure measure() const noexcept {
+        return surfaces.texels.empty() ? ErrorMeasure::AllNormals : ErrorMeasure::OwnNormal;
+    }
+};
+
+/// Bakes probes or texels and adds the samples to `accumulators`, one per place. An accumulator
+/// that already has samples continues after its last round.
 ///
 /// Probes get rounds of independent estimates until each reaches the target error of the settings.
 /// Threads share (probe, estimate) pairs, so that all of them have work until the end; the
 /// estimates of a probe are added in order when the last of them is complete. A few thousand probes
 /// are in progress at a time, which bounds the memory.
 ///
-/// The final state of an accumulator depends only on (scene, its position, settings): its bits are
-/// the same for any number of threads, any other positions, and any interruption in between. Only
+/// The final state of an accumulator depends only on (scene, its place, settings): its bits are
+/// the same for any number of threads, any other places, and any interruption in between. Only
 /// `time_budget_seconds` breaks this.
 ///
 /// Returns invalid_argument if a setting is out of range, a position is not finite, or the light of
-/// a probe exceeds the range of float; out_of_resources if memory does not suffice; cancelled if
+/// a place exceeds the range of float; out_of_resources if memory does not suffice; cancelled if
 /// the progress callback returns false, in which case the accumulators hold all complete rounds.
 ///
 /// Precondition: the accumulators are empty or come from the same settings. There are as many of
-/// them, and as many rows if the plan has light groups, as positions.
-[[nodiscard]] Status bake_accumulators(const Scene& scene, std::span<const glm::dvec3> positions,
+/// them, and as many rows if the plan has light groups, as positions. Texels have no occlusion.
+[[nodiscard]] Status bake_accumulators(const Scene& scene, const BakePlaces& places,
                                        const BakeSettings& settings,
                                        std::span<ProbeAccumulator> accumulators,
                                        const BakeHooks& hooks = {},

@@ -10,7 +10,7 @@ Result<BakedProbes> bake_probes(const Scene& scene, std::span<const glm::dvec3> 
                                 const BakeSettings& settings, const BakeCallback& callback) {
     std::vector<ProbeAccumulator> accumulators(positions.size());
     const BakeHooks hooks{.progress = callback};
-    const Status status = bake_accumulators(scene, positions, settings, accumulators, hooks);
+    const Status status = bake_accumulators(scene, {positions}, settings, accumulators, hooks);
     if (!status) return status.error();
     BakedProbes baked = make_baked_probes(accumulators);
     baked.ambient = project_environment(scene.environment, settings.thread_count);

@@ -62,7 +62,8 @@ std::vector<double> squares_at(const PathTracer& tracer, const glm::dvec3& place
     if (estimate.back_face_count > kMaxBackFaceFraction * estimate.sample_count) return {};
     std::vector<double> squares;
     for (uint32_t layer = 0; layer < layout.variance_count(); ++layer) {
-        squares.push_back(irradiance_square(light_of(estimate, layout, layer)));
+        squares.push_back(
+            irradiance_square(light_of(estimate, layout, layer), ErrorMeasure::AllNormals));
     }
     return squares;
 }
@@ -83,23 +84,24 @@ std::vector<glm::dvec3> random_places(const WorldBox& bounds, uint64_t seed) {
 }  // namespace
 
 void add_layer_variances(const LightGroupLayout& layout, std::span<const ProbeEstimate> estimates,
-                         std::span<double> row) {
+                         std::span<double> row, ErrorMeasure measure) {
     std::vector<WeightedLight> lights(estimates.size());
     for (uint32_t layer = 0; layer < layout.variance_count(); ++layer) {
         for (size_t i = 0; i < estimates.size(); ++i) {
             lights[i] = {light_of(estimates[i], layout, layer),
                          static_cast<double>(estimates[i].sample_count)};
         }
-        row[layout.variance_begin() + layer] += round_variance(lights, weighted_sum(lights));
+        row[layout.variance_begin() + layer] +=
+            round_variance(lights, weighted_sum(lights), measure);
     }
 }
 
 std::vector<float> layer_errors(const LightGroupLayout& layout, const ProbeAccumulator& accumulator,
-                                std::span<const double> row) {
+                                std::span<const double> row, ErrorMeasure measure) {
     std::vector<float> errors;
     for (uint32_t layer = 0; layer < layout.variance_count(); ++layer) {
         const double square =
-            irradiance_square(layer_or_rest(layout, row, layer, accumulator.radiance_sum));
+            irradiance_square(layer_or_rest(layout, row, layer, accumulator.radiance_sum), measure);
         const double variance = row[layout.variance_begin() + layer];
         const auto error = static_cast<float>(std::sqrt(variance / square));
         errors.push_back(square > 0.0 && std::isfinite(error) ? error : 0.0f);
@@ -108,13 +110,14 @@ std::vector<float> layer_errors(const LightGroupLayout& layout, const ProbeAccum
 }
 
 float worst_layer_error(const LightGroupLayout& layout, const ProbeAccumulator& accumulator,
-                        std::span<const double> row, std::span<const double> mean_light) {
+                        std::span<const double> row, std::span<const double> mean_light,
+                        ErrorMeasure measure) {
     const auto sample_count = static_cast<double>(accumulator.sample_count);
     double worst = 0.0;
     for (uint32_t layer = 0; layer < layout.variance_count(); ++layer) {
         const double least = kCountedFraction * mean_light[layer] * sample_count;
         const double square =
-            irradiance_square(layer_or_rest(layout, row, layer, accumulator.radiance_sum));
+            irradiance_square(layer_or_rest(layout, row, layer, accumulator.radiance_sum), measure);
         const double scale = std::max(square, least * least);
         if (scale > 0.0)
             worst = std::max(worst, std::sqrt(row[layout.variance_begin() + layer] / scale));

@@ -13,28 +13,19 @@
 
 namespace tetralight {
 
-using detail::kSpherePdf;
 using detail::power_heuristic;
-
-namespace {
-
-/// Density of a direction at a shading point among those that are not drawn.
-float chance_pdf(const ShadingPoint& shading_point, glm::vec3 direction) {
-    if (shading_point.normal == glm::vec3(0.0f)) return kSpherePdf;
-    return sample_cosine_hemisphere_pdf(shading_point.normal, direction);
-}
-
-/// What arriving radiance is multiplied by: cosine / π at surfaces, whose albedo is in the
-/// throughput of the path.
-float reflection_factor(const ShadingPoint& shading_point, float pdf) {
-    return shading_point.normal == glm::vec3(0.0f) ? 1.0f : pdf;
-}
-
-}  // namespace
 
 PathTracer::Draws PathTracer::draws_at(const PathStart& start) {
     if (start.opening_weights == nullptr) return {};
-    return draws_with({start.origin}, *start.opening_weights, 1.0f);
+    Draws draws = draws_with({start.origin, start.normal}, *start.opening_weights, 1.0f);
+    draws.is_first = true;
+    return draws;
+}
+
+/// Density of a direction among those that are not drawn.
+float PathTracer::chance_pdf(const Draws& draws, glm::vec3 direction) {
+    if (draws.is_first) return start_pdf(draws.from.normal, direction);
+    return sample_cosine_hemisphere_pdf(draws.from.normal, direction);
 }
 
 PathTracer::Draws PathTracer::draws_at(const ShadingPoint& shading_point, float count) const {
@@ -125,10 +116,11 @@ PathTracer::OpeningSample PathTracer::draw_direction(const Draws& draws, glm::ve
     OpeningSample sample;
     sample.to_light = openings_.sample_direction(draws.weights, draws.from.position, choice,
                                                  path.draw_sampler.next2());
-    const float by_chance = chance_pdf(draws.from, sample.to_light);
+    const float by_chance = chance_pdf(draws, sample.to_light);
     const float drawn = direction_density(draws, sample.to_light);
     if (!(by_chance > 0.0f) || !(drawn > 0.0f)) return sample;
-    const float factor = reflection_factor(draws.from, by_chance) / drawn;
+    // Radiance times cosine / π at surfaces, whose albedo is in the throughput of the path.
+    const float factor = (draws.is_first ? 1.0f : by_chance) / drawn;
     ++path.ray_count;
     const auto surface = trace_scene_.intersect(
         {ray_origin, sample.to_light}, TraceScene::Detail::LightOnly, TraceScene::kDiffuseSpread);
@@ -176,7 +168,7 @@ PathTracer::OpeningSample PathTracer::draw_spot(const Draws& draws, glm::vec3 ra
     sample.to_light = glm::normalize(target - draws.from.position);
     if (cosine <= 0.0f || glm::dot(surface->geometric_normal, sample.to_light) >= 0.0f)
         return sample;
-    const float by_chance = chance_pdf(draws.from, sample.to_light);
+    const float by_chance = chance_pdf(draws, sample.to_light);
     const float spot = spot_density(draws, *surface, light);
     if (!(by_chance > 0.0f) || !(spot > 0.0f)) return sample;
     ++path.ray_count;
@@ -187,7 +179,7 @@ PathTracer::OpeningSample PathTracer::draw_spot(const Draws& draws, glm::vec3 ra
         power_heuristic(spot, by_chance, direction_density(draws, sample.to_light));
     sample.irradiance = path.throughput * surface->albedo * light.irradiance *
                         (cosine * std::numbers::inv_pi_v<float> *
-                         reflection_factor(draws.from, by_chance) * weight / spot);
+                         (draws.is_first ? 1.0f : by_chance) * weight / spot);
     path.add(layer_of(LightKind::Directional, light), sample.irradiance,
              PathLightGroups::Arrival::Reflected);
     return sample;

@@ -13,10 +13,12 @@
 
 namespace tetralight {
 
-using detail::kSpherePdf;
 using detail::power_heuristic;
 
 namespace {
+
+/// Share of directions of `sample_start` in proportion to the cosine; the others are uniform.
+constexpr float kCosineShare = 0.75f;
 
 /// Russian roulette starts after this many reflections, for paths with a throughput below
 /// 1 / kSurvivalPerThroughput. Survivors have that throughput again, so that a path in a closed
@@ -53,6 +55,18 @@ bool is_light(glm::vec3 irradiance) {
 
 }  // namespace
 
+float start_pdf(glm::vec3 normal, glm::vec3 direction) noexcept {
+    if (normal == glm::vec3(0.0f)) return detail::kSpherePdf;
+    const float cosine_pdf = sample_cosine_hemisphere_pdf(normal, direction);
+    if (!(cosine_pdf > 0.0f)) return 0.0f;
+    return kCosineShare * cosine_pdf + (1.0f - kCosineShare) * 2.0f * detail::kSpherePdf;
+}
+
+glm::vec3 sample_start(glm::vec3 normal, glm::vec2 u) noexcept {
+    if (u.x < kCosineShare) return sample_cosine_hemisphere(normal, {u.x / kCosineShare, u.y});
+    return sample_cone(normal, 0.0f, {(u.x - kCosineShare) / (1.0f - kCosineShare), u.y});
+}
+
 PathTracer::PathTracer(const Scene& scene, const TraceScene& trace_scene,
                        const PathSettings& settings, const LightPlan& plan,
                        std::vector<Opening> openings)
@@ -82,10 +96,10 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
     Path path{sampler, sampler.branch(), glm::vec3(1.0f), 0, light_groups};
     glm::vec3& throughput = path.throughput;
     Ray ray{start.origin, start.direction};
-    ShadingPoint shading_point{start.origin};
-    float pdf = start.pdf;
+    ShadingPoint shading_point{start.origin, start.normal};
     Draws draws = draws_at(start);
-    draws.chance_pdf = kSpherePdf;
+    draws.chance_pdf = start_pdf(start.normal, start.direction);
+    float pdf = start.paths_per_light_sample * draws.chance_pdf;
     float weight = 1.0f;  // of light that arrives at the start of the segment from its sources
     glm::vec3 light_before_last(0.0f);
     if (settings_.bounces == 0) sample.last_throughput = 1.0f;
@@ -164,13 +178,14 @@ bool PathTracer::can_sample_emission() const {
 
 LightSample PathTracer::sample_emission(LightKind kind, const PathStart& start,
                                         Sampler& sampler) const {
-    LightSample sample = light_sampler_.sample(kind, {start.origin}, sampler);
-    float other_pdf = start.pdf;
+    LightSample sample = light_sampler_.sample(kind, {start.origin, start.normal}, sampler);
+    float other_pdf = start_pdf(start.normal, sample.to_light);
+    if (!(other_pdf > 0.0f)) return {};  // behind the surface
     if (kind == LightKind::Sky && start.opening_weights != nullptr) {
-        // Draws are as many as paths, whose density is uniform.
-        const float drawn = direction_density(draws_at(start), sample.to_light);
-        other_pdf *= std::hypot(1.0f, drawn / kSpherePdf);
+        // Draws are as many as paths.
+        other_pdf = std::hypot(other_pdf, direction_density(draws_at(start), sample.to_light));
     }
+    other_pdf *= start.paths_per_light_sample;
     sample.irradiance *= mis_weight_light(sample.pdf, other_pdf);
     if (!is_light(sample.irradiance) || occluded(start.origin, sample)) return {};
     return sample;

@@ -46,13 +46,23 @@ struct PathSettings {
 struct PathStart {
     glm::vec3 origin{0.0f};     ///< render space
     glm::vec3 direction{0.0f};  ///< unit vector
-    /// Density of the direction per steradian, relative to one light sample of each kind that is
-    /// taken at the origin too (`sample_emission`); infinite = no light samples are taken there.
-    float pdf = std::numeric_limits<float>::infinity();
+    /// Zero: paths start into all directions (`start_pdf`). A unit vector: into its hemisphere.
+    glm::vec3 normal{0.0f};
+    /// Paths for each light sample of each kind that is taken at the origin too
+    /// (`sample_emission`); infinite = no light samples are taken there.
+    float paths_per_light_sample = std::numeric_limits<float>::infinity();
     /// The weights at the origin, where `PathTracer::draw_from_openings` is called once for each
     /// path; null = it is not.
     const Openings::Weights* opening_weights = nullptr;
 };
+
+/// Density per steradian of the directions in which paths start. Normal zero: uniform on the
+/// sphere. Else that of `sample_start`.
+[[nodiscard]] float start_pdf(glm::vec3 normal, glm::vec3 direction) noexcept;
+
+/// A direction in the hemisphere of a unit normal, with density (3 cos θ / π + 1 / 2π) / 4: close
+/// to the cosine, for the irradiance of a surface, and never near 0, for ∫ L dω and ∫ L ω dω.
+[[nodiscard]] glm::vec3 sample_start(glm::vec3 normal, glm::vec2 u) noexcept;
 
 /// The radiance that one path found.
 struct PathSample {
@@ -166,6 +176,8 @@ class PathTracer {
         float chance_pdf = 0.0f;
         /// The direction was drawn through an opening.
         bool is_drawn = false;
+        /// At the start of a path.
+        bool is_first = false;
     };
 
     /// Direct light of all kinds that a surface reflects, divided by its albedo. `weight`: of all
@@ -179,6 +191,7 @@ class PathTracer {
     [[nodiscard]] float sky_weight(const Draws& draws, glm::vec3 direction, float pdf) const;
 
     [[nodiscard]] static Draws draws_at(const PathStart& start);
+    [[nodiscard]] static float chance_pdf(const Draws& draws, glm::vec3 direction);
     [[nodiscard]] static Draws draws_with(const ShadingPoint& shading_point,
                                           const Openings::Weights& weights, float count);
     [[nodiscard]] Draws draws_at(const ShadingPoint& shading_point, float count) const;

@@ -2,12 +2,26 @@
 #include <tetralight/bake/probe_accumulator.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <tetralight/bake/round_variance.h>
 
 namespace tetralight {
-void ProbeAccumulator::add_round(std::span<const ProbeEstimate> estimates) {
+namespace {
+
+/// `irradiance_square` of light that arrives evenly from all directions, or above the surface.
+double lost_square(const CutLight& cut, ErrorMeasure measure) {
+    constexpr double kY0 = 0.28209479177387814;
+    const glm::dvec3 lost = cut.lost_radiance();
+    const double factor =
+        measure == ErrorMeasure::OwnNormal ? std::numbers::pi * kY0 : std::numbers::pi;
+    return factor * factor * glm::dot(lost, lost);
+}
+
+}  // namespace
+
+void ProbeAccumulator::add_round(std::span<const ProbeEstimate> estimates, ErrorMeasure measure) {
     std::vector<WeightedLight> lights;
     lights.reserve(estimates.size());
     for (const ProbeEstimate& estimate : estimates) {
@@ -23,7 +37,7 @@ void ProbeAccumulator::add_round(std::span<const ProbeEstimate> estimates) {
     }
     const RadianceSums sum = weighted_sum(lights);
     for (int i = 0; i < kShCoefficientCount; ++i) radiance_sum[i] += sum[i];
-    variance_sum += round_variance(lights, sum);
+    variance_sum += round_variance(lights, sum, measure);
     ++round_count;
 }
 
@@ -42,17 +56,16 @@ float ProbeAccumulator::validity() const noexcept {
                                         static_cast<double>(sample_count));
 }
 
-float ProbeAccumulator::sampling_error() const noexcept {
-    const double square = irradiance_square(radiance_sum);  // both sums have a factor N²
+float ProbeAccumulator::sampling_error(ErrorMeasure measure) const noexcept {
+    const double square = irradiance_square(radiance_sum, measure);  // both sums have a factor N²
     return square > 0.0 ? static_cast<float>(std::sqrt(variance_sum / square)) : 0.0f;
 }
 
-float ProbeAccumulator::standard_error() const noexcept {
-    const double square = irradiance_square(radiance_sum);
+float ProbeAccumulator::standard_error(ErrorMeasure measure) const noexcept {
+    const double square = irradiance_square(radiance_sum, measure);
     if (square <= 0.0 || variance_sum <= 0.0) return 0.0f;
-    RadianceSums lost{};
-    lost[0] = cut.lost_radiance();
-    return static_cast<float>(std::sqrt((variance_sum + irradiance_square(lost)) / square));
+    const double lost = lost_square(cut, measure);
+    return static_cast<float>(std::sqrt((variance_sum + lost) / square));
 }
 
 }  // namespace tetralight

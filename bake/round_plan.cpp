@@ -31,11 +31,12 @@ uint64_t first_round_samples(const BakeSettings& settings) {
 
 }  // namespace
 
-RoundPlan::RoundPlan(const BakeSettings& settings) noexcept
+RoundPlan::RoundPlan(const BakeSettings& settings, ErrorMeasure measure) noexcept
     : first_round_samples_(first_round_samples(settings)),
       max_samples_(first_round_samples_),
       target_error_(settings.target_error),
-      target_layer_error_(settings.target_layer_error) {
+      target_layer_error_(settings.target_layer_error),
+      measure_(measure) {
     if (!has_rounds(settings)) return;
     const uint64_t wanted = settings.max_sample_count > 0 ? settings.max_sample_count
                                                           : kDefaultGrowth * first_round_samples_;
@@ -89,7 +90,7 @@ uint32_t RoundPlan::samples_in_estimate(uint64_t round, uint32_t estimate) const
 
 double RoundPlan::excess(const ProbeAccumulator& accumulator, float layer_error) const noexcept {
     double excess = 0.0;
-    if (target_error_ > 0.0) excess = double{accumulator.sampling_error()} / target_error_;
+    if (target_error_ > 0.0) excess = double{accumulator.sampling_error(measure_)} / target_error_;
     if (target_layer_error_ > 0.0) {
         excess = std::max(excess, double{layer_error} / target_layer_error_);
     }

@@ -20,7 +20,8 @@ class RoundPlan {
     static constexpr uint32_t kMinSamplesPerEstimate = 16;
 
     /// Precondition: `check(settings)` succeeds.
-    explicit RoundPlan(const BakeSettings& settings) noexcept;
+    explicit RoundPlan(const BakeSettings& settings,
+                       ErrorMeasure measure = ErrorMeasure::AllNormals) noexcept;
 
     /// Returns invalid_argument with the setting as its field if there are no samples, if the
     /// maximum is below the samples of the first round, or if a number is negative or not finite.
@@ -37,6 +38,9 @@ class RoundPlan {
 
     /// Samples of one of these estimates. Within a round they differ by at most one.
     [[nodiscard]] uint32_t samples_in_estimate(uint64_t round, uint32_t estimate) const noexcept;
+
+    /// Of the errors that are compared with the targets.
+    [[nodiscard]] ErrorMeasure measure() const noexcept { return measure_; }
 
     /// True if the errors of layers count (`BakeSettings::target_layer_error`).
     [[nodiscard]] bool has_layer_target() const noexcept { return target_layer_error_ > 0.0; }
@@ -63,6 +67,7 @@ class RoundPlan {
     uint64_t max_samples_ = 0;
     double target_error_ = 0.0;
     double target_layer_error_ = 0.0;
+    ErrorMeasure measure_ = ErrorMeasure::AllNormals;
 };
 
 /// The random key of one estimate of a probe.

@@ -15,9 +15,21 @@ namespace tetralight {
 /// Radiance coefficients, or sums of them.
 using RadianceSums = std::array<glm::dvec3, kShCoefficientCount>;
 
-/// Σ A_l² c_i² over nine RGB coefficients of radiance: 4π times the mean square of the irradiance
-/// over all normals. A = π, 2π/3, π/4.
-[[nodiscard]] inline double irradiance_square(const RadianceSums& radiance) noexcept {
+/// The irradiance whose error a bake measures.
+enum class ErrorMeasure : uint8_t {
+    AllNormals,  ///< of probes: the root mean square over all normals
+    OwnNormal,   ///< of texels: that of the surface, whose normal is +Z of the coefficients
+};
+
+/// `AllNormals`: Σ A_l² c_i² over nine RGB coefficients of radiance, 4π times the mean square of
+/// the irradiance over all normals; A = π, 2π/3, π/4. `OwnNormal`: the square of ∫ L(ω) ω_z dω,
+/// which is the irradiance if light arrives above the surface only.
+[[nodiscard]] inline double irradiance_square(
+    const RadianceSums& radiance, ErrorMeasure measure = ErrorMeasure::AllNormals) noexcept {
+    if (measure == ErrorMeasure::OwnNormal) {
+        constexpr double kY1 = 0.4886025119029199;  // Y_2 = kY1 z
+        return glm::dot(radiance[2], radiance[2]) / (kY1 * kY1);
+    }
     constexpr double kPi = std::numbers::pi;
     constexpr double kBandFactors[] = {kPi, 2.0 * kPi / 3.0, kPi / 4.0};
     double sum = 0.0;
@@ -49,7 +61,7 @@ struct WeightedLight {
 /// `weighted_sum` is `sum`: N² Σ n_k/N |x_k − mean|² / (K − 1). Unbiased if the variance of an
 /// estimate is proportional to 1/n_k. 0 for fewer than two estimates, whose variance is unknown.
 [[nodiscard]] inline double round_variance(std::span<const WeightedLight> estimates,
-                                           const RadianceSums& sum) noexcept {
+                                           const RadianceSums& sum, ErrorMeasure measure) noexcept {
     if (estimates.size() < 2) return 0.0;
     double sample_count = 0.0;
     for (const WeightedLight& estimate : estimates) sample_count += estimate.sample_count;
@@ -59,7 +71,7 @@ struct WeightedLight {
         for (int i = 0; i < kShCoefficientCount; ++i) {
             difference[i] = estimate.radiance[i] - sum[i] / sample_count;
         }
-        variance += estimate.sample_count / sample_count * irradiance_square(difference);
+        variance += estimate.sample_count / sample_count * irradiance_square(difference, measure);
     }
     return sample_count * sample_count * variance / static_cast<double>(estimates.size() - 1);
 }

@@ -20,7 +20,7 @@ std::vector<std::vector<RadianceSh>> bake_layers(const BakeSubject& subject,
     const LightGroupLayout layout(plan);
     std::vector<ProbeAccumulator> accumulators(subject.probes.size());
     std::vector<double> rows(layout.size() * subject.probes.size());
-    require(bool(bake_accumulators(subject.scene, subject.probes, settings, accumulators, {},
+    require(bool(bake_accumulators(subject.scene, {subject.probes}, settings, accumulators, {},
                                    {.rows = rows})),
             "bake");
     std::vector<std::vector<RadianceSh>> light(plan.layer_count);

@@ -92,11 +92,11 @@ struct Bake {
         const auto baked = bake_with_progress(scene, prepared);
         if (!baked) return baked.error();
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        storing.warn(*baked, common);
+        storing.warn(baked->stored, common);
         const Status status =
             storing.probes ? write_range(prepared, *baked, seconds.count())
                            : write_whole(scene, std::move(prepared), *baked, seconds.count());
-        if (status) storing.finish(*baked);
+        if (status) storing.finish(baked->stored);
         return status;
     }
 
@@ -110,7 +110,7 @@ struct Bake {
 
     Status write_range(const PreparedBake& prepared, const RangeBake& baked, double seconds) const {
         if (auto status = write_part(output, prepared, baked.partial); !status) return status;
-        report_range(common, {output, settings.bake, seconds, baked.earlier_ray_count},
+        report_range(common, {output, settings.bake, seconds, baked.stored.earlier_ray_count},
                      baked.partial, prepared.capture_positions.size());
         return Ok{};
     }
@@ -121,7 +121,7 @@ struct Bake {
             finish_bake(std::move(prepared), baked.partial.accumulators, baked.partial.split_rows);
         common.warn(result.report.warnings);
         if (auto status = write_probe_file(output, result.volume.view()); !status) return status;
-        const BakeRun run{output, settings.bake, seconds, baked.earlier_ray_count};
+        const BakeRun run{output, settings.bake, seconds, baked.stored.earlier_ray_count};
         if (!checks_leaks) {
             report_volume(common, run, result);
             return Ok{};

@@ -2,6 +2,7 @@
 #include <tetralight/cli/bake_storing.h>
 
 #include <filesystem>
+#include <string_view>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/failure.h>
@@ -24,14 +25,14 @@ ProbeRange range_of(const std::optional<IndexRange>& probes, const PreparedBake&
 }  // namespace
 
 BakeStoring::BakeStoring(const Values& values)
-    : probes(index_range(values, "probes")),
+    : probes(has_setting(values, "probes") ? index_range(values, "probes") : std::nullopt),
       progress_file(values.text("progress_file")),
       output_(values.text("output")),
       is_resumed_(values.flag("resume")),
       chunk_folder_(values.text("chunks")),
       store_folder_(values.text("store")),
       store_limit_(values.number("store_limit")),
-      reuse_path_(values.text("reuse")) {
+      reuse_path_(has_setting(values, "reuse") ? values.text("reuse") : "") {
     if (is_resumed_ && output_ == "-") refuse(values, "resume", "nothing is kept beside stdout");
     const std::string extension = std::filesystem::path(output_).extension().string();
     if (extension == (probes ? ".probes" : ".part")) {
@@ -98,16 +99,20 @@ Result<RangeBake> BakeStoring::bake(const Scene& scene, const PreparedBake& prep
     const BakeStorage used = storage();
     auto baked = bake_range(scene, prepared, range_of(probes, prepared), used, show);
     if (baked || baked.error().code != ErrorCode::Cancelled) return baked;
-    if (used.target == nullptr || used.target->is_empty()) {
-        return Error{ErrorCode::Cancelled, "interrupted; nothing was kept"};
-    }
-    note_checkpoint();
-    return Error{ErrorCode::Cancelled,
-                 str_cat("interrupted; ", used.target->folder(), " keeps what is done",
-                         shared_ ? "" : ", --resume goes on with it")};
+    return interrupted();
 }
 
-void BakeStoring::warn(const RangeBake& baked, const CommonOptions& common) const {
+Error BakeStoring::interrupted() {
+    const BakeStore* target = storage().target;
+    if (target == nullptr || target->is_empty()) {
+        return {ErrorCode::Cancelled, "interrupted; nothing was kept"};
+    }
+    note_checkpoint();
+    return {ErrorCode::Cancelled, str_cat("interrupted; ", target->folder(), " keeps what is done",
+                                          shared_ ? "" : ", --resume goes on with it")};
+}
+
+void BakeStoring::warn(const StoredBake& baked, const CommonOptions& common) const {
     std::vector<std::string> lines;
     for (const auto* store : {&shared_, &beside_}) {
         if (!*store || (*store)->damaged_count() == 0) continue;
@@ -126,7 +131,7 @@ void BakeStoring::warn(const RangeBake& baked, const CommonOptions& common) cons
     if (baked.save_failure) common.warn("", *baked.save_failure, "");
 }
 
-void BakeStoring::finish(const RangeBake& baked) {
+void BakeStoring::finish(const StoredBake& baked) {
     const bool has_other_work = has_old_entries_ && baked.earlier_ray_count == 0;
     if (beside_ && !has_other_work) BakeStore::remove(beside_->folder());
     if (shared_ && store_limit_ > 0.0) shared_->prune(static_cast<uint64_t>(store_limit_ * 1e9));

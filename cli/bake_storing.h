@@ -12,8 +12,8 @@
 
 namespace tetralight::cli {
 
-/// Which probes `bake` bakes, and where light that is known already is kept: `probes`, `resume`,
-/// `chunks`, `store`, `store_limit`, `reuse`, `progress_file`.
+/// Which probes a bake bakes, and where light that is known already is kept: `resume`, `chunks`,
+/// `store`, `store_limit`, `progress_file`, and of `bake` also `probes` and `reuse`.
 class BakeStoring {
   public:
     std::optional<IndexRange> probes;
@@ -32,22 +32,26 @@ class BakeStoring {
     /// Takes light from the volume of `reuse`, if there is one; warns if nothing can be reused.
     Status reuse(PreparedBake& prepared, const CommonOptions& common) const;
 
+    /// Where light is loaded from and saved to.
+    [[nodiscard]] BakeStorage storage();
+
+    /// The error of a bake that a signal cancelled; the message says what is kept.
+    [[nodiscard]] Error interrupted();
+
     /// Bakes what is not known yet. Returns cancelled after a signal; the message says what is
     /// kept.
     [[nodiscard]] Result<RangeBake> bake(const Scene& scene, const PreparedBake& prepared,
                                          const BakeCallback& show);
 
     /// Warns of damaged entries, of entries that were not used, and of saves that failed.
-    void warn(const RangeBake& baked, const CommonOptions& common) const;
+    void warn(const StoredBake& baked, const CommonOptions& common) const;
 
     /// After the output is written: removes the store beside it, unless it holds work of another
     /// bake, and prunes that of `store`.
-    void finish(const RangeBake& baked);
+    void finish(const StoredBake& baked);
 
   private:
     [[nodiscard]] std::string path_beside() const;
-    [[nodiscard]] BakeStorage storage();
-
     std::string output_;
     bool is_resumed_ = false;
     std::string chunk_folder_;

@@ -33,6 +33,11 @@ template <class Enum>
     return static_cast<Enum>(values.choice(name));
 }
 
+/// True if the command has a setting of this name.
+[[nodiscard]] inline bool has_setting(const Values& values, std::string_view name) {
+    return values.table().find(name) != nullptr;
+}
+
 /// Sets `member` to the setting's value, if it was given or has a default.
 template <class T>
 void read_if_any(const Values& values, std::string_view name, T& member) {

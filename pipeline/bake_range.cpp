@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <span>
 
-#include <tetralight/bake/bake_accumulators.h>
 #include <tetralight/base/str_cat.h>
-#include <tetralight/pipeline/probe_store.h>
 
 namespace tetralight {
 namespace {
-
-/// Samples between two points at which a bake can be saved, if it is saved every second or more.
-constexpr uint64_t kFrequentSamples = 1u << 17;
 
 Status check_range(const ProbeRange& range, size_t probe_count) {
     if (range.begin <= range.end && range.end <= probe_count) return Ok{};
@@ -48,12 +43,6 @@ struct UnknownProbes {
 
     [[nodiscard]] LightGroupRows split() { return {rows, occlusion_lights}; }
 
-    [[nodiscard]] uint64_t ray_count() const {
-        uint64_t sum = 0;
-        for (const ProbeAccumulator& accumulator : accumulators) sum += accumulator.ray_count;
-        return sum;
-    }
-
     [[nodiscard]] PartialBake in_range(const PreparedBake& prepared,
                                        const ProbeRange& range) const {
         PartialBake partial{range, std::vector<ProbeAccumulator>(range.count()),
@@ -69,55 +58,6 @@ struct UnknownProbes {
     }
 };
 
-/// Loads probes from stores and saves them. Without stores it does nothing.
-class Keeper {
-  public:
-    Keeper(const Scene& scene, const BakeSettings& settings, const BakeStorage& storage,
-           UnknownProbes& probes)
-        : storage_(storage) {
-        if (storage.target == nullptr && storage.sources.empty()) return;
-        probes_.emplace(scene, settings, probes.positions, probes.accumulators, probes.split());
-        for (BakeStore* store : storage.sources) probes_->load(*store, store == storage.target);
-    }
-
-    void save() {
-        if (storage_.target == nullptr) return;
-        const auto saved = probes_->save(*storage_.target);
-        failure_ = saved ? std::nullopt : std::optional(saved.error());
-        is_saved_ = is_saved_ || saved;
-    }
-
-    [[nodiscard]] bool must_stop() const { return storage_.is_required && failure_; }
-
-    [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
-
-    [[nodiscard]] bool is_saved() const { return is_saved_; }
-
-  private:
-    const BakeStorage& storage_;
-    std::optional<ProbeStore> probes_;
-    std::optional<Error> failure_;
-    bool is_saved_ = false;
-};
-
-/// Bakes all probes to the end and saves them on the way.
-Status bake_unknown(const Scene& scene, const BakeSettings& settings, const BakeStorage& storage,
-                    UnknownProbes& probes, Keeper& keeper, const BakeCallback& callback) {
-    if (probes.positions.empty()) return Ok{};
-    BakeHooks hooks{.save_seconds = storage.save_seconds};
-    hooks.progress = [&](const BakeProgress& progress) {
-        return !keeper.must_stop() && (!callback || callback(progress));
-    };
-    if (storage.target != nullptr) hooks.save = [&] { keeper.save(); };
-    if (storage.save_seconds < 1.0) hooks.samples_between_saves = kFrequentSamples;
-    const Status status = bake_accumulators(scene, probes.positions, settings, probes.accumulators,
-                                            hooks, probes.split());
-    if (keeper.must_stop()) return *keeper.failure();
-    if (!status || storage.is_saved_at_end) keeper.save();
-    if (keeper.must_stop()) return *keeper.failure();
-    return status;
-}
-
 }  // namespace
 
 Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, ProbeRange range,
@@ -126,17 +66,11 @@ Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, P
     if (!checked) return checked.error();
     const BakeSettings& settings = prepared.settings.bake;
     UnknownProbes probes(prepared, range);
-    Keeper keeper(scene, settings, storage, probes);
-    RangeBake bake;
-    bake.earlier_ray_count = probes.ray_count();
-    const Status status = bake_unknown(scene, settings, storage, probes, keeper, callback);
-    if (!status && keeper.failure()) {
-        return keeper.failure()->in("interrupted; what is done could not be kept");
-    }
-    if (!status) return status.error();
+    const auto stored = bake_with_stores(scene, {probes.positions}, settings, storage,
+                                         {probes.accumulators, probes.split()}, callback);
+    if (!stored) return stored.error();
+    RangeBake bake{{}, *stored};
     bake.partial = probes.in_range(prepared, range);
-    bake.is_saved = keeper.is_saved();
-    bake.save_failure = keeper.failure();
     return bake;
 }
 

@@ -221,7 +221,7 @@ Result<BakedVolume> bake_volume(const Scene& scene, std::span<const ProbeGroup> 
     const BakeSettings& with_plan = prepared->settings.bake;
     std::vector<double> rows(LightGroupLayout(with_plan.plan).size() * accumulators.size());
     const auto status =
-        bake_accumulators(scene, prepared->capture_positions, with_plan, accumulators,
+        bake_accumulators(scene, {prepared->capture_positions}, with_plan, accumulators,
                           {.progress = callback}, {rows, prepared->volume.occlusion_lights});
     if (!status) return status.error();
     BakedVolume baked = finish_bake(std::move(*prepared), accumulators, rows);

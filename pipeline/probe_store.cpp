@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 #include <tetralight/bake/round_plan.h>
 #include <tetralight/base/contract.h>
@@ -22,22 +23,38 @@ StoreKey probe_key_of(const StoreKey& light, const glm::dvec3& position,
     return hash.digest();
 }
 
+StoreKey texel_key_of(const StoreKey& light, const glm::dvec3& position,
+                      const TexelSurface& surface) {
+    Sha256 hash;
+    hash.add(std::string_view("texel"));
+    hash.add(light);
+    hash.add(std::as_bytes(std::span(&position, 1)));
+    hash.add(std::as_bytes(std::span(&surface.normal, 1)));
+    hash.add(std::as_bytes(surface.origins));
+    return hash.digest();
+}
+
 }  // namespace
 
-ProbeStore::ProbeStore(const Scene& scene, const BakeSettings& settings,
-                       std::span<const glm::dvec3> positions,
+ProbeStore::ProbeStore(const Scene& scene, const BakeSettings& settings, const BakePlaces& places,
                        std::span<ProbeAccumulator> accumulators, const LightGroupRows& split)
     : accumulators_(accumulators),
       rows_(split.rows),
       row_size_(LightGroupLayout(settings.plan).size()),
       settings_(settings),
-      stored_rounds_(positions.size(), 0) {
-    TETRALIGHT_ASSERT(accumulators.size() == positions.size(), "one accumulator a position");
+      measure_(places.measure()),
+      stored_rounds_(places.positions.size(), 0) {
+    TETRALIGHT_ASSERT(accumulators.size() == places.positions.size(), "one accumulator a place");
     const StoreKey light = light_key(scene, settings);
-    for (size_t i = 0; i < positions.size(); ++i) {
+    for (size_t i = 0; i < places.positions.size(); ++i) {
+        const glm::dvec3& position = places.positions[i];
+        if (measure_ == ErrorMeasure::OwnNormal) {
+            keys_.push_back(texel_key_of(light, position, places.surfaces[i]));
+            continue;
+        }
         const bool has_occlusion = settings.plan.has_occlusion;
-        keys_.push_back(probe_key_of(light, positions[i],
-                                     has_occlusion ? &split.occlusion_lights[i] : nullptr));
+        keys_.push_back(
+            probe_key_of(light, position, has_occlusion ? &split.occlusion_lights[i] : nullptr));
     }
 }
 
@@ -46,7 +63,7 @@ std::span<double> ProbeStore::row(size_t probe) const {
 }
 
 void ProbeStore::load(BakeStore& store, bool is_target) {
-    const RoundPlan plan(settings_);
+    const RoundPlan plan(settings_, measure_);
     for (size_t i = 0; i < keys_.size(); ++i) {
         const auto value = store.find(keys_[i]);
         if (!value || value->size() != sizeof(ProbeAccumulator) + row(i).size_bytes()) continue;

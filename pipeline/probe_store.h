@@ -14,17 +14,16 @@
 
 namespace tetralight {
 
-/// Accumulators and light-group rows of probes in bake stores. The key of a probe is SHA-256 of
-/// what its light depends on: what the bake reads of the scene, the settings, the program's
-/// version, the capture position and the occlusion lights. So probes of other groups and other
-/// volumes are found too. The value is the newest state of the probe, finished or not: a bake goes
-/// on from there.
+/// Accumulators and light-group rows of probes or texels in bake stores. The key is SHA-256 of what
+/// the light depends on: what the bake reads of the scene, the settings, the program's version, the
+/// capture position, and the occlusion lights of a probe or the surface of a texel. So probes of
+/// other groups and other volumes are found too. The value is the newest state of the probe,
+/// finished or not: a bake goes on from there.
 class ProbeStore {
   public:
-    /// `positions` and `split` as of `bake_accumulators`; they outlive this object.
-    ProbeStore(const Scene& scene, const BakeSettings& settings,
-               std::span<const glm::dvec3> positions, std::span<ProbeAccumulator> accumulators,
-               const LightGroupRows& split);
+    /// `places` and `split` as of `bake_accumulators`; they outlive this object.
+    ProbeStore(const Scene& scene, const BakeSettings& settings, const BakePlaces& places,
+               std::span<ProbeAccumulator> accumulators, const LightGroupRows& split);
 
     /// Loads the state of each probe that has had more rounds in the store than here. `is_target`:
     /// it is the store that `save` will write to.
@@ -41,6 +40,7 @@ class ProbeStore {
     std::span<double> rows_;
     size_t row_size_ = 0;
     BakeSettings settings_;
+    ErrorMeasure measure_;
     std::vector<uint64_t> stored_rounds_;  ///< one a probe
 };
 

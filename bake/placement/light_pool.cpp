@@ -68,7 +68,7 @@ Status LightPool::bake_some(std::span<const uint32_t> some, uint32_t sample_coun
         accumulators.push_back(accumulators_[i]);
     }
     auto status =
-        bake_accumulators(scene_, positions, settings_, accumulators, {.progress = callback});
+        bake_accumulators(scene_, {positions}, settings_, accumulators, {.progress = callback});
     if (!status) return status;
     for (size_t k = 0; k < some.size(); ++k) {
         accumulators_[some[k]] = accumulators[k];

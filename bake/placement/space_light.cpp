@@ -43,7 +43,7 @@ Result<std::vector<SpaceLight>> find_space_light(const Scene& scene,
     const LightGroupLayout layout(settings.plan);
     std::vector<ProbeAccumulator> accumulators(positions.size());
     std::vector<double> rows(positions.size() * layout.size(), 0.0);
-    auto status = bake_accumulators(scene, positions, settings, accumulators, {}, {rows, {}});
+    auto status = bake_accumulators(scene, {positions}, settings, accumulators, {}, {rows, {}});
     if (!status) return status.error();
 
     std::vector<SpaceLight> light;

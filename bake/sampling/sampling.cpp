@@ -14,18 +14,16 @@ namespace tetralight {
 using detail::kGoldenRatio64;
 using detail::mix;
 
-namespace {
+namespace {}  // namespace
 
-/// Branch-free tangent frame (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
-glm::mat3 frame_around(glm::vec3 n) {
+// Without branches (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+glm::mat3 frame_around(glm::vec3 n) noexcept {
     const float sign = std::copysign(1.0f, n.z);
     const float a = -1.0f / (sign + n.z);
     const float b = n.x * n.y * a;
     return {
         {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
-
-}  // namespace
 
 uint64_t probe_key(uint64_t seed, const glm::dvec3& position) noexcept {
     uint64_t key = mix(seed + kGoldenRatio64);

@@ -36,6 +36,9 @@ class RandomStream {
 /// A uniformly distributed random rotation (Shoemake 1992, "Uniform Random Rotations").
 [[nodiscard]] glm::mat3 sample_rotation(RandomStream& random) noexcept;
 
+/// A rotation whose last column is the unit vector `n`.
+[[nodiscard]] glm::mat3 frame_around(glm::vec3 n) noexcept;
+
 /// A direction in the hemisphere around a unit normal with density cos θ / π.
 [[nodiscard]] glm::vec3 sample_cosine_hemisphere(glm::vec3 normal, glm::vec2 u) noexcept;
 [[nodiscard]] float sample_cosine_hemisphere_pdf(glm::vec3 normal, glm::vec3 direction) noexcept;

@@ -49,7 +49,8 @@ BakeSettings fixed(uint32_t samples = 256, uint32_t thread_count = 0) {
 Tallies bake(const std::vector<glm::dvec3>& positions, const BakeSettings& settings,
              Tallies accumulators = {}, const BakeHooks& hooks = {}) {
     accumulators.resize(positions.size());
-    const Status status = bake_accumulators(noisy_room(), positions, settings, accumulators, hooks);
+    const Status status =
+        bake_accumulators(noisy_room(), {positions}, settings, accumulators, hooks);
     EXPECT_TRUE(status) << error_text(status.error());
     return accumulators;
 }
@@ -78,7 +79,8 @@ Tallies interrupted(const std::vector<glm::dvec3>& positions, const BakeSettings
     accumulators.resize(positions.size());
     std::atomic<int> left = reports;
     const BakeHooks hooks{.progress = [&](const BakeProgress&) { return --left > 0; }};
-    const Status status = bake_accumulators(noisy_room(), positions, settings, accumulators, hooks);
+    const Status status =
+        bake_accumulators(noisy_room(), {positions}, settings, accumulators, hooks);
     EXPECT_TRUE(!status || left > 0);
     return accumulators;
 }
@@ -166,7 +168,7 @@ TEST(BakeAccumulators, SavesWhileNoAccumulatorChanges) {
                     accumulators, [](const auto& t) { return t.round_count > 0; }));
             },
         .save_seconds = 0.0};
-    ASSERT_TRUE(bake_accumulators(Scene{}, positions, fixed(1 << 17), accumulators, hooks));
+    ASSERT_TRUE(bake_accumulators(Scene{}, {positions}, fixed(1 << 17), accumulators, hooks));
     ASSERT_FALSE(begun.empty());
     EXPECT_EQ(begun[0], 16u);
 }

@@ -79,8 +79,8 @@ Baked bake(const std::vector<glm::dvec3>& positions, const BakeSettings& setting
            const BakeHooks& hooks = {}) {
     baked.accumulators.resize(positions.size());
     baked.rows.resize(positions.size() * LightGroupLayout(settings.plan).size());
-    const Status status =
-        bake_accumulators(room(), positions, settings, baked.accumulators, hooks, {baked.rows, {}});
+    const Status status = bake_accumulators(room(), {positions}, settings, baked.accumulators,
+                                            hooks, {baked.rows, {}});
     EXPECT_TRUE(status || status.error().code == ErrorCode::Cancelled);
     return baked;
 }

@@ -54,6 +54,26 @@ constexpr uint32_t kManyBounces = 60;
 const std::vector<Way> kOpeningWays{{"found openings", {}, Drawn::Found},
                                     {"wrong openings", {}, Drawn::Wrong}};
 
+const std::vector<Way> kTexelWays{{"texels", {}, Drawn::Wrong}};
+
+/// What is baked at the places of a scene.
+enum class Baked { Probes, Texels };
+
+/// The normal of the texel at a place; zero for probes.
+glm::vec3 normal_at(Baked baked, uint64_t key) {
+    std::mt19937_64 engine(key);
+    return baked == Baked::Texels ? test::random_direction(engine) : glm::vec3(0.0f);
+}
+
+RadianceSh estimate(const PathTracer& tracer, glm::vec3 origin, glm::vec3 normal, uint64_t key) {
+    if (normal == glm::vec3(0.0f)) {
+        static const DirectionSet directions(kSamples);
+        return estimate_probe(tracer, origin, key, directions).radiance;
+    }
+    const glm::vec3 offset(0.0f);
+    return estimate_texel(tracer, origin, {normal, {&offset, 1}}, key, kSamples).radiance;
+}
+
 /// Four rectangles in all directions in and around a room.
 std::vector<Opening> random_openings(uint64_t seed) {
     std::mt19937_64 engine(seed);
@@ -159,8 +179,11 @@ using Differences = std::array<double, kValues>;
 class Comparison {
   public:
     /// `reference_bounces`: of the simple tracer.
-    Comparison(const std::vector<Way>& ways, uint32_t reference_bounces)
-        : ways_(ways), reference_bounces_(reference_bounces), differences_(ways.size()) {
+    Comparison(const std::vector<Way>& ways, Baked baked, uint32_t reference_bounces)
+        : ways_(ways),
+          baked_(baked),
+          reference_bounces_(reference_bounces),
+          differences_(ways.size()) {
         const size_t scenes = test::is_nightly() ? 300 : 30;
         for (auto& of_probes : differences_) of_probes.resize(scenes * kProbesPerScene);
         parallel_for(scenes, 0, [&](size_t scene) { compare(scene); });
@@ -178,22 +201,22 @@ class Comparison {
         const test::SimpleTracer simple(random.scene, *traced, reference_bounces_);
         std::vector<Means> references;
         for (const glm::dvec3& probe : random.probes) {
+            const glm::vec3 normal = normal_at(baked_, probe_key(0, probe));
             references.push_back(means_of(kReferenceTrials, [&](uint32_t trial) {
                 return simple.gather(traced->render_from_world(probe), probe_key(trial, probe),
-                                     kReferenceSamples);
+                                     kReferenceSamples, normal);
             }));
         }
-        const DirectionSet directions(kSamples);
         for (size_t way = 0; way < ways_.size(); ++way) {
             const PathTracer tracer(
                 random.scene, *traced, ways_[way].settings, {},
                 openings_for(ways_[way].drawn, random.scene, *traced, scene_index));
             for (size_t i = 0; i < kProbesPerScene; ++i) {
                 const glm::dvec3& probe = random.probes[i];
+                const glm::vec3 normal = normal_at(baked_, probe_key(0, probe));
                 const Means means = means_of(kTrials, [&](uint32_t trial) {
-                    return estimate_probe(tracer, traced->render_from_world(probe),
-                                          probe_key(1000 + trial, probe), directions)
-                        .radiance;
+                    return estimate(tracer, traced->render_from_world(probe), normal,
+                                    probe_key(1000 + trial, probe));
                 });
                 differences_[way][scene_index * kProbesPerScene + i] =
                     differences(means, references[i]);
@@ -202,6 +225,7 @@ class Comparison {
     }
 
     const std::vector<Way>& ways_;
+    Baked baked_;
     uint32_t reference_bounces_;
     std::vector<std::vector<Differences>> differences_;
 };
@@ -234,8 +258,9 @@ void expect_no_trend(const std::vector<Differences>& probes) {
     EXPECT_LT(std::abs(lights) / std::sqrt(count), 4.5);
 }
 
-void expect_the_means_of_a_simple_tracer(const std::vector<Way>& ways, uint32_t bounces) {
-    const Comparison comparison(ways, bounces);
+void expect_the_means_of_a_simple_tracer(const std::vector<Way>& ways, Baked baked,
+                                         uint32_t bounces) {
+    const Comparison comparison(ways, baked, bounces);
     for (size_t way = 0; way < ways.size(); ++way) {
         SCOPED_TRACE(ways[way].name);
         expect_no_outlier(comparison.of_way(way), ways.size());
@@ -244,11 +269,15 @@ void expect_the_means_of_a_simple_tracer(const std::vector<Way>& ways, uint32_t 
 }
 
 TEST(Unbiased, MeansInRandomScenesAreThoseOfASimpleTracer) {
-    expect_the_means_of_a_simple_tracer(kWays, kBounces);
+    expect_the_means_of_a_simple_tracer(kWays, Baked::Probes, kBounces);
 }
 
 TEST(Unbiased, SamplesOfOpeningsDoNotChangeTheMeans) {
-    expect_the_means_of_a_simple_tracer(kOpeningWays, kManyBounces);
+    expect_the_means_of_a_simple_tracer(kOpeningWays, Baked::Probes, kManyBounces);
+}
+
+TEST(Unbiased, MeansAtTexelsAreThoseOfASimpleTracer) {
+    expect_the_means_of_a_simple_tracer(kTexelWays, Baked::Texels, kManyBounces);
 }
 
 }  // namespace

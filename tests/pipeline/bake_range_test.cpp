@@ -47,7 +47,7 @@ class BakeRange : public test::PartFixture {
         const auto baked = bake_range(scene, prepared, all, saved_often(store));
         EXPECT_TRUE(baked) << error_text(baked.error());
         EXPECT_EQ(bytes(std::move(prepared), *baked), whole());
-        return baked->earlier_ray_count;
+        return baked->stored.earlier_ray_count;
     }
 };
 
@@ -56,10 +56,10 @@ TEST_F(BakeRange, DoesNotBakeTwice) {
     BakeStore store = open("store");
     const auto again = bake_range(scene, prepare(), all, saved_often(store));
     ASSERT_TRUE(again);
-    EXPECT_FALSE(again->is_saved && !again->earlier_ray_count);
+    EXPECT_FALSE(again->stored.is_saved && !again->stored.earlier_ray_count);
     uint64_t ray_count = 0;
     for (const auto& accumulator : again->partial.accumulators) ray_count += accumulator.ray_count;
-    EXPECT_EQ(again->earlier_ray_count, ray_count);
+    EXPECT_EQ(again->stored.earlier_ray_count, ray_count);
 }
 
 TEST_F(BakeRange, ContinuesWhereItWasCancelled) {
@@ -80,7 +80,7 @@ TEST_F(BakeRange, ContinuesWhereItWasCancelled) {
             EXPECT_EQ(result.error().code, ErrorCode::Cancelled);
         }
     }
-    EXPECT_GT(baked->earlier_ray_count, 0u);
+    EXPECT_GT(baked->stored.earlier_ray_count, 0u);
     EXPECT_EQ(bytes(std::move(prepared), *baked), whole());
 }
 
@@ -94,7 +94,7 @@ TEST_F(BakeRange, TakesProbesOfOtherGroupsAndRanges) {
     PreparedBake prepared = prepare();
     const auto baked = bake_range(scene, prepared, {3, kProbeCount}, saved_often(store));
     ASSERT_TRUE(baked);
-    EXPECT_GT(baked->earlier_ray_count, 0u);
+    EXPECT_GT(baked->stored.earlier_ray_count, 0u);
 }
 
 TEST_F(BakeRange, TakesNothingOfAnotherBake) {
@@ -115,8 +115,8 @@ TEST_F(BakeRange, ThatCannotBeSavedGoesOnAndSaysSo) {
     storage.is_required = false;
     const auto baked = bake_range(scene, prepare(), all, storage);
     ASSERT_TRUE(baked);
-    EXPECT_FALSE(baked->is_saved);
-    EXPECT_TRUE(baked->save_failure);
+    EXPECT_FALSE(baked->stored.is_saved);
+    EXPECT_TRUE(baked->stored.save_failure);
     EXPECT_FALSE(bake_range(scene, prepare(), all, saved_often(store)));
 }
 

@@ -33,18 +33,25 @@ class SimpleTracer {
     }
 
     /// One estimate of the light at a position in render space. Directions are even over the
-    /// sphere, everything else is independent random.
-    [[nodiscard]] RadianceSh gather(glm::vec3 origin, uint64_t key, uint32_t sample_count) const {
+    /// sphere, everything else is independent random. With a `normal`: of its hemisphere, in the
+    /// frame of `estimate_texel`.
+    [[nodiscard]] RadianceSh gather(glm::vec3 origin, uint64_t key, uint32_t sample_count,
+                                    glm::vec3 normal = glm::vec3(0.0f)) const {
+        const bool is_texel = normal != glm::vec3(0.0f);
+        const glm::mat3 frame = is_texel ? frame_around(normal) : glm::mat3(1.0f);
+        const auto counts = [&](glm::vec3 direction) {
+            return !is_texel || glm::dot(normal, direction) > 0.0f;
+        };
         RandomStream random(key, 0x51);
         const glm::mat3 rotation = sample_rotation(random);
         RadianceShSum paths, direct;
         for (uint32_t i = 0; i < sample_count; ++i) {
             const glm::vec3 direction = rotation * spherical_fibonacci(i, sample_count);
-            paths.add(direction, trace({origin, direction}, random));
+            if (counts(direction)) paths.add(direction * frame, trace({origin, direction}, random));
             for (const Light& light : baked_lights_) {
                 const LightSample sample = sample_light(light, origin, random.next2());
-                if (is_visible(origin, sample, random))
-                    direct.add(sample.to_light, sample.irradiance);
+                if (counts(sample.to_light) && is_visible(origin, sample, random))
+                    direct.add(sample.to_light * frame, sample.irradiance);
             }
         }
         RadianceSh light = radiance_from_sum(paths, 4.0 * std::numbers::pi / sample_count);
