@@ -90,7 +90,8 @@ void add(Hash& hash, const Mesh& mesh) {
 
 template <class Hash>
 void add(Hash& hash, const MeshInstance& instance) {
-    const auto& [mesh, world_from_mesh, name, contributes_gi, node, is_walkable] = instance;
+    const auto& [mesh, world_from_mesh, name, contributes_gi, node, is_walkable, lightmap] =
+        instance;
     hash.add(mesh);
     hash.add(world_from_mesh);
     hash.add(contributes_gi);

@@ -14,7 +14,8 @@ namespace tetralight {
 /// Read: indexed and non-indexed triangles, strips and fans; base colour and emission with textures
 /// (KHR_texture_transform, KHR_materials_emissive_strength); KHR_lights_punctual;
 /// EXT_mesh_gpu_instancing; KHR_mesh_quantization; `extras.contribute_gi`,
-/// `extras.portal` of a node; `extras.walkable` and `extras.light_probes` of a node (inherited);
+/// `extras.portal` of a node; `extras.walkable`, `extras.receive_gi`, `extras.lightmap_scale`,
+/// `extras.stitch_seams` and `extras.light_probes` of a node (inherited);
 /// perspective cameras; `extras.sky.radiance` of the scene, three numbers;
 /// KHR_materials_unlit; extras of a light or of its node, and of materials (docs/scenes.md);
 /// `extras.light_probe_group: true` of a node, whose POINTS primitive, or else whose child nodes,

@@ -105,6 +105,21 @@ struct SceneNode {
     bool operator==(const SceneNode&) const = default;
 };
 
+/// Where a static object takes the light from that it receives.
+enum class ReceiveGi : uint8_t { Lightmap, Probes };
+
+/// How a static object uses lightmaps.
+struct LightmapUse {
+    /// `extras.receive_gi`. Objects with `Probes` still reflect and block light.
+    ReceiveGi receive_gi = ReceiveGi::Lightmap;
+    /// Factor on the texels per metre (`extras.lightmap_scale`), at least 0. 0: no lightmap.
+    float scale = 1.0f;
+    /// True if the seams between its charts are made to match (`extras.stitch_seams`).
+    bool stitches_seams = true;
+
+    bool operator==(const LightmapUse&) const = default;
+};
+
 /// A mesh placed in the world.
 struct MeshInstance {
     uint32_t mesh = 0;
@@ -117,6 +132,7 @@ struct MeshInstance {
     uint32_t node = kNoIndex;
     /// True if things move on it (`extras.walkable: true`). Its other roles do not change.
     bool is_walkable = false;
+    LightmapUse lightmap{};
 
     bool operator==(const MeshInstance&) const = default;
 };

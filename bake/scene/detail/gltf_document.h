@@ -160,6 +160,9 @@ struct GltfNode {
     // Extras that Tetralight defines.
     std::optional<bool> contributes_gi;
     std::optional<bool> is_walkable;
+    std::optional<std::string> receive_gi;
+    std::optional<double> lightmap_scale;
+    std::optional<bool> stitches_seams;
     std::optional<std::string> light_probes;
     std::optional<std::string> probe_anchor;
     GltfLightExtras light_extras;

@@ -7,12 +7,6 @@
 namespace tetralight::detail {
 namespace {
 
-std::optional<double> number_extra(const tinygltf::Value& extras, const char* key) {
-    if (!extras.Has(key)) return std::nullopt;
-    const tinygltf::Value& value = extras.Get(key);
-    return value.IsNumber() ? value.GetNumberAsDouble() : std::numeric_limits<double>::quiet_NaN();
-}
-
 glm::dvec2 vec2_at(const tinygltf::Value& object, const char* key, glm::dvec2 otherwise) {
     if (!object.Has(key)) return otherwise;
     const tinygltf::Value& array = object.Get(key);
@@ -40,6 +34,12 @@ uint32_t index_from(int index) {
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name) {
     const auto found = extensions.find(name);
     return found == extensions.end() ? nullptr : &found->second;
+}
+
+std::optional<double> number_extra(const tinygltf::Value& extras, const char* key) {
+    if (!extras.Has(key)) return std::nullopt;
+    const tinygltf::Value& value = extras.Get(key);
+    return value.IsNumber() ? value.GetNumberAsDouble() : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::optional<std::string> string_extra(const tinygltf::Value& extras, const char* key) {

@@ -27,6 +27,9 @@ namespace tetralight::detail {
 /// The boolean, or nothing if the key is absent. Precondition: the value is a boolean.
 [[nodiscard]] std::optional<bool> boolean_extra(const tinygltf::Value& extras, const char* key);
 
+/// The number, NaN for another type, or nothing if the key is absent.
+[[nodiscard]] std::optional<double> number_extra(const tinygltf::Value& extras, const char* key);
+
 /// Two numbers, or nothing if the key is absent. Precondition: it is an array of two numbers.
 [[nodiscard]] std::optional<glm::dvec2> vec2_extra(const tinygltf::Value& extras, const char* key);
 

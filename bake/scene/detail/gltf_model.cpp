@@ -144,6 +144,9 @@ GltfNode converted(const tinygltf::Node& node) {
     }
     result.contributes_gi = boolean_extra(node.extras, "contribute_gi");
     result.is_walkable = boolean_extra(node.extras, "walkable");
+    result.receive_gi = string_extra(node.extras, "receive_gi");
+    result.lightmap_scale = number_extra(node.extras, "lightmap_scale");
+    result.stitches_seams = boolean_extra(node.extras, "stitch_seams");
     result.light_probes = string_extra(node.extras, "light_probes");
     result.probe_anchor = string_extra(node.extras, "probe_anchor");
     result.is_probe_group = boolean_extra(node.extras, "light_probe_group").value_or(false);

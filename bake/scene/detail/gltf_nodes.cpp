@@ -61,6 +61,27 @@ Result<LightProbeUsage> usage_from(const std::string& word) {
                          "\", not \"off\", \"blend\" or \"proxy_volume\"")};
 }
 
+/// Reads what a node says of lightmaps into `use`, which has the values of its parent.
+Status apply_lightmap_extras(const GltfNode& node, LightmapUse& use) {
+    use.stitches_seams = node.stitches_seams.value_or(use.stitches_seams);
+    if (node.receive_gi) {
+        const std::string& word = *node.receive_gi;
+        if (word != "lightmap" && word != "probes") {
+            return Error{
+                ErrorCode::InvalidArgument, ".extras.receive_gi", quoted_value(word),
+                str_cat("extras.receive_gi is \"", word, "\", not \"lightmap\" or \"probes\"")};
+        }
+        use.receive_gi = word == "probes" ? ReceiveGi::Probes : ReceiveGi::Lightmap;
+    }
+    if (!node.lightmap_scale) return Ok{};
+    use.scale = static_cast<float>(*node.lightmap_scale);
+    if (use.scale >= 0.0f && use.scale <= 1e6f) return Ok{};
+    return Error{ErrorCode::InvalidArgument, ".extras.lightmap_scale",
+                 str_cat(*node.lightmap_scale),
+                 str_cat("extras.lightmap_scale is ", *node.lightmap_scale,
+                         ", not a number from 0 to 1000000")};
+}
+
 /// The roots of the scene; without a scene, all nodes that have no parent.
 Result<std::vector<uint32_t>> find_roots(const GltfDocument& document,
                                          const std::vector<uint32_t>& parents) {
@@ -101,11 +122,15 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
         placed.world_from_node = parent->world_from_node * source.parent_from_node;
         placed.contributes_gi = parent->contributes_gi;
         placed.is_walkable = parent->is_walkable;
+        placed.lightmap = parent->lightmap;
         placed.light_probes = parent->light_probes;
         placed.anchored_by = parent->anchored_by;
     }
     placed.contributes_gi = source.contributes_gi.value_or(placed.contributes_gi);
     placed.is_walkable = source.is_walkable.value_or(placed.is_walkable);
+    if (auto status = apply_lightmap_extras(source, placed.lightmap); !status) {
+        return in_element(status.error(), "nodes", node, source.name);
+    }
     if (source.probe_anchor) placed.anchored_by = node;
     if (source.light_probes) {
         const auto usage = usage_from(*source.light_probes);

@@ -17,6 +17,7 @@ struct GltfWorldNode {
     glm::dmat4 world_from_node{1.0};
     bool contributes_gi = true;
     bool is_walkable = false;
+    LightmapUse lightmap{};
     LightProbeUsage light_probes = LightProbeUsage::Blend;
     /// The node whose `extras.probe_anchor` applies (its own or an ancestor), or kNoIndex.
     uint32_t anchored_by = kNoIndex;

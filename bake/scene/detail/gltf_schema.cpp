@@ -28,6 +28,8 @@ constexpr GltfRule kNodes[] = {
     {"extensions/EXT_mesh_gpu_instancing/attributes", IndexMap, "accessors", 0, kRequired},
     {"extras/contribute_gi", Boolean},
     {"extras/walkable", Boolean},
+    {"extras/lightmap_scale", Number},
+    {"extras/stitch_seams", Boolean},
     {"extras/light_probe_group", Boolean},
     {"extras/dering", Boolean},
     {"extras/rendering_layers", RenderingLayers},

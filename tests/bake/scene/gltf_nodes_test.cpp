@@ -130,6 +130,43 @@ TEST(GltfNodes, RejectsWalkableThatIsNoBoolean) {
     EXPECT_EQ(gltf.error(), "scene.glb: node 0: extras/walkable is not a boolean (\"yes\")");
 }
 
+TEST(GltfNodes, LightmapExtrasAreInheritedAndCanBeSetAgain) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    const size_t lid =
+        gltf.add("nodes", {{"mesh", mesh},
+                           {"name", "lid"},
+                           {"extras", {{"receive_gi", "lightmap"}, {"lightmap_scale", 0}}}});
+    gltf.add_root(
+        {{"mesh", mesh},
+         {"name", "box"},
+         {"children", {lid}},
+         {"extras", {{"receive_gi", "probes"}, {"lightmap_scale", 2.5}, {"stitch_seams", false}}}});
+    gltf.add_root({{"mesh", mesh}, {"name", "wall"}});
+    std::vector<LightmapUse> found;
+    for (const auto& instance : scene_of(gltf).instances) found.push_back(instance.lightmap);
+    const std::vector<LightmapUse> expected = {{ReceiveGi::Probes, 2.5f, false},
+                                               {ReceiveGi::Lightmap, 0.0f, false},
+                                               {ReceiveGi::Lightmap, 1.0f, true}};
+    EXPECT_EQ(found, expected);
+}
+
+TEST(GltfNodes, RejectsLightmapExtrasThatAreOutOfRange) {
+    const auto error_of = [](const Json& extras) {
+        GltfBuilder gltf;
+        gltf.add_root({{"mesh", gltf.add_triangle()}, {"extras", extras}});
+        return gltf.error();
+    };
+    EXPECT_EQ(error_of({{"receive_gi", "map"}}),
+              "scene.glb: node 0: extras.receive_gi is \"map\", not \"lightmap\" or \"probes\"");
+    EXPECT_EQ(error_of({{"lightmap_scale", -1}}),
+              "scene.glb: node 0: extras.lightmap_scale is -1, not a number from 0 to 1000000");
+    EXPECT_EQ(error_of({{"lightmap_scale", "2"}}),
+              "scene.glb: node 0: extras/lightmap_scale is not a number (\"2\")");
+    EXPECT_EQ(error_of({{"stitch_seams", 1}}),
+              "scene.glb: node 0: extras/stitch_seams is not a boolean (1)");
+}
+
 TEST(GltfNodes, AHundredThousandDeepIsNoLimit) {
     GltfBuilder gltf;
     constexpr size_t kDepth = 100000;
