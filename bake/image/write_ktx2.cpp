@@ -90,8 +90,8 @@ Descriptor make_descriptor(TexelFormat format) {
 
 /// Each entry: its length, key, zero, text, zero, and zeros up to a multiple of four. Sorted by
 /// key.
-std::string encode_metadata(TextureMetadata metadata) {
-    metadata.emplace_back("KTXorientation", "ruo");
+std::string encode_metadata(TextureMetadata metadata, const char* orientation) {
+    metadata.emplace_back("KTXorientation", orientation);
     metadata.emplace_back("KTXwriter", "tetralight");
     std::ranges::sort(metadata);
     std::string bytes;
@@ -105,25 +105,29 @@ std::string encode_metadata(TextureMetadata metadata) {
     return bytes;
 }
 
-}  // namespace
+enum class Ktx2Kind : uint8_t { Volume, Array };
 
-Status write_ktx2(const std::string& path, const Texture3dView& texture,
-                  const TextureMetadata& metadata) {
+Ktx2Header make_header(const Texture3dView& texture, Ktx2Kind kind, size_t metadata_size) {
+    Ktx2Header header;
+    header.vk_format = vk_format(texture.format);
+    header.type_size = detail::texel_bytes(texture.format) / 4;
+    header.width = texture.width;
+    header.height = texture.height;
+    (kind == Ktx2Kind::Volume ? header.depth : header.layer_count) = texture.depth;
+    header.descriptor_offset = sizeof(Ktx2Header) + sizeof(Level);
+    header.descriptor_size = sizeof(Descriptor);
+    header.metadata_offset = header.descriptor_offset + header.descriptor_size;
+    header.metadata_size = static_cast<uint32_t>(metadata_size);
+    return header;
+}
+
+Status write_ktx2_file(const std::string& path, const Texture3dView& texture, Ktx2Kind kind,
+                       const TextureMetadata& metadata) {
     if (auto status = detail::check_texture(path, texture); !status) return status;
     const uint32_t bytes = detail::texel_bytes(texture.format);
     const Descriptor descriptor = make_descriptor(texture.format);
-    std::string pairs = encode_metadata(metadata);
-
-    Ktx2Header header;
-    header.vk_format = vk_format(texture.format);
-    header.type_size = bytes / 4;
-    header.width = texture.width;
-    header.height = texture.height;
-    header.depth = texture.depth;
-    header.descriptor_offset = sizeof(Ktx2Header) + sizeof(Level);
-    header.descriptor_size = sizeof descriptor;
-    header.metadata_offset = header.descriptor_offset + header.descriptor_size;
-    header.metadata_size = static_cast<uint32_t>(pairs.size());
+    std::string pairs = encode_metadata(metadata, kind == Ktx2Kind::Volume ? "ruo" : "rd");
+    const Ktx2Header header = make_header(texture, kind, pairs.size());
 
     Level level;
     const size_t end = header.metadata_offset + pairs.size();
@@ -134,6 +138,18 @@ Status write_ktx2(const std::string& path, const Texture3dView& texture,
         std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(&level, 1)),
         std::as_bytes(std::span(&descriptor, 1)), std::as_bytes(std::span(pairs)), texture.texels};
     return write_file(path, parts);
+}
+
+}  // namespace
+
+Status write_ktx2(const std::string& path, const Texture3dView& texture,
+                  const TextureMetadata& metadata) {
+    return write_ktx2_file(path, texture, Ktx2Kind::Volume, metadata);
+}
+
+Status write_ktx2_array(const std::string& path, const Texture3dView& layers,
+                        const TextureMetadata& metadata) {
+    return write_ktx2_file(path, layers, Ktx2Kind::Array, metadata);
 }
 
 }  // namespace tetralight

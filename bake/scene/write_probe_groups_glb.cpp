@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <bit>
-#include <cstring>
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include <tetralight/bake/scene/detail/glb_container.h>
 #include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/bake/scene/detail/probe_group_check.h>
 #include <tetralight/bake/scene/probe_groups_gltf.h>
@@ -22,7 +22,6 @@ static_assert(std::endian::native == std::endian::little, "glTF is little-endian
 constexpr uint32_t kFloat = 5126;
 constexpr uint32_t kArrayBuffer = 34962;
 constexpr uint32_t kPoints = 0;
-constexpr uint32_t kGlbMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
 Json array(const glm::vec3& v) {
     return Json::array({v.x, v.y, v.z});
@@ -60,33 +59,14 @@ class Document {
         json_["nodes"].push_back(node);
     }
 
-    [[nodiscard]] std::vector<std::byte> bytes() {
+    [[nodiscard]] Result<std::vector<std::byte>> bytes() {
         if (!binary_.empty()) {
             json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
         }
-        std::string json_text = json_.dump();
-        json_text.resize((json_text.size() + 3) / 4 * 4, ' ');
-        const std::span json_bytes = std::as_bytes(std::span(json_text));
-        std::vector<std::byte> out;
-        const size_t binary_size = binary_.empty() ? 0 : 8 + binary_.size();
-        append(out, {kGlbMagic, 2, static_cast<uint32_t>(20 + json_text.size() + binary_size)});
-        append(out, {static_cast<uint32_t>(json_text.size()), kJsonChunk});
-        out.insert(out.end(), json_bytes.begin(), json_bytes.end());
-        if (binary_.empty()) return out;
-        append(out, {static_cast<uint32_t>(binary_.size()), kBinaryChunk});
-        out.insert(out.end(), binary_.begin(), binary_.end());
-        return out;
+        return detail::make_glb(json_.dump(), binary_);
     }
 
   private:
-    static void append(std::vector<std::byte>& out, std::initializer_list<uint32_t> words) {
-        for (const uint32_t word : words) {
-            const size_t end = out.size();
-            out.resize(end + sizeof word);
-            std::memcpy(&out[end], &word, sizeof word);
-        }
-    }
-
     /// Returns the index of a new mesh with the group's points, relative to the first of them.
     size_t add_points(const ProbeGroup& group, const glm::dvec3& first) {
         std::vector<glm::vec3> points;
@@ -125,7 +105,9 @@ Status write_probe_groups_glb(const std::string& path, std::span<const ProbeGrou
     if (!status) return status.error().in(path);
     Document document;
     for (const ProbeGroup& group : groups) document.add(group);
-    return write_file(path, document.bytes());
+    const auto bytes = document.bytes();
+    if (!bytes) return bytes.error().in(path);
+    return write_file(path, *bytes);
 }
 
 }  // namespace tetralight

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
+#include <limits>
 
 #include <tetralight/base/str_cat.h>
 
@@ -14,7 +16,9 @@ using Bytes = std::span<const std::byte>;
 constexpr size_t kGlbHeaderSize = 12;
 constexpr size_t kChunkHeaderSize = 8;
 constexpr uint32_t kGlbVersion = 2;
+constexpr uint32_t kGlbMagicWord = 0x46546c67;
 constexpr uint32_t kJsonChunk = 0x4e4f534a;
+constexpr uint32_t kBinaryChunkType = 0x004e4942;
 
 uint32_t read_u32(Bytes bytes, size_t offset) {
     uint32_t value = 0;
@@ -33,6 +37,21 @@ Result<size_t> chunk_length(Bytes bytes, size_t offset) {
     if (length <= left) return length;
     return Error{ErrorCode::Corrupt, str_cat("is cut off: the chunk at byte ", offset, " has ",
                                              length, " bytes, ", left, " are left")};
+}
+
+void append_words(std::vector<std::byte>& out, std::initializer_list<size_t> words) {
+    for (const size_t word : words) {
+        const auto bits = static_cast<uint32_t>(word);
+        const auto bytes = std::as_bytes(std::span(&bits, 1));
+        out.insert(out.end(), bytes.begin(), bytes.end());
+    }
+}
+
+void append_chunk(std::vector<std::byte>& out, uint32_t type, Bytes bytes, char padding) {
+    const size_t size = (bytes.size() + 3) / 4 * 4;
+    append_words(out, {size, type});
+    out.insert(out.end(), bytes.begin(), bytes.end());
+    out.resize(out.size() + (size - bytes.size()), static_cast<std::byte>(padding));
 }
 
 }  // namespace
@@ -65,6 +84,22 @@ Result<Bytes> glb_json(Bytes bytes) {
         offset += kChunkHeaderSize + *size;
     }
     return bytes.subspan(kGlbHeaderSize + kChunkHeaderSize, *json_length);
+}
+
+Result<std::vector<std::byte>> make_glb(std::string json, Bytes binary) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const size_t padded = (binary.size() + 3) / 4 * 4;
+    const size_t size = kGlbHeaderSize + kChunkHeaderSize + json.size() +
+                        (binary.empty() ? 0 : kChunkHeaderSize + padded);
+    if (size > std::numeric_limits<uint32_t>::max()) {
+        return Error{ErrorCode::Unsupported, str_cat(size, " bytes are too many for a .glb file")};
+    }
+    std::vector<std::byte> out;
+    out.reserve(size);
+    append_words(out, {kGlbMagicWord, kGlbVersion, size});
+    append_chunk(out, kJsonChunk, std::as_bytes(std::span(json)), ' ');
+    if (!binary.empty()) append_chunk(out, kBinaryChunkType, binary, '\0');
+    return out;
 }
 
 }  // namespace tetralight::detail

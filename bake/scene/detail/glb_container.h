@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <tetralight/base/result.h>
 
@@ -14,5 +16,10 @@ namespace tetralight::detail {
 /// The JSON chunk of a .glb file. Returns corrupt if any chunk does not fit into the file: tinygltf
 /// would read past the end of a last chunk whose length is a few bytes too large.
 [[nodiscard]] Result<std::span<const std::byte>> glb_json(std::span<const std::byte> bytes);
+
+/// A .glb file of this JSON and this binary chunk, which may be empty. Returns unsupported for more
+/// bytes than the format can count.
+[[nodiscard]] Result<std::vector<std::byte>> make_glb(std::string json,
+                                                      std::span<const std::byte> binary);
 
 }  // namespace tetralight::detail

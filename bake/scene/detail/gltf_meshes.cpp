@@ -168,6 +168,7 @@ Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshe
         if (mesh->indices.empty()) continue;
         meshes_of_source.push_back(static_cast<uint32_t>(result.meshes.size()));
         result.meshes.push_back(std::move(*mesh));
+        result.primitive_of.push_back(static_cast<uint32_t>(i));
     }
     if (flat_count > 0) {
         const std::string place = gltf_place("mesh", result.meshes_of.size() - 1, source.name);

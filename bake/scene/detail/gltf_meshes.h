@@ -14,6 +14,8 @@ struct GltfMeshes {
     std::vector<Mesh> meshes;
     /// For each glTF mesh, the indices in `meshes` of its primitives.
     std::vector<std::vector<uint32_t>> meshes_of;
+    /// For each of `meshes`, the index of its primitive in the glTF mesh.
+    std::vector<uint32_t> primitive_of;
     /// One for each mesh that has triangles without area, which are left out.
     std::vector<std::string> warnings;
 };

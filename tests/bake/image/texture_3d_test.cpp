@@ -75,6 +75,21 @@ TEST(WriteKtx2, AlignsItsTexels) {
     }
 }
 
+TEST(WriteKtx2, ArraysHaveLayersAndNoDepth) {
+    const auto texels = make_texels(30 * 8);
+    const auto file = written(TexelFormat::Rgba16Float, texels,
+                              [](const std::string& path, const Texture3dView& view) {
+                                  return write_ktx2_array(path, view, {});
+                              });
+    EXPECT_EQ(word(file, 20), 5u);
+    EXPECT_EQ(word(file, 24), 3u);
+    EXPECT_EQ(word(file, 28), 0u);  // depth
+    EXPECT_EQ(word(file, 32), 2u);  // layers
+    const std::string text(reinterpret_cast<const char*>(file.data()), file.size());
+    EXPECT_NE(text.find(std::string("KTXorientation\0rd\0", 18)), std::string::npos);
+    EXPECT_EQ(std::memcmp(&file[word(file, 80)], texels.data(), texels.size()), 0);
+}
+
 TEST(Texture3d, RefusesEmptyTexturesAndKeepsTheOldFile) {
     const TempFolder folder;
     const std::string path = folder.write("a", "old");

@@ -36,5 +36,16 @@ TEST(WritePng, NamesAFolderThatIsMissing) {
     EXPECT_NE(error_text(status.error()).find("none/a.png"), std::string::npos);
 }
 
+TEST(WritePng, TextsStandBehindTheHeaderWithTheirChecksum) {
+    const Image8 image{1, 1, {{1, 2, 3, 4}}};
+    const auto bytes = encode_png(image, {{"a", "b"}});
+    ASSERT_TRUE(bytes);
+    // The CRC-32 of "tEXta\0b", by Python's zlib.
+    const std::string chunk("\0\0\0\3tEXta\0b\xdc\x49\xa2\x3b", 15);
+    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    EXPECT_EQ(text.substr(33, 15), chunk);
+    EXPECT_EQ(*decode_image8(*bytes, "a.png"), image);
+}
+
 }  // namespace
 }  // namespace tetralight
