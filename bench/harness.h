@@ -81,6 +81,8 @@ void bench_groups(const Options& options);
 void bench_grid(const Options& options);
 /// Light that leaks through walls.
 void bench_leaks(const Options& options);
+/// Charts, texels, seams and samples of lightmaps.
+void bench_lightmap(const Options& options);
 /// Proxy volumes: filling, refreshing, accuracy, files.
 void bench_lppv(const Options& options);
 void bench_query(const Options& options);

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
         {"relight", bench_relight},
         {"grid", bench_grid},
         {"leaks", bench_leaks},
+        {"lightmap", bench_lightmap},
         {"lppv", bench_lppv},
         {"runtime", bench_runtime},
 #ifdef TETRALIGHT_HAS_SERVER

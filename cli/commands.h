@@ -13,9 +13,11 @@ namespace tetralight::cli {
 Status run_backup(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_bake(const Values& values);
 Status run_check_leaks(const Values& values);
+Status run_export(const Values& values);
 Status run_fsck(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_grid(const Values& values);
 Status run_info(const Values& values);
+Status run_lightmap(const Values& values);
 Status run_lppv(const Values& values);
 Status run_merge(const Values& values);
 Status run_meshball(const Values& values);
@@ -26,6 +28,7 @@ Status run_render(const Values& values);
 Status run_restore(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_serve(const Values& values);    // only with TETRALIGHT_BUILD_SERVER
 Status run_tetrahedralize(const Values& values);
+Status run_unwrap(const Values& values);
 Status run_validate(const Values& values);
 
 struct Command {

@@ -6,6 +6,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/info_probes.h>
+#include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/volume_facts.h>
 #include <tetralight/pipeline/partial_bake.h>
@@ -47,6 +48,7 @@ struct Info {
             if (output.empty()) continue;
             if (auto status = check_output(output, {path}); !status) return status;
         }
+        if (is_lightmap_file(path)) return run_lightmaps();
         const auto file = open_probe_file(path);
         if (!file) return file.error();
         if (auto status = check_metadata(file->view().metadata); !status) {
@@ -69,6 +71,13 @@ struct Info {
         }
         common.report(is_stdout_taken ? "-" : "", json, lines);
         return Ok{};
+    }
+
+    [[nodiscard]] Status run_lightmaps() const {
+        const bool has_other = !obj_path.empty() || !ply_path.empty() || shows_probes;
+        if (!has_other) return show_lightmaps(path, common);
+        return Error{ErrorCode::InvalidArgument, "volume", path,
+                     path + ": contains lightmaps, which have no probes and no tetrahedra"};
     }
 
     static Json part_json(const PartialBake& part) {

@@ -24,10 +24,11 @@ double ray_rate(const BakeProgress& progress, double seconds) {
 }  // namespace
 
 BakeProgressDisplay::BakeProgressDisplay(bool is_quiet, double time_budget_seconds,
-                                         std::string file)
+                                         std::string file, std::string noun)
     : is_quiet_(is_quiet),
       time_budget_seconds_(time_budget_seconds),
       file_(std::move(file)),
+      noun_(std::move(noun)),
       is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 BakeProgressDisplay::~BakeProgressDisplay() {
@@ -50,8 +51,8 @@ std::optional<double> BakeProgressDisplay::seconds_left(const BakeProgress& prog
 }
 
 std::string BakeProgressDisplay::summary(const BakeProgress& progress, double seconds) const {
-    std::string line = grouped(progress.probes_done) + "/" + grouped(progress.probe_count) +
-                       " probes, " + magnitude(ray_rate(progress, seconds)) + "rays/s";
+    std::string line = grouped(progress.probes_done) + "/" + grouped(progress.probe_count) + " " +
+                       noun_ + ", " + magnitude(ray_rate(progress, seconds)) + "rays/s";
     if (progress.worst_error > 0.0f) line += ", worst error " + percent(progress.worst_error);
     const auto left = seconds_left(progress, seconds);
     if (left && *left > 0.0) line += ", " + duration(*left) + " left";

@@ -15,8 +15,9 @@ namespace tetralight::cli {
 /// Ctrl-C and SIGTERM cancel the bake.
 class BakeProgressDisplay {
   public:
-    /// `time_budget_seconds` 0: none. `file` empty: none.
-    BakeProgressDisplay(bool is_quiet, double time_budget_seconds, std::string file = "");
+    /// `time_budget_seconds` 0: none. `file` empty: none. `noun`: what is baked.
+    BakeProgressDisplay(bool is_quiet, double time_budget_seconds, std::string file = "",
+                        std::string noun = "probes");
     ~BakeProgressDisplay();
     BakeProgressDisplay(const BakeProgressDisplay&) = delete;
     BakeProgressDisplay& operator=(const BakeProgressDisplay&) = delete;
@@ -40,6 +41,7 @@ class BakeProgressDisplay {
     bool is_quiet_;
     double time_budget_seconds_;
     std::string file_;
+    std::string noun_;
     double next_write_seconds_ = 0.0;
     bool has_told_time_left_ = false;
     double first_fraction_ = -1.0;  ///< finished by earlier runs; negative: unknown

@@ -10,6 +10,7 @@
 #include <tetralight/bake/project_environment.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/sky_options.h>
 #include <tetralight/pipeline/partial_bake.h>
@@ -51,6 +52,14 @@ struct Relight {
         if (auto status = check_output(output, {volume_path, sky.path, blend_path}); !status) {
             return status;
         }
+        const bool has_lightmaps = is_lightmap_file(volume_path);
+        if (output.ends_with(has_lightmaps ? ".probes" : ".lightmaps")) {
+            return Error{
+                ErrorCode::InvalidArgument, "output", output,
+                str_cat(volume_path, ": contains ", has_lightmaps ? "lightmaps" : "a probe volume",
+                        ", not what ", output, " is called")};
+        }
+        if (has_lightmaps) return run_lightmaps();
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
         if (is_part(*file)) {
@@ -70,6 +79,17 @@ struct Relight {
         if (auto status = write_probe_file(output, volume.view()); !status) return status;
         report(volume);
         return Ok{};
+    }
+
+    [[nodiscard]] Status run_lightmaps() const {
+        if (changes_sky() || sun_direction != glm::dvec3(0.0)) {
+            return Error{ErrorCode::InvalidArgument, "volume", volume_path,
+                         volume_path +
+                             ": contains lightmaps, whose sky and sun change by the weights of "
+                             "their layers alone"};
+        }
+        return relight_lightmap_file(
+            volume_path, output, {weights, blend_path, static_cast<float>(blend_fraction)}, common);
     }
 
     /// With the options that repeat the change; weights are recorded with their layers.

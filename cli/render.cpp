@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include <tetralight/bake/image/write_image.h>
@@ -13,6 +14,7 @@
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/renderer_kind.h>
 #include <tetralight/cli/view_options.h>
+#include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/render/opening_lines.h>
 #include <tetralight/render/render_gizmos.h>
@@ -32,6 +34,7 @@ bool is_empty(const GizmoLines& group) {
 struct Render {
     std::string scene_path;
     std::string volume_path;
+    std::string lightmap_path;
     std::string output;
     GizmoSettings gizmos;
     ProbeLight probes = ProbeLight::AsTheScene;
@@ -43,6 +46,7 @@ struct Render {
     explicit Render(const Values& values)
         : scene_path(values.text("scene")),
           volume_path(values.text("volume")),
+          lightmap_path(values.text("lightmaps")),
           output(values.text("output")),
           gizmos(gizmo_settings(values)),
           probes(choice<ProbeLight>(values, "probes")),
@@ -53,8 +57,8 @@ struct Render {
 
     /// By OpenGL if it was asked for and is available, else by rays.
     [[nodiscard]] Result<Image8> draw(const Scene& scene, const ProbeVolumeView& volume,
-                                      const Camera& camera) const {
-        auto light = make_scene_light(scene, volume, probes);
+                                      const LightmapsView& lightmaps, const Camera& camera) const {
+        auto light = make_scene_light(scene, volume, probes, lightmaps);
         if (!light) return light.error().in(scene_path);
         Gizmos shown = make_gizmos(volume, light->proxy_volumes, gizmos);
         if (gizmos.has_openings) {
@@ -68,7 +72,9 @@ struct Render {
         const auto render = [&](const PictureSource& source) {
             return render_gizmos(source, volume, camera, view.settings, shown, gizmos.probe_color);
         };
-        if (renderer == RendererKind::Gl) {
+        if (renderer == RendererKind::Gl && lightmaps.info.page_count > 0) {
+            common.warn({"OpenGL does not draw lightmaps yet; rendering on the CPU"});
+        } else if (renderer == RendererKind::Gl) {
 #ifdef TETRALIGHT_HAS_GL
             if (auto context = open_gl(view.settings, common)) {
                 auto pictures = GlPictures::make(std::move(*context), scene, volume, *light);
@@ -85,7 +91,8 @@ struct Render {
     }
 
     Status run() {
-        if (auto status = check_output(output, {scene_path, volume_path}); !status) return status;
+        const std::vector<std::string> inputs{scene_path, volume_path, lightmap_path};
+        if (auto status = check_output(output, inputs); !status) return status;
         const auto scene = read_gltf(scene_path);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
@@ -96,7 +103,14 @@ struct Render {
         if (!chosen) return chosen.error();
 
         const auto start = std::chrono::steady_clock::now();
-        const auto image = draw(*scene, with_walls(file->view(), walls), *chosen);
+        std::optional<LightmapFile> lightmaps;
+        if (!lightmap_path.empty()) {
+            auto opened = open_lightmap_file(lightmap_path);
+            if (!opened) return opened.error();
+            lightmaps = std::move(*opened);
+        }
+        const auto image = draw(*scene, with_walls(file->view(), walls),
+                                lightmaps ? lightmaps->view() : LightmapsView{}, *chosen);
         if (!image) return image.error();
         auto status = write_png(output, *image);
         if (!status) return status;

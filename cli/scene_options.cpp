@@ -12,7 +12,7 @@ namespace tetralight::cli {
 
 SceneOptions::SceneOptions(const Values& values)
     : path(values.text("scene")),
-      adjustments(values.text("adjustments")),
+      adjustments(has_setting(values, "adjustments") ? values.text("adjustments") : ""),
       sky(values),
       sun_direction(vec3(values, "sun_direction")),
       sun_irradiance(vec3(values, "sun_irradiance")),

@@ -9,6 +9,7 @@
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/failure.h>
+#include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/walls_report.h>
 #include <tetralight/pipeline/bake_metadata.h>
@@ -45,6 +46,7 @@ struct Validate {
         : path(values.text("volume")), scene_path(values.text("scene")), common(values) {}
 
     Status run() {
+        if (is_lightmap_file(path)) return validate_lightmaps(path, common);
         const auto file = open_volume();
         if (!file && (can_retry(file.error().code) || file.error().code == ErrorCode::NotFound)) {
             return file.error();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/pipeline/bake_metadata.h>
 
-#include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -11,6 +9,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_key.h>
 #include <tetralight/pipeline/bake_members.h>
+#include <tetralight/pipeline/value_record.h>
 #include <tetralight/probes/build/check_metadata.h>
 
 namespace tetralight {
@@ -18,35 +17,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The shortest decimal number that reads back to the same float or double; no ".0" at the end.
-template <class Float>
-Json shortest(Float value) {
-    constexpr auto kLargestExact = static_cast<Float>(1u << 24);
-    if (std::trunc(value) == value && std::abs(value) <= kLargestExact) {
-        return static_cast<int64_t>(value);
-    }
-    const std::string digits = str_cat(value);
-    double number = 0.0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    return number;
-}
-
-template <class T>
-Json value_json(const T& value) {
-    if constexpr (std::is_floating_point_v<T>) {
-        return shortest(value);
-    } else if constexpr (std::is_enum_v<T>) {
-        return name_of(value);
-    } else {
-        return value;
-    }
-}
-
 /// The settings that metadata may record, by name.
 Json recordable(const BakeVolumeSettings& settings) {
     Json json = Json::object();
     for_each_bake_member(settings, [&](const char* name, const auto& member, Recorded recorded) {
-        if (recorded != Recorded::Never) json[name] = value_json(member);
+        if (recorded != Recorded::Never) json[name] = value_record(member);
     });
     return json;
 }

@@ -3,8 +3,11 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 
+#include <tetralight/lightmap/sample_lightmap.h>
+#include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/locate.h>
 #include <tetralight/runtime/shade.h>
@@ -58,6 +61,7 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
     const InstanceLight& instance = light_.instances[surface.instance];
     switch (instance.use) {
         case ProbeUse::Off:
+        case ProbeUse::Lightmap:
             break;
         case ProbeUse::Given:
             return instance.light;
@@ -71,6 +75,18 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
                             surface.geometric_normal);
     }
     return {};
+}
+
+glm::vec3 SceneShader::baked_light(const Surface& surface) const {
+    if (light_.instances[surface.instance].use != ProbeUse::Lightmap) {
+        const glm::vec3 light = sample_sh9(probe_light(surface), surface.shading_normal);
+        return glm::max(light, glm::vec3(0.0f));
+    }
+    const LightmapsView& maps = light_.lightmaps;
+    const glm::vec2 uv = page_uv_of(maps, *scene_, surface.instance, surface.primitive,
+                                    traced_.world_from_render(surface.position));
+    const uint32_t page = maps.rectangles[surface.instance].page;
+    return sample_irradiance(maps, page, uv) * std::numbers::inv_pi_v<float>;
 }
 
 glm::vec3 SceneShader::direct_term(const Surface& surface) const {
@@ -108,8 +124,7 @@ std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
     const auto surface = first_front_face(render_origin, direction);
     if (!surface) return std::nullopt;
     const float distance = glm::distance(render_origin, surface->position);
-    const glm::vec3 reflected = shade_diffuse(surface->albedo, probe_light(*surface),
-                                              surface->shading_normal, direct_term(*surface));
+    const glm::vec3 reflected = surface->albedo * (baked_light(*surface) + direct_term(*surface));
     const uint32_t material = scene_->meshes[scene_->instances[surface->instance].mesh].material;
     return Shaded{surface->emission * light_.emission_weights[material] + reflected, distance};
 }

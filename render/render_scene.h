@@ -16,7 +16,8 @@
 namespace tetralight {
 
 /// Shades a scene with a volume's light, as an engine would with this runtime.
-/// - Static surfaces query the probes at each point. Moving objects (`contributes_gi` false) query
+/// - Static surfaces sample their lightmap, or without one query the probes at each point. Moving
+/// objects (`contributes_gi` false) query
 ///   once, at the center of their bounds, or sample a proxy volume if their node asks for one.
 /// - Lights of the volume that are not `Baked` add their direct term with shadow rays. If probes
 ///   store the occlusion of a light, it replaces the shadows that static objects cast on moving
@@ -67,6 +68,8 @@ class SceneShader {
     [[nodiscard]] std::optional<Surface> first_front_face(glm::vec3 origin,
                                                           glm::vec3 direction) const;
     [[nodiscard]] PackedSh probe_light(const Surface& surface) const;
+    /// Irradiance / π from probes or from the lightmap.
+    [[nodiscard]] glm::vec3 baked_light(const Surface& surface) const;
     [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
 
     const Scene* scene_;

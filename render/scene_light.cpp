@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/pipeline/lppv_object.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/locate.h>
@@ -72,10 +73,23 @@ Status add_proxy_volumes(const Scene& scene, const ProbeVolumeView& volume, Scen
     return Ok{};
 }
 
+void use_lightmaps(const Scene& scene, const LightmapsView& lightmaps, SceneLight& light) {
+    light.lightmaps = lightmaps;
+    for (size_t i = 0; i < lightmaps.rectangles.size(); ++i) {
+        const bool has_page = lightmaps.rectangles[i].page != kNoIndex;
+        if (has_page && scene.instances[i].contributes_gi)
+            light.instances[i].use = ProbeUse::Lightmap;
+    }
+}
+
 }  // namespace
 
 Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& volume,
-                                    ProbeLight probes) {
+                                    ProbeLight probes, const LightmapsView& lightmaps) {
+    const bool has_lightmaps = lightmaps.info.page_count > 0;
+    if (has_lightmaps) {
+        if (auto status = check_lightmap_scene(lightmaps, scene); !status) return status.error();
+    }
     SceneLight light;
     light.lights = runtime_lights(volume);
     light.emission_weights = find_emission_weights(scene, volume);
@@ -94,6 +108,7 @@ Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& v
     if (probes == ProbeLight::AsTheScene) {
         if (auto status = add_proxy_volumes(scene, volume, light); !status) return status.error();
     }
+    if (has_lightmaps) use_lightmaps(scene, lightmaps, light);
     return light;
 }
 

@@ -6,6 +6,7 @@
 
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/result.h>
+#include <tetralight/lightmap/lightmaps.h>
 #include <tetralight/lppv/lppv.h>
 #include <tetralight/probes/packed_sh.h>
 #include <tetralight/probes/probe_volume.h>
@@ -24,12 +25,13 @@ enum class ProbeLight : uint8_t {
     Nothing,     ///< none: direct light and emission remain
 };
 
-/// How the surface of one instance takes light from the probes.
+/// How the surface of one instance takes baked light.
 enum class ProbeUse : uint32_t {
     Off,          ///< not at all
     Given,        ///< one value for the whole instance
     ProxyVolume,  ///< from a grid around it
     EachPoint,    ///< by a query at each point of its surface
+    Lightmap,     ///< from its lightmap instead
 };
 
 /// How one instance of the scene is lit.
@@ -50,13 +52,18 @@ struct SceneLight {
     /// One for each instance of the scene.
     std::vector<InstanceLight> instances;
     std::vector<Lppv> proxy_volumes;
+    /// Of instances with `Lightmap`; empty if there are none.
+    LightmapsView lightmaps{};
     /// One for each material: the weight of the volume's layer that holds its emission; 1 if the
     /// emission was not baked.
     std::vector<float> emission_weights;
 };
 
-/// Returns the error of a proxy volume that cannot be made; its message names the node.
+/// Static objects that have a lightmap take their light from it; all others take it from probes.
+/// `lightmaps` outlives the result. Returns the error of a proxy volume that cannot be made, whose
+/// message names the node, and those of `check_lightmap_scene`.
 [[nodiscard]] Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& volume,
-                                                  ProbeLight probes);
+                                                  ProbeLight probes,
+                                                  const LightmapsView& lightmaps = {});
 
 }  // namespace tetralight

@@ -5,7 +5,7 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting kFiles[] = {
-    input_file("volume", "Probe volume (.probes)"),
+    input_file("volume", "Probe volume or lightmaps (.probes, .lightmaps)"),
     {.name = "obj",
      .type = Type::Path,
      .help = "Also write the edges of the tetrahedra as line elements, for any viewer: Wavefront "

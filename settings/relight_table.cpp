@@ -4,8 +4,9 @@
 namespace tetralight::settings {
 namespace {
 
-constexpr Setting kFiles[] = {input_file("volume", "Probe volume baked with --layers (.probes)"),
-                              output_file(".probes", "Probe volume to write (- = stdout)")};
+constexpr Setting kFiles[] = {
+    input_file("volume", "Probe volume or lightmaps baked with --layers"),
+    output_file(".probes .lightmaps", "File of the same kind to write (- = stdout)")};
 
 constexpr Setting kSettings[] = {
     {.name = "weights",

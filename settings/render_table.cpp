@@ -4,9 +4,15 @@
 namespace tetralight::settings {
 namespace {
 
-constexpr Setting kFiles[] = {input_file("scene", "glTF 2.0 scene (.glb or .gltf)"),
-                              input_file("volume", "Probe volume baked from it (.probes)"),
-                              output_file(".png", "Picture to write (- = stdout)")};
+constexpr Setting kFiles[] = {
+    input_file("scene", "glTF 2.0 scene (.glb or .gltf)"),
+    input_file("volume", "Probe volume baked from it (.probes)"),
+    output_file(".png", "Picture to write (- = stdout)"),
+    {.name = "lightmaps",
+     .type = Type::Path,
+     .help = "Lightmaps baked from the scene (.lightmaps): static objects "
+             "take their light from them, all others from the probes",
+     .without = "all objects take light from the probes"}};
 
 constexpr Setting kShown[] = {
     {.name = "show",

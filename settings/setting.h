@@ -115,8 +115,9 @@ struct Table {
     }
 };
 
-extern const Table kBackup, kBake, kCheckLeaks, kFsck, kGrid, kInfo, kLppv, kMerge, kMeshball,
-    kPrune, kQuery, kRelight, kRender, kRestore, kServe, kTetrahedralize, kValidate;
+extern const Table kBackup, kBake, kCheckLeaks, kExport, kFsck, kGrid, kInfo, kLightmap, kLppv,
+    kMerge, kMeshball, kPrune, kQuery, kRelight, kRender, kRestore, kServe, kTetrahedralize,
+    kUnwrap, kValidate;
 
 /// All of them, in the order in which a user meets them.
 [[nodiscard]] std::span<const Table* const> all_tables();

@@ -66,6 +66,93 @@ inline constexpr Setting kBounces{
     .default_text = "1000",
     .short_name = 'b'};
 
+// Of bakes.
+
+inline constexpr Setting kTimeBudget{
+    .name = "time_budget",
+    .type = Type::Seconds,
+    .help = "Start no further round of samples after this time; the result is not reproducible",
+    .unit = "seconds",
+    .range = {0, 1e9, true},
+    .without = "no limit",
+    .access = Access::Command};
+
+inline constexpr Setting kClamp{
+    .name = "clamp",
+    .type = Type::Number,
+    .help = "Largest radiance of one path, for less noise and less light; 0 = not clamped",
+    .unit = "radiance",
+    .range = kRadiance,
+    .default_text = "0"};
+
+inline constexpr Setting kAlbedoBoost{
+    .name = "albedo_boost",
+    .type = Type::Number,
+    .help = "Raise albedo to the power of 1 / B, so that more light bounces; 1 = unchanged",
+    .unit = "exponent",
+    .range = {1, 10},
+    .default_text = "1",
+    .value_name = "B"};
+
+inline constexpr Setting kMaxAlbedo{.name = "max_albedo",
+                                    .type = Type::Number,
+                                    .help = "Largest albedo of any surface",
+                                    .unit = "fraction",
+                                    .range = {0, 1},
+                                    .default_text = "1"};
+
+inline constexpr Setting kMixedLighting{
+    .name = "mixed_lighting",
+    .type = Type::Choice,
+    .help =
+        "Shadows of mixed lights: indirect = all in real time; shadowmask, subtractive = "
+        "probes also hold the occlusion of up to four lights",
+    .choices = "indirect shadowmask subtractive",
+    .default_text = "indirect"};
+
+inline constexpr Setting kResume{
+    .name = "resume",
+    .type = Type::Flag,
+    .help = "Continue an interrupted bake from the store beside the output",
+    .access = Access::Command};
+
+inline constexpr Setting kChunks{
+    .name = "chunks",
+    .type = Type::Path,
+    .help =
+        "Keep what is finished in this folder, saved after every few, and continue from those "
+        "that are already there; the bake fails if they cannot be saved",
+    .without = "no chunks",
+    .value_name = "FOLDER",
+    .excludes = "store",
+    .access = Access::Command};
+
+inline constexpr Setting kStore{
+    .name = "store",
+    .type = Type::Path,
+    .help = "Folder of baked light that many bakes share: take what is known, and add the rest",
+    .without = "no store",
+    .value_name = "FOLDER",
+    .excludes = "chunks",
+    .access = Access::Command};
+
+inline constexpr Setting kStoreLimit{
+    .name = "store_limit",
+    .type = Type::Number,
+    .help = "After the bake, delete the least recently used light of the store above this size",
+    .unit = "gigabytes",
+    .range = {0, 1e9, true},
+    .without = "no limit",
+    .needs = "store",
+    .access = Access::Command};
+
+inline constexpr Setting kProgressFile{
+    .name = "progress_file",
+    .type = Type::Path,
+    .help = "Write the progress to this file as JSON, twice a second",
+    .without = "no file",
+    .access = Access::Command};
+
 inline constexpr Setting kWeld{
     .name = "weld",
     .type = Type::Number,
@@ -121,7 +208,7 @@ inline constexpr Setting kSkyRotation{
     .range = {-360, 360},
     .default_text = "0"};
 
-/// Light that a command adds to a scene.
+/// Adjustment volumes, and light that a command adds to a scene.
 inline constexpr Setting kAddedLight[] = {
     {.name = "adjustments",
      .type = Type::Path,
@@ -162,6 +249,38 @@ inline constexpr Setting kAddedLight[] = {
      .choices = "mixed baked",
      .default_text = "mixed",
      .needs = "sun_direction"}};
+
+/// The same without adjustment volumes, which change probes alone.
+inline constexpr std::span<const Setting> kAddedLightAlone = std::span(kAddedLight).subspan(1);
+
+/// Where lightmaps have their texels.
+inline constexpr Setting kLightmapPages[] = {
+    {.name = "texels_per_meter",
+     .type = Type::Number,
+     .help = "Density of texels in the world; extras.lightmap_scale of an object is a factor on it",
+     .unit = "texels per metre",
+     .range = {0.0001, 100000},
+     .default_text = "10",
+     .short_name = 't'},
+    {.name = "page_size",
+     .type = Type::Integer,
+     .help = "Width and height of a page",
+     .unit = "texels",
+     .range = {16, 16384},
+     .default_text = "1024"},
+    {.name = "uvs",
+     .type = Type::Choice,
+     .help = "TEXCOORD_1 of meshes that have it: unwrap = make new charts; keep = use it as it is; "
+             "repair = use it, but make new charts where it overlaps itself or leaves 0 to 1",
+     .choices = "unwrap keep repair",
+     .default_text = "unwrap"},
+    {.name = "max_angle",
+     .type = Type::Number,
+     .help = "Largest angle between a triangle and the plane of its chart: larger gives fewer "
+             "charts and more stretch",
+     .unit = "degrees",
+     .range = {1, 85},
+     .default_text = "42"}};
 
 /// The camera and the size of a picture. `needed`: a setting that all of them need.
 struct ViewSettings {

@@ -5,7 +5,7 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting kFiles[] = {
-    input_file("volume", "Probe volume (.probes)"),
+    input_file("volume", "Probe volume or lightmaps (.probes, .lightmaps)"),
     {.name = "scene",
      .type = Type::Path,
      .help = "glTF 2.0 scene of the volume: also measure the free space that sees no probe of its "

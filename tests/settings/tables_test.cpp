@@ -63,7 +63,7 @@ Example example_of(const Setting& setting) {
         case Type::Flag:
             return {"true", true};
         case Type::Integer:
-            return {"7", 7};
+            return {std::to_string(static_cast<int64_t>(x)), static_cast<int64_t>(x)};
         case Type::Number:
             return {t, x};
         case Type::Fraction:

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/lightmap/stitch_seams.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace tetralight {
+namespace {
+
+/// Places per texel of the longer side of a seam.
+constexpr double kPlacesPerTexel = 2.0;
+
+constexpr double kResidual = 1e-9;
+constexpr int kMaxSteps = 1000;
+
+double dot(std::span<const double> a, std::span<const double> b) {
+    double sum = 0.0;
+    for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+glm::dvec2 place_on(const PageEdge& edge, double t) {
+    return glm::mix(glm::dvec2(edge.begin), glm::dvec2(edge.end), t);
+}
+
+/// Calls visit(texel, weight) for the texels of a bilinear sample.
+template <class Visit>
+void for_each_bilinear(const PageEdge& edge, double t, uint32_t page_size, const Visit& visit) {
+    const double last = page_size - 1.0;
+    const glm::dvec2 place = glm::clamp(place_on(edge, t) - 0.5, 0.0, last);
+    const glm::dvec2 corner = glm::min(glm::floor(place), glm::dvec2(last - 1.0));
+    const glm::dvec2 f = place - corner;
+    for (int i = 0; i < 4; ++i) {
+        const int dx = i % 2, dy = i / 2;
+        const double weight = (dx == 1 ? f.x : 1.0 - f.x) * (dy == 1 ? f.y : 1.0 - f.y);
+        if (weight <= 0.0) continue;
+        const auto x = static_cast<uint64_t>(corner.x) + static_cast<uint64_t>(dx);
+        const auto y = static_cast<uint64_t>(corner.y) + static_cast<uint64_t>(dy);
+        visit((uint64_t{edge.page} * page_size + y) * page_size + x, weight);
+    }
+}
+
+}  // namespace
+
+SeamStitcher::SeamStitcher(std::span<const Seam> seams, uint32_t page_size,
+                           const std::function<double(uint64_t)>& weight) {
+    std::vector<uint64_t> all;  // the texel of each entry
+    for (const Seam& seam : seams) add_seam(seam, page_size, all);
+    texels_ = all;
+    std::ranges::sort(texels_);
+    texels_.erase(std::unique(texels_.begin(), texels_.end()), texels_.end());
+    for (size_t i = 0; i < all.size(); ++i) {
+        entries_[i].texel =
+            static_cast<uint32_t>(std::ranges::lower_bound(texels_, all[i]) - texels_.begin());
+    }
+    for (const uint64_t texel : texels_) weights_.push_back(weight(texel));
+}
+
+void SeamStitcher::add_seam(const Seam& seam, uint32_t page_size, std::vector<uint64_t>& all) {
+    const double length =
+        std::max(glm::distance(glm::dvec2(seam.first.begin), glm::dvec2(seam.first.end)),
+                 glm::distance(glm::dvec2(seam.second.begin), glm::dvec2(seam.second.end)));
+    const auto count = static_cast<uint32_t>(std::ceil(kPlacesPerTexel * length)) + 1;
+    for (uint32_t i = 0; i < count; ++i) {
+        const double t = (i + 0.5) / count;
+        const auto add = [&](double sign) {
+            return [&, sign](uint64_t texel, double weight) {
+                all.push_back(texel);
+                entries_.push_back({0, static_cast<float>(sign * weight)});
+            };
+        };
+        for_each_bilinear(seam.first, t, page_size, add(1.0));
+        for_each_bilinear(seam.second, t, page_size, add(-1.0));
+        row_begins_.push_back(entries_.size());
+    }
+}
+
+std::vector<double> SeamStitcher::differences(std::span<const double> values) const {
+    std::vector<double> result(place_count(), 0.0);
+    for (size_t row = 0; row < result.size(); ++row) {
+        for (size_t i = row_begins_[row]; i < row_begins_[row + 1]; ++i)
+            result[row] += double{entries_[i].factor} * values[entries_[i].texel];
+    }
+    return result;
+}
+
+std::vector<double> SeamStitcher::relative_differences(std::span<const double> values) const {
+    const std::vector<double> all = differences(values);
+    std::vector<double> relative;
+    for (size_t row = 0; row < all.size(); ++row) {
+        double sum = 0.0;
+        for (size_t i = row_begins_[row]; i < row_begins_[row + 1]; ++i)
+            sum += std::abs(double{entries_[i].factor}) * values[entries_[i].texel];
+        if (sum > 0.0) relative.push_back(2.0 * std::abs(all[row]) / sum);
+    }
+    return relative;
+}
+
+std::vector<double> SeamStitcher::transposed(std::span<const double> differences) const {
+    std::vector<double> result(texels_.size(), 0.0);
+    for (size_t row = 0; row < differences.size(); ++row) {
+        for (size_t i = row_begins_[row]; i < row_begins_[row + 1]; ++i)
+            result[entries_[i].texel] += double{entries_[i].factor} * differences[row];
+    }
+    return result;
+}
+
+std::vector<double> SeamStitcher::stitched(std::span<const double> values) const {
+    // (W + Aᵀ A) change = −Aᵀ A x_0.
+    const auto applied = [&](std::span<const double> x) {
+        std::vector<double> result = transposed(differences(x));
+        for (size_t i = 0; i < result.size(); ++i) result[i] += weights_[i] * x[i];
+        return result;
+    };
+    std::vector<double> result(values.begin(), values.end());
+    std::vector<double> change(values.size(), 0.0);
+    std::vector<double> residual = transposed(differences(values));
+    for (double& r : residual) r = -r;
+    std::vector<double> direction = residual;
+    double square = dot(residual, residual);
+    const double enough = square * kResidual * kResidual;
+    for (int step = 0; step < kMaxSteps && square > enough; ++step) {
+        const std::vector<double> image = applied(direction);
+        const double length = square / dot(direction, image);
+        for (size_t i = 0; i < change.size(); ++i) {
+            change[i] += length * direction[i];
+            residual[i] -= length * image[i];
+        }
+        const double next = dot(residual, residual);
+        for (size_t i = 0; i < change.size(); ++i)
+            direction[i] = residual[i] + next / square * direction[i];
+        square = next;
+    }
+    for (size_t i = 0; i < result.size(); ++i) result[i] += change[i];
+    return result;
+}
+
+}  // namespace tetralight

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <tetralight/bake/lightmap/seams.h>
+
+namespace tetralight {
+
+/// Changes texels beside seams so that bilinear samples of both sides agree: the least squares of
+/// differences at places along the seams, and of changes of texels (Rakhteenko 2018, "Baking
+/// Artifact-Free Lightmaps on the GPU", section "Seams").
+///
+///     Σ_places (A x)² + Σ_texels w (x − x_0)²
+///
+/// A row of A has the weights of the four texels on each side of a place. The solution is a linear
+/// function of x_0 that is the same for all values of texels, so that the light of layers still
+/// adds up.
+class SeamStitcher {
+  public:
+    /// `weight`: w of a texel by its index in the pages (page · size² + row · size + column).
+    SeamStitcher(std::span<const Seam> seams, uint32_t page_size,
+                 const std::function<double(uint64_t)>& weight);
+
+    /// Indices of the texels that may change, in ascending order.
+    [[nodiscard]] const std::vector<uint64_t>& texels() const { return texels_; }
+
+    /// Number of places at which both sides are compared.
+    [[nodiscard]] size_t place_count() const { return row_begins_.size() - 1; }
+
+    /// Differences between both sides at the places. `values`: one a texel.
+    [[nodiscard]] std::vector<double> differences(std::span<const double> values) const;
+
+    /// Their amounts relative to the mean of both sides, where that is not 0.
+    [[nodiscard]] std::vector<double> relative_differences(std::span<const double> values) const;
+
+    /// The stitched values of the texels, by conjugate gradients to a residual of 1e-9.
+    [[nodiscard]] std::vector<double> stitched(std::span<const double> values) const;
+
+  private:
+    struct Entry {
+        uint32_t texel = 0;  ///< index into `texels_`
+        float factor = 0.0f;
+    };
+
+    void add_seam(const Seam& seam, uint32_t page_size, std::vector<uint64_t>& all);
+    [[nodiscard]] std::vector<double> transposed(std::span<const double> differences) const;
+
+    std::vector<uint64_t> texels_;
+    std::vector<double> weights_;
+    std::vector<size_t> row_begins_{0};
+    std::vector<Entry> entries_;
+};
+
+}  // namespace tetralight

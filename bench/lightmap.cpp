@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bench/lightmap.h>
+
+#include <tetralight/bake/scene/read_gltf.h>
+
+namespace tetralight::bench {
+namespace {
+
+void bench_scene(const std::string& path, const std::string& name, const Options& options) {
+    if (!is_selected(options, name)) return;
+    const auto scene = read_gltf(path);
+    require(bool(scene), "the scene " + path);
+    bench_lightmap_layout(*scene, name, options);
+    bench_lightmap_texels(*scene, name, options);
+}
+
+}  // namespace
+
+void bench_lightmap(const Options& options) {
+    bench_scene(TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb", "courtyard", options);
+    if (options.scene) bench_scene(*options.scene, "scene", options);
+    if (options.only) return;
+    bench_dark_room();
+    bench_lightmap_samples(options);
+}
+
+}  // namespace tetralight::bench

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/bench/harness.h>
+
+namespace tetralight::bench {
+
+/// Charts, rectangles and pages of a scene: `lightmap.{charts,stretch,flipped,overlap,packing,
+/// unwrap}.NAME`.
+void bench_lightmap_layout(const Scene& scene, const std::string& name, const Options& options);
+
+/// Its texels: `lightmap.{texel,rays,seams,stitched}.NAME`.
+void bench_lightmap_texels(const Scene& scene, const std::string& name, const Options& options);
+
+/// `lightmap.dark_room` and `lightmap.sample`.
+void bench_dark_room();
+void bench_lightmap_samples(const Options& options);
+
+}  // namespace tetralight::bench

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/cli/commands.h>
+#include <tetralight/cli/common.h>
+#include <tetralight/cli/paths.h>
+#include <tetralight/lightmap/lightmap_file.h>
+#include <tetralight/pipeline/lightmap_images.h>
+#include <tetralight/pipeline/write_lightmap_glb.h>
+
+namespace tetralight::cli {
+namespace {
+
+/// In the order of the choices of `as`.
+enum class ExportFormat : uint8_t { Exr, Ktx2, Png, Glb };
+
+ExportFormat format_of(const Values& values) {
+    if (values.is_given("as")) return choice<ExportFormat>(values, "as");
+    const std::string output = values.text("output");
+    const std::pair<const char*, ExportFormat> extensions[] = {{".exr", ExportFormat::Exr},
+                                                               {".ktx2", ExportFormat::Ktx2},
+                                                               {".png", ExportFormat::Png},
+                                                               {".glb", ExportFormat::Glb}};
+    for (const auto& [extension, format] : extensions) {
+        if (output.ends_with(extension)) return format;
+    }
+    require(values, "as");
+}
+
+struct Export {
+    std::string lightmaps_path;
+    std::string output;
+    std::string scene_path;
+    ExportFormat format;
+    CommonOptions common;
+
+    explicit Export(const Values& values)
+        : lightmaps_path(values.text("lightmaps")),
+          output(values.text("output")),
+          scene_path(values.text("scene")),
+          format(format_of(values)),
+          common(values) {
+        if (format == ExportFormat::Glb && scene_path.empty()) require(values, "scene");
+        if (format != ExportFormat::Glb && !scene_path.empty())
+            refuse(values, "scene", "only glb has a scene");
+    }
+
+    Status run() const {
+        const auto file = open_lightmap_file(lightmaps_path);
+        if (!file) return file.error();
+        const LightmapsView& maps = file->view();
+        const auto paths = output_paths(maps.info.page_count);
+        if (!paths) return paths.error();
+        Json json{{"output", output}, {"files", *paths}, {"pages", maps.info.page_count}};
+        if (auto status = write(maps, json); !status) return status;
+        const std::string files =
+            paths->size() == 1 ? "" : str_cat(" (", counted(paths->size(), "file"), ")");
+        common.report(output, json,
+                      str_cat(paths->front(), files, ": ", counted(maps.info.page_count, "page"),
+                              " of ", maps.info.page_size, " x ", maps.info.page_size, note(json)));
+        return Ok{};
+    }
+
+    /// The files that are written, checked.
+    [[nodiscard]] Result<std::vector<std::string>> output_paths(uint32_t page_count) const {
+        const bool has_file_a_page = format == ExportFormat::Exr || format == ExportFormat::Png;
+        const uint32_t count = has_file_a_page ? page_count : 1;
+        if (output == "-" && count > 1) {
+            return Error{ErrorCode::InvalidArgument, "output", output,
+                         str_cat("-: cannot write ", count, " pages to stdout")};
+        }
+        std::vector<std::string> paths;
+        for (uint32_t page = 0; page < count; ++page) {
+            paths.push_back(page_path(output, page, count));
+            auto status = check_output(paths.back(), {lightmaps_path, scene_path});
+            if (!status) return status.error();
+        }
+        if (!paths.empty()) return paths;
+        return Error{ErrorCode::InvalidArgument, "lightmaps", lightmaps_path,
+                     lightmaps_path + ": has no pages"};
+    }
+
+    [[nodiscard]] Status write(const LightmapsView& maps, Json& json) const {
+        if (format == ExportFormat::Exr) return write_lightmap_exr(output, maps);
+        if (format == ExportFormat::Glb) return write_scene(maps);
+        const bool is_png = format == ExportFormat::Png;
+        const auto factor =
+            is_png ? write_lightmap_png(output, maps) : write_lightmap_ktx2(output, maps);
+        if (!factor) return factor.error();
+        json[is_png ? "range" : "scale"] = *factor;
+        return Ok{};
+    }
+
+    [[nodiscard]] Status write_scene(const LightmapsView& maps) const {
+        const auto scene = read_gltf(scene_path);
+        if (!scene) return scene.error();
+        common.warn(scene->warnings);
+        const auto status = write_lightmap_glb(output, scene_path, *scene, maps);
+        if (status || status.error().field != "scene") return status;
+        Error error = status.error().in(scene_path);
+        error.value = scene_path;
+        return error;
+    }
+
+    [[nodiscard]] static std::string note(const Json& json) {
+        if (json.contains("range"))
+            return str_cat(", irradiance = ", json["range"].get<float>(), " x alpha x rgb");
+        if (json.contains("scale") && json["scale"] != 1.0f)
+            return str_cat(", irradiance = ", json["scale"].get<float>(), " x rgb");
+        return "";
+    }
+};
+
+}  // namespace
+
+Status run_export(const Values& values) {
+    return Export(values).run();
+}
+
+}  // namespace tetralight::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tetralight/base/result.h>
+#include <tetralight/cli/common.h>
+
+// What `info`, `validate` and `relight` do with `.lightmaps` files.
+
+namespace tetralight::cli {
+
+/// True if the file begins as lightmaps do.
+[[nodiscard]] bool is_lightmap_file(const std::string& path);
+
+/// Prints what lightmaps hold: pages, objects, layers, errors and how they were made.
+[[nodiscard]] Status show_lightmaps(const std::string& path, const CommonOptions& common);
+
+/// Checks all of a file and prints the verdict.
+[[nodiscard]] Status validate_lightmaps(const std::string& path, const CommonOptions& common);
+
+/// How `relight` changes lightmaps.
+struct LightmapChange {
+    std::vector<std::pair<std::string, float>> weights;
+    /// Empty: no blending.
+    std::string blend_path;
+    float blend_share = 0.5f;
+};
+
+[[nodiscard]] Status relight_lightmap_file(const std::string& path, const std::string& output,
+                                           const LightmapChange& change,
+                                           const CommonOptions& common);
+
+}  // namespace tetralight::cli

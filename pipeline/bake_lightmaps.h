@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tetralight/bake/bake_accumulators.h>
+#include <tetralight/bake/lightmap/lightmap_layout.h>
+#include <tetralight/bake/lightmap/lightmap_texels.h>
+#include <tetralight/bake/scene/scene.h>
+#include <tetralight/base/result.h>
+#include <tetralight/lightmap/lightmaps.h>
+#include <tetralight/pipeline/lighting_plan.h>
+#include <tetralight/pipeline/stored_bake.h>
+
+// Bakes the lightmaps of a scene:
+//
+//     scene → prepare_lightmaps → bake_texels → finish_lightmaps → Lightmaps → write_lightmap_file
+
+namespace tetralight {
+
+/// Samples of a texel's first round.
+[[nodiscard]] inline BakeSettings texel_bake_settings() {
+    BakeSettings settings;
+    settings.sample_count = 128;
+    return settings;
+}
+
+struct BakeLightmapsSettings {
+    LightmapLayoutSettings layout;
+    LightmapTexelSettings texels;
+    /// Samples, errors and bounces of a texel, as those of a probe. The plan follows from
+    /// `lighting`.
+    BakeSettings bake = texel_bake_settings();
+    LightingSettings lighting{};
+    /// Names of objects: the texels of all others stay black. Empty: all objects.
+    std::vector<std::string> only;
+};
+
+/// The settings of `tetralight lightmap` when neither samples, a target error nor a time budget is
+/// given: rounds up to 16 384 samples per texel, until the standard error is at most 5 %.
+[[nodiscard]] inline BakeSettings with_default_texel_target(BakeSettings settings) {
+    settings.target_error = 0.05;
+    settings.max_sample_count = 16'384;
+    return settings;
+}
+
+/// Counts and times of a bake of lightmaps, for people.
+struct LightmapReport {
+    size_t texel_count = 0;    ///< that surfaces cover
+    size_t invalid_count = 0;  ///< inside geometry: they have the light of other texels
+    size_t chart_count = 0;    ///< of all packings
+    size_t baked_count = 0;
+    /// Edges at which charts of one surface meet, and the 99th percentile of the relative
+    /// difference of the irradiance on both sides of them, as baked and as written.
+    size_t seam_count = 0;
+    float seam_difference_baked = 0.0f;
+    float seam_difference = 0.0f;
+    /// Texels above the target error after all samples, and errors of lit texels.
+    size_t over_target_count = 0;
+    float median_error = 0.0f;
+    float worst_error = 0.0f;
+    uint64_t ray_count = 0;
+    double layout_seconds = 0.0;
+    double texel_seconds = 0.0;
+    double bake_seconds = 0.0;
+    std::vector<std::string> warnings;
+};
+
+/// Lightmaps before their light is sampled.
+struct PreparedLightmaps {
+    BakeLightmapsSettings settings;  ///< `settings.bake.plan` is the plan for this scene
+    LightmapLayout layout;
+    std::vector<TexelMap> maps;
+    LightmapTexels texels;
+    /// The texels that are baked, in ascending order, and their places.
+    std::vector<uint32_t> baked;
+    std::vector<glm::dvec3> positions;
+    std::vector<TexelSurfaces::Texel> surfaces;
+    std::vector<std::string> layer_names;
+    LightmapReport report;
+
+    [[nodiscard]] BakePlaces places() const { return {positions, {surfaces, texels.origins}}; }
+};
+
+/// The light of the baked texels, one of each per element of `PreparedLightmaps::baked`.
+struct TexelBake {
+    std::vector<ProbeAccumulator> accumulators;
+    std::vector<double> rows;  ///< of `LightGroupLayout(settings.bake.plan)`
+    StoredBake stored;
+};
+
+/// Returns the errors of `make_lightmap_layout`, `make_lightmap_texels`, `plan_lighting` and
+/// `TraceScene::make_static`; not_found (field "only") if no object has a name; unsupported (field
+/// "layers") for the layer "transfer", which texels do not have; invalid_argument if no object of
+/// the scene takes a lightmap.
+[[nodiscard]] Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
+                                                          const BakeLightmapsSettings& settings);
+
+/// Samples the light. Texels that a store has, from an earlier bake of the same light at the same
+/// place, are loaded. Returns the errors of `bake_accumulators` and of the storage.
+[[nodiscard]] Result<TexelBake> bake_texels(const Scene& scene, const PreparedLightmaps& prepared,
+                                            const BakeStorage& storage = {},
+                                            const BakeCallback& callback = {});
+
+struct BakedLightmaps {
+    Lightmaps lightmaps;
+    LightmapReport report;
+};
+
+/// Writes the light into pages, fills texels that have none, and stitches seams. A pure function.
+[[nodiscard]] BakedLightmaps finish_lightmaps(const Scene& scene, PreparedLightmaps prepared,
+                                              const TexelBake& bake);
+
+/// All three steps.
+[[nodiscard]] Result<BakedLightmaps> bake_lightmaps(const Scene& scene,
+                                                    const BakeLightmapsSettings& settings,
+                                                    const BakeStorage& storage = {},
+                                                    const BakeCallback& callback = {});
+
+}  // namespace tetralight

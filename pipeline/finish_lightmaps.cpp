@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last step of a bake of lightmaps: light into pages.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <utility>
+
+#include <tetralight/bake/layer_errors.h>
+#include <tetralight/bake/lightmap/fill_texels.h>
+#include <tetralight/bake/lightmap/seams.h>
+#include <tetralight/bake/lightmap/stitch_seams.h>
+#include <tetralight/bake/parallel.h>
+#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/base/contract.h>
+#include <tetralight/base/half.h>
+#include <tetralight/base/str_cat.h>
+#include <tetralight/pipeline/bake_lightmaps.h>
+#include <tetralight/pipeline/lightmap_metadata.h>
+#include <tetralight/pipeline/lightmap_scene.h>
+
+namespace tetralight {
+namespace {
+
+constexpr double kY0 = 0.28209479177387814, kY1 = 0.4886025119029199;
+
+/// The light of a texel, in world axes.
+struct TexelLight {
+    glm::vec3 irradiance{0.0f};
+    glm::vec3 flux{0.0f};
+    glm::mat3 vector{0.0f};  ///< a column a colour channel
+
+    TexelLight& operator+=(const TexelLight& other) {
+        irradiance += other.irradiance;
+        flux += other.flux;
+        vector += other.vector;
+        return *this;
+    }
+
+    friend TexelLight operator*(const TexelLight& light, float factor) {
+        return {light.irradiance * factor, light.flux * factor, light.vector * factor};
+    }
+
+    [[nodiscard]] float largest() const {
+        float largest = 0.0f;
+        for (int channel = 0; channel < 3; ++channel) {
+            largest = std::max({largest, irradiance[channel], flux[channel]});
+            for (int axis = 0; axis < 3; ++axis)
+                largest = std::max(largest, std::abs(vector[channel][axis]));
+        }
+        return largest;
+    }
+};
+
+/// Its values one by one: irradiance, flux, vector.
+constexpr size_t kValueCount = 15;
+
+float& value_of(TexelLight& light, size_t i) {
+    if (i < 3) return light.irradiance[static_cast<int>(i)];
+    if (i < 6) return light.flux[static_cast<int>(i) - 3];
+    const auto k = static_cast<int>(i) - 6;
+    return light.vector[k / 3][k % 3];
+}
+
+/// How much a texel resists a change at a seam, in squares of differences at places. Texels that
+/// were filled have no light of their own.
+constexpr double kBakedWeight = 0.05, kFilledWeight = 0.005;
+
+/// From coefficients in the frame of the normal (`estimate_texel`), three values each.
+TexelLight texel_light(std::span<const double> coefficients, double sample_count,
+                       glm::vec3 normal) {
+    const glm::mat3 frame = frame_around(normal);
+    TexelLight light;
+    for (int channel = 0; channel < 3; ++channel) {
+        const auto at = [&](size_t i) {
+            return coefficients[3 * i + static_cast<size_t>(channel)] / sample_count;
+        };
+        const glm::dvec3 local = glm::dvec3(at(3), at(1), at(2)) / kY1;
+        light.irradiance[channel] = static_cast<float>(std::max(0.0, local.z));
+        light.flux[channel] = static_cast<float>(std::max(0.0, at(0) / kY0));
+        light.vector[channel] = frame * glm::vec3(local);
+    }
+    return light;
+}
+
+std::array<double, 27> flat(const RadianceSums& sums) {
+    std::array<double, 27> values{};
+    for (size_t i = 0; i < sums.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel)
+            values[3 * i + static_cast<size_t>(channel)] = sums[i][channel];
+    }
+    return values;
+}
+
+std::array<uint16_t, 3> halves(glm::vec3 value, float scale) {
+    return {half_from_float_saturated(value.x / scale), half_from_float_saturated(value.y / scale),
+            half_from_float_saturated(value.z / scale)};
+}
+
+LightmapTexel packed(const TexelLight& light, float scale) {
+    return {halves(light.flux, scale),
+            {halves(light.vector[0], scale), halves(light.vector[1], scale),
+             halves(light.vector[2], scale)}};
+}
+
+class PageWriter {
+  public:
+    PageWriter(const Scene& scene, const PreparedLightmaps& prepared, const TexelBake& bake)
+        : scene_(scene),
+          prepared_(prepared),
+          bake_(bake),
+          layout_(prepared.settings.bake.plan),
+          baked_index_(prepared.texels.positions.size(), kNoIndex) {
+        for (uint32_t i = 0; i < prepared.baked.size(); ++i) baked_index_[prepared.baked[i]] = i;
+    }
+
+    Lightmaps run(LightmapReport& report) {
+        allocate();
+        write_scales();
+        for_each_instance([&](uint32_t instance) { prepare_instance(instance); });
+        const std::vector<Seam> seams = find_seams(scene_, prepared_.layout);
+        const SeamStitcher stitcher(seams, maps_.info.page_size, [&](uint64_t texel) {
+            return is_baked_[texel] != 0 ? kBakedWeight : kFilledWeight;
+        });
+        report.seam_count = seams.size();
+        seam_light_.resize(stitcher.texels().size());
+        for (uint32_t i = 0; i < seam_light_.size(); ++i) seam_index_[stitcher.texels()[i]] = i;
+        write_light(std::nullopt);
+        report_seams(stitcher, report.seam_difference_baked);
+        stitch(stitcher, std::nullopt);
+        report_seams(stitcher, report.seam_difference);
+        for (size_t layer = 0; layer < layer_count(); ++layer) {
+            write_light(layer);
+            stitch(stitcher, layer);
+        }
+        return std::move(maps_);
+    }
+
+  private:
+    [[nodiscard]] size_t layer_count() const { return prepared_.layer_names.size(); }
+
+    void allocate() {
+        maps_.info.page_size = prepared_.layout.page_size;
+        maps_.info.page_count = prepared_.layout.page_count;
+        maps_.info.texels_per_meter = static_cast<float>(prepared_.layout.texels_per_meter);
+        texel_count_ = maps_.view().texel_count();
+        maps_.irradiance.resize(texel_count_);
+        maps_.light.resize(texel_count_);
+        maps_.validity.resize(texel_count_);
+        maps_.error.resize(texel_count_);
+        is_baked_.resize(texel_count_);
+        seam_index_.assign(texel_count_, kNoIndex);
+        fills_.resize(scene_.instances.size());
+        maps_.layers.resize(layer_count());
+        maps_.layer_irradiance.resize(layer_count() * texel_count_);
+        maps_.layer_light.resize(layer_count() * texel_count_);
+        for (const std::string& name : prepared_.layer_names) maps_.layer_names += name + "\n";
+    }
+
+    /// The light of a baked texel: the total, or of one layer.
+    [[nodiscard]] TexelLight total_light(uint32_t baked) const {
+        const ProbeAccumulator& sums = bake_.accumulators[baked];
+        const auto count = static_cast<double>(std::max<uint64_t>(1, sums.sample_count));
+        return texel_light(flat(sums.radiance_sum), count, prepared_.surfaces[baked].normal);
+    }
+
+    [[nodiscard]] TexelLight layer_light(uint32_t baked, size_t layer) const {
+        const ProbeAccumulator& sums = bake_.accumulators[baked];
+        const auto count = static_cast<double>(std::max<uint64_t>(1, sums.sample_count));
+        const auto row = std::span(bake_.rows).subspan(baked * layout_.size(), layout_.size());
+        constexpr size_t kSize = LightGroupLayout::kLayerSize;
+        std::array<double, kSize> values{};
+        if (layer < layout_.layer_count) {
+            std::ranges::copy(row.subspan(layer * kSize, kSize), values.begin());
+        } else {  // "rest"
+            values = flat(sums.radiance_sum);
+            for (size_t other = 0; other < layout_.layer_count; ++other) {
+                for (size_t i = 0; i < kSize; ++i) values[i] -= row[other * kSize + i];
+            }
+        }
+        return texel_light(values, count, prepared_.surfaces[baked].normal);
+    }
+
+    /// Filled texels are means of baked ones, which bound them.
+    void write_scales() {
+        const auto count = static_cast<uint32_t>(prepared_.baked.size());
+        float largest = 0.0f;
+        for (uint32_t i = 0; i < count; ++i) largest = std::max(largest, total_light(i).largest());
+        maps_.info.scale = lightmap_scale(largest);
+        for (size_t layer = 0; layer < layer_count(); ++layer) {
+            largest = 0.0f;
+            for (uint32_t i = 0; i < count; ++i)
+                largest = std::max(largest, layer_light(i, layer).largest());
+            maps_.layers[layer].scale = lightmap_scale(largest);
+        }
+    }
+
+    template <class Work>
+    void for_each_instance(const Work& work) {
+        parallel_for(scene_.instances.size(), prepared_.settings.bake.thread_count,
+                     [&](size_t instance) {
+                         if (prepared_.layout.places[instance].has_lightmap())
+                             work(static_cast<uint32_t>(instance));
+                     });
+    }
+
+    /// All but the light.
+    void prepare_instance(uint32_t instance) {
+        const LightmapPlace& place = prepared_.layout.places[instance];
+        const TexelMap& map = prepared_.maps[place.packing];
+        std::vector<bool> has_light(map.texels.size());
+        for (size_t i = 0; i < map.texels.size(); ++i)
+            has_light[i] = baked_at(instance, i) != kNoIndex;
+        fills_[instance] = make_texel_fill(map, has_light);
+        write_facts(instance, map, place);
+        write_coverage(map, place, fills_[instance]);
+    }
+
+    [[nodiscard]] uint32_t baked_at(uint32_t instance, size_t texel) const {
+        return baked_index_[prepared_.texels.first_texel[instance] + texel];
+    }
+
+    [[nodiscard]] size_t page_index(const TexelMap& map, const LightmapPlace& place,
+                                    uint32_t texel) const {
+        const size_t size = maps_.info.page_size;
+        const size_t x = place.corner.x + texel % map.width, y = place.corner.y + texel / map.width;
+        return (place.corner.page * size + y) * size + x;
+    }
+
+    /// Writes the total light or that of a layer into the pages, and keeps that of seams.
+    void write_light(std::optional<size_t> layer) {
+        for_each_instance([&](uint32_t instance) {
+            const LightmapPlace& place = prepared_.layout.places[instance];
+            const TexelMap& map = prepared_.maps[place.packing];
+            std::vector<TexelLight> values(map.charts.size() + 1);
+            for (size_t i = 0; i < map.texels.size(); ++i) {
+                const uint32_t baked = baked_at(instance, i);
+                if (baked == kNoIndex) continue;
+                values[map.texels[i].index] =
+                    layer ? layer_light(baked, *layer) : total_light(baked);
+            }
+            fills_[instance].apply(values);
+            for (uint32_t texel = 0; texel < map.charts.size(); ++texel) {
+                const size_t index = page_index(map, place, texel);
+                store(index, values[texel], layer);
+                if (seam_index_[index] != kNoIndex) seam_light_[seam_index_[index]] = values[texel];
+            }
+        });
+    }
+
+    void store(size_t index, const TexelLight& value, std::optional<size_t> layer) {
+        if (!layer) {
+            maps_.irradiance[index].rgb = halves(value.irradiance, maps_.info.scale);
+            maps_.light[index] = packed(value, maps_.info.scale);
+            return;
+        }
+        const float scale = maps_.layers[*layer].scale;
+        maps_.layer_irradiance[*layer * texel_count_ + index].rgb = halves(value.irradiance, scale);
+        maps_.layer_light[*layer * texel_count_ + index] = packed(value, scale);
+    }
+
+    /// Makes both sides of seams agree.
+    void stitch(const SeamStitcher& stitcher, std::optional<size_t> layer) {
+        parallel_for(kValueCount, prepared_.settings.bake.thread_count, [&](size_t value) {
+            std::vector<double> values;
+            for (TexelLight& light : seam_light_) values.push_back(double{value_of(light, value)});
+            const std::vector<double> stitched = stitcher.stitched(values);
+            const bool is_positive = value < 6;
+            for (size_t i = 0; i < stitched.size(); ++i) {
+                const auto number = static_cast<float>(stitched[i]);
+                value_of(seam_light_[i], value) = is_positive ? std::max(0.0f, number) : number;
+            }
+        });
+        for (size_t i = 0; i < seam_light_.size(); ++i)
+            store(stitcher.texels()[i], seam_light_[i], layer);
+    }
+
+    /// The 99th percentile of relative differences of green irradiance.
+    void report_seams(const SeamStitcher& stitcher, float& percentile) {
+        std::vector<double> values;
+        for (TexelLight& light : seam_light_) values.push_back(double{light.irradiance.y});
+        std::vector<double> relative = stitcher.relative_differences(values);
+        if (relative.empty()) return;
+        const auto place = relative.begin() + static_cast<ptrdiff_t>(relative.size() * 99 / 100);
+        std::ranges::nth_element(relative, place);
+        percentile = static_cast<float>(*place);
+    }
+
+    /// Validity and error of the texels that surfaces touch.
+    void write_facts(uint32_t instance, const TexelMap& map, const LightmapPlace& place) {
+        for (size_t i = 0; i < map.texels.size(); ++i) {
+            const size_t index = page_index(map, place, map.texels[i].index);
+            const size_t texel = prepared_.texels.first_texel[instance] + i;
+            maps_.validity[index] = static_cast<uint8_t>(
+                std::lround(255.0f * std::clamp(prepared_.texels.validity[texel], 0.0f, 1.0f)));
+            const uint32_t baked = baked_index_[texel];
+            if (baked == kNoIndex) continue;
+            is_baked_[index] = 1;
+            const float error = bake_.accumulators[baked].standard_error(ErrorMeasure::OwnNormal);
+            maps_.error[index] = half_from_float_saturated(error);
+        }
+    }
+
+    void write_coverage(const TexelMap& map, const LightmapPlace& place, const TexelFill& fill) {
+        if (fill.steps.empty()) return;
+        const auto cover = [&](uint32_t texel) {
+            maps_.irradiance[page_index(map, place, texel)].coverage = kCovered;
+        };
+        for (uint32_t texel = 0; texel < map.charts.size(); ++texel) {
+            if (map.charts[texel] != kNoIndex) cover(texel);
+        }
+        for (const TexelFill::Step& step : fill.steps) {
+            if (step.texel < map.charts.size()) cover(step.texel);
+        }
+    }
+
+    const Scene& scene_;
+    const PreparedLightmaps& prepared_;
+    const TexelBake& bake_;
+    const LightGroupLayout layout_;
+    std::vector<uint32_t> baked_index_;  ///< of each texel in `prepared.baked`, or kNoIndex
+    uint64_t texel_count_ = 0;
+    std::vector<TexelFill> fills_;      ///< one an instance
+    std::vector<uint8_t> is_baked_;     ///< one a texel of the pages
+    std::vector<uint32_t> seam_index_;  ///< of each texel in `seam_light_`, or kNoIndex
+    std::vector<TexelLight> seam_light_;
+    Lightmaps maps_;
+};
+
+void store_uvs(const Scene& scene, const LightmapLayout& layout, Lightmaps& maps) {
+    for (const LightmapPacking& packing : layout.packings) {
+        maps.meshes.push_back({geometry_key(scene.meshes[packing.mesh]),
+                               static_cast<uint32_t>(maps.corner_uvs.size()),
+                               static_cast<uint32_t>(packing.triangle_charts.size()),
+                               {}});
+        const std::vector<glm::vec2> uvs = unit_uvs(packing.charts);
+        maps.corner_uvs.insert(maps.corner_uvs.end(), uvs.begin(), uvs.end());
+    }
+}
+
+void store_rectangles(const Scene& scene, const LightmapLayout& layout, Lightmaps& maps) {
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        maps.rectangles.push_back(rectangle_of(layout, layout.places[i]));
+        std::string name = scene.instances[i].name;
+        std::ranges::replace(name, '\n', ' ');
+        maps.instance_names += name + "\n";
+    }
+}
+
+/// Errors of the texels with light.
+void report_errors(const TexelBake& bake, double target_error, LightmapReport& report) {
+    std::vector<float> errors;
+    for (const ProbeAccumulator& sums : bake.accumulators) {
+        report.ray_count += sums.ray_count;
+        const float error = sums.standard_error(ErrorMeasure::OwnNormal);
+        if (error > 0.0f) errors.push_back(error);
+        const bool is_over = target_error > 0.0 && double{error} > target_error;
+        report.over_target_count += is_over;
+    }
+    if (errors.empty()) return;
+    const auto middle = errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2);
+    std::ranges::nth_element(errors, middle);
+    report.median_error = *middle;
+    report.worst_error = *std::ranges::max_element(errors);
+}
+
+}  // namespace
+
+BakedLightmaps finish_lightmaps(const Scene& scene, PreparedLightmaps prepared,
+                                const TexelBake& bake) {
+    TETRALIGHT_ASSERT(bake.accumulators.size() == prepared.baked.size(), "one for each texel");
+    BakedLightmaps result;
+    result.report = prepared.report;
+    result.lightmaps = PageWriter(scene, prepared, bake).run(result.report);
+    Lightmaps& maps = result.lightmaps;
+    store_uvs(scene, prepared.layout, maps);
+    store_rectangles(scene, prepared.layout, maps);
+    maps.metadata = lightmap_metadata(scene, prepared.settings);
+    const double target_error = prepared.settings.bake.target_error;
+    LightmapReport& report = result.report;
+    report_errors(bake, target_error, report);
+    if (report.over_target_count > 0) {
+        report.warnings.push_back(str_cat(report.over_target_count, " of ", report.baked_count,
+                                          " texels have a standard error above ", target_error,
+                                          " (the worst ", report.worst_error,
+                                          ") with the samples and the time they had"));
+    }
+    return result;
+}
+
+}  // namespace tetralight

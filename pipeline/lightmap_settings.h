@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tetralight/pipeline/bake_lightmaps.h>
+#include <tetralight/pipeline/bake_members.h>
+
+namespace tetralight {
+
+/// Calls `use(name, member, recorded)` for each member of `settings` that a setting of `tetralight
+/// lightmap` (settings/lightmap_table.cpp) sets, as `for_each_bake_member` does it for `bake`.
+template <class Settings, class Use>
+void for_each_lightmap_setting(Settings& settings, Use use) {
+    auto& [layout, texels, bake, lighting, only] = settings;
+    use("texels_per_meter", layout.texels_per_meter, Recorded::Always);
+    use("page_size", layout.page_size, Recorded::Always);
+    use("uvs", layout.uvs, Recorded::WhenChanged);
+    use("max_angle", layout.unwrap.max_angle_degrees, Recorded::WhenChanged);
+    use("places", texels.grid, Recorded::Always);
+    use("min_validity", texels.min_validity, Recorded::Always);
+    use("samples", bake.sample_count, Recorded::Always);
+    use("bounces", bake.bounces, Recorded::Always);
+    use("seed", bake.seed, Recorded::Always);
+    use("target_error", bake.target_error, Recorded::WhenChanged);
+    use("target_layers", bake.target_layer_error, Recorded::WhenChanged);
+    use("max_samples", bake.max_sample_count, Recorded::WhenChanged);
+    use("time_budget", bake.time_budget_seconds, Recorded::WhenChanged);
+    use("clamp", bake.clamp, Recorded::WhenChanged);
+    use("albedo_boost", bake.surfaces.albedo_boost, Recorded::WhenChanged);
+    use("max_albedo", bake.surfaces.max_albedo, Recorded::WhenChanged);
+    use("layers", lighting.layers, Recorded::Never);
+    use("only", only, Recorded::Never);
+    use("threads", bake.thread_count, Recorded::Never);
+}
+
+}  // namespace tetralight

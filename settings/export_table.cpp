@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/settings/shared_settings.h>
+
+namespace tetralight::settings {
+namespace {
+
+constexpr Setting kFiles[] = {
+    input_file("lightmaps", "Lightmaps (.lightmaps)"),
+    output_file(".exr .ktx2 .png .glb",
+                "File to write; exr and png write one file a page: a_0.exr, a_1.exr"),
+    {.name = "as",
+     .type = Type::Choice,
+     .help = "exr = 32-bit float images; ktx2 = one array texture of 16-bit floats; png = RGBM "
+             "images; glb = the scene with TEXCOORD_1 and MX_lightmap",
+     .choices = "exr ktx2 png glb",
+     .without = "by the extension of the output"},
+    {.name = "scene",
+     .type = Type::Path,
+     .help = "glTF 2.0 scene that the lightmaps were baked for",
+     .without = "no scene; glb needs one"}};
+
+constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
+
+}  // namespace
+
+const Table kExport{.command = "export",
+                    .summary = "Write lightmaps as images, or into their scene",
+                    .examples =
+                        "tetralight export courtyard.lightmaps -o courtyard.exr\n"
+                        "tetralight export courtyard.lightmaps --scene courtyard.glb -o lit.glb",
+                    .groups = kGroups};
+
+}  // namespace tetralight::settings

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/settings/shared_settings.h>
+
+namespace tetralight::settings {
+namespace {
+
+constexpr Setting kFiles[] = {
+    scene_file("glTF 2.0 scene (.glb or .gltf)"),
+    output_file(".lightmaps", "Lightmaps to write (- = stdout)"),
+    {.name = "only",
+     .type = Type::Text,
+     .help = "Bake the texels of the object of this name; all others stay black",
+     .without = "all objects",
+     .value_name = "NODE",
+     .is_list = true}};
+
+constexpr Setting kTexels[] = {
+    {.name = "places",
+     .type = Type::Integer,
+     .help = "Light is sampled at up to N x N places of each texel",
+     .unit = "places",
+     .range = {1, 4},
+     .default_text = "2"},
+    {.name = "min_validity",
+     .type = Type::Number,
+     .help = "Smallest fraction of rays that hit no back face; a texel below it is inside geometry "
+             "and takes the light of texels beside it",
+     .unit = "fraction",
+     .range = {0, 1},
+     .default_text = "0.75"}};
+
+constexpr Setting kSampling[] = {
+    {.name = "samples",
+     .type = Type::Integer,
+     .help = "Samples per texel; without --target-error and --time-budget exactly this many",
+     .unit = "samples",
+     .range = {1, 1 << 24},
+     .without = "128 in the first round",
+     .short_name = 's'},
+    {.name = "target_error",
+     .type = Type::Fraction,
+     .help = "Double the samples of a texel until its relative standard error is below this",
+     .unit = "fraction",
+     .range = {0, 1, true},
+     .without = "5% with at most 16384 samples, unless --samples or --time-budget is given"},
+    {.name = "target_layers",
+     .type = Type::Fraction,
+     .help = "Double the samples of a texel until the error of each of its layers is below this, "
+             "too; a layer counts down to a hundredth of its mean light",
+     .unit = "fraction",
+     .range = {0, 1, true},
+     .without = "no target",
+     .needs = "layers"},
+    {.name = "max_samples",
+     .type = Type::Integer,
+     .help = "Most samples per texel with --target-error, --target-layers or --time-budget",
+     .unit = "samples",
+     .range = {1, 0x1p32},
+     .without = "64 times --samples"},
+    kTimeBudget,
+    seed_setting("Seed of the random numbers")};
+
+constexpr Setting kTransport[] = {
+    kBounces,
+    kClamp,
+    kAlbedoBoost,
+    kMaxAlbedo,
+    {.name = "layers",
+     .type = Type::Words,
+     .help = "Keep this light in separate layers, which `tetralight relight` can scale later: sun, "
+             "sky, emission, light:NAME, material:NAME",
+     .without = "one layer",
+     .value_name = "LIST"}};
+
+constexpr Setting kStoring[] = {kResume, kChunks, kStore, kStoreLimit, kProgressFile};
+
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Added light", kAddedLightAlone},
+                             {"Pages", kLightmapPages},
+                             {"Texels", kTexels},
+                             {"Samples", kSampling},
+                             {"Light transport", kTransport},
+                             {"Progress and earlier bakes", kStoring},
+                             {"Common options", kCommonSettings}};
+
+}  // namespace
+
+const Table kLightmap{.command = "lightmap",
+                      .summary = "Bake the light of a scene into lightmaps for what stands still",
+                      .examples =
+                          "tetralight lightmap courtyard.glb -o courtyard.lightmaps\n"
+                          "tetralight lightmap courtyard.glb --texels-per-meter 20 --target-error "
+                          "3% -o courtyard.lightmaps",
+                      .groups = kGroups};
+
+}  // namespace tetralight::settings

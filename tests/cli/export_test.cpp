@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/scene/read_gltf.h>
+
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+class Export : public CommandFixture {
+  protected:
+    Export() {
+        succeed({"lightmap", kCourtyard, "-o", "c.lightmaps", "-t", "1", "--page-size", "64", "-s",
+                 "1"});
+    }
+
+    /// The JSON of a .glb file.
+    [[nodiscard]] Json json_of(const std::string& name) const {
+        const std::string bytes = read(name);
+        const size_t end = bytes.find(std::string("BIN\0", 4));
+        return Json::parse(bytes.substr(20, end - 4 - 20));
+    }
+};
+
+TEST_F(Export, ExrAndPngHaveOneFileAPage) {
+    for (const std::string format : {"exr", "png"}) {
+        const Json json = run_json({"export", "c.lightmaps", "-o", "c." + format});
+        const size_t pages = json["pages"];
+        ASSERT_GT(pages, 1u);
+        ASSERT_EQ(json["files"].size(), pages);
+        EXPECT_EQ(json["files"][1], "c_1." + format);
+        for (const Json& file : json["files"]) EXPECT_FALSE(read(file).empty());
+        EXPECT_EQ(json.contains("range"), format == "png");
+    }
+    const auto page = read_hdr_image(path("c_0.exr"));
+    ASSERT_TRUE(page);
+    EXPECT_EQ(page->image.width, 64u);
+    EXPECT_EQ(page->mended_pixel_count, 0u);
+}
+
+TEST_F(Export, Ktx2HasAllPagesAsLayers) {
+    const Json json = run_json({"export", "c.lightmaps", "--as", "ktx2", "-o", "c.ktx2"});
+    EXPECT_EQ(json["files"].size(), 1u);
+    EXPECT_EQ(static_cast<unsigned char>(read("c.ktx2").at(32)), json["pages"].get<unsigned>());
+}
+
+TEST_F(Export, GlbHasTheSceneWithLightmaps) {
+    const Json json = run_json({"export", "c.lightmaps", "--scene", kCourtyard, "-o", "lit.glb"});
+    const Json gltf = json_of("lit.glb");
+    EXPECT_EQ(gltf["extensionsUsed"].back(), "MX_texture_rgbm");
+    size_t lightmaps = 0;
+    for (const Json& node : gltf["nodes"]) {
+        if (!node.contains("extensions") || !node["extensions"].contains("MX_lightmap")) continue;
+        ++lightmaps;
+        EXPECT_LT(node["extensions"]["MX_lightmap"]["lightMapTexture"]["index"],
+                  gltf["textures"].size());
+    }
+    EXPECT_GT(lightmaps, 10u);
+    EXPECT_TRUE(read_gltf(path("lit.glb")));
+}
+
+TEST_F(Export, RefusesAnotherSceneAndNamesTheObject) {
+    succeed({"unwrap", kCourtyard, "-o", "uv1.glb"});
+    const std::string error =
+        fail({"export", "c.lightmaps", "--scene", "uv1.glb", "-o", "lit.glb"});
+    EXPECT_TRUE(contains(error, "uv1.glb: the lightmaps do not fit the object \"")) << error;
+    write("empty.gltf", kEmptyScene);
+    EXPECT_TRUE(contains(fail({"export", "c.lightmaps", "--scene", "empty.gltf", "-o", "lit.glb"}),
+                         "empty.gltf: the scene has 0 instances, the lightmaps have "));
+}
+
+TEST_F(Export, SaysWhatIsMissing) {
+    EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "-o", "lit.glb"}), "--scene"));
+    EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "-o", "-"}), "--as"));
+    EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "--scene", kCourtyard, "-o", "c.exr"}),
+                         "only glb"));
+    EXPECT_TRUE(
+        contains(fail({"export", "c.lightmaps", "--as", "exr", "-o", "-"}), "pages to stdout"));
+}
+
+}  // namespace
+}  // namespace tetralight::test

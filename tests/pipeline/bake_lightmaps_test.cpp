@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/pipeline/bake_lightmaps.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <tetralight/base/error_text.h>
+#include <tetralight/base/half.h>
+#include <tetralight/lightmap/lightmap_file.h>
+#include <tetralight/lightmap/sample_lightmap.h>
+#include <tetralight/pipeline/bake_store.h>
+#include "tests/support/scenes.h"
+#include "tests/support/temp_folder.h"
+
+namespace tetralight {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+const Material kGrey = test::diffuse(glm::vec3(0.5f));
+
+BakeLightmapsSettings settings_with(uint32_t samples, double texels_per_meter = 4.0) {
+    BakeLightmapsSettings settings;
+    settings.layout.texels_per_meter = texels_per_meter;
+    settings.layout.page_size = 128;
+    settings.bake.sample_count = samples;
+    return settings;
+}
+
+Lightmaps bake(const Scene& scene, const BakeLightmapsSettings& settings,
+               const BakeStorage& storage = {}) {
+    auto baked = bake_lightmaps(scene, settings, storage);
+    EXPECT_TRUE(baked) << (baked ? "" : error_text(baked.error()));
+    return baked ? std::move(baked->lightmaps) : Lightmaps{};
+}
+
+std::string error_of(const Scene& scene, const BakeLightmapsSettings& settings) {
+    const auto baked = bake_lightmaps(scene, settings);
+    return baked ? "" : error_text(baked.error());
+}
+
+/// Green irradiance of all covered texels of an instance.
+std::vector<float> irradiance_of(const Lightmaps& maps, size_t instance) {
+    const LightmapRectangle& place = maps.rectangles[instance];
+    std::vector<float> values;
+    for (uint32_t y = place.y; y < place.y + place.height; ++y) {
+        for (uint32_t x = place.x; x < place.x + place.width; ++x) {
+            const size_t size = maps.info.page_size;
+            const IrradianceTexel& texel = maps.irradiance[(place.page * size + y) * size + x];
+            if (texel.coverage == kCovered)
+                values.push_back(float_from_half(texel.rgb[1]) * maps.info.scale);
+        }
+    }
+    return values;
+}
+
+void add_sun(Scene& scene, glm::vec3 direction, LightMode mode, float intensity = 3.0f) {
+    Light sun;
+    sun.type = LightType::Directional;
+    sun.mode = mode;
+    sun.direction = glm::normalize(direction);
+    sun.intensity = glm::vec3(intensity);
+    scene.lights.push_back(sun);
+    scene.light_names.emplace_back("sun");
+}
+
+TEST(BakeLightmaps, AFloorUnderAWhiteSkyReceivesPi) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, kGrey, 2.0f);
+    const Lightmaps maps = bake(scene, settings_with(256));
+    EXPECT_TRUE(verify(maps.view()));
+    const auto values = irradiance_of(maps, 0);
+    EXPECT_GE(values.size(), 16u * 16u);
+    for (const float value : values) EXPECT_NEAR(double{value}, kPi, 0.03);
+    const glm::vec3 tilted = glm::normalize(glm::vec3(0.3f, 1, 0));
+    const glm::vec2 uv = page_uv(maps.rectangles[0], {0.5f, 0.5f});
+    EXPECT_NEAR(double{sample_lightmap(maps.view(), 0, uv, tilted).y}, kPi * double{tilted.y},
+                0.04);
+}
+
+TEST(BakeLightmaps, BakedSunFallsByItsCosineAndMixedSunDoesNotFall) {
+    Scene scene;
+    test::add_floor(scene, kGrey, 2.0f);
+    add_sun(scene, {0, -1, -1}, LightMode::Baked);
+    for (const float value : irradiance_of(bake(scene, settings_with(16)), 0))
+        EXPECT_NEAR(double{value}, 3.0 * std::sqrt(0.5), 2e-3);
+    scene.lights[0].mode = LightMode::Mixed;
+    for (const float value : irradiance_of(bake(scene, settings_with(16)), 0))
+        EXPECT_EQ(value, 0.0f);
+}
+
+TEST(BakeLightmaps, ASealedRoomUnderASunIsBlack) {
+    Scene scene;
+    add_sun(scene, {0.3f, -1, 0.2f}, LightMode::Baked);
+    test::add_floor(scene, kGrey, 4.0f);
+    // Walls of 10 cm that stand in the floor.
+    test::add_box(scene, kGrey, test::Facing::Outward, {-1.1f, -0.2f, -1.1f}, {1.1f, 1.1f, 1.1f});
+    test::add_box(scene, kGrey, test::Facing::Inward, {-1, -0.1f, -1}, {1, 1, 1});
+    const Lightmaps maps = bake(scene, settings_with(256, 10.0));
+    const auto outside = irradiance_of(maps, 0), inside = irradiance_of(maps, 2);
+    const float brightest = *std::ranges::max_element(outside);
+    const double sun = 3.0 / std::sqrt(1.13);
+    EXPECT_GT(double{brightest}, 0.99 * sun);
+    EXPECT_LT(double{brightest}, 1.5 * sun);  // with what the walls reflect
+    for (const float value : inside) EXPECT_LE(value, 1e-3f * brightest);
+}
+
+TEST(BakeLightmaps, LayersAddUpToTheLight) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(0.4f);
+    test::add_floor(scene, kGrey, 2.0f);
+    test::add_box(scene, test::diffuse(glm::vec3(0.2f), glm::vec3(5.0f)), test::Facing::Outward,
+                  {-0.3f, 0.2f, -0.3f}, {0.3f, 0.8f, 0.3f});
+    add_sun(scene, {0.5f, -1, 0}, LightMode::Baked);
+    BakeLightmapsSettings settings = settings_with(128);
+    settings.lighting.layers = {"sun", "sky"};
+    const Lightmaps maps = bake(scene, settings);
+    EXPECT_EQ(maps.layer_names, "sun\nsky\nrest\n");
+    EXPECT_TRUE(verify(maps.view()));
+    const size_t count = maps.irradiance.size();
+    float worst = 0.0f, brightest = 0.0f;
+    for (size_t i = 0; i < count; ++i) {
+        float sum = 0.0f;
+        for (size_t layer = 0; layer < 3; ++layer) {
+            const uint16_t half = maps.layer_irradiance[layer * count + i].rgb[0];
+            sum += float_from_half(half) * maps.layers[layer].scale;
+        }
+        const float total = float_from_half(maps.irradiance[i].rgb[0]) * maps.info.scale;
+        worst = std::max(worst, std::abs(sum - total));
+        brightest = std::max(brightest, total);
+    }
+    EXPECT_LE(worst, 3.0f * 0x1p-11f * brightest);
+}
+
+TEST(BakeLightmaps, ThreadsAndStoresChangeNoByteAndStoresSaveTheWork) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(0.4f);
+    test::add_floor(scene, kGrey, 1.0f);
+    test::add_box(scene, kGrey, test::Facing::Outward, {-0.3f, -0.1f, -0.3f}, {0.3f, 0.8f, 0.3f});
+    BakeLightmapsSettings settings = settings_with(128);
+    settings.bake.thread_count = settings.layout.thread_count = settings.texels.thread_count = 1;
+    const auto whole = lightmap_file_bytes(bake(scene, settings).view());
+    settings.bake.thread_count = settings.layout.thread_count = settings.texels.thread_count = 3;
+    const TempFolder folder;
+    auto store = BakeStore::open(folder.path("store"));
+    ASSERT_TRUE(store);
+    const BakeStorage storage{.sources = {&*store}, .target = &*store, .is_saved_at_end = true};
+    EXPECT_EQ(lightmap_file_bytes(bake(scene, settings, storage).view()), whole);
+    const auto prepared = prepare_lightmaps(scene, settings);
+    ASSERT_TRUE(prepared);
+    const auto again = bake_texels(scene, *prepared, storage);
+    ASSERT_TRUE(again);
+    EXPECT_GT(again->stored.earlier_ray_count, 0u);
+    uint64_t rays = 0;
+    for (const ProbeAccumulator& sums : again->accumulators) rays += sums.ray_count;
+    EXPECT_EQ(rays, again->stored.earlier_ray_count);
+}
+
+TEST(BakeLightmaps, OnlyTheNamedObjectIsBaked) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, kGrey, 1.0f).name = "floor";
+    test::add_floor(scene, kGrey, 1.0f, 5.0f).name = "roof";
+    BakeLightmapsSettings settings = settings_with(64);
+    settings.only = {"roof"};
+    const Lightmaps maps = bake(scene, settings);
+    EXPECT_TRUE(irradiance_of(maps, 0).empty());
+    EXPECT_FALSE(irradiance_of(maps, 1).empty());
+    settings.only = {"door"};
+    EXPECT_EQ(error_of(scene, settings), "only: no object \"door\" of the scene takes a lightmap");
+}
+
+TEST(BakeLightmaps, RefusesWhatTexelsCannotHave) {
+    Scene scene;
+    test::add_floor(scene, kGrey, 1.0f);
+    BakeLightmapsSettings settings = settings_with(64);
+    settings.lighting.layers = {"transfer"};
+    EXPECT_EQ(error_of(scene, settings), "layers: lightmaps have no transfer of distant light");
+    scene.instances[0].lightmap.receive_gi = ReceiveGi::Probes;
+    EXPECT_EQ(error_of(scene, settings_with(64)), "the scene has no object that takes a lightmap");
+}
+
+}  // namespace
+}  // namespace tetralight

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/pipeline/lightmap_images.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/half.h>
+#include "tests/support/temp_folder.h"
+
+namespace tetralight {
+namespace {
+
+/// Pages of 2 × 2 texels with these red values times `scale`, all covered.
+Lightmaps pages_of(const std::vector<float>& red, float scale = 1.0f) {
+    Lightmaps maps;
+    maps.info.page_size = 2;
+    maps.info.page_count = static_cast<uint32_t>(red.size() / 4);
+    maps.info.scale = scale;
+    for (const float value : red)
+        maps.irradiance.push_back({{half_from_float(value), 0, 0}, kCovered});
+    return maps;
+}
+
+TEST(LightmapImages, RgbmKeepsTheLargestChannelToAPart) {
+    for (const RgbmCurve curve : {RgbmCurve::Linear, RgbmCurve::ThirdRoom}) {
+        ImageF image{100, 1, {}};
+        for (int i = 0; i < 100; ++i) {
+            const float value = 50.0f * static_cast<float>(i) / 99.0f;
+            image.pixels.emplace_back(value, 0.25f * value, 0.0f);
+        }
+        const Image8 encoded = encode_rgbm(image, 50.0f, curve);
+        for (size_t i = 0; i < 100; ++i) {
+            const glm::vec3 decoded = decode_rgbm(encoded.pixels[i], 50.0f, curve);
+            const float red = image.pixels[i].x;
+            EXPECT_NEAR(decoded.x, red, 0.005f * red + 0.001f) << i;
+            EXPECT_NEAR(decoded.y, 0.25f * red, 0.005f * red + 0.001f) << i;
+            EXPECT_EQ(decoded.z, 0.0f);
+        }
+    }
+}
+
+TEST(LightmapImages, ThirdRoomDecodesAsTheDraftOfMxLightmap) {
+    // E = 34.49 · a^2.2 · rgb of an sRGB image.
+    const glm::vec3 white = decode_rgbm({255, 255, 255, 128}, 34.49f, RgbmCurve::ThirdRoom);
+    EXPECT_NEAR(white.x, 34.49f * std::pow(128.0f / 255.0f, 2.2f), 1e-4f);
+    const glm::vec3 grey = decode_rgbm({128, 0, 0, 255}, 34.49f, RgbmCurve::ThirdRoom);
+    EXPECT_NEAR(grey.x, 34.49f * 0.21586f, 1e-3f);
+}
+
+TEST(LightmapImages, PagePathsHaveNumbersIfThereAreSeveral) {
+    EXPECT_EQ(page_path("a.b/c.exr", 0, 1), "a.b/c.exr");
+    EXPECT_EQ(page_path("a.b/c.exr", 2, 3), "a.b/c_2.exr");
+    EXPECT_EQ(page_path("a.b/c", 2, 3), "a.b/c_2");
+}
+
+TEST(LightmapImages, ExrHasTheIrradianceOfEachPage) {
+    const TempFolder folder;
+    const Lightmaps maps = pages_of({1, 2, 3, 4, 5, 6, 7, 8}, 256.0f);
+    ASSERT_TRUE(write_lightmap_exr(folder.path("a.exr"), maps.view()));
+    const auto second = read_hdr_image(folder.path("a_1.exr"));
+    ASSERT_TRUE(second);
+    ASSERT_EQ(second->image.pixels.size(), 4u);
+    EXPECT_EQ(second->image.pixels[1], glm::vec3(6 * 256, 0, 0));
+}
+
+TEST(LightmapImages, PngSaysItsRange) {
+    const TempFolder folder;
+    const Lightmaps maps = pages_of({1, 2, 3, 4}, 4.0f);
+    const auto range = write_lightmap_png(folder.path("a.png"), maps.view());
+    ASSERT_TRUE(range);
+    EXPECT_EQ(*range, 16.0f);
+    const auto bytes = read_file(folder.path("a.png"));
+    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    EXPECT_NE(text.find(R"({"encoding":"rgbm","range":16})"), std::string::npos);
+    const auto image = decode_image8(*bytes, "a.png");
+    ASSERT_TRUE(image);
+    EXPECT_NEAR(decode_rgbm(image->pixels[2], 16.0f, RgbmCurve::Linear).x, 12.0f, 0.05f);
+}
+
+TEST(LightmapImages, Ktx2HasAScaleOnlyForLightThatHalvesCannotHold) {
+    const TempFolder folder;
+    const std::string path = folder.path("a.ktx2");
+    EXPECT_EQ(*write_lightmap_ktx2(path, pages_of({1, 2, 3, 4}, 4.0f).view()), 1.0f);
+    const auto bytes = read_file(path);
+    uint16_t red = 0;
+    std::memcpy(&red, bytes->data() + bytes->size() - 8, sizeof red);
+    EXPECT_EQ(float_from_half(red), 16.0f);
+    EXPECT_EQ(*write_lightmap_ktx2(path, pages_of({1, 2, 3, 30000}, 4.0f).view()), 4.0f);
+}
+
+}  // namespace
+}  // namespace tetralight
