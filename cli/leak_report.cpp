@@ -10,12 +10,12 @@
 namespace tetralight::cli {
 namespace {
 
-Json to_json(const LeakPart& part) {
+Json leak_part_json(const LeakPart& part) {
     return {{"mean", part.mean}, {"p95", part.p95}};
 }
 
-Json to_json(const LeakPlace& place) {
-    return {{"position", cli::to_json(place.position)},
+Json leak_place_json(const LeakPlace& place) {
+    return {{"position", to_json(place.position)},
             {"is_unseen", place.is_unseen},
             {"through_walls", place.through_walls()},
             {"answer", place.answer},
@@ -62,17 +62,18 @@ std::string worst_text(const LeakReport& report) {
 
 Json to_json(const LeakReport& report) {
     Json worst = Json::array();
-    for (const uint32_t i : report.worst_places()) worst.push_back(to_json(report.places[i]));
+    for (const uint32_t i : report.worst_places())
+        worst.push_back(leak_place_json(report.places[i]));
     return {{"places", report.places.size()},
             {"unseen", report.unseen_count},
             {"mean_light", report.mean_light},
-            {"through_walls", to_json(report.through_walls)},
-            {"missing", to_json(report.missing)},
-            {"rest", to_json(report.rest)},
+            {"through_walls", leak_part_json(report.through_walls)},
+            {"missing", leak_part_json(report.missing)},
+            {"rest", leak_part_json(report.rest)},
             {"noise", report.noise},
             {"without_walls",
-             {{"through_walls", to_json(report.plain_through_walls)},
-              {"missing", to_json(report.plain_missing)}}},
+             {{"through_walls", leak_part_json(report.plain_through_walls)},
+              {"missing", leak_part_json(report.plain_missing)}}},
             {"worst", worst}};
 }
 

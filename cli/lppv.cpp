@@ -40,22 +40,22 @@ uint64_t file_size(const std::string& path) {
     return error ? 0 : size;
 }
 
-Json to_json(const glm::uvec3& v) {
+Json resolution_json(const glm::uvec3& v) {
     return {v.x, v.y, v.z};
 }
 
 Json bounds_json(const glm::dvec3& low, const glm::dvec3& high,
                  const glm::dmat4& world_from_local = glm::dmat4(1.0)) {
     const double* matrix = glm::value_ptr(world_from_local);
-    return {{"low", cli::to_json(low)},
-            {"high", cli::to_json(high)},
+    return {{"low", to_json(low)},
+            {"high", to_json(high)},
             {"world_from_local", std::vector<double>(matrix, matrix + 16)}};
 }
 
-Json to_json(const LppvCoverage& coverage, bool has_scene) {
+Json coverage_json(const LppvCoverage& coverage, bool has_scene) {
     Json positions = Json::array();
     for (const UncoveredPoint& point : coverage.positions) {
-        positions.push_back(cli::to_json(point.position));
+        positions.push_back(to_json(point.position));
     }
     const Coverage& points = coverage.points;
     return {{"points", points.place_count()},
@@ -187,11 +187,11 @@ struct LppvCommand {
         const LppvGrid& points = lppv.grid;
         Json json{{"output", output},
                   {"bounds", bounds_json(points.min, points.max, points.world_from_local)},
-                  {"resolution", to_json(points.resolution)},
-                  {"spacing", cli::to_json(points.spacing())},
+                  {"resolution", resolution_json(points.resolution)},
+                  {"spacing", to_json(points.spacing())},
                   {"points", points.point_count()},
                   {"replaced", lppv.replaced_count},
-                  {"coverage", to_json(coverage, !scene_path.empty())},
+                  {"coverage", coverage_json(coverage, !scene_path.empty())},
                   {"bytes", file_size(output)},
                   {"fill_seconds", fill_seconds},
                   {"write_seconds", write_seconds}};
@@ -235,7 +235,7 @@ struct LppvCommand {
             {{"output", output},
              {"bounds",
               bounds_json(lppv.spacing * glm::dvec3(box.min), lppv.spacing * glm::dvec3(box.max))},
-             {"resolution", to_json(glm::uvec3(box.max - box.min + 1))},
+             {"resolution", resolution_json(glm::uvec3(box.max - box.min + 1))},
              {"spacing", lppv.spacing},
              {"blocks", lppv.blocks.size()},
              {"points", lppv.irradiance.size()},
