@@ -91,14 +91,7 @@ BakeSubject read_subject(const std::string& name, const std::string& path) {
     require(bool(scene), scene ? "" : error_text(scene.error()));
     BakeSubject subject{name, std::move(*scene), {}};
     subject.probes = group_positions(subject.scene, kProbeCount);
-    if (subject.scene.lights.empty() && subject.scene.environment.radiance == glm::vec3(0.0f)) {
-        subject.scene.environment.radiance = glm::vec3(1.0f);
-        Light sun;
-        sun.intensity = glm::vec3(10.0f);
-        sun.direction = glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f));
-        subject.scene.lights.push_back(sun);
-        subject.scene.light_names.push_back("sun");
-    }
+    light_if_dark(subject.scene);
     if (subject.probes.empty()) {
         subject.probes =
             lit_positions(subject.scene, free_positions(subject.scene, 4 * kProbeCount));
@@ -125,6 +118,16 @@ Scene emitter_room() {
                       100.0f * t * t * glm::vec3(1.0f, t, 1.5f - t));
     }
     return scene;
+}
+
+void light_if_dark(Scene& scene) {
+    if (!scene.lights.empty() || scene.environment.radiance != glm::vec3(0.0f)) return;
+    scene.environment.radiance = glm::vec3(1.0f);
+    Light sun;
+    sun.intensity = glm::vec3(10.0f);
+    sun.direction = glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f));
+    scene.lights.push_back(sun);
+    scene.light_names.push_back("sun");
 }
 
 std::vector<glm::dvec3> some_probes(const BakeSubject& subject) {

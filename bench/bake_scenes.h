@@ -19,6 +19,9 @@ struct BakeSubject {
     std::vector<glm::dvec3> probes;
 };
 
+/// Adds a sun and a grey sky to a scene without light.
+void light_if_dark(Scene& scene);
+
 /// Every fourth probe.
 [[nodiscard]] std::vector<glm::dvec3> some_probes(const BakeSubject& subject);
 

@@ -2,14 +2,16 @@
 #include <tetralight/bench/lightmap.h>
 
 #include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/bench/bake_scenes.h>
 
 namespace tetralight::bench {
 namespace {
 
 void bench_scene(const std::string& path, const std::string& name, const Options& options) {
     if (!is_selected(options, name)) return;
-    const auto scene = read_gltf(path);
+    auto scene = read_gltf(path);
     require(bool(scene), "the scene " + path);
+    light_if_dark(*scene);
     bench_lightmap_layout(*scene, name, options);
     bench_lightmap_texels(*scene, name, options);
 }

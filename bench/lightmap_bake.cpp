@@ -123,6 +123,7 @@ void bench_rays(const Scene& scene, const PreparedLightmaps& prepared, const std
 void bench_lightmap_texels(const Scene& scene, const std::string& name, const Options& options) {
     BakeLightmapsSettings settings;
     settings.layout.texels_per_meter = 4.0;
+    settings.layout.page_size = 2048;
     settings.bake.sample_count = 128;
     auto prepared = prepare_lightmaps(scene, settings);
     require(bool(prepared), "the scene has texels");
