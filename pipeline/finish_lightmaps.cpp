@@ -280,11 +280,7 @@ class PageWriter {
     void report_seams(const SeamStitcher& stitcher, float& percentile) {
         std::vector<double> values;
         for (TexelLight& light : seam_light_) values.push_back(double{light.irradiance.y});
-        std::vector<double> relative = stitcher.relative_differences(values);
-        if (relative.empty()) return;
-        const auto place = relative.begin() + static_cast<ptrdiff_t>(relative.size() * 99 / 100);
-        std::ranges::nth_element(relative, place);
-        percentile = static_cast<float>(*place);
+        percentile = static_cast<float>(stitcher.relative_percentile(values, 0.99));
     }
 
     /// Validity and error of the texels that surfaces touch.

@@ -5,12 +5,17 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tetralight {
 namespace {
 
 /// Places per texel of the longer side of a seam.
 constexpr double kPlacesPerTexel = 2.0;
+
+/// Differences count relative to this fraction of the mean light of all seams at least: darker
+/// places look black.
+constexpr double kCountedFraction = 0.01;
 
 constexpr double kResidual = 1e-9;
 constexpr int kMaxSteps = 1000;
@@ -74,6 +79,7 @@ void SeamStitcher::add_seam(const Seam& seam, uint32_t page_size, std::vector<ui
         for_each_bilinear(seam.first, t, page_size, add(1.0));
         for_each_bilinear(seam.second, t, page_size, add(-1.0));
         row_begins_.push_back(entries_.size());
+        lengths_.push_back(static_cast<float>(kPlacesPerTexel * length / count));
     }
 }
 
@@ -86,23 +92,38 @@ std::vector<double> SeamStitcher::differences(std::span<const double> values) co
     return result;
 }
 
-std::vector<double> SeamStitcher::relative_differences(std::span<const double> values) const {
+double SeamStitcher::relative_percentile(std::span<const double> values, double fraction) const {
     const std::vector<double> all = differences(values);
-    std::vector<double> relative;
+    std::vector<double> lights(all.size(), 0.0);  // means of both sides
+    double length = 0.0, mean = 0.0;
     for (size_t row = 0; row < all.size(); ++row) {
-        double sum = 0.0;
         for (size_t i = row_begins_[row]; i < row_begins_[row + 1]; ++i)
-            sum += std::abs(double{entries_[i].factor}) * values[entries_[i].texel];
-        if (sum > 0.0) relative.push_back(2.0 * std::abs(all[row]) / sum);
+            lights[row] += 0.5 * std::abs(double{entries_[i].factor}) * values[entries_[i].texel];
+        length += double{lengths_[row]};
+        mean += double{lengths_[row]} * lights[row];
     }
-    return relative;
+    if (!(mean > 0.0)) return 0.0;
+    mean /= length;
+    std::vector<std::pair<double, double>> relative;  // difference, length
+    for (size_t row = 0; row < all.size(); ++row) {
+        const double light = std::max(lights[row], kCountedFraction * mean);
+        relative.emplace_back(std::abs(all[row]) / light, double{lengths_[row]});
+    }
+    std::ranges::sort(relative);
+    double below = 0.0;
+    for (const auto& [difference, own] : relative) {
+        below += own;
+        if (below >= fraction * length) return difference;
+    }
+    return relative.back().first;
 }
 
 std::vector<double> SeamStitcher::transposed(std::span<const double> differences) const {
     std::vector<double> result(texels_.size(), 0.0);
     for (size_t row = 0; row < differences.size(); ++row) {
         for (size_t i = row_begins_[row]; i < row_begins_[row + 1]; ++i)
-            result[entries_[i].texel] += double{entries_[i].factor} * differences[row];
+            result[entries_[i].texel] +=
+                double{entries_[i].factor} * double{lengths_[row]} * differences[row];
     }
     return result;
 }

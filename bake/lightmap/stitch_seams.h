@@ -15,9 +15,10 @@ namespace tetralight {
 /// differences at places along the seams, and of changes of texels (Rakhteenko 2018, "Baking
 /// Artifact-Free Lightmaps on the GPU", section "Seams").
 ///
-///     Σ_places (A x)² + Σ_texels w (x − x_0)²
+///     Σ_places l (A x)² + Σ_texels w (x − x_0)²
 ///
-/// A row of A has the weights of the four texels on each side of a place. The solution is a linear
+/// A row of A has the weights of the four texels on each side of a place, which stands for l half
+/// texels of the seam. The solution is a linear
 /// function of x_0 that is the same for all values of texels, so that the light of layers still
 /// adds up.
 class SeamStitcher {
@@ -35,8 +36,10 @@ class SeamStitcher {
     /// Differences between both sides at the places. `values`: one a texel.
     [[nodiscard]] std::vector<double> differences(std::span<const double> values) const;
 
-    /// Their amounts relative to the mean of both sides, where that is not 0.
-    [[nodiscard]] std::vector<double> relative_differences(std::span<const double> values) const;
+    /// The relative difference of both sides that a fraction of the length of all seams does not
+    /// exceed: the difference over the mean of both, or over a hundredth of the mean light of all
+    /// seams where that is more. 0 without light.
+    [[nodiscard]] double relative_percentile(std::span<const double> values, double fraction) const;
 
     /// The stitched values of the texels, by conjugate gradients to a residual of 1e-9.
     [[nodiscard]] std::vector<double> stitched(std::span<const double> values) const;
@@ -54,6 +57,7 @@ class SeamStitcher {
     std::vector<double> weights_;
     std::vector<size_t> row_begins_{0};
     std::vector<Entry> entries_;
+    std::vector<float> lengths_;  ///< l of each place
 };
 
 }  // namespace tetralight
