@@ -3,6 +3,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
+#include <tetralight/cli/bake_settings.h>
 #include <tetralight/cli/bake_storing.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
@@ -23,13 +24,7 @@ BakeLightmapsSettings lightmap_settings(const Values& values) {
         read_if_any(values, name, member);
     });
     BakeSettings& bake = settings.bake;
-    const bool has_rounds =
-        bake.target_error > 0.0 || bake.target_layer_error > 0.0 || bake.time_budget_seconds > 0.0;
-    if (bake.max_sample_count > 0 && !has_rounds) {
-        refuse(values, "max_samples",
-               "needs " + values.shown("target_error") + " or " + values.shown("time_budget"));
-    }
-    if (!has_rounds && !values.is_given("samples")) bake = with_default_texel_target(bake);
+    if (takes_default_target(bake, values)) bake = with_default_texel_target(bake);
     settings.layout.thread_count = settings.texels.thread_count = bake.thread_count;
     return settings;
 }

@@ -2,10 +2,8 @@
 #include <tetralight/cli/lightmap_files.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
-#include <string_view>
 
+#include <tetralight/base/file.h>
 #include <tetralight/base/half.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
@@ -99,11 +97,8 @@ Result<LightmapFile> open_checked(const std::string& path) {
 }  // namespace
 
 bool is_lightmap_file(const std::string& path) {
-    constexpr std::string_view kBegin = "TETRALM\n";
-    std::array<char, kBegin.size()> begin{};
-    std::ifstream file(path, std::ios::binary);
-    file.read(begin.data(), begin.size());
-    return file.good() && std::string_view(begin.data(), begin.size()) == kBegin;
+    const auto file = MappedFile::open(path);
+    return file && tetralight::is_lightmap_file(file->bytes());
 }
 
 Status show_lightmaps(const std::string& path, const CommonOptions& common) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/lightmap/lightmap_file.h>
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include <tetralight/base/file_writer.h>
@@ -43,6 +45,11 @@ struct LightmapFileReader {
         return detail::verify_sections(kLightmapFileKind, file.file_.mapping.bytes(), file.view());
     }
 };
+
+bool is_lightmap_file(std::span<const std::byte> bytes) noexcept {
+    const auto magic = std::as_bytes(std::span(kLightmapFileKind.magic));
+    return bytes.size() >= magic.size() && std::ranges::equal(bytes.first(magic.size()), magic);
+}
 
 Result<LightmapFile> open_lightmap_file_lazy(const std::string& path) {
     auto sections = detail::map_sections<LightmapsView>(kLightmapFileKind, path, kLightmapMembers);

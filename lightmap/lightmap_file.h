@@ -40,6 +40,9 @@ class LightmapFile {
     detail::MappedSections<LightmapsView> file_;
 };
 
+/// True if the bytes of a file begin as those of lightmaps do.
+[[nodiscard]] bool is_lightmap_file(std::span<const std::byte> bytes) noexcept;
+
 /// Opens a file and verifies all of it: checksums, structure, every index and number. Reads the
 /// whole file once. Use it for files that are not trusted.
 ///

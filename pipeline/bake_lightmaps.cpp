@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <tetralight/bake/rays/memory_estimate.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/round_plan.h>
 #include <tetralight/base/stopwatch.h>

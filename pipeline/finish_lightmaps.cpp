@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include <tetralight/bake/layer_errors.h>
 #include <tetralight/bake/lightmap/fill_texels.h>
 #include <tetralight/bake/lightmap/seams.h>
 #include <tetralight/bake/lightmap/stitch_seams.h>
@@ -119,7 +118,9 @@ class PageWriter {
         allocate();
         write_scales();
         for_each_instance([&](uint32_t instance) { prepare_instance(instance); });
-        const std::vector<Seam> seams = find_seams(scene_, prepared_.layout);
+        std::vector<bool> has_light;  // not those that --only leaves out
+        for (const TexelFill& fill : fills_) has_light.push_back(!fill.steps.empty());
+        const std::vector<Seam> seams = find_seams(scene_, prepared_.layout, has_light);
         const SeamStitcher stitcher(seams, maps_.info.page_size, [&](uint64_t texel) {
             return is_baked_[texel] != 0 ? kBakedWeight : kFilledWeight;
         });

@@ -20,13 +20,7 @@ void for_each_lightmap_setting(Settings& settings, Use use) {
     use("samples", bake.sample_count, Recorded::Always);
     use("bounces", bake.bounces, Recorded::Always);
     use("seed", bake.seed, Recorded::Always);
-    use("target_error", bake.target_error, Recorded::WhenChanged);
-    use("target_layers", bake.target_layer_error, Recorded::WhenChanged);
-    use("max_samples", bake.max_sample_count, Recorded::WhenChanged);
-    use("time_budget", bake.time_budget_seconds, Recorded::WhenChanged);
-    use("clamp", bake.clamp, Recorded::WhenChanged);
-    use("albedo_boost", bake.surfaces.albedo_boost, Recorded::WhenChanged);
-    use("max_albedo", bake.surfaces.max_albedo, Recorded::WhenChanged);
+    for_each_refinement_member(bake, use);
     use("layers", lighting.layers, Recorded::Never);
     use("only", only, Recorded::Never);
     use("threads", bake.thread_count, Recorded::Never);

@@ -24,14 +24,18 @@ class FillBuilder {
         const auto is_same_chart = [this](uint32_t texel, uint32_t other) {
             return map_.charts[texel] == map_.charts[other];
         };
-        while (grow(texels_without_light(), is_same_chart)) {
+        std::vector<uint32_t> dark = texels_that([this](uint32_t texel) {
+            return map_.charts[texel] != kNoIndex && !is_filled_[texel];
+        });
+        while (grow(dark, is_same_chart)) {
         }
-        for (const uint32_t texel : texels_without_light()) {
+        for (const uint32_t texel : dark) {
             add_step(texel, {static_cast<uint32_t>(fill_.texel_count)});
             is_filled_[texel] = true;
         }
-        grow(free_texels(),
-             [this](uint32_t, uint32_t other) { return map_.charts[other] != kNoIndex; });
+        std::vector<uint32_t> free =
+            texels_that([this](uint32_t texel) { return map_.charts[texel] == kNoIndex; });
+        grow(free, [this](uint32_t, uint32_t other) { return map_.charts[other] != kNoIndex; });
         return std::move(fill_);
     }
 
@@ -43,42 +47,31 @@ class FillBuilder {
     }
 
     void add_mean() {
-        std::vector<uint32_t> sources;
-        for (uint32_t i = 0; i < fill_.texel_count; ++i) {
-            if (is_filled_[i]) sources.push_back(i);
-        }
-        add_step(static_cast<uint32_t>(fill_.texel_count), sources);
+        add_step(static_cast<uint32_t>(fill_.texel_count),
+                 texels_that([this](uint32_t texel) { return bool{is_filled_[texel]}; }));
     }
 
-    /// Texels of charts that have no light yet.
-    [[nodiscard]] std::vector<uint32_t> texels_without_light() const {
+    template <class Holds>
+    [[nodiscard]] std::vector<uint32_t> texels_that(const Holds& holds) const {
         std::vector<uint32_t> texels;
         for (uint32_t i = 0; i < fill_.texel_count; ++i) {
-            if (map_.charts[i] != kNoIndex && !is_filled_[i]) texels.push_back(i);
+            if (holds(i)) texels.push_back(i);
         }
         return texels;
     }
 
-    [[nodiscard]] std::vector<uint32_t> free_texels() const {
-        std::vector<uint32_t> texels;
-        for (uint32_t i = 0; i < fill_.texel_count; ++i) {
-            if (map_.charts[i] == kNoIndex) texels.push_back(i);
-        }
-        return texels;
-    }
-
-    /// Gives each texel the mean of its neighbors with light before the call. False if none
-    /// changed.
+    /// Gives each texel the mean of its neighbors with light before the call, and leaves those
+    /// without such neighbors in `texels`. False if no texel changed.
     template <class IsSource>
-    bool grow(const std::vector<uint32_t>& texels, const IsSource& is_source) {
-        std::vector<uint32_t> grown;
+    bool grow(std::vector<uint32_t>& texels, const IsSource& is_source) {
+        std::vector<uint32_t> grown, rest;
         for (const uint32_t texel : texels) {
             const std::vector<uint32_t> sources = neighbors(texel, is_source);
-            if (sources.empty()) continue;
-            add_step(texel, sources);
-            grown.push_back(texel);
+            if (!sources.empty()) add_step(texel, sources);
+            (sources.empty() ? rest : grown).push_back(texel);
         }
         for (const uint32_t texel : grown) is_filled_[texel] = true;
+        texels = std::move(rest);
         return !grown.empty();
     }
 

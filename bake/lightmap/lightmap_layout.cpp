@@ -125,8 +125,8 @@ std::string uv_warning(const Scene& scene, uint32_t instance, const Unwrapped& u
         if (check.overlap_area > 0.0) text += ", and ";
         text += str_cat("leaves 0 to 1 at ", check.outside_count, " corners");
     }
-    return text +
-           (uvs == LightmapUvs::Repair ? "; the mesh is unwrapped anew" : "; it is kept as it is");
+    return text + (uvs == LightmapUvs::Repair ? "; the mesh is unwrapped anew"
+                                              : "; the lightmap uses it unchanged");
 }
 
 /// An error of `pack_charts` with the object and what helps.

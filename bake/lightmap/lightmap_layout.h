@@ -67,7 +67,7 @@ struct LightmapLayout {
 
 /// Charts, densities and places of all instances. Instances of one mesh share charts if their
 /// transforms differ only by rotation, reflection, translation and uniform scale. Texels have the
-/// same size in the world, whatever the scale, times `LightmapUse::scale`.
+/// same size in the world for every scale of an instance, divided by `LightmapUse::scale`.
 ///
 /// The charts of an instance and the places of texels in its rectangle depend on its mesh, shape
 /// and density alone, so that other objects move it by whole texels. Deterministic.

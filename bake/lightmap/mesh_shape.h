@@ -13,7 +13,7 @@
 
 namespace tetralight {
 
-/// The shape that a transform gives to a mesh, whatever its rotation, reflection, position and
+/// The shape that a transform gives to a mesh, without its rotation, reflection, position and
 /// size.
 struct MeshShape {
     /// Mᵀ M / size² of the linear part M, upper triangle, in steps of 2^-16.

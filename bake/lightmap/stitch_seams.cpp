@@ -129,7 +129,7 @@ std::vector<double> SeamStitcher::transposed(std::span<const double> differences
 }
 
 std::vector<double> SeamStitcher::stitched(std::span<const double> values) const {
-    // (W + Aᵀ A) change = −Aᵀ A x_0.
+    // (W + Aᵀ L A) change = −Aᵀ L A x_0. Conjugate gradients.
     const auto applied = [&](std::span<const double> x) {
         std::vector<double> result = transposed(differences(x));
         for (size_t i = 0; i < result.size(); ++i) result[i] += weights_[i] * x[i];

@@ -18,8 +18,7 @@ namespace tetralight {
 ///     Σ_places l (A x)² + Σ_texels w (x − x_0)²
 ///
 /// A row of A has the weights of the four texels on each side of a place, which stands for l half
-/// texels of the seam. The solution is a linear
-/// function of x_0 that is the same for all values of texels, so that the light of layers still
+/// texels of the seam. The solution is a linear function of x_0, so that the light of layers still
 /// adds up.
 class SeamStitcher {
   public:

@@ -75,7 +75,8 @@ class ChartGrower {
         return axis;
     }
 
-    /// Mean normal of what can be reached in the cone about an axis, overlaps included.
+    /// Mean normal of the triangles that can be reached in the cone about an axis, including those
+    /// that overlap others.
     [[nodiscard]] glm::dvec3 mean_normal(uint32_t seed, const glm::dvec3& axis) {
         glm::dvec3 sum(0.0);
         ++visit_;

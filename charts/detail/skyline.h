@@ -9,7 +9,7 @@
 
 namespace tetralight::detail {
 
-/// A page that is filled from y = 0 on. Its skyline is the upper border of what is filled, as
+/// A page that is filled from y = 0 on. Its skyline is the upper border of the filled part, as
 /// segments of constant y (Jylänki 2010, "A Thousand Ways to Pack the Bin"). Gaps below the
 /// skyline are kept as rectangles and filled first.
 class Skyline {

@@ -93,6 +93,15 @@ TEST_F(LightmapFileTest, HasItsMagicAndAlignedSectionsInTheOrderOfTheMembers) {
     EXPECT_EQ(found, names);
 }
 
+TEST(LightmapFile, IsToldByItsFirstBytes) {
+    const auto bytes_of = [](std::string_view text) { return std::as_bytes(std::span(text)); };
+    EXPECT_TRUE(is_lightmap_file(bytes_of("TETRALM\n")));
+    EXPECT_TRUE(is_lightmap_file(bytes_of("TETRALM\nand more")));
+    EXPECT_FALSE(is_lightmap_file(bytes_of("TETRALM")));
+    EXPECT_FALSE(is_lightmap_file(bytes_of("TETRALI\n")));
+    EXPECT_FALSE(is_lightmap_file({}));
+}
+
 /// Another implementation of the format may rely on these bytes.
 TEST_F(LightmapFileTest, OfOneTexelHasTheBytesOfVersion1) {
     Lightmaps one = test::make_black_page(1);

@@ -175,6 +175,17 @@ TEST(BakeLightmaps, OnlyTheNamedObjectIsBaked) {
     EXPECT_EQ(error_of(scene, settings), "only: no object \"door\" of the scene takes a lightmap");
 }
 
+TEST(BakeLightmaps, ObjectsThatAreLeftOutDarkenNoSeam) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_quad(scene, kGrey, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}).name = "tile";
+    test::add_quad(scene, kGrey, {1, 0, 0}, {0, 0, 1}, {1, 0, 0}).name = "next";
+    BakeLightmapsSettings settings = settings_with(256);
+    settings.only = {"tile"};
+    for (const float value : irradiance_of(bake(scene, settings), 0))
+        EXPECT_NEAR(double{value}, kPi, 0.03);
+}
+
 TEST(BakeLightmaps, RefusesWhatTexelsCannotHave) {
     Scene scene;
     test::add_floor(scene, kGrey, 1.0f);

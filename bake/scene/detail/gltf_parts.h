@@ -54,7 +54,7 @@ class GltfParts {
     [[nodiscard]] Result<std::vector<std::byte>> glb();
 
     GltfJson json;
-    /// The accessors of the file, whatever became of them in `json`.
+    /// The accessors as the file has them; those of `json` may have changed.
     GltfJson source_accessors = GltfJson::array();
 
   private:

@@ -18,7 +18,7 @@ const Material kGrey = test::diffuse(glm::vec3(0.5f));
 std::vector<Seam> seams_of(const Scene& scene) {
     const auto layout = make_lightmap_layout(scene, {});
     EXPECT_TRUE(layout);
-    return find_seams(scene, *layout);
+    return find_seams(scene, *layout, std::vector<bool>(scene.instances.size(), true));
 }
 
 /// 3 × 3 tiles of one mesh, 1 m each.
@@ -56,6 +56,13 @@ TEST(Seams, TilesApartOrTiltedOrLeftAloneDoNotMeet) {
     EXPECT_EQ(seams_of(scene).size(), 8u);
 }
 
+TEST(Seams, TilesWithoutLightDoNotMeet) {
+    const Scene scene = tiles();
+    std::vector<bool> has_light(9, true);
+    has_light[4] = false;
+    EXPECT_EQ(find_seams(scene, *make_lightmap_layout(scene, {}), has_light).size(), 8u);
+}
+
 TEST(Seams, FacesOfABoxDoNotMeet) {
     Scene scene;
     test::add_box(scene, kGrey, test::Facing::Outward, {0, 0, 0}, {1, 1, 1});
@@ -90,7 +97,7 @@ TEST(Seams, ChartsOfASmoothCylinderMeetAllAround) {
     const size_t chart_count = *std::max_element(charts.begin(), charts.end()) + 1;
     EXPECT_GE(chart_count, 4u);
     // Each chart ends where the next one begins, at an edge of 10 texels.
-    const auto seams = find_seams(scene, *layout);
+    const auto seams = find_seams(scene, *layout, {true});
     EXPECT_EQ(seams.size(), chart_count);
     for (const Seam& seam : seams)
         EXPECT_NEAR(glm::distance(seam.first.begin, seam.first.end), 10.0f, 0.01f);
