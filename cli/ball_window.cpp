@@ -79,15 +79,13 @@ class BallWindow {
 
 }  // namespace
 
-Result<BallShow> show_ball(const BallOptions& ball, const Scene& scene,
+Result<BallShow> show_ball(const BallOptions& ball, const Scene& scene, SceneLight light,
                            const ProbeVolumeView& volume, const Camera& camera,
                            const RenderSettings& settings, uint64_t frame_count) {
     auto window = Window::create(settings.width, settings.height,
                                  "Tetralight: P probes, L proxy volume, O off, S specular");
     if (!window) return window.error();
-    auto light = make_scene_light(scene, volume, ProbeLight::AsTheScene);
-    if (!light) return light.error();
-    auto spheres = GlMeshBall::make(ball.settings, scene, std::move(*light), volume, 1024);
+    auto spheres = GlMeshBall::make(ball.settings, scene, std::move(light), volume, 1024);
     if (!spheres) return spheres.error();
     const auto presenter = Presenter::make();
     if (!presenter) return presenter.error();

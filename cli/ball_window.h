@@ -21,7 +21,8 @@ struct BallShow {
 /// Dragging turns the camera, the wheel zooms; P, L, O: probes, proxy volume, off; S: specular;
 /// space: stop and go. Errors: there is no screen, and the renderer's.
 [[nodiscard]] Result<BallShow> show_ball(const BallOptions& ball, const Scene& scene,
-                                         const ProbeVolumeView& volume, const Camera& camera,
-                                         const RenderSettings& settings, uint64_t frame_count);
+                                         SceneLight light, const ProbeVolumeView& volume,
+                                         const Camera& camera, const RenderSettings& settings,
+                                         uint64_t frame_count);
 
 }  // namespace tetralight::cli

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <tetralight/bake/image/write_image.h>
 #include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
@@ -7,12 +13,13 @@
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/pipeline/lightmap_images.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
+#include <tetralight/render/page_preview.h>
 
 namespace tetralight::cli {
 namespace {
 
 /// In the order of the choices of `as`.
-enum class ExportFormat : uint8_t { Exr, Ktx2, Png, Glb };
+enum class ExportFormat : uint8_t { Exr, Ktx2, Png, Glb, Preview };
 
 ExportFormat format_of(const Values& values) {
     if (values.is_given("as")) return choice<ExportFormat>(values, "as");
@@ -32,6 +39,7 @@ struct Export {
     std::string output;
     std::string scene_path;
     ExportFormat format;
+    std::vector<std::string> marked;
     CommonOptions common;
 
     explicit Export(const Values& values)
@@ -39,10 +47,13 @@ struct Export {
           output(values.text("output")),
           scene_path(values.text("scene")),
           format(format_of(values)),
+          marked(values.texts("mark")),
           common(values) {
         if (format == ExportFormat::Glb && scene_path.empty()) require(values, "scene");
         if (format != ExportFormat::Glb && !scene_path.empty())
             refuse(values, "scene", "only glb has a scene");
+        if (format != ExportFormat::Preview && !marked.empty())
+            refuse(values, "mark", "only previews mark objects");
     }
 
     Status run() const {
@@ -63,8 +74,8 @@ struct Export {
 
     /// The files that are written, checked.
     [[nodiscard]] Result<std::vector<std::string>> output_paths(uint32_t page_count) const {
-        const bool has_file_a_page = format == ExportFormat::Exr || format == ExportFormat::Png;
-        const uint32_t count = has_file_a_page ? page_count : 1;
+        const bool has_file_a_page = format != ExportFormat::Ktx2 && format != ExportFormat::Glb;
+        const uint32_t count = has_file_a_page ? page_count : std::min(page_count, 1u);
         if (output == "-" && count > 1) {
             return Error{ErrorCode::InvalidArgument, "output", output,
                          str_cat("-: cannot write ", count, " pages to stdout")};
@@ -83,11 +94,27 @@ struct Export {
     [[nodiscard]] Status write(const LightmapsView& maps, Json& json) const {
         if (format == ExportFormat::Exr) return write_lightmap_exr(output, maps);
         if (format == ExportFormat::Glb) return write_scene(maps);
+        if (format == ExportFormat::Preview) return write_preview(maps);
         const bool is_png = format == ExportFormat::Png;
         const auto factor =
             is_png ? write_lightmap_png(output, maps) : write_lightmap_ktx2(output, maps);
         if (!factor) return factor.error();
         json[is_png ? "range" : "scale"] = *factor;
+        return Ok{};
+    }
+
+    [[nodiscard]] Status write_preview(const LightmapsView& maps) const {
+        for (const std::string& name : marked) {
+            if (std::ranges::count(instances_named(maps, {name}), true) > 0) continue;
+            return Error{ErrorCode::NotFound, "mark", name,
+                         str_cat(shown_path(lightmaps_path), ": has no object \"", name, "\"")};
+        }
+        const std::vector<bool> is_marked = instances_named(maps, marked);
+        for (uint32_t page = 0; page < maps.info.page_count; ++page) {
+            const Image8 image = page_preview(maps, page, is_marked);
+            auto status = write_png(page_path(output, page, maps.info.page_count), image);
+            if (!status) return status;
+        }
         return Ok{};
     }
 

@@ -12,6 +12,7 @@
 #include <tetralight/lightmap/blend_lightmaps.h>
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/lightmap/relight_lightmaps.h>
+#include <tetralight/pipeline/lightmap_part.h>
 #include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/probes/probe_volume.h>
 
@@ -96,6 +97,13 @@ Result<LightmapFile> open_checked(const std::string& path) {
 
 }  // namespace
 
+Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path) {
+    if (path.empty()) return std::optional<LightmapFile>();
+    auto file = open_lightmap_file(path);
+    if (!file) return file.error();
+    return std::optional(std::move(*file));
+}
+
 bool is_lightmap_file(const std::string& path) {
     const auto file = MappedFile::open(path);
     return file && tetralight::is_lightmap_file(file->bytes());
@@ -113,7 +121,16 @@ Status show_lightmaps(const std::string& path, const CommonOptions& common) {
                 ", worst ", percent(facts.worst_error));
     if (!maps.layers.empty()) text += "\n  layers " + layers_text(maps);
     if (!maps.metadata.empty()) text += "\n  made with " + printable(std::string(maps.metadata));
-    common.print(facts_json(path, maps), text);
+    Json json = facts_json(path, maps);
+    if (is_part(*file)) {
+        const auto part = read_lightmap_part(path);
+        if (!part) return part.error();
+        const PlaceRange& range = part->partial.range;
+        const size_t count = part->prepared.baked.size();
+        json["part"] = {{"range", {range.begin, range.end}}, {"all_texels", count}};
+        text += str_cat("\n  part of a bake: texels ", name_of(range), " of ", grouped(count));
+    }
+    common.print(json, text);
     return Ok{};
 }
 
@@ -139,6 +156,10 @@ Status relight_lightmap_file(const std::string& path, const std::string& output,
                              const LightmapChange& change, const CommonOptions& common) {
     const auto file = open_checked(path);
     if (!file) return file.error();
+    if (is_part(*file)) {
+        return Error{ErrorCode::InvalidArgument, "volume", path,
+                     path + ": is a part of a bake; merge its parts first"};
+    }
     Lightmaps maps = copy_lightmaps(file->view());
     std::vector<LayerWeight> weights;
     for (const auto& [layer, weight] : change.weights) weights.push_back({layer, weight});

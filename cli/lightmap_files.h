@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <tetralight/base/result.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/lightmap/lightmap_file.h>
 
-// What `info`, `validate` and `relight` do with `.lightmaps` files.
+// What commands do with `.lightmaps` files.
 
 namespace tetralight::cli {
 
 /// True if the file begins as lightmaps do.
 [[nodiscard]] bool is_lightmap_file(const std::string& path);
+
+/// Opens the lightmaps at a path; without a path there are none.
+[[nodiscard]] Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path);
 
 /// Prints what lightmaps hold: pages, objects, layers, errors and how they were made.
 [[nodiscard]] Status show_lightmaps(const std::string& path, const CommonOptions& common);

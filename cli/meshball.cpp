@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/bake/scene/read_gltf.h>
@@ -13,6 +14,7 @@
 #include <tetralight/cli/ball_options.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/renderer_kind.h>
 #include <tetralight/cli/view_options.h>
@@ -47,6 +49,7 @@ struct MeshBall {
 
     std::string volume_path;
     std::string scene_path;
+    std::string lightmap_path;
     std::string output;
     uint32_t frame_count = 1;
     bool has_frames = false;
@@ -60,6 +63,7 @@ struct MeshBall {
     explicit MeshBall(const Values& values)
         : volume_path(values.text("volume")),
           scene_path(values.text("scene")),
+          lightmap_path(values.text("lightmaps")),
           output(values.text("output")),
           frame_count(values.integer32("frames")),
           has_frames(values.is_given("frames")),
@@ -70,6 +74,7 @@ struct MeshBall {
           view(values),
           common(values) {
         if (output.empty() && !has_window) require(values, "output");
+        if (!lightmap_path.empty() && scene_path.empty()) require(values, "scene");
         if (frame_count > 1 && !has_window && is_stream(output)) {
             refuse(values, "frames",
                    "several pictures need a file name, which \"" + output + "\" is not");
@@ -82,7 +87,8 @@ struct MeshBall {
 
     Status run() {
         if (!has_window) {
-            auto status = check_output(picture_path(0), {volume_path, scene_path});
+            const std::vector<std::string> inputs{volume_path, scene_path, lightmap_path};
+            auto status = check_output(picture_path(0), inputs);
             if (!status) return status;
         }
         const auto file = open_probe_file(volume_path);
@@ -90,26 +96,34 @@ struct MeshBall {
         common.warn_if_unlit(volume_path, file->view());
         const ProbeVolumeView volume = with_walls(file->view(), walls);
         Scene scene;
-        std::optional<SceneShader> shader;
         if (!scene_path.empty()) {
             auto read = read_gltf(scene_path);
             if (!read) return read.error();
             common.warn(read->warnings);
             scene = std::move(*read);
-            auto made = SceneShader::make(scene, volume);
+        }
+        const auto lightmaps = open_lightmaps(lightmap_path);
+        if (!lightmaps) return lightmaps.error();
+        auto light = make_scene_light(scene, volume, ProbeLight::AsTheScene,
+                                      *lightmaps ? (*lightmaps)->view() : LightmapsView{});
+        if (!light) return light.error().in(scene_path);
+        std::optional<SceneShader> shader;
+        if (!scene_path.empty()) {
+            auto made = SceneShader::make(scene, volume, *light);
             if (!made) return made.error().in(scene_path);
             shader.emplace(std::move(*made));
         }
-        return render(volume, scene, shader ? &*shader : nullptr);
+        return render(volume, scene, std::move(*light), shader ? &*shader : nullptr);
     }
 
-    Status render(const ProbeVolumeView& volume, const Scene& scene, const SceneShader* shader) {
+    Status render(const ProbeVolumeView& volume, const Scene& scene, SceneLight light,
+                  const SceneShader* shader) {
         const Camera camera = ball.place(volume, shader, view);
-        if (has_window) return show(volume, scene, camera);
+        if (has_window) return show(volume, scene, std::move(light), camera);
         if (renderer == RendererKind::Gl) {
 #ifdef TETRALIGHT_HAS_GL
             const auto context = open_gl(view.settings, common);
-            if (context) return render_gl(volume, scene, camera);
+            if (context) return render_gl(volume, scene, std::move(light), camera);
 #else
             common.warn({"this build has no OpenGL; rendering on the CPU"});
 #endif
@@ -117,17 +131,19 @@ struct MeshBall {
         return render_cpu(volume, shader, camera);
     }
 
-    Status show(const ProbeVolumeView& volume, const Scene& scene, const Camera& camera) const {
+    Status show(const ProbeVolumeView& volume, const Scene& scene, SceneLight light,
+                const Camera& camera) const {
 #ifdef TETRALIGHT_HAS_GL
-        const auto shown =
-            show_ball(ball, scene, volume, camera, view.settings, has_frames ? frame_count : 0);
+        const auto shown = show_ball(ball, scene, std::move(light), volume, camera, view.settings,
+                                     has_frames ? frame_count : 0);
         if (!shown) return shown.error();
         common.print(
             {{"frames", shown->frame_count}, {"seconds", shown->seconds}},
             str_cat(counted(shown->frame_count, "frame"), " in ", duration(shown->seconds)));
         return Ok{};
 #else
-        static_cast<void>(volume), static_cast<void>(scene), static_cast<void>(camera);
+        static_cast<void>(volume), static_cast<void>(scene), static_cast<void>(light),
+            static_cast<void>(camera);
         return Error{ErrorCode::Unsupported, "window", "true",
                      "this build has no OpenGL, and so no window"};
 #endif
@@ -148,10 +164,9 @@ struct MeshBall {
     }
 
 #ifdef TETRALIGHT_HAS_GL
-    Status render_gl(const ProbeVolumeView& volume, const Scene& scene, const Camera& camera) {
-        auto light = make_scene_light(scene, volume, ProbeLight::AsTheScene);
-        if (!light) return light.error();
-        auto spheres = GlMeshBall::make(ball.settings, scene, std::move(*light), volume, 4096);
+    Status render_gl(const ProbeVolumeView& volume, const Scene& scene, SceneLight light,
+                     const Camera& camera) {
+        auto spheres = GlMeshBall::make(ball.settings, scene, std::move(light), volume, 4096);
         if (!spheres) return spheres.error();
         return write_frames(camera, [&](double angle) -> Result<MeshBallPicture> {
             if (auto status = spheres->set_frame(angle, ball.light, ball.specular); !status) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include <tetralight/bake/image/write_image.h>
@@ -10,14 +9,15 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
-#include <tetralight/cli/gizmo_settings.h>
+#include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/renderer_kind.h>
+#include <tetralight/cli/show_settings.h>
 #include <tetralight/cli/view_options.h>
-#include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/render/opening_lines.h>
 #include <tetralight/render/render_gizmos.h>
+#include <tetralight/render/seam_lines.h>
 #include <tetralight/render/with_walls.h>
 #ifdef TETRALIGHT_HAS_GL
 #include <tetralight/cli/open_gl.h>
@@ -36,7 +36,7 @@ struct Render {
     std::string volume_path;
     std::string lightmap_path;
     std::string output;
-    GizmoSettings gizmos;
+    ShowSettings shown;
     ProbeLight probes = ProbeLight::AsTheScene;
     Walls walls = Walls::HideProbes;
     RendererKind renderer = RendererKind::Cpu;
@@ -48,7 +48,7 @@ struct Render {
           volume_path(values.text("volume")),
           lightmap_path(values.text("lightmaps")),
           output(values.text("output")),
-          gizmos(gizmo_settings(values)),
+          shown(show_settings(values)),
           probes(choice<ProbeLight>(values, "probes")),
           walls(choice<Walls>(values, "walls")),
           renderer(choice<RendererKind>(values, "renderer")),
@@ -60,20 +60,23 @@ struct Render {
                                       const LightmapsView& lightmaps, const Camera& camera) const {
         auto light = make_scene_light(scene, volume, probes, lightmaps);
         if (!light) return light.error().in(scene_path);
-        Gizmos shown = make_gizmos(volume, light->proxy_volumes, gizmos);
-        if (gizmos.has_openings) {
+        Gizmos gizmos = make_gizmos(volume, light->proxy_volumes, shown.gizmos);
+        if (shown.gizmos.has_seams)
+            std::ranges::move(make_seam_lines(scene, lightmaps), std::back_inserter(gizmos.lines));
+        if (shown.gizmos.has_openings) {
             auto openings = make_opening_lines(scene);
             if (!openings) return openings.error().in(scene_path);
             if (std::ranges::all_of(*openings, &is_empty)) {
                 common.warn({"no opening was found through which light enters a dark place"});
             }
-            std::ranges::move(*openings, std::back_inserter(shown.lines));
+            std::ranges::move(*openings, std::back_inserter(gizmos.lines));
         }
         const auto render = [&](const PictureSource& source) {
-            return render_gizmos(source, volume, camera, view.settings, shown, gizmos.probe_color);
+            return render_gizmos(source, volume, camera, view.settings, gizmos,
+                                 shown.gizmos.probe_color);
         };
-        if (renderer == RendererKind::Gl && lightmaps.info.page_count > 0) {
-            common.warn({"OpenGL does not draw lightmaps yet; rendering on the CPU"});
+        if (renderer == RendererKind::Gl && shown.view != SurfaceView::Shaded) {
+            common.warn({"OpenGL draws no views of surfaces; rendering on the CPU"});
         } else if (renderer == RendererKind::Gl) {
 #ifdef TETRALIGHT_HAS_GL
             if (auto context = open_gl(view.settings, common)) {
@@ -87,7 +90,7 @@ struct Render {
         }
         const auto shader = SceneShader::make(scene, volume, std::move(*light));
         if (!shader) return shader.error();
-        return render(ray_traced_pictures(*shader, volume));
+        return render(ray_traced_pictures(*shader, volume, shown.view));
     }
 
     Status run() {
@@ -103,14 +106,10 @@ struct Render {
         if (!chosen) return chosen.error();
 
         const auto start = std::chrono::steady_clock::now();
-        std::optional<LightmapFile> lightmaps;
-        if (!lightmap_path.empty()) {
-            auto opened = open_lightmap_file(lightmap_path);
-            if (!opened) return opened.error();
-            lightmaps = std::move(*opened);
-        }
+        const auto lightmaps = open_lightmaps(lightmap_path);
+        if (!lightmaps) return lightmaps.error();
         const auto image = draw(*scene, with_walls(file->view(), walls),
-                                lightmaps ? lightmaps->view() : LightmapsView{}, *chosen);
+                                *lightmaps ? (*lightmaps)->view() : LightmapsView{}, *chosen);
         if (!image) return image.error();
         auto status = write_png(output, *image);
         if (!status) return status;

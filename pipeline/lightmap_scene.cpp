@@ -83,6 +83,31 @@ LightmapRectangle rectangle_of(const LightmapLayout& layout, const LightmapPlace
     return rectangle;
 }
 
+LightmapLayout layout_of(const LightmapsView& lightmaps, const Scene& scene) {
+    LightmapLayout layout;
+    layout.page_size = lightmaps.info.page_size;
+    layout.page_count = lightmaps.info.page_count;
+    layout.texels_per_meter = double{lightmaps.info.texels_per_meter};
+    layout.packings.resize(lightmaps.meshes.size());
+    for (size_t i = 0; i < lightmaps.rectangles.size(); ++i) {
+        const LightmapRectangle& rectangle = lightmaps.rectangles[i];
+        LightmapPlace& place = layout.places.emplace_back();
+        if (rectangle.page == kNoIndex) continue;
+        place = {rectangle.mesh, {rectangle.page, rectangle.x, rectangle.y}};
+        LightmapPacking& packing = layout.packings[rectangle.mesh];
+        if (!packing.charts.corner_uvs.empty()) continue;
+        packing.mesh = scene.instances[i].mesh;
+        packing.charts.width = rectangle.width;
+        packing.charts.height = rectangle.height;
+        const LightmapMesh& mesh = lightmaps.meshes[rectangle.mesh];
+        const glm::vec2 size(rectangle.width, rectangle.height);
+        const auto uvs =
+            lightmaps.corner_uvs.subspan(mesh.first_corner, 3 * size_t{mesh.triangle_count});
+        for (const glm::vec2& uv : uvs) packing.charts.corner_uvs.push_back(uv * size);
+    }
+    return layout;
+}
+
 glm::vec2 page_uv_of(const LightmapsView& lightmaps, const Scene& scene, uint32_t instance,
                      uint32_t triangle, const glm::dvec3& position) {
     const MeshInstance& placed = scene.instances[instance];

@@ -28,6 +28,10 @@ namespace tetralight {
 [[nodiscard]] LightmapRectangle rectangle_of(const LightmapLayout& layout,
                                              const LightmapPlace& place);
 
+/// The layout of lightmaps, without charts of triangles and warnings. Precondition: the lightmaps
+/// are those of the scene.
+[[nodiscard]] LightmapLayout layout_of(const LightmapsView& lightmaps, const Scene& scene);
+
 /// Where a point of a triangle lies in the page of its instance. `position`: world, on the
 /// triangle. Precondition: the lightmaps are those of the scene, and the instance has a page.
 [[nodiscard]] glm::vec2 page_uv_of(const LightmapsView& lightmaps, const Scene& scene,

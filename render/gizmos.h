@@ -25,6 +25,8 @@ struct GizmoSettings {
     bool has_proxies = false;
     /// The openings that a bake samples (`make_opening_lines`).
     bool has_openings = false;
+    /// The seams of lightmaps (`make_seam_lines`).
+    bool has_seams = false;
     /// A position: shows its cell, the cell's probes with their weights, and the interpolated
     /// light.
     std::optional<glm::dvec3> selection = std::nullopt;
@@ -55,7 +57,7 @@ struct Gizmos {
     std::vector<GizmoLabel> labels;
 };
 
-/// All but the openings, which belong to the scene and not to the volume.
+/// All but openings and seams, which belong to the scene and not to the volume.
 [[nodiscard]] Gizmos make_gizmos(const ProbeVolumeView& volume, std::span<const Lppv> proxies,
                                  const GizmoSettings& settings);
 

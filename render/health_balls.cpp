@@ -21,14 +21,18 @@ glm::vec3 color_of_grade(float grade) {
     return t < 1.0f ? glm::mix(kBad, kFair, t) : glm::mix(kFair, kGood, t - 1.0f);
 }
 
+/// 0 = bad, 1/2 = fair, 1 = good.
+float validity_grade(float validity) {
+    constexpr float kFairValidity = 0.75f;
+    return validity < kFairValidity ? 0.5f * validity / kFairValidity
+                                    : 0.5f + 2.0f * (validity - kFairValidity);
+}
+
 /// 0 = bad, 1/2 = fair, 1 = good; empty if the volume does not store the quantity.
 std::optional<float> grade(const ProbeVolumeView& volume, uint32_t probe, ProbeColor quantity) {
-    constexpr float kFairValidity = 0.75f;
     if (quantity == ProbeColor::Validity) {
         if (volume.validity.empty()) return std::nullopt;
-        const float validity = volume.validity[probe];
-        return validity < kFairValidity ? 0.5f * validity / kFairValidity
-                                        : 0.5f + 2.0f * (validity - kFairValidity);
+        return validity_grade(volume.validity[probe]);
     }
     const float error = volume.health.empty() ? 0.0f : volume.health[probe].standard_error;
     if (!(error > 0.0f)) return std::nullopt;
@@ -40,6 +44,10 @@ uint8_t blended(uint8_t below, float above, float coverage) {
 }
 
 }  // namespace
+
+glm::vec3 validity_color(float validity) {
+    return color_of_grade(validity_grade(validity));
+}
 
 glm::vec3 health_color(const ProbeVolumeView& volume, uint32_t probe, ProbeColor quantity) {
     const auto known = grade(volume, probe, quantity);

@@ -19,6 +19,9 @@ enum class ProbeColor : uint8_t {
     Error,     ///< relative standard error: teal = 0.1 %, yellow = 1 %, red = 10 %; grey: unknown
 };
 
+/// Colour of a fraction of valid rays, 0 to 1, as `ProbeColor::Validity` shows it; sRGB-encoded.
+[[nodiscard]] glm::vec3 validity_color(float validity);
+
 /// Colour of a probe's health, sRGB-encoded, 0 to 1. Precondition: `quantity` is not `Light`.
 [[nodiscard]] glm::vec3 health_color(const ProbeVolumeView& volume, uint32_t probe,
                                      ProbeColor quantity);

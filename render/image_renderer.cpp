@@ -114,6 +114,17 @@ float automatic_exposure(const ImageF& radiance) {
                : kMiddleGrey / static_cast<float>(std::exp(sum / static_cast<double>(count)));
 }
 
+Image8 quantized(const ImageF& colors) {
+    Image8 image{colors.width, colors.height, {}};
+    image.pixels.reserve(colors.pixels.size());
+    const auto byte = [](float value) {
+        return static_cast<uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
+    };
+    for (const glm::vec3& pixel : colors.pixels)
+        image.pixels.push_back({byte(pixel.x), byte(pixel.y), byte(pixel.z), 255});
+    return image;
+}
+
 Image8 develop(const ImageF& radiance, float exposure) {
     if (exposure <= 0.0f) exposure = automatic_exposure(radiance);
     Image8 image{radiance.width, radiance.height, {}};

@@ -61,6 +61,9 @@ using TraceView = std::function<glm::vec3(const glm::dvec3& origin, glm::vec3 di
 /// equation 1); 1 for a black picture.
 [[nodiscard]] float automatic_exposure(const ImageF& radiance);
 
+/// Rounds sRGB-encoded colours, 0 to 1, to 8 bits.
+[[nodiscard]] Image8 quantized(const ImageF& colors);
+
 /// Exposes, tone-maps (Khronos PBR Neutral) and encodes as sRGB. An exposure of 0 is automatic.
 [[nodiscard]] Image8 develop(const ImageF& radiance, float exposure);
 

@@ -49,17 +49,20 @@ void draw_labels(Image8& image, const Camera& camera, std::span<const GizmoLabel
 
 }  // namespace
 
-PictureSource ray_traced_pictures(const SceneShader& shader, const ProbeVolumeView& volume) {
+PictureSource ray_traced_pictures(const SceneShader& shader, const ProbeVolumeView& volume,
+                                  SurfaceView view) {
     PictureSource source;
-    source.radiance = [&shader, volume](const Camera& camera, const RenderSettings& settings,
-                                        std::span<const LightBall> lit) -> Result<ImageF> {
+    source.is_light = is_light(view);
+    source.radiance = [&shader, volume, view](const Camera& camera, const RenderSettings& settings,
+                                              std::span<const LightBall> lit) -> Result<ImageF> {
         const auto balls = LightBalls::make(lit);
         if (!balls) return balls.error();
         return render_view(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
-            auto nearest = shader.shade(origin, direction);
+            auto nearest = shader.shade(origin, direction, view);
             const auto ball = balls->shade(origin, direction);
             if (ball && (!nearest || ball->distance < nearest->distance)) nearest = ball;
-            return nearest ? nearest->radiance : sky_radiance(volume, direction);
+            if (nearest) return nearest->radiance;
+            return view == SurfaceView::Shaded ? sky_radiance(volume, direction) : glm::vec3(0.0f);
         });
     };
     source.depth = [&shader](const Camera& camera, const RenderSettings& settings,
@@ -80,7 +83,7 @@ Result<Image8> render_gizmos(const PictureSource& source, const ProbeVolumeView&
                              const Gizmos& gizmos, ProbeColor probe_color) {
     const auto radiance = source.radiance(camera, settings, gizmos.balls);
     if (!radiance) return radiance.error();
-    Image8 image = develop(*radiance, settings.exposure);
+    Image8 image = source.is_light ? develop(*radiance, settings.exposure) : quantized(*radiance);
     if (gizmos.lines.empty() && gizmos.health_balls.empty()) return image;
 
     const auto depth = source.depth(camera, settings, gizmos.balls);

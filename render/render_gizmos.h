@@ -20,11 +20,15 @@ struct PictureSource {
 
     Draw<ImageF> radiance;
     Draw<DepthImage> depth;
+    /// False: `radiance` draws sRGB-encoded colours, which need no exposure.
+    bool is_light = true;
 };
 
-/// Renders by ray tracing. Keeps references to both arguments.
+/// Renders by ray tracing. Keeps references to both arguments. Behind views of surfaces there is no
+/// sky.
 [[nodiscard]] PictureSource ray_traced_pictures(const SceneShader& shader,
-                                                const ProbeVolumeView& volume);
+                                                const ProbeVolumeView& volume,
+                                                SurfaceView view = SurfaceView::Shaded);
 
 /// Renders and develops a picture with gizmos. Lines behind a surface are drawn faintly.
 [[nodiscard]] Result<Image8> render_gizmos(const PictureSource& source,

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include <tetralight/bake/image/srgb.h>
 #include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/probes/interpolate.h>
@@ -24,6 +25,10 @@ PackedSh light_on(const ProbeVolumeView& volume, const glm::vec3& position,
     const CellLocation location = locate(volume, position);
     const glm::vec3 pushed = push_off_surface(volume, position, normal, location);
     return pack_sh(interpolate(volume, locate(volume, pushed, location.cell)).irradiance);
+}
+
+glm::vec3 encoded(const glm::vec3& color) {
+    return {srgb_from_linear(color.x), srgb_from_linear(color.y), srgb_from_linear(color.z)};
 }
 
 }  // namespace
@@ -77,16 +82,19 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
     return {};
 }
 
+glm::vec2 SceneShader::page_uv_at(const Surface& surface) const {
+    return page_uv_of(light_.lightmaps, *scene_, surface.instance, surface.primitive,
+                      traced_.world_from_render(surface.position));
+}
+
 glm::vec3 SceneShader::baked_light(const Surface& surface) const {
     if (light_.instances[surface.instance].use != ProbeUse::Lightmap) {
         const glm::vec3 light = sample_sh9(probe_light(surface), surface.shading_normal);
         return glm::max(light, glm::vec3(0.0f));
     }
     const LightmapsView& maps = light_.lightmaps;
-    const glm::vec2 uv = page_uv_of(maps, *scene_, surface.instance, surface.primitive,
-                                    traced_.world_from_render(surface.position));
     const uint32_t page = maps.rectangles[surface.instance].page;
-    return sample_irradiance(maps, page, uv) * std::numbers::inv_pi_v<float>;
+    return sample_irradiance(maps, page, page_uv_at(surface)) * std::numbers::inv_pi_v<float>;
 }
 
 glm::vec3 SceneShader::direct_term(const Surface& surface) const {
@@ -118,15 +126,41 @@ std::optional<Surface> SceneShader::first_front_face(glm::vec3 origin, glm::vec3
     return surface;
 }
 
-std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin,
-                                                      glm::vec3 direction) const {
+glm::vec3 SceneShader::emitted(const Surface& surface) const {
+    const uint32_t material = scene_->meshes[scene_->instances[surface.instance].mesh].material;
+    return surface.emission * light_.emission_weights[material];
+}
+
+glm::vec3 SceneShader::show(const Surface& surface, SurfaceView view) const {
+    switch (view) {
+        case SurfaceView::Shaded:
+            return emitted(surface) +
+                   surface.albedo * (baked_light(surface) + direct_term(surface));
+        case SurfaceView::Received:
+            return baked_light(surface) + direct_term(surface);
+        case SurfaceView::Direct:
+            return surface.albedo * direct_term(surface);
+        case SurfaceView::Bounce:
+            return surface.albedo * baked_light(surface);
+        case SurfaceView::Emission:
+            return emitted(surface);
+        case SurfaceView::Albedo:
+            return encoded(surface.albedo);
+        default:
+            break;
+    }
+    constexpr glm::vec3 kNoLightmap(0.2f);
+    if (light_.instances[surface.instance].use != ProbeUse::Lightmap) return kNoLightmap;
+    return lightmap_color(view, light_.lightmaps, surface.instance, page_uv_at(surface));
+}
+
+std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin, glm::vec3 direction,
+                                                      SurfaceView view) const {
     const glm::vec3 render_origin = traced_.render_from_world(origin);
     const auto surface = first_front_face(render_origin, direction);
     if (!surface) return std::nullopt;
     const float distance = glm::distance(render_origin, surface->position);
-    const glm::vec3 reflected = surface->albedo * (baked_light(*surface) + direct_term(*surface));
-    const uint32_t material = scene_->meshes[scene_->instances[surface->instance].mesh].material;
-    return Shaded{surface->emission * light_.emission_weights[material] + reflected, distance};
+    return Shaded{show(*surface, view), distance};
 }
 
 std::optional<float> SceneShader::distance(const glm::dvec3& origin, glm::vec3 direction) const {
@@ -148,8 +182,10 @@ glm::vec3 sky_radiance(const ProbeVolumeView& volume, glm::vec3 direction) {
 }
 
 Result<ImageF> render_scene(const Scene& scene, const ProbeVolumeView& volume, const Camera& camera,
-                            const RenderSettings& settings) {
-    const auto shader = SceneShader::make(scene, volume);
+                            const RenderSettings& settings, const LightmapsView& lightmaps) {
+    auto light = make_scene_light(scene, volume, ProbeLight::AsTheScene, lightmaps);
+    if (!light) return light.error();
+    const auto shader = SceneShader::make(scene, volume, std::move(*light));
     if (!shader) return shader.error();
     return render_view(camera, settings, [&](const glm::dvec3& origin, glm::vec3 direction) {
         const auto shaded = shader->shade(origin, direction);

@@ -12,13 +12,14 @@
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/render/image_renderer.h>
 #include <tetralight/render/scene_light.h>
+#include <tetralight/render/surface_view.h>
 
 namespace tetralight {
 
 /// Shades a scene with a volume's light, as an engine would with this runtime.
-/// - Static surfaces sample their lightmap, or without one query the probes at each point. Moving
-/// objects (`contributes_gi` false) query
-///   once, at the center of their bounds, or sample a proxy volume if their node asks for one.
+/// - Static surfaces sample their lightmap, or without one query the probes at each point.
+/// - Moving objects (`contributes_gi` false) query once, at the center of their bounds, or sample a
+///   proxy volume if their node asks for one.
 /// - Lights of the volume that are not `Baked` add their direct term with shadow rays. If probes
 ///   store the occlusion of a light, it replaces the shadows that static objects cast on moving
 ///   ones, and shadow rays test moving objects only.
@@ -38,12 +39,13 @@ class SceneShader {
 
     /// A shaded point.
     struct Shaded {
-        glm::vec3 radiance{0.0f};  ///< towards the origin of the ray
+        glm::vec3 radiance{0.0f};  ///< towards the origin of the ray, or the colour of the view
         float distance = 0.0f;
     };
 
     /// Shades the first surface that a ray hits; empty if it hits none.
-    [[nodiscard]] std::optional<Shaded> shade(const glm::dvec3& origin, glm::vec3 direction) const;
+    [[nodiscard]] std::optional<Shaded> shade(const glm::dvec3& origin, glm::vec3 direction,
+                                              SurfaceView view = SurfaceView::Shaded) const;
 
     /// Distance to the point that `shade` would shade.
     [[nodiscard]] std::optional<float> distance(const glm::dvec3& origin,
@@ -68,9 +70,13 @@ class SceneShader {
     [[nodiscard]] std::optional<Surface> first_front_face(glm::vec3 origin,
                                                           glm::vec3 direction) const;
     [[nodiscard]] PackedSh probe_light(const Surface& surface) const;
+    /// Where a surface lies in the page of its lightmap. Precondition: its instance has one.
+    [[nodiscard]] glm::vec2 page_uv_at(const Surface& surface) const;
     /// Irradiance / π from probes or from the lightmap.
     [[nodiscard]] glm::vec3 baked_light(const Surface& surface) const;
     [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
+    [[nodiscard]] glm::vec3 emitted(const Surface& surface) const;
+    [[nodiscard]] glm::vec3 show(const Surface& surface, SurfaceView view) const;
 
     const Scene* scene_;
     ProbeVolumeView volume_;
@@ -82,8 +88,9 @@ class SceneShader {
 /// Radiance of the sky in a direction, from the volume's ambient probe.
 [[nodiscard]] glm::vec3 sky_radiance(const ProbeVolumeView& volume, glm::vec3 direction);
 
-/// Renders the scene in front of the sky.
+/// Renders the scene in front of the sky. Returns the errors of `make_scene_light`.
 [[nodiscard]] Result<ImageF> render_scene(const Scene& scene, const ProbeVolumeView& volume,
-                                          const Camera& camera, const RenderSettings& settings);
+                                          const Camera& camera, const RenderSettings& settings,
+                                          const LightmapsView& lightmaps = {});
 
 }  // namespace tetralight

@@ -11,13 +11,21 @@ constexpr Setting kFiles[] = {
     {.name = "as",
      .type = Type::Choice,
      .help = "exr = 32-bit float images; ktx2 = one array texture of 16-bit floats; png = RGBM "
-             "images; glb = the scene with TEXCOORD_1 and MX_lightmap",
-     .choices = "exr ktx2 png glb",
+             "images; glb = the scene with TEXCOORD_1 and MX_lightmap; preview = PNG images for "
+             "looking "
+             "at, with the rectangle of each object",
+     .choices = "exr ktx2 png glb preview",
      .without = "by the extension of the output"},
     {.name = "scene",
      .type = Type::Path,
      .help = "glTF 2.0 scene that the lightmaps were baked for",
-     .without = "no scene; glb needs one"}};
+     .without = "no scene; glb needs one"},
+    {.name = "mark",
+     .type = Type::Text,
+     .help = "Mark the rectangles of the object of this name in the preview",
+     .without = "all objects look the same",
+     .value_name = "NODE",
+     .is_list = true}};
 
 constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
 

@@ -15,7 +15,8 @@ constexpr Setting kFiles[] = {input_file("volume", "Probe volume (.probes)"),
                               {.name = "scene",
                                .type = Type::Path,
                                .help = "glTF 2.0 scene to show around the ball",
-                               .without = "the sky only"}};
+                               .without = "the sky only"},
+                              kLightmaps};
 
 constexpr Setting kBall[] = {
     {.name = "count",

@@ -4,15 +4,9 @@
 namespace tetralight::settings {
 namespace {
 
-constexpr Setting kFiles[] = {
-    input_file("scene", "glTF 2.0 scene (.glb or .gltf)"),
-    input_file("volume", "Probe volume baked from it (.probes)"),
-    output_file(".png", "Picture to write (- = stdout)"),
-    {.name = "lightmaps",
-     .type = Type::Path,
-     .help = "Lightmaps baked from the scene (.lightmaps): static objects "
-             "take their light from them, all others from the probes",
-     .without = "all objects take light from the probes"}};
+constexpr Setting kFiles[] = {input_file("scene", "glTF 2.0 scene (.glb or .gltf)"),
+                              input_file("volume", "Probe volume baked from it (.probes)"),
+                              output_file(".png", "Picture to write (- = stdout)"), kLightmaps};
 
 constexpr Setting kShown[] = {
     {.name = "show",
@@ -20,8 +14,11 @@ constexpr Setting kShown[] = {
      .help = "Draw over the scene, with commas between: probes (balls with the light of each "
              "probe), cells (their edges; hull edges in orange), lppv (points of proxy volumes), "
              "openings (windows and doors where bakes look for light, and where the sun falls "
-             "through them), selection=x,y,z (the cell at a position, its probes with their "
-             "weights, and the interpolated light)",
+             "through them), seams (of lightmaps; red where their sides differ), selection=x,y,z "
+             "(the cell at a position, its probes with their weights, and the interpolated light). "
+             "Or instead of light and materials: received (light on white surfaces), direct (of "
+             "lights that are not baked), bounce (baked light), emission, albedo, and of "
+             "lightmaps unwrapped-uv, lightmap-uv, texels, validity, pages",
      .without = "the scene only",
      .value_name = "LIST"},
     {.name = "ball_radius",

@@ -360,6 +360,14 @@ inline constexpr Setting kWalls{
     .choices = "hide ignore",
     .default_text = "hide"};
 
+inline constexpr Setting kLightmaps{
+    .name = "lightmaps",
+    .type = Type::Path,
+    .help =
+        "Lightmaps baked from the scene (.lightmaps): static objects take their light from "
+        "them, all others from the probes",
+    .without = "all objects take light from the probes"};
+
 inline constexpr Setting kRenderer{
     .name = "renderer",
     .type = Type::Choice,

@@ -39,7 +39,7 @@ std::vector<BorderEdge> border_edges(const Mesh& mesh, const LightmapPacking& pa
         return packing.charts.corner_uvs[3 * size_t{triangle} + corner % 3];
     };
     std::map<std::pair<PositionKey, PositionKey>, std::vector<BorderEdge>> edges;
-    const auto count = static_cast<uint32_t>(packing.triangle_charts.size());
+    const auto count = static_cast<uint32_t>(packing.charts.corner_uvs.size() / 3);
     for (uint32_t triangle = 0; triangle < count; ++triangle) {
         for (uint32_t corner = 0; corner < 3; ++corner) {
             const PositionKey a = position(triangle, corner), b = position(triangle, corner + 1);
@@ -227,9 +227,9 @@ std::vector<Seam> find_seams(const Scene& scene, const LightmapLayout& layout,
         std::ranges::sort(near);
         for (const uint32_t k : near) {
             if (is_same_edge(edges[i], edges[k], {0, 1}, settings)) {
-                seams.push_back({edges[i].place, edges[k].place});
+                seams.push_back({edges[i].place, edges[k].place, edges[i].ends});
             } else if (is_same_edge(edges[i], edges[k], {1, 0}, settings)) {
-                seams.push_back({edges[i].place, reversed(edges[k].place)});
+                seams.push_back({edges[i].place, reversed(edges[k].place), edges[i].ends});
             }
         }
     }

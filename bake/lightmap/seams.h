@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include <tetralight/bake/lightmap/lightmap_layout.h>
@@ -21,7 +23,8 @@ struct PageEdge {
 
 /// One edge of a smooth surface that lies at two places of the pages.
 struct Seam {
-    PageEdge first, second;  ///< in the same direction
+    PageEdge first, second;            ///< in the same direction
+    std::array<glm::dvec3, 2> ends{};  ///< of `first` in the world
 
     bool operator==(const Seam&) const = default;
 };

@@ -121,7 +121,7 @@ Renderer::Renderer(const Scene& scene, const ProbeVolumeView& volume, const Scen
                   : scene_center(scene, [](const MeshInstance&) { return true; })),
       sky_(packed_sky(volume)),
       volume_(moved(make_shader_volume(volume), volume, origin_)),
-      meshes_(scene, light.emission_weights),
+      meshes_(scene, light),
       instances_(scene.instances.size()),
       shadows_(moved(light.lights, origin_), caster_bounds(scene, settings.sphere_bounds, origin_),
                settings.shadow_map_size),
@@ -140,7 +140,7 @@ void Renderer::add_instances(const Scene& scene, const SceneLight& light) {
     };
     const auto key = [&](uint32_t i) {
         const MeshInstance& instance = scene.instances[i];
-        return std::tuple(instance.mesh, light.instances[i].proxy_volume, is_mirrored(i),
+        return std::tuple(meshes_.mesh_of(i), light.instances[i].proxy_volume, is_mirrored(i),
                           instance.contributes_gi);
     };
     std::ranges::stable_sort(order, {}, key);
@@ -150,24 +150,26 @@ void Renderer::add_instances(const Scene& scene, const SceneLight& light) {
     for (uint32_t i = 0; i < order.size(); ++i) {
         const MeshInstance& source = scene.instances[order[i]];
         const InstanceLight& lit = light.instances[order[i]];
+        const uint32_t mesh = meshes_.mesh_of(order[i]);
         const auto bounds = instance_bounds(scene, source);
         const glm::vec3 center(bounds ? bounds->center() - origin_ : glm::dvec3(0.0));
         GlInstance instance;
         set_transform(instance, space_from_world * source.world_from_mesh);
         instance.use = lit.use;
         instance.direct = source.contributes_gi ? DirectUse::Still : DirectUse::Moving;
-        instance.material = source.mesh;
+        instance.material = mesh;
         instance.occlusion = occlusion_of(lit, lights, center);
         instance.light = lit.light;
         instances[i] = instance;
         const bool blends =
-            meshes_.mesh(source.mesh).alpha_mode == AlphaMode::Blend;  // drawn back to front
+            meshes_.mesh(mesh).alpha_mode == AlphaMode::Blend;  // drawn back to front
         if (blends || i == 0 || key(order[i]) != key(order[i - 1])) {
-            batches_.push_back({source.mesh, i, 0, lit.proxy_volume, is_mirrored(order[i]),
+            batches_.push_back({mesh, i, 0, lit.proxy_volume, is_mirrored(order[i]),
                                 !source.contributes_gi, center});
         }
         ++batches_.back().count;
     }
+    lightmaps_ = LightmapTextures(light.lightmaps, order);
 }
 
 Result<ImageF> Renderer::render(const Camera& camera, const RenderSettings& settings,

@@ -11,6 +11,7 @@
 #include <tetralight/render/draw_lines.h>
 #include <tetralight/render/gl/debug_messages.h>
 #include <tetralight/render/gl/instance_buffer.h>
+#include <tetralight/render/gl/lightmap_textures.h>
 #include <tetralight/render/gl/proxy_textures.h>
 #include <tetralight/render/gl/render_target.h>
 #include <tetralight/render/gl/renderer_shaders.h>
@@ -116,6 +117,7 @@ class Renderer {
     SceneMeshes meshes_;
     std::vector<Batch> batches_;
     std::vector<ProxyTextures> proxies_;
+    LightmapTextures lightmaps_;
     InstanceBuffer instances_;
     ShadowMaps shadows_;
     GlBuffer frame_;

@@ -185,6 +185,7 @@ Status Renderer::draw(const Camera& camera, const RenderTarget& target,
     write_frame(camera, target);
     volume_.bind();
     shadows_.bind(kLightBinding, kLayerBinding, kShadowUnit);
+    lightmaps_.bind(kLightmapPlaceBinding, kLightmapUnit);
     glUseProgram(shaders_.lit.name());
     glUniformMatrix4fv(kClipFromSpace, 1, GL_FALSE, &matrix[0][0]);
     draw_surfaces(spheres);

@@ -30,7 +30,9 @@ Result<ShaderProgram> make_program(const StageText& vertex, const StageText& fra
 Result<RendererShaders> make_renderer_shaders() {
     const std::string structs = detail::kInstanceText, surface = detail::kSurfaceInputText,
                       frame = detail::kFrameText;
-    const StageText vertex{"surface.vert", {ShaderPart::Sh}, structs + detail::kSurfaceVertexText};
+    const StageText vertex{"surface.vert",
+                           {ShaderPart::Sh, ShaderPart::Lightmap},
+                           structs + detail::kSurfaceVertexText};
     auto depth = make_program(vertex, {"depth.frag", {ShaderPart::Sh}, detail::kDepthText});
     if (!depth) return depth.error();
     auto masked = make_program(
@@ -38,7 +40,7 @@ Result<RendererShaders> make_renderer_shaders() {
         {"masked_depth.frag", {ShaderPart::Sh}, structs + surface + detail::kMaskedDepthText});
     if (!masked) return masked.error();
     auto lit = make_program(vertex, {"lit.frag",
-                                     {ShaderPart::Query, ShaderPart::Lppv},
+                                     {ShaderPart::Query, ShaderPart::Lppv, ShaderPart::Lightmap},
                                      structs + surface + frame + detail::kLitText});
     if (!lit) return lit.error();
     auto sky = make_program({"sky.vert", {ShaderPart::Sh}, detail::kSkyVertexText},

@@ -14,12 +14,14 @@ enum RendererBinding : uint32_t {
     kMaterialBinding = 7,
     kLightBinding = 8,
     kLayerBinding = 9,
+    kLightmapPlaceBinding = 10,
     kBaseColorUnit = 0,  // texture units
     kFactorsUnit = 1,
     kEmissionUnit = 2,
     kShadowUnit = 3,
     kProxyLightUnit = 4,
     kProxyOcclusionUnit = 5,
+    kLightmapUnit = 6,
 };
 
 /// Locations of uniforms.

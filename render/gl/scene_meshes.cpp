@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <map>
+#include <numeric>
+#include <span>
+#include <utility>
 
 #include <tetralight/render/gl/sphere_mesh.h>
 
@@ -15,6 +19,7 @@ struct Vertex {
     glm::vec3 normal{0.0f};  ///< 0 = use the normal of the triangle
     glm::vec2 uvs[2]{};
     glm::vec4 color{1.0f};
+    glm::vec2 lightmap_uv{0.0f};
 };
 
 GLint gl_wrap(TextureWrap wrap) {
@@ -70,6 +75,35 @@ GlMaterial make_material(const Material& material, const Mesh& mesh, float emiss
     return result;
 }
 
+template <class Value>
+std::vector<Value> one_a_corner(const std::vector<Value>& values,
+                                const std::vector<uint32_t>& indices) {
+    std::vector<Value> result;
+    if (values.empty()) return result;
+    for (const uint32_t index : indices) result.push_back(values[index]);
+    return result;
+}
+
+/// The same mesh with three vertices of its own for each triangle, which can have unwrapped UVs.
+Mesh with_split_vertices(const Mesh& mesh) {
+    Mesh result;
+    result.material = mesh.material;
+    result.positions = one_a_corner(mesh.positions, mesh.indices);
+    result.normals = one_a_corner(mesh.normals, mesh.indices);
+    for (size_t set = 0; set < std::size(mesh.uvs); ++set)
+        result.uvs[set] = one_a_corner(mesh.uvs[set], mesh.indices);
+    result.colors = one_a_corner(mesh.colors, mesh.indices);
+    result.indices.resize(mesh.indices.size());
+    std::iota(result.indices.begin(), result.indices.end(), 0u);
+    return result;
+}
+
+/// The unwrapped UVs of a packing, one a corner.
+std::span<const glm::vec2> corner_uvs(const LightmapsView& lightmaps, uint32_t packing) {
+    const LightmapMesh& mesh = lightmaps.meshes[packing];
+    return lightmaps.corner_uvs.subspan(mesh.first_corner, 3 * size_t{mesh.triangle_count});
+}
+
 void append_vertices(const Mesh& mesh, std::vector<Vertex>& vertices) {
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
         Vertex& vertex = vertices.emplace_back();
@@ -91,7 +125,8 @@ GlVertexArray make_arrays(const GlBuffer& vertices, const GlBuffer& indices) {
     static constexpr Attribute kAttributes[] = {{3, offsetof(Vertex, position)},
                                                 {3, offsetof(Vertex, normal)},
                                                 {4, offsetof(Vertex, uvs)},
-                                                {4, offsetof(Vertex, color)}};
+                                                {4, offsetof(Vertex, color)},
+                                                {2, offsetof(Vertex, lightmap_uv)}};
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
     glVertexArrayVertexBuffer(name, 0, vertices.name(), 0, sizeof(Vertex));
@@ -116,7 +151,7 @@ GLuint SceneMeshes::texture(const Scene& scene, const TextureUse& use, GLenum fo
     return texture.name();
 }
 
-SceneMeshes::SceneMeshes(const Scene& scene, std::span<const float> emission_weights) {
+SceneMeshes::SceneMeshes(const Scene& scene, const SceneLight& light) {
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
     std::vector<GlMaterial> materials;
@@ -132,12 +167,32 @@ SceneMeshes::SceneMeshes(const Scene& scene, std::span<const float> emission_wei
     };
     for (const Mesh& mesh : scene.meshes) {
         const Material& material = scene.materials[mesh.material];
-        GlMesh& added = add(mesh, make_material(material, mesh, emission_weights[mesh.material]));
+        const float weight = light.emission_weights[mesh.material];
+        GlMesh& added = add(mesh, make_material(material, mesh, weight));
         added.alpha_mode = material.alpha_mode;
         added.is_double_sided = material.is_double_sided;
         added.textures = {texture(scene, material.base_color_texture, GL_SRGB8_ALPHA8),
                           texture(scene, material.metallic_roughness_texture, GL_RGBA8),
                           texture(scene, material.emission_texture, GL_SRGB8_ALPHA8)};
+    }
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> unwrapped;  // by mesh and packing
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const uint32_t mesh = scene.instances[i].mesh;
+        instance_meshes_.push_back(mesh);
+        if (light.instances[i].use != ProbeUse::Lightmap) continue;
+        const uint32_t packing = light.lightmaps.rectangles[i].mesh;
+        const auto next = static_cast<uint32_t>(meshes_.size());
+        const auto [known, is_new] = unwrapped.try_emplace({mesh, packing}, next);
+        instance_meshes_.back() = known->second;
+        if (!is_new) continue;
+        const GlMesh original = meshes_[mesh];
+        GlMesh& added = add(with_split_vertices(scene.meshes[mesh]), materials[mesh]);
+        added.alpha_mode = original.alpha_mode;
+        added.is_double_sided = original.is_double_sided;
+        added.textures = original.textures;
+        const std::span<const glm::vec2> uvs = corner_uvs(light.lightmaps, packing);
+        for (size_t corner = 0; corner < uvs.size(); ++corner)
+            vertices[added.first_vertex + corner].lightmap_uv = uvs[corner];
     }
     for (uint32_t i = 0; i < kSphereCount; ++i) add(make_sphere_mesh(i), {});
     vertices_ = make_gl_buffer(vertices);

@@ -10,6 +10,7 @@
 
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/render/gl/gl.h>
+#include <tetralight/render/scene_light.h>
 
 namespace tetralight {
 
@@ -46,14 +47,18 @@ class SceneMeshes {
   public:
     static constexpr uint32_t kSphereCount = 5;
 
-    /// `emission_weights`: one for each material.
-    SceneMeshes(const Scene& scene, std::span<const float> emission_weights);
+    /// Makes an unwrapped copy of each mesh for the packings that instances with a lightmap use.
+    SceneMeshes(const Scene& scene, const SceneLight& light);
 
     /// Binds vertices, indices and materials for draw calls.
     void bind(GLuint material_binding) const;
 
-    /// The meshes of the scene, then the spheres, coarse to fine.
+    /// The meshes of the scene, then unwrapped ones, then the spheres, coarse to fine. Each has a
+    /// material of the same index.
     [[nodiscard]] const GlMesh& mesh(size_t index) const { return meshes_[index]; }
+
+    /// Index of the mesh that an instance of the scene is drawn with.
+    [[nodiscard]] uint32_t mesh_of(uint32_t instance) const { return instance_meshes_[instance]; }
 
     /// Index of a sphere's mesh and material.
     [[nodiscard]] uint32_t sphere(uint32_t subdivisions) const {
@@ -64,6 +69,7 @@ class SceneMeshes {
     GLuint texture(const Scene& scene, const TextureUse& use, GLenum format);
 
     std::vector<GlMesh> meshes_;
+    std::vector<uint32_t> instance_meshes_;
     /// For each texture of the scene: [0] decoded from sRGB, [1] as linear data.
     std::array<std::vector<GlTexture>, 2> textures_;
     GlVertexArray arrays_;

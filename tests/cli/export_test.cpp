@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <tetralight/bake/image/read_image.h>
 #include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/lightmap/lightmap_file.h>
+#include <tetralight/probes/probe_volume.h>
 
 #include "tests/cli/command_fixture.h"
 
@@ -42,6 +46,23 @@ TEST_F(Export, Ktx2HasAllPagesAsLayers) {
     const Json json = run_json({"export", "c.lightmaps", "--as", "ktx2", "-o", "c.ktx2"});
     EXPECT_EQ(json["files"].size(), 1u);
     EXPECT_EQ(static_cast<unsigned char>(read("c.ktx2").at(32)), json["pages"].get<unsigned>());
+}
+
+TEST_F(Export, PreviewsMarkObjects) {
+    const Json json = run_json({"export", "c.lightmaps", "--as", "preview", "-o", "p.png"});
+    ASSERT_EQ(json["files"].size(), json["pages"]);
+    const std::string plain = read("p_0.png");
+    const Lightmaps maps = copy_lightmaps(open_lightmap_file(path("c.lightmaps"))->view());
+    const size_t first = static_cast<size_t>(
+        std::ranges::find(maps.rectangles, 0u, &LightmapRectangle::page) - maps.rectangles.begin());
+    const std::string name(split_names(maps.instance_names)[first]);
+    succeed({"export", "c.lightmaps", "--as", "preview", "-o", "p.png", "--mark", name});
+    EXPECT_TRUE(read("p_0.png") != plain);
+    EXPECT_TRUE(contains(
+        fail({"export", "c.lightmaps", "--as", "preview", "-o", "p.png", "--mark", "no such"}),
+        "c.lightmaps: has no object \"no such\""));
+    EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "-o", "p.png", "--mark", name}),
+                         "only previews"));
 }
 
 TEST_F(Export, GlbHasTheSceneWithLightmaps) {

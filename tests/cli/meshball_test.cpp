@@ -66,6 +66,14 @@ TEST_F(MeshBall, ShowsTheSceneAroundTheBallWhenAsked) {
     EXPECT_TRUE(picture({"--scene", kCourtyard}) != picture({}));
 }
 
+TEST_F(MeshBall, ShowsTheSceneWithItsLightmaps) {
+    succeed(
+        {"lightmap", kCourtyard, "-o", "c.lightmaps", "-t", "1", "--page-size", "64", "-s", "1"});
+    EXPECT_TRUE(picture({"--scene", kCourtyard, "--lightmaps", "c.lightmaps"}) !=
+                picture({"--scene", kCourtyard}));
+    EXPECT_TRUE(contains(misuse(arguments({"--lightmaps", "c.lightmaps"})), "--scene"));
+}
+
 TEST_F(MeshBall, PutsTheBallWhereAsked) {
     const Arguments view{"--eye", "0,1,20", "--target", "0,1,0"};
     Arguments here = view;

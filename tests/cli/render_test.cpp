@@ -108,6 +108,30 @@ TEST_F(Render, ShowsLightThroughWallsWhenAsked) {
     EXPECT_TRUE(picture(ignored) != picture(inside));
 }
 
+TEST_F(Render, ShowsPartsOfTheLight) {
+    const std::string lit = picture({});
+    for (const char* view : {"received", "direct", "bounce", "emission", "albedo"})
+        EXPECT_TRUE(picture({"--show", view}) != lit) << view;
+    EXPECT_TRUE(contains(misuse(arguments({"--show", "albedo,direct"})),
+                         "surfaces cannot show \"albedo\" and \"direct\" at once"));
+}
+
+TEST_F(Render, ShowsWhatLightmapsHold) {
+    succeed(
+        {"lightmap", kCourtyard, "-o", "c.lightmaps", "-t", "1", "--page-size", "64", "-s", "1"});
+    const Arguments maps{"--lightmaps", "c.lightmaps"};
+    const std::string lit = picture(maps);
+    EXPECT_TRUE(lit != picture({}));
+    for (const char* view :
+         {"unwrapped-uv", "lightmap-uv", "texels", "validity", "pages", "seams"}) {
+        Arguments all = maps;
+        all.insert(all.end(), {"--show", view});
+        EXPECT_TRUE(picture(all) != lit) << view;
+        EXPECT_TRUE(contains(misuse(arguments({"--show", view})),
+                             std::string("\"") + view + "\" needs --lightmaps"));
+    }
+}
+
 TEST_F(Render, WarnsOfAVolumeWithoutLight) {
     succeed({"tetrahedralize", kCourtyard, "-o", "v.probes"});
     const std::string warning = "warning: v.probes: the volume holds no light";

@@ -22,6 +22,7 @@ layout(std140, binding = 2) uniform Proxy { TetralightLppvConstants proxy; };
 layout(binding = 3) uniform sampler2DArrayShadow shadow_maps;
 layout(binding = 4) uniform sampler3D proxy_light;
 layout(binding = 5) uniform sampler3D proxy_occlusion;
+layout(binding = 6) uniform sampler2DArray lightmap_pages;
 out vec4 radiance;
 
 const float kPi = 3.14159265;
@@ -160,6 +161,12 @@ TetralightPackedSh probe_light(vec3 flat_normal, out vec4 occlusion) {
     return no_light();
 }
 
+// What a diffuse surface of albedo 1 reflects of the lightmap's light.
+vec3 lightmap_light() {
+    return tetralight_lightmap_irradiance(lightmap_pages, lightmap_uv, lightmap_page.x,
+                                          lightmap_page.y) / kPi;
+}
+
 void main() {
     uint m = instances[instance].material;
     vec4 base = materials[m].base_color * instances[instance].color * color;
@@ -195,14 +202,16 @@ void main() {
     point.has_specular = instances[instance].factors.z > 0.0;
     vec4 occlusion;
     TetralightPackedSh probe_sh = probe_light(flat_normal, occlusion);
-    vec3 probes = point.albedo * max(tetralight_sample_sh9(probe_sh, unit_normal), vec3(0.0));
+    vec3 baked = instances[instance].use == 4u
+                     ? lightmap_light() : max(tetralight_sample_sh9(probe_sh, unit_normal), vec3(0.0));
+    baked *= point.albedo;
     if (point.has_specular) {
         vec3 dominant = tetralight_dominant_direction(probe_sh);
-        probes += tetralight_dominant_irradiance(probe_sh, dominant) *
+        baked += tetralight_dominant_irradiance(probe_sh, dominant) *
                   tetralight_specular_reflection(unit_normal, dominant, point.to_eye, point.f0,
                                                  factors.y);
     }
-    radiance.rgb = emission + probes + direct_light(point, occlusion);
+    radiance.rgb = emission + baked + direct_light(point, occlusion);
 }
 )";
 

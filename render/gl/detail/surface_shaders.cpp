@@ -43,6 +43,12 @@ layout(location = 0) in vec3 mesh_position;
 layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 mesh_uvs;
 layout(location = 3) in vec4 mesh_color;
+layout(location = 4) in vec2 mesh_lightmap_uv;
+struct LightmapPlace {
+    vec4 rectangle;
+    vec4 page;
+};
+layout(std430, binding = 10) readonly buffer LightmapPlaces { LightmapPlace lightmap_places[]; };
 layout(location = 0) uniform mat4 clip_from_space;
 layout(location = 1) uniform uint first_instance;
 invariant gl_Position;
@@ -50,6 +56,8 @@ out vec3 position;
 out vec3 normal;
 out vec4 uvs;
 out vec4 color;
+out vec2 lightmap_uv;
+flat out vec2 lightmap_page;  // page, scale of its halves
 flat out uint instance;
 
 void main() {
@@ -67,6 +75,12 @@ void main() {
                        vec3(row_x.z, row_y.z, row_z.z), mesh_normal);
     uvs = mesh_uvs;
     color = mesh_color;
+    lightmap_uv = vec2(0.0);
+    lightmap_page = vec2(0.0);
+    if (instances[instance].use == 4u) {
+        lightmap_uv = tetralight_page_uv(lightmap_places[instance].rectangle, mesh_lightmap_uv);
+        lightmap_page = lightmap_places[instance].page.xy;
+    }
 }
 )";
 
@@ -75,6 +89,8 @@ in vec3 position;
 in vec3 normal;
 in vec4 uvs;
 in vec4 color;
+in vec2 lightmap_uv;
+flat in vec2 lightmap_page;
 flat in uint instance;
 )";
 

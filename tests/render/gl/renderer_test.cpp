@@ -13,6 +13,8 @@
 #include <optional>
 
 #include <tetralight/base/error_text.h>
+#include <tetralight/base/half.h>
+#include <tetralight/pipeline/bake_lightmaps.h>
 #include <tetralight/pipeline/bake_visibility.h>
 #include <tetralight/render/gl/gl_pictures.h>
 #include <tetralight/render/render_gizmos.h>
@@ -66,6 +68,23 @@ Scene box_on_floor() {
     return scene;
 }
 
+/// Lightmaps of several pages whose light differs from texel to texel.
+Lightmaps varied_lightmaps(const Scene& scene) {
+    BakeLightmapsSettings settings;
+    settings.bake.sample_count = 1;
+    settings.layout.texels_per_meter = 2.0;
+    settings.layout.page_size = 32;
+    Lightmaps maps = bake_lightmaps(scene, settings)->lightmaps;
+    maps.info.scale = 2.0f;
+    for (size_t i = 0; i < maps.irradiance.size(); ++i) {
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const auto step = static_cast<float>((i * (channel + 3)) % 7);
+            maps.irradiance[i].rgb[channel] = half_from_float(1.0f + 0.3f * step);
+        }
+    }
+    return maps;
+}
+
 class GlRenderer : public testing::Test {
   protected:
     void SetUp() override {
@@ -75,8 +94,10 @@ class GlRenderer : public testing::Test {
     }
 
     static ImageF draw(const Scene& scene, const ProbeVolume& volume, const Camera& camera,
-                       const RenderSettings& settings = small_settings()) {
-        const auto light = make_scene_light(scene, volume.view(), ProbeLight::AsTheScene);
+                       const RenderSettings& settings = small_settings(),
+                       const LightmapsView& lightmaps = {}) {
+        const auto light =
+            make_scene_light(scene, volume.view(), ProbeLight::AsTheScene, lightmaps);
         auto renderer = Renderer::make(scene, volume.view(), *light, {.shadow_map_size = 1024});
         if (!renderer) {
             ADD_FAILURE() << error_text(renderer.error());
@@ -89,9 +110,10 @@ class GlRenderer : public testing::Test {
 
     /// Share of pixels that differ by more than 2 % of the brightest radiance.
     static double difference(const Scene& scene, const ProbeVolume& volume,
-                             const Camera& camera = kCamera) {
-        const ImageF gl = draw(scene, volume, camera);
-        const ImageF rays = *render_scene(scene, volume.view(), camera, small_settings());
+                             const Camera& camera = kCamera, const LightmapsView& lightmaps = {}) {
+        const ImageF gl = draw(scene, volume, camera, small_settings(), lightmaps);
+        const ImageF rays =
+            *render_scene(scene, volume.view(), camera, small_settings(), lightmaps);
         EXPECT_EQ(gl.pixels.size(), rays.pixels.size());
         if (gl.pixels.size() != rays.pixels.size()) return 1.0;
         float brightest = 0.0f;
@@ -171,6 +193,22 @@ TEST_F(GlRenderer, AgreesOnProxyVolumes) {
     scene.instances[1].node = 0;
     scene.nodes.push_back({"box", kNoIndex, glm::dmat4(1.0), LightProbeUsage::ProxyVolume});
     EXPECT_LE(difference(scene, varied_volume()), kEdges);
+}
+
+TEST_F(GlRenderer, AgreesOnLightmapsBesideProbes) {
+    Scene scene = box_on_floor();
+    MeshInstance mirrored = scene.instances[1];
+    mirrored.world_from_mesh =
+        glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-2.5, 0, 0)), glm::dvec3(-0.5));
+    scene.instances.push_back(mirrored);
+    MeshInstance moving = scene.instances[1];
+    moving.contributes_gi = false;
+    moving.world_from_mesh = glm::translate(glm::dmat4(1.0), glm::dvec3(2.5, 0, 1));
+    scene.instances.insert(scene.instances.begin(), moving);
+    const Lightmaps maps = varied_lightmaps(scene);
+    EXPECT_GT(maps.info.page_count, 1u);
+    EXPECT_EQ(maps.rectangles[0].page, kNoIndex);
+    EXPECT_LE(difference(scene, varied_volume(), kCamera, maps.view()), kEdges);
 }
 
 TEST_F(GlRenderer, AgreesOnTheSunAndItsShadows) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <tetralight/bake/image/image.h>
+#include <tetralight/lightmap/lightmaps.h>
+
+namespace tetralight {
+
+/// Which instances of lightmaps have one of these names; empty names mark none.
+[[nodiscard]] std::vector<bool> instances_named(const LightmapsView& lightmaps,
+                                                const std::vector<std::string>& names);
+
+/// A page for looking at, v = 0 at the top: its light, exposed and tone-mapped by itself, on grey
+/// where no surface is. Each rectangle has a blue border of one texel, those of marked instances
+/// (`is_marked`, one a rectangle) an orange one of three; all others are then dimmed.
+/// Precondition: the page exists.
+[[nodiscard]] Image8 page_preview(const LightmapsView& lightmaps, uint32_t page,
+                                  const std::vector<bool>& is_marked);
+
+}  // namespace tetralight
