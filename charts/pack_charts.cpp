@@ -159,9 +159,12 @@ Result<PackedCharts> pack_charts(const Unwrap& charts, const PackSettings& setti
     if (!shapes) return shapes.error();
     const std::optional<Packing> packing = best_packing(*shapes, settings.max_size);
     if (!packing) {
+        uint64_t texels = 0;
+        for (const ChartShape& shape : *shapes) texels += shape.texels;
         return Error(ErrorCode::InvalidArgument, "texels_per_meter",
                      str_cat(settings.texels_per_meter),
-                     str_cat("the charts do not fit into the page of ", settings.max_size));
+                     str_cat("the ", shapes->size(), " charts need at least ", texels,
+                             " texels, more than fit into the page of ", settings.max_size));
     }
     packed.width = packing->width;
     packed.height = packing->height;

@@ -94,8 +94,8 @@ struct Bake {
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         storing.warn(baked->stored, common);
         const Status status =
-            storing.probes ? write_range(prepared, *baked, seconds.count())
-                           : write_whole(scene, std::move(prepared), *baked, seconds.count());
+            storing.range ? write_range(prepared, *baked, seconds.count())
+                          : write_whole(scene, std::move(prepared), *baked, seconds.count());
         if (status) storing.finish(baked->stored);
         return status;
     }

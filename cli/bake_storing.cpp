@@ -16,16 +16,15 @@ namespace {
 /// Seconds between two saves with `chunks`; more if saving takes long.
 constexpr double kFrequentSaves = 0.1;
 
-ProbeRange range_of(const std::optional<IndexRange>& probes, const PreparedBake& prepared) {
-    const auto count = static_cast<uint32_t>(prepared.capture_positions.size());
-    if (!probes) return {0, count};
-    return {probes->begin, probes->end == IndexRange{}.end ? count : probes->end};
+/// The setting of the range: bakes of probes and of texels have one.
+const char* range_setting(const Values& values) {
+    return has_setting(values, "texels") ? "texels" : "probes";
 }
 
 }  // namespace
 
 BakeStoring::BakeStoring(const Values& values)
-    : probes(has_setting(values, "probes") ? index_range(values, "probes") : std::nullopt),
+    : range(index_range(values, range_setting(values))),
       progress_file(values.text("progress_file")),
       output_(values.text("output")),
       is_resumed_(values.flag("resume")),
@@ -35,11 +34,19 @@ BakeStoring::BakeStoring(const Values& values)
       reuse_path_(has_setting(values, "reuse") ? values.text("reuse") : "") {
     if (is_resumed_ && output_ == "-") refuse(values, "resume", "nothing is kept beside stdout");
     const std::string extension = std::filesystem::path(output_).extension().string();
-    if (extension == (probes ? ".probes" : ".part")) {
+    const std::string setting = range_setting(values);
+    const std::string whole = setting == "texels" ? ".lightmaps" : ".probes";
+    if (extension == (range ? whole : ".part")) {
         refuse(values, "output",
-               str_cat("with ", values.shown("probes"),
-                       " a .part is written, without it .probes, not \"", output_, "\""));
+               str_cat("with ", values.shown(setting), " a .part is written, without it ", whole,
+                       ", not \"", output_, "\""));
     }
+}
+
+PlaceRange BakeStoring::range_of(size_t count) const {
+    const auto all = static_cast<uint32_t>(count);
+    if (!range) return {0, all};
+    return {range->begin, range->end == IndexRange{}.end ? all : range->end};
 }
 
 /// Empty if the output is not a regular file: an interrupted bake is not kept.
@@ -97,7 +104,8 @@ BakeStorage BakeStoring::storage() {
 Result<RangeBake> BakeStoring::bake(const Scene& scene, const PreparedBake& prepared,
                                     const BakeCallback& show) {
     const BakeStorage used = storage();
-    auto baked = bake_range(scene, prepared, range_of(probes, prepared), used, show);
+    auto baked =
+        bake_range(scene, prepared, range_of(prepared.capture_positions.size()), used, show);
     if (baked || baked.error().code != ErrorCode::Cancelled) return baked;
     return interrupted();
 }

@@ -12,11 +12,12 @@
 
 namespace tetralight::cli {
 
-/// Which probes a bake bakes, and where light that is known already is kept: `resume`, `chunks`,
-/// `store`, `store_limit`, `progress_file`, and of `bake` also `probes` and `reuse`.
+/// What a bake bakes, and where light that is known already is kept: `resume`, `chunks`, `store`,
+/// `store_limit`, `progress_file`, of `bake` also `probes` and `reuse`, and of `lightmap` `texels`.
 class BakeStoring {
   public:
-    std::optional<IndexRange> probes;
+    /// That of `probes` or `texels`; nothing: all of them.
+    std::optional<IndexRange> range;
     std::string progress_file;
 
     /// Throws a `UsageError` if settings do not go together.
@@ -31,6 +32,9 @@ class BakeStoring {
 
     /// Takes light from the volume of `reuse`, if there is one; warns if nothing can be reused.
     Status reuse(PreparedBake& prepared, const CommonOptions& common) const;
+
+    /// `range` of so many probes or texels.
+    [[nodiscard]] PlaceRange range_of(size_t count) const;
 
     /// Where light is loaded from and saved to.
     [[nodiscard]] BakeStorage storage();

@@ -7,11 +7,13 @@
 #include <tetralight/cli/bake_storing.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/lightmap_report.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/scene_options.h>
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
+#include <tetralight/pipeline/lightmap_part.h>
 #include <tetralight/pipeline/lightmap_settings.h>
 
 namespace tetralight::cli {
@@ -60,59 +62,44 @@ struct Lightmap {
         storing.warn(bake->stored, common);
         prepared->report.bake_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        return write(*scene, std::move(*prepared), *bake);
+        return storing.range ? write_range(*prepared, *bake) : write(std::move(*prepared), *bake);
     }
 
     [[nodiscard]] Result<TexelBake> bake_with_progress(const Scene& scene,
                                                        const PreparedLightmaps& prepared) {
         BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds,
                                     storing.progress_file, "texels");
-        return bake_texels(scene, prepared, storing.storage(),
-                           [&](const BakeProgress& progress) { return display.show(progress); });
+        return bake_texel_range(
+            scene, prepared, storing.range_of(prepared.baked.size()), storing.storage(),
+            [&](const BakeProgress& progress) { return display.show(progress); });
     }
 
-    Status write(const Scene& scene, PreparedLightmaps prepared, const TexelBake& bake) {
-        const BakedLightmaps result = finish_lightmaps(scene, std::move(prepared), bake);
+    Status write(PreparedLightmaps prepared, const TexelBake& bake) {
+        const BakedLightmaps result = finish_lightmaps(std::move(prepared), bake);
         common.warn(result.report.warnings);
         const LightmapsView maps = result.lightmaps.view();
         if (auto status = write_lightmap_file(output, maps); !status) return status;
-        report(maps, result.report);
+        report_lightmaps(common, output, maps, result.report);
         storing.finish(bake.stored);
         return Ok{};
     }
 
-    void report(const LightmapsView& maps, const LightmapReport& report) const {
-        const Json json{
-            {"output", output},
-            {"pages", maps.info.page_count},
-            {"page_size", maps.info.page_size},
-            {"charts", report.chart_count},
-            {"texels", report.texel_count},
-            {"invalid", report.invalid_count},
-            {"baked", report.baked_count},
-            {"standard_error", {{"median", report.median_error}, {"worst", report.worst_error}}},
-            {"over_target", report.over_target_count},
-            {"seams", report.seam_count},
-            {"seam_difference",
-             {{"baked", report.seam_difference_baked}, {"stitched", report.seam_difference}}},
-            {"rays", report.ray_count},
-            {"seconds",
-             {{"layout", report.layout_seconds},
-              {"texels", report.texel_seconds},
-              {"bake", report.bake_seconds}}}};
-        common.report(
-            output, json,
-            str_cat(output, ": ", counted(maps.info.page_count, "page"), " of ",
-                    maps.info.page_size, " x ", maps.info.page_size, ", ",
-                    counted(report.chart_count, "chart"), ", ",
-                    counted(report.texel_count, "texel"), " (", grouped(report.invalid_count),
-                    " inside geometry)\n  layout ", duration(report.layout_seconds), ", texels ",
-                    duration(report.texel_seconds), ", bake ", duration(report.bake_seconds), " (",
-                    magnitude(static_cast<double>(report.ray_count)), "rays)\n  ",
-                    counted(report.seam_count, "seam"), ", 99 % differ by less than ",
-                    percent(report.seam_difference), " (", percent(report.seam_difference_baked),
-                    " before they were stitched)", "\n  standard error: median ",
-                    percent(report.median_error), ", worst ", percent(report.worst_error)));
+    Status write_range(const PreparedLightmaps& prepared, const TexelBake& bake) {
+        common.warn(prepared.report.warnings);
+        if (auto status = write_lightmap_part(output, prepared, bake); !status) return status;
+        LightmapReport light = prepared.report;
+        report_texels(bake, settings.bake.target_error, light);
+        Json json{{"output", output},
+                  {"range", {bake.range.begin, bake.range.end}},
+                  {"texels", bake.range.count()},
+                  {"all_texels", prepared.baked.size()}};
+        json.update(light_json(light));
+        common.report(output, json,
+                      str_cat(output, ": texels ", name_of(bake.range), " of ",
+                              grouped(prepared.baked.size()), "\n  ", times_text(light), "\n  ",
+                              errors_text(light)));
+        storing.finish(bake.stored);
+        return Ok{};
     }
 };
 

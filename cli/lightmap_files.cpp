@@ -95,12 +95,20 @@ Result<LightmapFile> open_checked(const std::string& path) {
     return file;
 }
 
+/// Parts have no light yet.
+Status refuse_part(const LightmapFile& file, const std::string& path, const char* setting) {
+    if (!is_part(file)) return Ok{};
+    return Error{ErrorCode::InvalidArgument, setting, path,
+                 path + ": is a part of a bake; merge its parts first"};
+}
+
 }  // namespace
 
 Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path) {
     if (path.empty()) return std::optional<LightmapFile>();
     auto file = open_lightmap_file(path);
     if (!file) return file.error();
+    if (auto status = refuse_part(*file, path, "lightmaps"); !status) return status.error();
     return std::optional(std::move(*file));
 }
 
@@ -156,10 +164,7 @@ Status relight_lightmap_file(const std::string& path, const std::string& output,
                              const LightmapChange& change, const CommonOptions& common) {
     const auto file = open_checked(path);
     if (!file) return file.error();
-    if (is_part(*file)) {
-        return Error{ErrorCode::InvalidArgument, "volume", path,
-                     path + ": is a part of a bake; merge its parts first"};
-    }
+    if (auto status = refuse_part(*file, path, "volume"); !status) return status;
     Lightmaps maps = copy_lightmaps(file->view());
     std::vector<LayerWeight> weights;
     for (const auto& [layer, weight] : change.weights) weights.push_back({layer, weight});

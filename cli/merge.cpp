@@ -2,8 +2,11 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/bake_report.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/lightmap_files.h>
+#include <tetralight/cli/lightmap_report.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/walls_report.h>
+#include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/pipeline/merge_parts.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -20,6 +23,37 @@ struct Merge {
 
     Status run() {
         if (auto status = check_output(output, parts); !status) return status;
+        const bool has_lightmaps = is_lightmap_file(parts[0]);
+        if (auto status = check_extension(has_lightmaps); !status) return status;
+        return has_lightmaps ? merge_lightmaps() : merge_probes();
+    }
+
+    [[nodiscard]] Status check_extension(bool has_lightmaps) const {
+        if (!output.ends_with(has_lightmaps ? ".probes" : ".lightmaps")) return Ok{};
+        return Error{ErrorCode::InvalidArgument, "output", output,
+                     str_cat(parts[0], ": contains ", has_lightmaps ? "lightmaps" : "probes",
+                             ", not what ", output, " is called")};
+    }
+
+    [[nodiscard]] Status merge_lightmaps() const {
+        const auto merged = merge_lightmap_parts(parts, common.thread_count);
+        if (!merged) return merged.error();
+        const LightmapReport& report = merged->report;
+        common.warn(report.warnings);
+        const LightmapsView maps = merged->lightmaps.view();
+        if (auto status = write_lightmap_file(output, maps); !status) return status;
+        Json json{{"output", output}, {"parts", parts.size()}};
+        json.update(pages_json(maps, report));
+        json.update(light_json(report));
+        json.erase("seconds");  // parts do not keep them
+        common.report(
+            output, json,
+            str_cat(output, ": ", pages_line(maps, report), " of ", counted(parts.size(), "part"),
+                    "\n  ", seams_text(report), "\n  ", errors_text(report)));
+        return Ok{};
+    }
+
+    [[nodiscard]] Status merge_probes() const {
         const auto merged = merge_parts(parts);
         if (!merged) return merged.error();
         common.warn(merged->report.warnings);

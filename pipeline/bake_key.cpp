@@ -5,6 +5,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/probes/content_hash.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -218,6 +219,27 @@ uint64_t bake_key(const PreparedBake& prepared) {
     for (const bool is_invalid : prepared.is_invalid) hash.add(is_invalid);
     hash.add(prepared.overrides);
     for (const bool dering : prepared.merged.group_dering) hash.add(dering);
+    return hash.value();
+}
+
+uint64_t lightmap_key(const PreparedLightmaps& prepared) {
+    ContentHash hash;
+    add(hash, prepared.settings.bake);
+    hash.add(lightmap_file_bytes(prepared.lightmaps.view()));
+    for (const TexelMap& map : prepared.maps) {
+        hash.add(map.width);
+        hash.add(map.charts);
+        hash.add(map.texels);
+    }
+    hash.add(prepared.texels.validity);
+    hash.add(prepared.texels.origins);
+    hash.add(prepared.baked);
+    hash.add(prepared.positions);
+    hash.add(prepared.surfaces);
+    for (const Seam& seam : prepared.seams) {
+        hash.add(seam.first);
+        hash.add(seam.second);
+    }
     return hash.value();
 }
 

@@ -5,6 +5,7 @@
 
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/hash/sha256.h>
+#include <tetralight/pipeline/bake_lightmaps.h>
 #include <tetralight/pipeline/bake_volume.h>
 
 namespace tetralight {
@@ -23,5 +24,8 @@ namespace tetralight {
 /// and metadata with the scene's key and the program's version), capture positions, and settings
 /// but for the number of threads. `prepared.key` is not hashed.
 [[nodiscard]] uint64_t bake_key(const PreparedBake& prepared);
+
+/// The same for lightmaps. `prepared.key` is not hashed.
+[[nodiscard]] uint64_t lightmap_key(const PreparedLightmaps& prepared);
 
 }  // namespace tetralight

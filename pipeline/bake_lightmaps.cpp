@@ -8,6 +8,9 @@
 #include <tetralight/bake/round_plan.h>
 #include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/pipeline/bake_key.h>
+#include <tetralight/pipeline/lightmap_metadata.h>
+#include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/pipeline/stored_bake.h>
 
 namespace tetralight {
@@ -55,6 +58,46 @@ size_t chart_count(const LightmapPacking& packing) {
     return charts.empty() ? 0 : size_t{*std::ranges::max_element(charts)} + 1;
 }
 
+/// What the pages hold beside texels.
+void describe(const Scene& scene, const std::vector<std::string>& layer_names,
+              PreparedLightmaps& prepared) {
+    const LightmapLayout& layout = prepared.layout;
+    Lightmaps& maps = prepared.lightmaps;
+    maps.info.page_size = layout.page_size;
+    maps.info.page_count = layout.page_count;
+    maps.info.texels_per_meter = static_cast<float>(layout.texels_per_meter);
+    for (const LightmapPacking& packing : layout.packings) {
+        maps.meshes.push_back({geometry_key(scene.meshes[packing.mesh]),
+                               static_cast<uint32_t>(maps.corner_uvs.size()),
+                               static_cast<uint32_t>(packing.triangle_charts.size()),
+                               {}});
+        const std::vector<glm::vec2> uvs = unit_uvs(packing.charts);
+        maps.corner_uvs.insert(maps.corner_uvs.end(), uvs.begin(), uvs.end());
+    }
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        maps.rectangles.push_back(rectangle_of(layout, layout.places[i]));
+        std::string name = scene.instances[i].name;
+        std::ranges::replace(name, '\n', ' ');
+        maps.instance_names += name + "\n";
+    }
+    maps.layers.resize(layer_names.size());
+    for (const std::string& name : layer_names) maps.layer_names += name + "\n";
+    maps.metadata = lightmap_metadata(scene, prepared.settings);
+}
+
+/// Seams between charts that have light: not those of objects that `only` leaves out.
+std::vector<Seam> seams_of(const Scene& scene, const PreparedLightmaps& prepared) {
+    const auto& first_texel = prepared.texels.first_texel;
+    std::vector<bool> has_light;
+    auto next = prepared.baked.begin();
+    for (size_t instance = 0; instance < scene.instances.size(); ++instance) {
+        const auto end = std::lower_bound(next, prepared.baked.end(), first_texel[instance + 1]);
+        has_light.push_back(next != end);
+        next = end;
+    }
+    return find_seams(scene, prepared.layout, has_light);
+}
+
 void count_texels(PreparedLightmaps& prepared) {
     LightmapReport& report = prepared.report;
     report.texel_count = prepared.texels.positions.size();
@@ -65,6 +108,7 @@ void count_texels(PreparedLightmaps& prepared) {
         report.chart_count += chart_count(packing);
     }
     report.baked_count = prepared.baked.size();
+    report.seam_count = prepared.seams.size();
 }
 
 }  // namespace
@@ -80,7 +124,6 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     prepared.settings = settings;
     prepared.settings.bake.plan = plan->bake;
     prepared.settings.bake.plan.has_occlusion = false;
-    prepared.layer_names = plan->layer_names;
     prepared.report.warnings = plan->warnings;
     Stopwatch watch;
     auto layout = make_lightmap_layout(scene, settings.layout);
@@ -101,22 +144,40 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     if (!texels) return texels.error();
     prepared.texels = std::move(*texels);
     select_texels(scene, prepared);
+    describe(scene, plan->layer_names, prepared);
+    prepared.seams = seams_of(scene, prepared);
+    prepared.key = lightmap_key(prepared);
     count_texels(prepared);
     prepared.report.texel_seconds = watch.lap();
     return prepared;
 }
 
-Result<TexelBake> bake_texels(const Scene& scene, const PreparedLightmaps& prepared,
-                              const BakeStorage& storage, const BakeCallback& callback) {
+Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& prepared,
+                                   PlaceRange range, const BakeStorage& storage,
+                                   const BakeCallback& callback) {
+    if (auto status = check_range(range, {"texel", prepared.baked.size()}); !status)
+        return status.error();
     const BakeSettings& settings = prepared.settings.bake;
+    BakePlaces places = prepared.places();
+    places.positions = places.positions.subspan(range.begin, range.count());
+    places.surfaces.texels = places.surfaces.texels.subspan(range.begin, range.count());
     TexelBake bake;
-    bake.accumulators.resize(prepared.baked.size());
-    bake.rows.resize(prepared.baked.size() * LightGroupLayout(settings.plan).size());
-    auto stored = bake_with_stores(scene, prepared.places(), settings, storage,
+    bake.range = range;
+    bake.accumulators.resize(range.count());
+    bake.rows.resize(range.count() * LightGroupLayout(settings.plan).size());
+    for (const TexelSurfaces::Texel& texel : places.surfaces.texels)
+        bake.normals.push_back(texel.normal);
+    auto stored = bake_with_stores(scene, places, settings, storage,
                                    {bake.accumulators, {bake.rows, {}}}, callback);
     if (!stored) return stored.error();
     bake.stored = std::move(*stored);
     return bake;
+}
+
+Result<TexelBake> bake_texels(const Scene& scene, const PreparedLightmaps& prepared,
+                              const BakeStorage& storage, const BakeCallback& callback) {
+    const auto count = static_cast<uint32_t>(prepared.baked.size());
+    return bake_texel_range(scene, prepared, {0, count}, storage, callback);
 }
 
 Result<BakedLightmaps> bake_lightmaps(const Scene& scene, const BakeLightmapsSettings& settings,
@@ -127,7 +188,7 @@ Result<BakedLightmaps> bake_lightmaps(const Scene& scene, const BakeLightmapsSet
     const auto bake = bake_texels(scene, *prepared, storage, callback);
     if (!bake) return bake.error();
     prepared->report.bake_seconds = watch.seconds();
-    return finish_lightmaps(scene, std::move(*prepared), *bake);
+    return finish_lightmaps(std::move(*prepared), *bake);
 }
 
 }  // namespace tetralight

@@ -11,15 +11,20 @@
 #include <tetralight/bake/bake_accumulators.h>
 #include <tetralight/bake/lightmap/lightmap_layout.h>
 #include <tetralight/bake/lightmap/lightmap_texels.h>
+#include <tetralight/bake/lightmap/seams.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/result.h>
 #include <tetralight/lightmap/lightmaps.h>
 #include <tetralight/pipeline/lighting_plan.h>
+#include <tetralight/pipeline/place_range.h>
 #include <tetralight/pipeline/stored_bake.h>
 
 // Bakes the lightmaps of a scene:
 //
 //     scene → prepare_lightmaps → bake_texels → finish_lightmaps → Lightmaps → write_lightmap_file
+//
+// Several machines can bake ranges of the texels (`bake_texel_range`), write them into parts
+// (pipeline/lightmap_part.h) and join these (pipeline/merge_parts.h) to the same bytes.
 
 namespace tetralight {
 
@@ -71,7 +76,7 @@ struct LightmapReport {
     std::vector<std::string> warnings;
 };
 
-/// Lightmaps before their light is sampled.
+/// Lightmaps before their light is sampled: the same for each part of the bake.
 struct PreparedLightmaps {
     BakeLightmapsSettings settings;  ///< `settings.bake.plan` is the plan for this scene
     LightmapLayout layout;
@@ -81,16 +86,24 @@ struct PreparedLightmaps {
     std::vector<uint32_t> baked;
     std::vector<glm::dvec3> positions;
     std::vector<TexelSurfaces::Texel> surfaces;
-    std::vector<std::string> layer_names;
+    /// Complete but for texels: rectangles, UVs, layers and metadata.
+    Lightmaps lightmaps;
+    /// Between instances that have baked texels.
+    std::vector<Seam> seams;
+    /// Hash of all that the bytes of the baked lightmaps depend on (`lightmap_key`). Parts of one
+    /// bake have the same key.
+    uint64_t key = 0;
     LightmapReport report;
 
     [[nodiscard]] BakePlaces places() const { return {positions, {surfaces, texels.origins}}; }
 };
 
-/// The light of the baked texels, one of each per element of `PreparedLightmaps::baked`.
+/// The light of a range of the baked texels, one of each per texel.
 struct TexelBake {
+    PlaceRange range;  ///< of `PreparedLightmaps::baked`
     std::vector<ProbeAccumulator> accumulators;
     std::vector<double> rows;  ///< of `LightGroupLayout(settings.bake.plan)`
+    std::vector<glm::vec3> normals;
     StoredBake stored;
 };
 
@@ -101,20 +114,35 @@ struct TexelBake {
 [[nodiscard]] Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
                                                           const BakeLightmapsSettings& settings);
 
-/// Samples the light. Texels that a store has, from an earlier bake of the same light at the same
-/// place, are loaded. Returns the errors of `bake_accumulators` and of the storage.
+/// Samples the light of a range of the baked texels. Texels that a store has, from an earlier bake
+/// of the same light at the same place, are loaded. Returns invalid_argument (field "texels") if
+/// the range is not within the baked texels, else the errors of `bake_accumulators` and of the
+/// storage.
+[[nodiscard]] Result<TexelBake> bake_texel_range(const Scene& scene,
+                                                 const PreparedLightmaps& prepared,
+                                                 PlaceRange range, const BakeStorage& storage = {},
+                                                 const BakeCallback& callback = {});
+
+/// The same for all baked texels.
 [[nodiscard]] Result<TexelBake> bake_texels(const Scene& scene, const PreparedLightmaps& prepared,
                                             const BakeStorage& storage = {},
                                             const BakeCallback& callback = {});
+
+/// A validity as lightmaps store it: times 255.
+[[nodiscard]] uint8_t validity_byte(float validity) noexcept;
 
 struct BakedLightmaps {
     Lightmaps lightmaps;
     LightmapReport report;
 };
 
-/// Writes the light into pages, fills texels that have none, and stitches seams. A pure function.
-[[nodiscard]] BakedLightmaps finish_lightmaps(const Scene& scene, PreparedLightmaps prepared,
-                                              const TexelBake& bake);
+/// Adds rays and errors of baked texels to a report. `target_error`: 0 = none.
+void report_texels(const TexelBake& bake, double target_error, LightmapReport& report);
+
+/// Writes the light into pages, fills texels that have none, and stitches seams. A function of the
+/// light, the prepared lightmaps, maps (but for their points), validity, seams and settings alone.
+/// Precondition: the light is that of all baked texels.
+[[nodiscard]] BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bake);
 
 /// All three steps.
 [[nodiscard]] Result<BakedLightmaps> bake_lightmaps(const Scene& scene,

@@ -4,19 +4,8 @@
 #include <algorithm>
 #include <span>
 
-#include <tetralight/base/str_cat.h>
-
 namespace tetralight {
 namespace {
-
-Status check_range(const ProbeRange& range, size_t probe_count) {
-    if (range.begin <= range.end && range.end <= probe_count) return Ok{};
-    const std::string asked = range.begin > probe_count
-                                  ? str_cat("probe ", range.begin)
-                                  : str_cat("probes ", range.begin, "..", range.end);
-    return Error{ErrorCode::InvalidArgument, "probes", str_cat(range.begin, "..", range.end),
-                 str_cat(asked, ": there are ", probe_count, " probes")};
-}
 
 /// Arrays of the probes of a range whose light is not reused.
 struct UnknownProbes {
@@ -27,7 +16,7 @@ struct UnknownProbes {
     std::vector<double> rows;
     size_t row_size = 0;
 
-    UnknownProbes(const PreparedBake& prepared, const ProbeRange& range) {
+    UnknownProbes(const PreparedBake& prepared, const PlaceRange& range) {
         const auto is_reused = prepared.reused.flags(prepared.capture_positions.size());
         const auto& lights = prepared.volume.occlusion_lights;
         for (uint32_t probe = range.begin; probe < range.end; ++probe) {
@@ -44,7 +33,7 @@ struct UnknownProbes {
     [[nodiscard]] LightGroupRows split() { return {rows, occlusion_lights}; }
 
     [[nodiscard]] PartialBake in_range(const PreparedBake& prepared,
-                                       const ProbeRange& range) const {
+                                       const PlaceRange& range) const {
         PartialBake partial{range, std::vector<ProbeAccumulator>(range.count()),
                             std::vector<double>(range.count() * row_size),
                             slice(prepared.reused, range.begin, range.end)};
@@ -60,9 +49,9 @@ struct UnknownProbes {
 
 }  // namespace
 
-Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, ProbeRange range,
+Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, PlaceRange range,
                              const BakeStorage& storage, const BakeCallback& callback) {
-    const Status checked = check_range(range, prepared.capture_positions.size());
+    const Status checked = check_range(range, {"probe", prepared.capture_positions.size()});
     if (!checked) return checked.error();
     const BakeSettings& settings = prepared.settings.bake;
     UnknownProbes probes(prepared, range);

@@ -27,7 +27,7 @@ struct RangeBake {
 /// is not within the volume, cancelled if the callback returns false, else errors of
 /// `bake_accumulators`.
 [[nodiscard]] Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared,
-                                           ProbeRange range, const BakeStorage& storage = {},
+                                           PlaceRange range, const BakeStorage& storage = {},
                                            const BakeCallback& callback = {});
 
 }  // namespace tetralight

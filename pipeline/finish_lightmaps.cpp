@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <tetralight/bake/lightmap/fill_texels.h>
-#include <tetralight/bake/lightmap/seams.h>
 #include <tetralight/bake/lightmap/stitch_seams.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/sampling/sampling.h>
@@ -16,8 +15,6 @@
 #include <tetralight/base/half.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
-#include <tetralight/pipeline/lightmap_metadata.h>
-#include <tetralight/pipeline/lightmap_scene.h>
 
 namespace tetralight {
 namespace {
@@ -64,7 +61,7 @@ float& value_of(TexelLight& light, size_t i) {
 
 /// How much a texel resists a change at a seam, in squares of differences at places. Texels that
 /// were filled have no light of their own.
-constexpr double kBakedWeight = 0.05, kFilledWeight = 0.005;
+constexpr double kBakedWeight = 0.002, kFilledWeight = 0.0002;
 
 /// From coefficients in the frame of the normal (`estimate_texel`), three values each.
 TexelLight texel_light(std::span<const double> coefficients, double sample_count,
@@ -105,12 +102,12 @@ LightmapTexel packed(const TexelLight& light, float scale) {
 
 class PageWriter {
   public:
-    PageWriter(const Scene& scene, const PreparedLightmaps& prepared, const TexelBake& bake)
-        : scene_(scene),
-          prepared_(prepared),
+    PageWriter(const PreparedLightmaps& prepared, const TexelBake& bake)
+        : prepared_(prepared),
           bake_(bake),
           layout_(prepared.settings.bake.plan),
-          baked_index_(prepared.texels.positions.size(), kNoIndex) {
+          baked_index_(prepared.texels.validity.size(), kNoIndex),
+          maps_(prepared.lightmaps) {
         for (uint32_t i = 0; i < prepared.baked.size(); ++i) baked_index_[prepared.baked[i]] = i;
     }
 
@@ -118,13 +115,9 @@ class PageWriter {
         allocate();
         write_scales();
         for_each_instance([&](uint32_t instance) { prepare_instance(instance); });
-        std::vector<bool> has_light;  // not those that --only leaves out
-        for (const TexelFill& fill : fills_) has_light.push_back(!fill.steps.empty());
-        const std::vector<Seam> seams = find_seams(scene_, prepared_.layout, has_light);
-        const SeamStitcher stitcher(seams, maps_.info.page_size, [&](uint64_t texel) {
+        const SeamStitcher stitcher(prepared_.seams, maps_.info.page_size, [&](uint64_t texel) {
             return is_baked_[texel] != 0 ? kBakedWeight : kFilledWeight;
         });
-        report.seam_count = seams.size();
         seam_light_.resize(stitcher.texels().size());
         for (uint32_t i = 0; i < seam_light_.size(); ++i) seam_index_[stitcher.texels()[i]] = i;
         write_light(std::nullopt);
@@ -139,12 +132,9 @@ class PageWriter {
     }
 
   private:
-    [[nodiscard]] size_t layer_count() const { return prepared_.layer_names.size(); }
+    [[nodiscard]] size_t layer_count() const { return maps_.layers.size(); }
 
     void allocate() {
-        maps_.info.page_size = prepared_.layout.page_size;
-        maps_.info.page_count = prepared_.layout.page_count;
-        maps_.info.texels_per_meter = static_cast<float>(prepared_.layout.texels_per_meter);
         texel_count_ = maps_.view().texel_count();
         maps_.irradiance.resize(texel_count_);
         maps_.light.resize(texel_count_);
@@ -152,18 +142,16 @@ class PageWriter {
         maps_.error.resize(texel_count_);
         is_baked_.resize(texel_count_);
         seam_index_.assign(texel_count_, kNoIndex);
-        fills_.resize(scene_.instances.size());
-        maps_.layers.resize(layer_count());
+        fills_.resize(maps_.rectangles.size());
         maps_.layer_irradiance.resize(layer_count() * texel_count_);
         maps_.layer_light.resize(layer_count() * texel_count_);
-        for (const std::string& name : prepared_.layer_names) maps_.layer_names += name + "\n";
     }
 
     /// The light of a baked texel: the total, or of one layer.
     [[nodiscard]] TexelLight total_light(uint32_t baked) const {
         const ProbeAccumulator& sums = bake_.accumulators[baked];
         const auto count = static_cast<double>(std::max<uint64_t>(1, sums.sample_count));
-        return texel_light(flat(sums.radiance_sum), count, prepared_.surfaces[baked].normal);
+        return texel_light(flat(sums.radiance_sum), count, bake_.normals[baked]);
     }
 
     [[nodiscard]] TexelLight layer_light(uint32_t baked, size_t layer) const {
@@ -180,7 +168,7 @@ class PageWriter {
                 for (size_t i = 0; i < kSize; ++i) values[i] -= row[other * kSize + i];
             }
         }
-        return texel_light(values, count, prepared_.surfaces[baked].normal);
+        return texel_light(values, count, bake_.normals[baked]);
     }
 
     /// Filled texels are means of baked ones, which bound them.
@@ -199,17 +187,17 @@ class PageWriter {
 
     template <class Work>
     void for_each_instance(const Work& work) {
-        parallel_for(scene_.instances.size(), prepared_.settings.bake.thread_count,
+        parallel_for(maps_.rectangles.size(), prepared_.settings.bake.thread_count,
                      [&](size_t instance) {
-                         if (prepared_.layout.places[instance].has_lightmap())
+                         if (maps_.rectangles[instance].page != kNoIndex)
                              work(static_cast<uint32_t>(instance));
                      });
     }
 
     /// All but the light.
     void prepare_instance(uint32_t instance) {
-        const LightmapPlace& place = prepared_.layout.places[instance];
-        const TexelMap& map = prepared_.maps[place.packing];
+        const LightmapRectangle& place = maps_.rectangles[instance];
+        const TexelMap& map = prepared_.maps[place.mesh];
         std::vector<bool> has_light(map.texels.size());
         for (size_t i = 0; i < map.texels.size(); ++i)
             has_light[i] = baked_at(instance, i) != kNoIndex;
@@ -222,18 +210,18 @@ class PageWriter {
         return baked_index_[prepared_.texels.first_texel[instance] + texel];
     }
 
-    [[nodiscard]] size_t page_index(const TexelMap& map, const LightmapPlace& place,
+    [[nodiscard]] size_t page_index(const TexelMap& map, const LightmapRectangle& place,
                                     uint32_t texel) const {
         const size_t size = maps_.info.page_size;
-        const size_t x = place.corner.x + texel % map.width, y = place.corner.y + texel / map.width;
-        return (place.corner.page * size + y) * size + x;
+        const size_t x = place.x + texel % map.width, y = place.y + texel / map.width;
+        return (place.page * size + y) * size + x;
     }
 
     /// Writes the total light or that of a layer into the pages, and keeps that of seams.
     void write_light(std::optional<size_t> layer) {
         for_each_instance([&](uint32_t instance) {
-            const LightmapPlace& place = prepared_.layout.places[instance];
-            const TexelMap& map = prepared_.maps[place.packing];
+            const LightmapRectangle& place = maps_.rectangles[instance];
+            const TexelMap& map = prepared_.maps[place.mesh];
             std::vector<TexelLight> values(map.charts.size() + 1);
             for (size_t i = 0; i < map.texels.size(); ++i) {
                 const uint32_t baked = baked_at(instance, i);
@@ -261,13 +249,17 @@ class PageWriter {
         maps_.layer_light[*layer * texel_count_ + index] = packed(value, scale);
     }
 
-    /// Makes both sides of seams agree.
+    /// Makes both sides of seams agree. Texels that are 0 in the total are 0 in all layers.
     void stitch(const SeamStitcher& stitcher, std::optional<size_t> layer) {
         parallel_for(kValueCount, prepared_.settings.bake.thread_count, [&](size_t value) {
             std::vector<double> values;
             for (TexelLight& light : seam_light_) values.push_back(double{value_of(light, value)});
-            const std::vector<double> stitched = stitcher.stitched(values);
             const bool is_positive = value < 6;
+            std::vector<bool>& is_zero = seam_zeros_[value];
+            if (!layer)
+                is_zero =
+                    is_positive ? stitcher.zeros(values) : std::vector<bool>(values.size(), false);
+            const std::vector<double> stitched = stitcher.stitched(values, is_zero);
             for (size_t i = 0; i < stitched.size(); ++i) {
                 const auto number = static_cast<float>(stitched[i]);
                 value_of(seam_light_[i], value) = is_positive ? std::max(0.0f, number) : number;
@@ -285,12 +277,11 @@ class PageWriter {
     }
 
     /// Validity and error of the texels that surfaces touch.
-    void write_facts(uint32_t instance, const TexelMap& map, const LightmapPlace& place) {
+    void write_facts(uint32_t instance, const TexelMap& map, const LightmapRectangle& place) {
         for (size_t i = 0; i < map.texels.size(); ++i) {
             const size_t index = page_index(map, place, map.texels[i].index);
             const size_t texel = prepared_.texels.first_texel[instance] + i;
-            maps_.validity[index] = static_cast<uint8_t>(
-                std::lround(255.0f * std::clamp(prepared_.texels.validity[texel], 0.0f, 1.0f)));
+            maps_.validity[index] = validity_byte(prepared_.texels.validity[texel]);
             const uint32_t baked = baked_index_[texel];
             if (baked == kNoIndex) continue;
             is_baked_[index] = 1;
@@ -299,7 +290,8 @@ class PageWriter {
         }
     }
 
-    void write_coverage(const TexelMap& map, const LightmapPlace& place, const TexelFill& fill) {
+    void write_coverage(const TexelMap& map, const LightmapRectangle& place,
+                        const TexelFill& fill) {
         if (fill.steps.empty()) return;
         const auto cover = [&](uint32_t texel) {
             maps_.irradiance[page_index(map, place, texel)].coverage = kCovered;
@@ -312,7 +304,6 @@ class PageWriter {
         }
     }
 
-    const Scene& scene_;
     const PreparedLightmaps& prepared_;
     const TexelBake& bake_;
     const LightGroupLayout layout_;
@@ -322,31 +313,17 @@ class PageWriter {
     std::vector<uint8_t> is_baked_;     ///< one a texel of the pages
     std::vector<uint32_t> seam_index_;  ///< of each texel in `seam_light_`, or kNoIndex
     std::vector<TexelLight> seam_light_;
+    std::array<std::vector<bool>, kValueCount> seam_zeros_;  ///< `SeamStitcher::zeros` of the total
     Lightmaps maps_;
 };
 
-void store_uvs(const Scene& scene, const LightmapLayout& layout, Lightmaps& maps) {
-    for (const LightmapPacking& packing : layout.packings) {
-        maps.meshes.push_back({geometry_key(scene.meshes[packing.mesh]),
-                               static_cast<uint32_t>(maps.corner_uvs.size()),
-                               static_cast<uint32_t>(packing.triangle_charts.size()),
-                               {}});
-        const std::vector<glm::vec2> uvs = unit_uvs(packing.charts);
-        maps.corner_uvs.insert(maps.corner_uvs.end(), uvs.begin(), uvs.end());
-    }
+}  // namespace
+
+uint8_t validity_byte(float validity) noexcept {
+    return static_cast<uint8_t>(std::lround(255.0f * std::clamp(validity, 0.0f, 1.0f)));
 }
 
-void store_rectangles(const Scene& scene, const LightmapLayout& layout, Lightmaps& maps) {
-    for (size_t i = 0; i < scene.instances.size(); ++i) {
-        maps.rectangles.push_back(rectangle_of(layout, layout.places[i]));
-        std::string name = scene.instances[i].name;
-        std::ranges::replace(name, '\n', ' ');
-        maps.instance_names += name + "\n";
-    }
-}
-
-/// Errors of the texels with light.
-void report_errors(const TexelBake& bake, double target_error, LightmapReport& report) {
+void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
     std::vector<float> errors;
     for (const ProbeAccumulator& sums : bake.accumulators) {
         report.ray_count += sums.ray_count;
@@ -362,21 +339,14 @@ void report_errors(const TexelBake& bake, double target_error, LightmapReport& r
     report.worst_error = *std::ranges::max_element(errors);
 }
 
-}  // namespace
-
-BakedLightmaps finish_lightmaps(const Scene& scene, PreparedLightmaps prepared,
-                                const TexelBake& bake) {
+BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bake) {
     TETRALIGHT_ASSERT(bake.accumulators.size() == prepared.baked.size(), "one for each texel");
     BakedLightmaps result;
-    result.report = prepared.report;
-    result.lightmaps = PageWriter(scene, prepared, bake).run(result.report);
-    Lightmaps& maps = result.lightmaps;
-    store_uvs(scene, prepared.layout, maps);
-    store_rectangles(scene, prepared.layout, maps);
-    maps.metadata = lightmap_metadata(scene, prepared.settings);
-    const double target_error = prepared.settings.bake.target_error;
+    result.report = std::move(prepared.report);
     LightmapReport& report = result.report;
-    report_errors(bake, target_error, report);
+    result.lightmaps = PageWriter(prepared, bake).run(report);
+    const double target_error = prepared.settings.bake.target_error;
+    report_texels(bake, target_error, report);
     if (report.over_target_count > 0) {
         report.warnings.push_back(str_cat(report.over_target_count, " of ", report.baked_count,
                                           " texels have a standard error above ", target_error,

@@ -6,93 +6,124 @@
 #include <utility>
 
 #include <tetralight/base/contract.h>
+#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/lightmap/lightmap_file.h>
+#include <tetralight/pipeline/lightmap_part.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/pipeline/walls_metadata.h>
 
 namespace tetralight {
 namespace {
 
-/// A part without its volume, which is the same in all parts.
-struct Piece {
-    std::string path;
-    PartialBake partial;
+/// Parts of one bake by their ranges, and what is the same in all of them.
+template <class Part>
+struct Parts {
+    decltype(Part::prepared) prepared;
+    std::vector<decltype(Part::partial)> partials;
+    std::vector<FileRange> files;
 };
 
-std::string name(const ProbeRange& range) {
-    return str_cat(range.begin, "..", range.end);
+template <class Part>
+Status check_part(const Part& part, uint64_t key, const std::string& first_path,
+                  const char* differences) {
+    if (part.prepared.key == key) return Ok{};
+    return Error{ErrorCode::InvalidArgument,
+                 str_cat(part.path, ": is of another bake than ", first_path, " (", differences,
+                         " or program version differ)")};
 }
 
-/// Returns invalid_argument for the first probes in no part or in two. `pieces` are sorted.
-Status check_cover(const std::vector<Piece>& pieces, uint32_t probe_count) {
-    uint32_t end = 0;
-    for (size_t i = 0; i < pieces.size(); ++i) {
-        const ProbeRange& range = pieces[i].partial.range;
-        if (range.begin < end) {
-            const Piece& before = pieces[i - 1];
-            return Error{ErrorCode::InvalidArgument,
-                         str_cat(pieces[i].path, ": probes ", name(range), " overlap probes ",
-                                 name(before.partial.range), " of ", before.path)};
-        }
-        if (range.begin > end) {
-            return Error{
-                ErrorCode::InvalidArgument,
-                str_cat("probes ", name({end, range.begin}), " of ", probe_count,
-                        " are in no part; the next, ", name(range), ", are in ", pieces[i].path)};
-        }
-        end = range.end;
-    }
-    if (end < probe_count) {
+/// Returns invalid_argument if some files are lightmaps and others are not.
+Status check_kinds(const std::vector<std::string>& paths) {
+    const auto has_lightmaps = [](const std::string& path) {
+        const auto file = MappedFile::open(path);
+        return file && is_lightmap_file(file->bytes());
+    };
+    const bool first = has_lightmaps(paths[0]);
+    const auto what = [](bool is_lightmap) { return is_lightmap ? "lightmaps" : "probes"; };
+    for (const std::string& path : paths) {
+        const auto file = MappedFile::open(path);
+        if (!file) return file.error();
+        if (has_lightmaps(path) == first) continue;
         return Error{ErrorCode::InvalidArgument,
-                     str_cat("probes ", name({end, probe_count}), " of ", probe_count,
-                             " are in no part; the last, ", name(pieces.back().partial.range),
-                             ", are in ", pieces.back().path)};
+                     str_cat(path, ": contains ", what(!first), ", but ", paths[0], " contains ",
+                             what(first))};
     }
     return Ok{};
 }
 
-Status check_part(const PartFile& part, const PreparedBake& bake, const std::string& first_path) {
-    if (part.prepared.key != bake.key) {
-        return Error{ErrorCode::InvalidArgument,
-                     str_cat(part.path, ": is of another bake than ", first_path,
-                             " (scene, groups, settings or program version differ)")};
+/// Reads parts with `read` and sorts them. `differences`: what else can make two bakes differ.
+template <class Part>
+Result<Parts<Part>> read_parts(const std::vector<std::string>& paths,
+                               Result<Part> (*read)(const std::string&), const char* differences) {
+    TETRALIGHT_ASSERT(!paths.empty(), "there is nothing to merge");
+    if (auto status = check_kinds(paths); !status) return status.error();
+    std::vector<Part> all;
+    std::optional<decltype(Part::prepared)> first;
+    for (const std::string& path : paths) {
+        auto part = read(path);
+        if (!part) return part.error();
+        const uint64_t key = first ? first->key : part->prepared.key;
+        if (auto status = check_part(*part, key, paths[0], differences); !status)
+            return status.error();
+        if (!first) first = std::move(part->prepared);
+        part->prepared = {};
+        all.push_back(std::move(*part));
     }
-    return Ok{};
+    std::ranges::stable_sort(all, {}, [](const Part& part) {
+        return std::pair(part.partial.range.begin, part.partial.range.end);
+    });
+    Parts<Part> parts{std::move(*first), {}, {}};
+    for (Part& part : all) {
+        parts.files.push_back({part.path, part.partial.range});
+        parts.partials.push_back(std::move(part.partial));
+    }
+    return parts;
+}
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+    all.insert(all.end(), more.begin(), more.end());
 }
 
 }  // namespace
 
 Result<BakedVolume> merge_parts(const std::vector<std::string>& paths) {
-    TETRALIGHT_ASSERT(!paths.empty(), "there is nothing to merge");
-    std::optional<PreparedBake> bake;
-    std::vector<Piece> pieces;
-    for (const std::string& path : paths) {
-        auto part = read_part(path);
-        if (!part) return part.error();
-        const PreparedBake& first = bake ? *bake : part->prepared;
-        if (auto status = check_part(*part, first, paths[0]); !status) return status.error();
-        if (!bake) bake = std::move(part->prepared);
-        pieces.push_back({path, std::move(part->partial)});
-    }
-    std::ranges::stable_sort(pieces, {}, [](const Piece& piece) {
-        return std::pair(piece.partial.range.begin, piece.partial.range.end);
-    });
-    const auto probe_count = static_cast<uint32_t>(bake->volume.positions.size());
-    if (auto status = check_cover(pieces, probe_count); !status) return status.error();
+    auto parts = read_parts<PartFile>(paths, read_part, "scene, groups, settings");
+    if (!parts) return parts.error();
+    PreparedBake& bake = parts->prepared;
+    const ProbeVolume& volume = bake.volume;
+    if (auto status = check_cover(parts->files, {"probe", volume.positions.size()}); !status)
+        return status.error();
 
     std::vector<ProbeAccumulator> accumulators;
     std::vector<double> rows;
-    for (const Piece& piece : pieces) {
-        const auto& some = piece.partial.accumulators;
-        accumulators.insert(accumulators.end(), some.begin(), some.end());
-        const auto& some_rows = piece.partial.split_rows;
-        rows.insert(rows.end(), some_rows.begin(), some_rows.end());
-        bake->reused.append(piece.partial.reused);
+    for (const PartialBake& partial : parts->partials) {
+        append(accumulators, partial.accumulators);
+        append(rows, partial.split_rows);
+        bake.reused.append(partial.reused);
     }
-    const ProbeVolume& volume = bake->volume;
-    bake->report.visibility = stored_visibility(volume.view());
-    if (const auto walls = read_walls(volume.metadata)) bake->report.unseen = walls->unseen;
-    return finish_bake(std::move(*bake), accumulators, rows);
+    bake.report.visibility = stored_visibility(volume.view());
+    if (const auto walls = read_walls(volume.metadata)) bake.report.unseen = walls->unseen;
+    return finish_bake(std::move(bake), accumulators, rows);
+}
+
+Result<BakedLightmaps> merge_lightmap_parts(const std::vector<std::string>& paths,
+                                            uint32_t thread_count) {
+    auto parts = read_parts<LightmapPartFile>(paths, read_lightmap_part, "scene, settings");
+    if (!parts) return parts.error();
+    PreparedLightmaps& prepared = parts->prepared;
+    if (auto status = check_cover(parts->files, {"texel", prepared.baked.size()}); !status)
+        return status.error();
+
+    TexelBake bake;
+    for (const TexelBake& partial : parts->partials) {
+        append(bake.accumulators, partial.accumulators);
+        append(bake.rows, partial.rows);
+        append(bake.normals, partial.normals);
+    }
+    prepared.settings.bake.thread_count = thread_count;
+    return finish_lightmaps(std::move(prepared), bake);
 }
 
 }  // namespace tetralight

@@ -8,6 +8,7 @@
 #include <tetralight/bake/probe_accumulator.h>
 #include <tetralight/base/result.h>
 #include <tetralight/pipeline/bake_volume.h>
+#include <tetralight/pipeline/place_range.h>
 #include <tetralight/pipeline/reused_light.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -16,19 +17,9 @@
 
 namespace tetralight {
 
-/// Probes [begin, end) of a volume, in its order.
-struct ProbeRange {
-    uint32_t begin = 0;
-    uint32_t end = 0;
-
-    [[nodiscard]] uint32_t count() const { return end - begin; }
-
-    bool operator==(const ProbeRange&) const = default;
-};
-
 /// The finished bake of a range.
 struct PartialBake {
-    ProbeRange range;
+    PlaceRange range;
     /// One for each probe of the range; empty ones where light is reused.
     std::vector<ProbeAccumulator> accumulators;
     /// A row for each accumulator, if the plan has light groups (`LightGroupRows`).

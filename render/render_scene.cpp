@@ -66,7 +66,6 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
     const InstanceLight& instance = light_.instances[surface.instance];
     switch (instance.use) {
         case ProbeUse::Off:
-        case ProbeUse::Lightmap:
             break;
         case ProbeUse::Given:
             return instance.light;
@@ -76,6 +75,7 @@ PackedSh SceneShader::probe_light(const Surface& surface) const {
             return pack_sh(sample_lppv(lppv, world).irradiance);
         }
         case ProbeUse::EachPoint:
+        case ProbeUse::Lightmap:  // the back of a surface
             return light_on(volume_, glm::vec3(traced_.world_from_render(surface.position)),
                             surface.geometric_normal);
     }
@@ -88,7 +88,8 @@ glm::vec2 SceneShader::page_uv_at(const Surface& surface) const {
 }
 
 glm::vec3 SceneShader::baked_light(const Surface& surface) const {
-    if (light_.instances[surface.instance].use != ProbeUse::Lightmap) {
+    const bool has_lightmap = light_.instances[surface.instance].use == ProbeUse::Lightmap;
+    if (!has_lightmap || surface.is_from_behind) {
         const glm::vec3 light = sample_sh9(probe_light(surface), surface.shading_normal);
         return glm::max(light, glm::vec3(0.0f));
     }

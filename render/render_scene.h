@@ -17,7 +17,8 @@
 namespace tetralight {
 
 /// Shades a scene with a volume's light, as an engine would with this runtime.
-/// - Static surfaces sample their lightmap, or without one query the probes at each point.
+/// - Static surfaces sample their lightmap on the side of their normals. On the other side, or
+///   without a lightmap, they query the probes at each point.
 /// - Moving objects (`contributes_gi` false) query once, at the center of their bounds, or sample a
 ///   proxy volume if their node asks for one.
 /// - Lights of the volume that are not `Baked` add their direct term with shadow rays. If probes

@@ -6,7 +6,7 @@ namespace {
 
 constexpr Setting kFiles[] = {
     scene_file("glTF 2.0 scene (.glb or .gltf)"),
-    output_file(".lightmaps", "Lightmaps to write (- = stdout)"),
+    output_file(".lightmaps .part", "Lightmaps to write, or a part of them (- = stdout)"),
     {.name = "only",
      .type = Type::Text,
      .help = "Bake the texels of the object of this name; all others stay black",
@@ -72,7 +72,19 @@ constexpr Setting kTransport[] = {
      .without = "one layer",
      .value_name = "LIST"}};
 
-constexpr Setting kStoring[] = {kResume, kChunks, kStore, kStoreLimit, kProgressFile};
+constexpr Setting kStoring[] = {
+    {.name = "texels",
+     .type = Type::Range,
+     .help = "Bake only this range of the texels that are baked, into a .part file for `tetralight "
+             "merge`",
+     .unit = "texels",
+     .without = "all texels",
+     .access = Access::Command},
+    kResume,
+    kChunks,
+    kStore,
+    kStoreLimit,
+    kProgressFile};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
                              {"Added light", kAddedLightAlone},

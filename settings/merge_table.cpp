@@ -6,21 +6,25 @@ namespace {
 
 constexpr Setting parts() {
     Setting setting =
-        input_file("parts", "Parts of one bake (bake --probes) that together hold all its probes");
+        input_file("parts",
+                   "Parts of one bake that together hold all its probes (bake --probes) or texels "
+                   "(lightmap --texels)");
     setting.is_list = true;
     return setting;
 }
 
-constexpr Setting kFiles[] = {parts(),
-                              output_file(".probes", "Probe volume to write (- = stdout)")};
+constexpr Setting kFiles[] = {
+    parts(), output_file(".probes .lightmaps", "Probe volume or lightmaps to write (- = stdout)")};
 
 constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
 
 }  // namespace
 
 const Table kMerge{.command = "merge",
-                   .summary = "Join the parts of a bake (bake --probes) in one volume",
-                   .examples = "tetralight merge first.part second.part -o courtyard.probes",
+                   .summary = "Join the parts of a bake in one volume, or those of lightmaps",
+                   .examples =
+                       "tetralight merge first.part second.part -o courtyard.probes\n"
+                       "tetralight merge first.part second.part -o courtyard.lightmaps",
                    .groups = kGroups};
 
 }  // namespace tetralight::settings

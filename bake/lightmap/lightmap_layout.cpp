@@ -129,13 +129,38 @@ std::string uv_warning(const Scene& scene, uint32_t instance, const Unwrapped& u
                                               : "; the lightmap uses it unchanged");
 }
 
+/// The largest part of a density, in (0, 1), at which charts fit into a page; 0 if none is found.
+double fitting_part(const Unwrap& charts, float density, uint32_t page_size) {
+    const auto fits = [&](double part) {
+        const auto lower = static_cast<float>(part * double{density});
+        return lower > 0.0f && pack_charts(charts, {lower, page_size});
+    };
+    constexpr int kHalvings = 24, kSteps = 6;
+    double part = 0.5;
+    for (int i = 0; !fits(part); part *= 0.5) {
+        if (++i == kHalvings) return 0.0;
+    }
+    double step = 0.5 * part;
+    for (int i = 0; i < kSteps; ++i, step *= 0.5) {
+        if (fits(part + step)) part += step;
+    }
+    return part;
+}
+
+/// Rounds a positive number down to two digits.
+double rounded_down(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    return std::floor(value / unit) * unit;
+}
+
 /// An error of `pack_charts` with the object and what helps.
-Error with_object(Error error, const Scene& scene, uint32_t instance, uint32_t page_size) {
-    error.message =
-        error.message.prefixed(name_of(scene, instance) + ": ")
-            .suffixed(str_cat("; lower its extras.lightmap_scale (now ",
-                              scene.instances[instance].lightmap.scale,
-                              ") or the texels per metre, or use pages larger than ", page_size));
+Error with_object(Error error, const Scene& scene, uint32_t instance, uint32_t page_size,
+                  double part) {
+    const float scale = scene.instances[instance].lightmap.scale;
+    std::string help = str_cat("; lower its extras.lightmap_scale from ", scale);
+    if (part > 0.0) help += str_cat(" to ", rounded_down(part * double{scale}));
+    help += str_cat(" or the texels per metre, or use pages larger than ", page_size);
+    error.message = error.message.prefixed(name_of(scene, instance) + ": ").suffixed(help);
     return error;
 }
 
@@ -157,8 +182,10 @@ Result<std::vector<LightmapPacking>> pack(const Scene& scene, const Work& work,
                        charts.triangle_charts};
     });
     for (size_t i = 0; i < count; ++i) {
-        if (errors[i])
-            return with_object(*errors[i], scene, work.first_instance[i], settings.page_size);
+        if (!errors[i]) continue;
+        const double part = fitting_part(unwraps[work.unwrap_of[i]].charts,
+                                         std::get<float>(work.packing_keys[i]), settings.page_size);
+        return with_object(*errors[i], scene, work.first_instance[i], settings.page_size, part);
     }
     return packings;
 }

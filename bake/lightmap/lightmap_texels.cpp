@@ -35,7 +35,8 @@ struct Place {
 
 /// Fractions of rays above a place.
 struct PlaceValidity {
-    float front = 1.0f;  ///< that hit front faces or nothing
+    float front = 1.0f;   ///< that hit front faces, blended ones or nothing
+    float behind = 0.0f;  ///< that hit a surface from behind, double-sided ones included
     bool is_inside = false;
 };
 
@@ -43,7 +44,8 @@ class InstanceTexels {
   public:
     InstanceTexels(const Scene& scene, const TraceScene& trace_scene, uint32_t instance,
                    const LightmapLayout& layout, const LightmapTexelSettings& settings)
-        : trace_scene_(trace_scene),
+        : scene_(scene),
+          trace_scene_(trace_scene),
           instance_(scene.instances[instance]),
           mesh_(scene.meshes[instance_.mesh]),
           settings_(settings),
@@ -119,6 +121,12 @@ class InstanceTexels {
         return trace_scene_.render_from_world(position) + extent * 0x1p-20f * normal;
     }
 
+    /// True for glass and decals, whose backs bound nothing that is solid.
+    [[nodiscard]] bool is_blended(uint32_t geometry) const {
+        const uint32_t material = trace_scene_.material(geometry);
+        return material != kNoIndex && scene_.materials[material].alpha_mode == AlphaMode::Blend;
+    }
+
     [[nodiscard]] PlaceValidity validity_at(glm::vec3 origin, glm::vec3 normal) const {
         uint32_t count = 0, back_faces = 0, behind = 0;
         const auto directions = probe_visibility_directions();
@@ -126,14 +134,16 @@ class InstanceTexels {
             const float side_of = glm::dot(directions[i], normal) > 0.0f ? 1.0f : -1.0f;
             const auto side = trace_scene_.intersect_side({origin, side_of * directions[i]});
             ++count;
-            back_faces += side && side->is_back_face;
-            behind += side && side->is_from_behind;
+            if (!side || is_blended(side->geometry)) continue;
+            back_faces += side->is_back_face;
+            behind += side->is_from_behind;
         }
         const auto total = static_cast<float>(count);
         PlaceValidity validity;
         validity.front = 1.0f - static_cast<float>(back_faces) / total;
-        validity.is_inside = validity.front < settings_.min_validity ||
-                             static_cast<float>(behind) > kMaxBehindFraction * total;
+        validity.behind = static_cast<float>(behind) / total;
+        validity.is_inside =
+            validity.front < settings_.min_validity || validity.behind > kMaxBehindFraction;
         return validity;
     }
 
@@ -160,37 +170,57 @@ class InstanceTexels {
         return best;
     }
 
-    void add(const TexelMap& map, const TexelMap::Texel& texel, LightmapTexels& texels) const {
-        const Place center = place_at(map.center(texel));
-        const glm::vec3 position = trace_scene_.render_from_world(center.position);
-        TexelSurfaces::Texel surface{center.normal, static_cast<uint32_t>(texels.origins.size()),
-                                     0};
+    /// The places of a texel outside geometry, and the fraction of its rays that hit front faces.
+    struct FreePlaces {
+        std::vector<glm::vec3> origins;
         float front = 0.0f;
-        uint32_t place_count = 0;
-        std::optional<glm::vec3> first;
+    };
+
+    /// Those on one side of the walls in the texel: the side that sees fewer surfaces from behind.
+    [[nodiscard]] FreePlaces free_places(const TexelMap& map, const TexelMap::Texel& texel,
+                                         const Place& center) const {
+        FreePlaces found;
+        size_t first = 0;
+        float least_behind = 2.0f;
         const auto add_place = [&](const Place& place) {
             const PlaceValidity validity = validity_at(place.origin, place.normal);
-            front += validity.front;
-            ++place_count;
+            found.front += validity.front;
             if (validity.is_inside) return;
-            if (first && trace_scene_.occluded({*first, place.origin - *first, 1.0f})) return;
-            if (!first) first = place.origin;
-            texels.origins.push_back(place.origin - position);
+            if (validity.behind < least_behind) {
+                least_behind = validity.behind;
+                first = found.origins.size();
+            }
+            found.origins.push_back(place.origin);
         };
         const auto samples = map.samples(texel);
         if (samples.empty()) add_place(center);
         for (const ChartPoint& sample : samples) add_place(place_at(sample));
-        if (!first) {
-            const auto reach = static_cast<float>(0.75 * texel_size_);
-            if (const auto out = pushed_out(center, reach))
-                texels.origins.push_back(*out - position);
-        }
-        surface.origin_count = static_cast<uint32_t>(texels.origins.size()) - surface.first_origin;
-        texels.positions.push_back(center.position);
-        texels.surfaces.push_back(surface);
-        texels.validity.push_back(front / static_cast<float>(place_count));
+        found.front /= static_cast<float>(std::max<size_t>(1, samples.size()));
+        if (found.origins.empty()) return found;
+        const glm::vec3 seen_from = found.origins[first];
+        std::erase_if(found.origins, [&](const glm::vec3& origin) {
+            return origin != seen_from &&
+                   trace_scene_.occluded({seen_from, origin - seen_from, 1.0f});
+        });
+        return found;
     }
 
+    void add(const TexelMap& map, const TexelMap::Texel& texel, LightmapTexels& texels) const {
+        const Place center = place_at(map.center(texel));
+        const glm::vec3 position = trace_scene_.render_from_world(center.position);
+        FreePlaces free = free_places(map, texel, center);
+        if (free.origins.empty()) {
+            const auto reach = static_cast<float>(0.75 * texel_size_);
+            if (const auto out = pushed_out(center, reach)) free.origins.push_back(*out);
+        }
+        texels.positions.push_back(center.position);
+        texels.surfaces.push_back({center.normal, static_cast<uint32_t>(texels.origins.size()),
+                                   static_cast<uint32_t>(free.origins.size())});
+        for (const glm::vec3& origin : free.origins) texels.origins.push_back(origin - position);
+        texels.validity.push_back(free.front);
+    }
+
+    const Scene& scene_;
     const TraceScene& trace_scene_;
     const MeshInstance& instance_;
     const Mesh& mesh_;

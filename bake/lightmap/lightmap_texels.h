@@ -55,9 +55,10 @@ struct LightmapTexels {
 /// Normals are the interpolated vertex normals. Places lie in front of triangles by their rounding
 /// error, and farther where vertex normals say that the surface is curved outward (Hanika 2021,
 /// "Hacking the Shadow Terminator"), so that rays do not meet the facets. Places inside geometry
-/// are dropped, and those that a surface hides from the texel's first place, so that a texel has
-/// the light of one side of a wall. A texel without a place takes one up to three quarters of a
-/// texel beside it, where a ray along the surface leaves geometry through a back face.
+/// are dropped, and those that a surface hides from the place that sees the fewest surfaces from
+/// behind, so that a texel has the light of one side of a wall. A texel without a place takes one
+/// up to three quarters of a texel beside it, where a ray along the surface leaves geometry through
+/// a back face. Blended surfaces bound no geometry.
 ///
 /// The texels of an instance depend on other instances through these rays alone. Returns
 /// out_of_resources if there are 2^32 texels or more.

@@ -17,8 +17,12 @@ constexpr double kPlacesPerTexel = 2.0;
 /// places look black.
 constexpr double kCountedFraction = 0.01;
 
-constexpr double kResidual = 1e-9;
+// Conjugate gradients end at this fraction of the first residual.
+constexpr double kResidual = 1e-7;
 constexpr int kMaxSteps = 1000;
+
+/// Most rounds of finding texels below 0; what is left is a rounding error.
+constexpr int kMaxRounds = 8;
 
 double dot(std::span<const double> a, std::span<const double> b) {
     double sum = 0.0;
@@ -61,6 +65,13 @@ SeamStitcher::SeamStitcher(std::span<const Seam> seams, uint32_t page_size,
             static_cast<uint32_t>(std::ranges::lower_bound(texels_, all[i]) - texels_.begin());
     }
     for (const uint64_t texel : texels_) weights_.push_back(weight(texel));
+    diagonal_ = weights_;
+    for (size_t row = 0; row < place_count(); ++row) {
+        for (size_t i = row_begins_[row]; i < row_begins_[row + 1]; ++i) {
+            const double factor{entries_[i].factor};
+            diagonal_[entries_[i].texel] += double{lengths_[row]} * factor * factor;
+        }
+    }
 }
 
 void SeamStitcher::add_seam(const Seam& seam, uint32_t page_size, std::vector<uint64_t>& all) {
@@ -128,34 +139,65 @@ std::vector<double> SeamStitcher::transposed(std::span<const double> differences
     return result;
 }
 
-std::vector<double> SeamStitcher::stitched(std::span<const double> values) const {
-    // (W + Aᵀ L A) change = −Aᵀ L A x_0. Conjugate gradients.
-    const auto applied = [&](std::span<const double> x) {
-        std::vector<double> result = transposed(differences(x));
-        for (size_t i = 0; i < result.size(); ++i) result[i] += weights_[i] * x[i];
+void SeamStitcher::solve(std::span<const double> values, const std::vector<bool>& is_zero,
+                         std::vector<double>& x) const {
+    // (W + Aᵀ L A) (x − x_0) = −Aᵀ L A x_0 by conjugate gradients, scaled by the diagonal.
+    const auto keep_zeros = [&](std::vector<double>& vector) {
+        for (size_t i = 0; i < vector.size(); ++i) {
+            if (is_zero[i]) vector[i] = 0.0;
+        }
+    };
+    keep_zeros(x);
+    std::vector<double> residual = transposed(differences(x));
+    for (size_t i = 0; i < x.size(); ++i)
+        residual[i] = -residual[i] - weights_[i] * (x[i] - values[i]);
+    keep_zeros(residual);
+    const auto scaled = [&](const std::vector<double>& vector) {
+        std::vector<double> result = vector;
+        for (size_t i = 0; i < result.size(); ++i) result[i] /= diagonal_[i];
         return result;
     };
-    std::vector<double> result(values.begin(), values.end());
-    std::vector<double> change(values.size(), 0.0);
-    std::vector<double> residual = transposed(differences(values));
-    for (double& r : residual) r = -r;
-    std::vector<double> direction = residual;
-    double square = dot(residual, residual);
+    std::vector<double> direction = scaled(residual);
+    double square = dot(residual, direction);
     const double enough = square * kResidual * kResidual;
     for (int step = 0; step < kMaxSteps && square > enough; ++step) {
-        const std::vector<double> image = applied(direction);
+        std::vector<double> image = transposed(differences(direction));
+        for (size_t i = 0; i < x.size(); ++i) image[i] += weights_[i] * direction[i];
+        keep_zeros(image);
         const double length = square / dot(direction, image);
-        for (size_t i = 0; i < change.size(); ++i) {
-            change[i] += length * direction[i];
+        for (size_t i = 0; i < x.size(); ++i) {
+            x[i] += length * direction[i];
             residual[i] -= length * image[i];
         }
-        const double next = dot(residual, residual);
-        for (size_t i = 0; i < change.size(); ++i)
-            direction[i] = residual[i] + next / square * direction[i];
+        const std::vector<double> next_scaled = scaled(residual);
+        const double next = dot(residual, next_scaled);
+        for (size_t i = 0; i < x.size(); ++i)
+            direction[i] = next_scaled[i] + next / square * direction[i];
         square = next;
     }
-    for (size_t i = 0; i < result.size(); ++i) result[i] += change[i];
-    return result;
+}
+
+std::vector<double> SeamStitcher::stitched(std::span<const double> values,
+                                           const std::vector<bool>& is_zero) const {
+    std::vector<double> x(values.begin(), values.end());
+    solve(values, is_zero, x);
+    return x;
+}
+
+std::vector<bool> SeamStitcher::zeros(std::span<const double> values) const {
+    std::vector<bool> is_zero(values.size(), false);
+    std::vector<double> x(values.begin(), values.end());
+    for (int round = 0; round < kMaxRounds; ++round) {
+        solve(values, is_zero, x);
+        bool is_done = true;
+        for (size_t i = 0; i < x.size(); ++i) {
+            if (x[i] >= 0.0 || is_zero[i]) continue;
+            is_zero[i] = true;
+            is_done = false;
+        }
+        if (is_done) break;
+    }
+    return is_zero;
 }
 
 }  // namespace tetralight

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string>
 
+#include <tetralight/base/error_text.h>
 #include <tetralight/charts/authored_uvs.h>
 #include <tetralight/charts/rasterize_texels.h>
 #include "tests/charts/chart_meshes.h"
@@ -174,6 +176,9 @@ TEST(PackCharts, SaysHowLargeAChartIsThatDoesNotFit) {
     EXPECT_EQ(packed.error().code, ErrorCode::InvalidArgument);
     EXPECT_EQ(packed.error().field, "texels_per_meter");
     EXPECT_EQ(packed.error().value, "10");
+    // Footprints of 2048 + 1 and 38 + 1 texels, and a margin of one on each side.
+    EXPECT_EQ(error_text(packed.error()),
+              "chart 0 needs 2051 × 41 texels, more than the page of 1024");
 }
 
 TEST(PackCharts, FitsExactlyIntoTheLargestSize) {
@@ -200,6 +205,17 @@ TEST(PackCharts, RejectsMoreChartsThanFit) {
     // Each needs 4 × 4 texels with its margin: 256 fit into 64 × 64.
     EXPECT_FALSE(pack_charts(charts, {.texels_per_meter = 10, .max_size = 64}));
     EXPECT_TRUE(pack_charts(charts, {.texels_per_meter = 10, .max_size = 128}));
+}
+
+TEST(PackCharts, RejectsChartsWhoseAreaFitsAndWhoseShapesDoNot) {
+    OwnedMesh mesh = plane_mesh({3.8, 3.8}, 1, 1);
+    mesh.add_quad({9, 0, 5}, {12.8f, 0, 5}, {12.8f, 3.8f, 5}, {9, 3.8f, 5});
+    // Two squares of 42 texels with their margins.
+    const auto packed = pack_charts(unwrap(mesh.view()), {.texels_per_meter = 10, .max_size = 64});
+    ASSERT_FALSE(packed);
+    const std::string error = error_text(packed.error());
+    EXPECT_TRUE(error.starts_with("the 2 charts need at least ")) << error;
+    EXPECT_TRUE(error.ends_with(" texels, more than fit into the page of 64")) << error;
 }
 
 TEST(PackCharts, GivesTheSameResultTwice) {

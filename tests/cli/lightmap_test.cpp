@@ -69,6 +69,80 @@ TEST_F(Lightmap, StoresGiveTheSameBytes) {
     EXPECT_EQ(read("second.lightmaps"), read("whole.lightmaps"));
 }
 
+TEST_F(Lightmap, PartsMergeToTheBytesOfOneBake) {
+    const Arguments more{"--layers", "sky", "--target-error", "20%", "--max-samples", "256"};
+    const auto part = [&](const char* texels, Arguments other) {
+        other.insert(other.end(), more.begin(), more.end());
+        other.insert(other.end(), {"--texels", texels});
+        return other;
+    };
+    bake("whole.lightmaps", more);
+    const Json json = run_json(arguments("a.part", part("0..100", {"--threads", "1"})));
+    EXPECT_EQ(json["range"], Json::array({0, 100}));
+    EXPECT_EQ(json["texels"], 100);
+    EXPECT_GT(json["all_texels"], 1000);
+    bake("b.part", part("100..101", {"--store", "store"}));
+    bake("c.part", part("101..", {"--resume"}));
+    const Json merged = run_json({"merge", "c.part", "a.part", "b.part", "-o", "m.lightmaps"});
+    EXPECT_EQ(merged["parts"], 3);
+    EXPECT_EQ(merged["baked"], json["all_texels"]);
+    EXPECT_TRUE(read("m.lightmaps") == read("whole.lightmaps"));
+    const Json info = run_json({"info", "b.part"});
+    EXPECT_EQ(info["part"]["range"], Json::array({100, 101}));
+    EXPECT_EQ(info["part"]["all_texels"], json["all_texels"]);
+}
+
+TEST_F(Lightmap, MergeNamesWhatIsMissingAndKeepsTheOldFile) {
+    bake("a.part", {"--texels", "0..100"});
+    bake("b.part", {"--texels", "99..200"});
+    bake("other.part", {"--texels", "100..", "--seed", "1"});
+    succeed({"bake", kCourtyard, "-o", "probes.part", "-s", "16", "-q", "--probes", "0..9"});
+    const auto refusal = [&](const Arguments& parts) {
+        Arguments all{"merge"};
+        all.insert(all.end(), parts.begin(), parts.end());
+        all.insert(all.end(), {"-o", "old.lightmaps"});
+        return fail_and_keep("old.lightmaps", all);
+    };
+    EXPECT_TRUE(contains(refusal({"a.part"}), "are in no part; the last, 0..100, are in a.part"));
+    EXPECT_TRUE(contains(refusal({"a.part", "b.part"}),
+                         "b.part: texels 99..200 overlap texels 0..100 of a.part"));
+    EXPECT_TRUE(
+        contains(refusal({"a.part", "other.part"}), "other.part: is of another bake than a.part"));
+    EXPECT_TRUE(contains(refusal({"a.part", "probes.part"}),
+                         "probes.part: contains probes, but a.part contains lightmaps"));
+    EXPECT_TRUE(contains(refusal({"probes.part"}), "probes.part: contains probes"));
+    EXPECT_TRUE(contains(fail({"merge", "a.part", "-o", "v.probes"}), "contains lightmaps"));
+}
+
+TEST_F(Lightmap, DamagedPartsAreRefusedByName) {
+    bake("sound.part", {"--texels", "0.."});
+    const std::string bytes = read("sound.part");
+    std::string damaged = bytes;
+    damaged[damaged.size() / 2] ^= 1;
+    write("damaged.part", damaged);
+    write("cut.part", bytes.substr(0, bytes.size() / 2));
+    for (const std::string name : {"damaged.part", "cut.part"}) {
+        const std::string error =
+            fail_and_keep("old.lightmaps", {"merge", name, "-o", "old.lightmaps"});
+        EXPECT_TRUE(contains(error, name + ": ")) << error;
+    }
+}
+
+TEST_F(Lightmap, PartsAndLightmapsAreNotMistakenForEachOther) {
+    EXPECT_TRUE(contains(misuse(arguments("c.part", {})), "--output"));
+    EXPECT_TRUE(contains(misuse(arguments("c.lightmaps", {"--texels", "0..5"})), "--output"));
+    EXPECT_TRUE(contains(fail(arguments("c.part", {"--texels", "5..99999999"})), " texels"));
+    bake("c.part", {"--texels", "0..5", "--layers", "sky"});
+    EXPECT_TRUE(contains(fail({"relight", "c.part", "--weights", "sky=0", "-o", "x.lightmaps"}),
+                         "merge its parts first"));
+    bake_courtyard("v.probes");
+    EXPECT_TRUE(
+        contains(fail({"render", kCourtyard, "v.probes", "--lightmaps", "c.part", "-o", "x.png"}),
+                 "c.part: is a part of a bake; merge its parts first"));
+    for (const std::string output : {"x.png", "x.exr", "x.ktx2"})
+        EXPECT_TRUE(contains(fail({"export", "c.part", "-o", output}), "c.part: "));
+}
+
 TEST_F(Lightmap, RefusesAnObjectThatFitsInNoPageAndKeepsTheOldFile) {
     write("c.lightmaps", "old");
     const std::string error = fail_and_keep(

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 class BakeRange : public test::PartFixture {
   protected:
-    const ProbeRange all{0, kProbeCount};
+    const PlaceRange all{0, kProbeCount};
 
     [[nodiscard]] BakeStore open(const std::string& name) const {
         auto store = BakeStore::open(path(name));
@@ -156,7 +156,7 @@ class AnyWay : public BakeRange {
     }
 
     /// Bakes a range of a prepared bake: with stores or not, cancelled or not.
-    RangeBake bake_any(const PreparedBake& prepared, ProbeRange range) {
+    RangeBake bake_any(const PreparedBake& prepared, PlaceRange range) {
         while (true) {
             if (chance()) damage_store();
             BakeStore store = open("store"), other = open("other");

@@ -44,14 +44,14 @@ class PartFixture : public testing::Test {
     }
 
     /// Bakes a range to its end.
-    [[nodiscard]] PartialBake bake(const PreparedBake& prepared, ProbeRange range) const {
+    [[nodiscard]] PartialBake bake(const PreparedBake& prepared, PlaceRange range) const {
         auto baked = bake_range(scene, prepared, range);
         EXPECT_TRUE(baked) << error_text(baked.error());
         return std::move(baked->partial);
     }
 
     /// Bakes a range into a file of the folder and returns its path.
-    std::string bake_part(const std::string& name, ProbeRange range) const {
+    std::string bake_part(const std::string& name, PlaceRange range) const {
         const PreparedBake prepared = prepare();
         const Status status = write_part(path(name), prepared, bake(prepared, range));
         EXPECT_TRUE(status) << error_text(status.error());

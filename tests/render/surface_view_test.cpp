@@ -71,6 +71,20 @@ TEST(SurfaceView, PartsOfTheLightAddUp) {
     expect_near(floor.show(SurfaceView::Shaded), bounce + direct + kEmission);
 }
 
+TEST(SurfaceView, BacksOfLightmapsTakeTheirLightFromProbes) {
+    LitFloor floor;
+    floor.scene.materials[0].is_double_sided = true;
+    for (IrradianceSh& sh : floor.volume.irradiance)
+        sh = irradiance_from_radiance(constant_radiance(glm::vec3(3.0f)));
+    auto light = make_scene_light(floor.scene, floor.volume.view(), ProbeLight::AsTheScene,
+                                  floor.maps.view());
+    const auto shader = SceneShader::make(floor.scene, floor.volume.view(), std::move(*light));
+    const auto below = shader->shade({0.3, -5, 0.2}, {0, 1, 0}, SurfaceView::Bounce);
+    ASSERT_TRUE(below);
+    expect_near(below->radiance, 3.0f * kAlbedo);
+    expect_near(floor.show(SurfaceView::Bounce), kAlbedo);
+}
+
 TEST(SurfaceView, AlbedoIsEncoded) {
     const LitFloor floor;
     const glm::vec3 shown = floor.show(SurfaceView::Albedo);

@@ -152,7 +152,8 @@ TetralightPackedSh probe_light(vec3 flat_normal, out vec4 occlusion) {
         occlusion *= textureLod(proxy_occlusion, tetralight_lppv_coordinates(proxy, position), 0.0);
         return tetralight_sample_lppv_7(proxy_light, proxy, position);
     }
-    if (use == 3u) {
+    bool is_lightmap_back = use == 4u && !gl_FrontFacing;
+    if (use == 3u || is_lightmap_back) {
         TetralightCellLocation location = tetralight_locate(position, 0xffffffffu);
         vec3 pushed = tetralight_push_off_surface(position, flat_normal, location,
                                                   tetralight_normal_offset);
@@ -202,7 +203,7 @@ void main() {
     point.has_specular = instances[instance].factors.z > 0.0;
     vec4 occlusion;
     TetralightPackedSh probe_sh = probe_light(flat_normal, occlusion);
-    vec3 baked = instances[instance].use == 4u
+    vec3 baked = instances[instance].use == 4u && gl_FrontFacing
                      ? lightmap_light() : max(tetralight_sample_sh9(probe_sh, unit_normal), vec3(0.0));
     baked *= point.albedo;
     if (point.has_specular) {

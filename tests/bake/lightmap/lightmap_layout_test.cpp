@@ -136,6 +136,22 @@ TEST(LightmapLayout, AnObjectLargerThanAPageIsAnErrorThatNamesIt) {
     EXPECT_EQ(layout_of(scene).page_count, 1u);
 }
 
+TEST(LightmapLayout, TheErrorNamesALightmapScaleThatFits) {
+    Scene scene = boxes({moved({0, 0, 0})});
+    scene.instances[0].lightmap.scale = 3.0f;
+    const LightmapLayoutSettings settings{.texels_per_meter = 20.0, .page_size = 64};
+    const std::string error = error_of(scene, settings);
+    const std::string before = "lower its extras.lightmap_scale from 3 to ";
+    const size_t found = error.find(before);
+    ASSERT_NE(found, std::string::npos) << error;
+    const float scale = std::stof(error.substr(found + before.size()));
+    scene.instances[0].lightmap.scale = scale;
+    EXPECT_EQ(error_of(scene, settings), "");
+    // Bisection to 1 / 64, and two digits.
+    scene.instances[0].lightmap.scale = 1.2f * scale;
+    EXPECT_NE(error_of(scene, settings), "");
+}
+
 TEST(LightmapLayout, RejectsSettingsThatAreOutOfRange) {
     const Scene scene = boxes({moved({0, 0, 0})});
     EXPECT_NE(error_of(scene, {.texels_per_meter = 0.0}), "");

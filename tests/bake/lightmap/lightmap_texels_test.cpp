@@ -111,6 +111,43 @@ TEST(LightmapTexels, SunkPartsOfABoxAreInvalid) {
     }
 }
 
+TEST(LightmapTexels, HalfBuriedTexelsTakeTheSideThatSeesFewerBacks) {
+    // Below a double-sided floor half of the rays hit its back, which is too few for geometry.
+    Material two_sided = kGrey;
+    two_sided.is_double_sided = true;
+    size_t half_buried = 0;
+    for (const float low : {-0.50f, -0.52f, -0.54f, -0.56f, -0.58f}) {
+        Scene scene;
+        test::add_floor(scene, two_sided, 2.0f);
+        test::add_box(scene, kGrey, test::Facing::Outward, {-0.5f, low, -0.5f}, {0.5f, 1, 0.5f});
+        const Texels baked(scene);
+        const auto [begin, end] = baked.range(1);
+        for (size_t i = begin; i < end; ++i) {
+            // Places are 0.025 m above and below the middle.
+            if (std::abs(baked.texels.positions[i].y) > 0.02) continue;
+            ++half_buried;
+            ASSERT_TRUE(baked.texels.is_valid(i));
+            for (const glm::dvec3& origin : baked.origins(i)) EXPECT_GT(origin.y, 0.0);
+        }
+    }
+    EXPECT_GE(half_buried, 4u * 10u);
+}
+
+TEST(LightmapTexels, APaneBoundsNoGeometry) {
+    Scene scene;
+    test::add_floor(scene, kGrey, 1.0f);
+    Material pane = kGrey;
+    pane.base_color.a = 0.9f;
+    pane.alpha_mode = AlphaMode::Blend;
+    test::add_floor(scene, pane, 5.0f, 0.1f);
+    const Texels baked(scene);
+    const auto [begin, end] = baked.range(0);
+    for (size_t i = begin; i < end; ++i) EXPECT_EQ(baked.texels.validity[i], 1.0f);
+    scene.materials[1].alpha_mode = AlphaMode::Opaque;
+    const Texels shut(scene);
+    for (size_t i = begin; i < end; ++i) EXPECT_FALSE(shut.texels.is_valid(i));
+}
+
 TEST(LightmapTexels, AWallWithoutThicknessSharesNoTexel) {
     Scene scene;
     test::add_floor(scene, kGrey, 1.0f);

@@ -201,6 +201,10 @@ TEST_F(GlRenderer, AgreesOnLightmapsBesideProbes) {
     mirrored.world_from_mesh =
         glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-2.5, 0, 0)), glm::dvec3(-0.5));
     scene.instances.push_back(mirrored);
+    // A sheet that shows the camera its back.
+    Material sheet = test::diffuse(kAlbedo);
+    sheet.is_double_sided = true;
+    test::add_quad(scene, sheet, {-4, 0, -2}, {0, 2, 0}, {2, 0, 0});
     MeshInstance moving = scene.instances[1];
     moving.contributes_gi = false;
     moving.world_from_mesh = glm::translate(glm::dmat4(1.0), glm::dvec3(2.5, 0, 1));
