@@ -131,7 +131,7 @@ void bench_lightmap_texels(const Scene& scene, const std::string& name, const Op
     bench_rays(scene, *prepared, name, options);
     const auto bake = bake_texels(scene, *prepared);
     require(bool(bake), "bake");
-    const BakedLightmaps baked = finish_lightmaps(scene, std::move(*prepared), *bake);
+    const BakedLightmaps baked = finish_lightmaps(std::move(*prepared), *bake);
     const double before = double{baked.report.seam_difference_baked};
     const double after = double{baked.report.seam_difference};
     report("lightmap.seams." + name, after, "relative difference, p99");

@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <tetralight/bake/lightmap/lightmap_layout.h>
 #include <tetralight/bake/lightmap/mesh_shape.h>
 #include <tetralight/bench/lightmap.h>
+#include <tetralight/bench/watlas.h>
 #include <tetralight/charts/rasterize_texels.h>
 
 namespace tetralight::bench {
@@ -87,21 +90,44 @@ double stretch(const std::vector<glm::vec3>& positions, const uint32_t* indices,
     return std::copysign(std::sqrt((sum + root) / std::max(sum - root, 1e-300)), determinant);
 }
 
-void bench_charts(const Scene& scene, const LightmapLayout& layout, const std::string& name) {
+/// What is unwrapped: the mesh of each packing, in the shape of the instances that share it and as
+/// large as its texels at the density of the layout.
+std::vector<UnwrapShape> shapes_of(const Scene& scene, const LightmapLayout& layout) {
+    std::vector<UnwrapShape> shapes;
+    for (size_t i = 0; i < layout.packings.size(); ++i) {
+        const auto user = std::ranges::find_if(
+            layout.places, [&](const auto& place) { return place.packing == i; });
+        const MeshInstance& instance =
+            scene.instances[static_cast<size_t>(user - layout.places.begin())];
+        const ShapedTransform transform = shape_of(instance);
+        const Mesh& mesh = scene.meshes[layout.packings[i].mesh];
+        UnwrapShape shape{shaped_positions(mesh.positions, transform.shape), mesh.indices};
+        const auto size = static_cast<float>(transform.size) * instance.lightmap.scale;
+        for (glm::vec3& position : shape.positions) position *= size;
+        shapes.push_back(std::move(shape));
+    }
+    return shapes;
+}
+
+/// Prints a figure, as a ratio to that of watlas if there is one.
+void report_unwrap(const std::string& figure, double ours,
+                   const std::optional<WatlasResult>& watlas, double WatlasResult::*baseline,
+                   const std::string& unit) {
+    if (!watlas) return report(figure, ours, unit);
+    report_contest(figure, ours, (*watlas).*baseline, unit, "watlas 1.0.1 (xatlas), same meshes");
+}
+
+/// Returns the number of charts.
+size_t bench_charts(const LightmapLayout& layout, const std::vector<UnwrapShape>& shapes,
+                    const std::string& name) {
     size_t charts = 0, flipped = 0;
     std::vector<double> stretches;
     for (size_t i = 0; i < layout.packings.size(); ++i) {
         const LightmapPacking& packing = layout.packings[i];
         if (packing.triangle_charts.empty()) continue;
         charts += *std::ranges::max_element(packing.triangle_charts) + 1;
-        const auto user = std::ranges::find_if(
-            layout.places, [&](const auto& place) { return place.packing == i; });
-        const auto instance = static_cast<size_t>(user - layout.places.begin());
-        const Mesh& mesh = scene.meshes[packing.mesh];
-        const auto positions =
-            shaped_positions(mesh.positions, shape_of(scene.instances[instance]).shape);
         for (size_t k = 0; k < packing.triangle_charts.size(); ++k) {
-            const double ratio = stretch(positions, mesh.indices.data() + 3 * k,
+            const double ratio = stretch(shapes[i].positions, shapes[i].indices.data() + 3 * k,
                                          packing.charts.corner_uvs.data() + 3 * k);
             flipped += ratio < 0.0;
             if (ratio != 0.0) stretches.push_back(std::abs(ratio));
@@ -109,9 +135,9 @@ void bench_charts(const Scene& scene, const LightmapLayout& layout, const std::s
     }
     const auto p99 = stretches.begin() + static_cast<ptrdiff_t>(stretches.size() * 99 / 100);
     std::ranges::nth_element(stretches, p99);
-    report("lightmap.charts." + name, static_cast<double>(charts), "charts");
     report("lightmap.stretch." + name, *p99, "ratio");
     report("lightmap.flipped." + name, static_cast<double>(flipped), "triangles");
+    return charts;
 }
 
 }  // namespace
@@ -120,14 +146,19 @@ void bench_lightmap_layout(const Scene& scene, const std::string& name, const Op
     LightmapLayoutSettings settings;
     settings.thread_count = 1;
     settings.page_size = 2048;  // one mesh of Sponza needs more than 1024
+    const int runs = std::min(options.repetitions, 3);
     std::vector<double> times;
     Result<LightmapLayout> layout = LightmapLayout{};
-    for (int i = 0; i < std::min(options.repetitions, 3); ++i) {
+    for (int i = 0; i < runs; ++i) {
         times.push_back(cpu_seconds([&] { layout = make_lightmap_layout(scene, settings); }));
         require(bool(layout), "the scene has a layout");
     }
-    report("lightmap.unwrap." + name, median(times), "CPU s");
-    bench_charts(scene, *layout, name);
+    const auto shapes = shapes_of(scene, *layout);
+    const auto charts = static_cast<double>(bench_charts(*layout, shapes, name));
+    const auto watlas = unwrap_with_watlas(shapes, settings.texels_per_meter, runs);
+    report_unwrap("lightmap.charts." + name, charts, watlas, &WatlasResult::charts, "charts");
+    report_unwrap("lightmap.unwrap." + name, median(times), watlas, &WatlasResult::cpu_seconds,
+                  "CPU s");
     bench_pages(*layout, name);
 }
 

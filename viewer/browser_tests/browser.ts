@@ -2,11 +2,13 @@
 // Debian's Chromium with software rendering.
 import {Browser, BrowserContext, chromium, Locator, Page} from 'playwright-core';
 
+export const kChromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
+
 let browser: Browser | null = null;
 
 async function launch(): Promise<Browser> {
     browser ??= await chromium.launch({
-        executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+        executablePath: kChromium,
         args: ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader',
                '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
     });
