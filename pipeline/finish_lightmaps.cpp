@@ -61,7 +61,7 @@ float& value_of(TexelLight& light, size_t i) {
 
 /// How much a texel resists a change at a seam, in squares of differences at places. Texels that
 /// were filled have no light of their own.
-constexpr double kBakedWeight = 0.002, kFilledWeight = 0.0002;
+constexpr double kBakedWeight = 0.0002, kFilledWeight = 0.00002;
 
 /// From coefficients in the frame of the normal (`estimate_texel`), three values each.
 TexelLight texel_light(std::span<const double> coefficients, double sample_count,
@@ -115,13 +115,14 @@ class PageWriter {
         allocate();
         write_scales();
         for_each_instance([&](uint32_t instance) { prepare_instance(instance); });
-        const SeamStitcher stitcher(prepared_.seams, maps_.info.page_size, [&](uint64_t texel) {
+        SeamStitcher stitcher(prepared_.seams, maps_.info.page_size, [&](uint64_t texel) {
             return is_baked_[texel] != 0 ? kBakedWeight : kFilledWeight;
         });
         seam_light_.resize(stitcher.texels().size());
         for (uint32_t i = 0; i < seam_light_.size(); ++i) seam_index_[stitcher.texels()[i]] = i;
         write_light(std::nullopt);
         report_seams(stitcher, report.seam_difference_baked);
+        hold_zeros(stitcher);
         stitch(stitcher, std::nullopt);
         report_seams(stitcher, report.seam_difference);
         for (size_t layer = 0; layer < layer_count(); ++layer) {
@@ -249,17 +250,22 @@ class PageWriter {
         maps_.layer_light[*layer * texel_count_ + index] = packed(value, scale);
     }
 
-    /// Makes both sides of seams agree. Texels that are 0 in the total are 0 in all layers.
+    /// Of the total, for all channels and layers.
+    void hold_zeros(SeamStitcher& stitcher) const {
+        std::vector<double> brightness;
+        for (const TexelLight& light : seam_light_)
+            brightness.push_back(
+                double{light.irradiance.x + light.irradiance.y + light.irradiance.z});
+        stitcher.hold_zeros(brightness);
+    }
+
+    /// Makes both sides of seams agree.
     void stitch(const SeamStitcher& stitcher, std::optional<size_t> layer) {
         parallel_for(kValueCount, prepared_.settings.bake.thread_count, [&](size_t value) {
             std::vector<double> values;
             for (TexelLight& light : seam_light_) values.push_back(double{value_of(light, value)});
             const bool is_positive = value < 6;
-            std::vector<bool>& is_zero = seam_zeros_[value];
-            if (!layer)
-                is_zero =
-                    is_positive ? stitcher.zeros(values) : std::vector<bool>(values.size(), false);
-            const std::vector<double> stitched = stitcher.stitched(values, is_zero);
+            const std::vector<double> stitched = stitcher.stitched(values);
             for (size_t i = 0; i < stitched.size(); ++i) {
                 const auto number = static_cast<float>(stitched[i]);
                 value_of(seam_light_[i], value) = is_positive ? std::max(0.0f, number) : number;
@@ -313,7 +319,6 @@ class PageWriter {
     std::vector<uint8_t> is_baked_;     ///< one a texel of the pages
     std::vector<uint32_t> seam_index_;  ///< of each texel in `seam_light_`, or kNoIndex
     std::vector<TexelLight> seam_light_;
-    std::array<std::vector<bool>, kValueCount> seam_zeros_;  ///< `SeamStitcher::zeros` of the total
     Lightmaps maps_;
 };
 

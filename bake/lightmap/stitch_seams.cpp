@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/lightmap/stitch_seams.h>
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
+
+#include <tetralight/base/contract.h>
 
 namespace tetralight {
 namespace {
@@ -17,18 +20,8 @@ constexpr double kPlacesPerTexel = 2.0;
 /// places look black.
 constexpr double kCountedFraction = 0.01;
 
-// Conjugate gradients end at this fraction of the first residual.
-constexpr double kResidual = 1e-7;
-constexpr int kMaxSteps = 1000;
-
 /// Most rounds of finding texels below 0; what is left is a rounding error.
 constexpr int kMaxRounds = 8;
-
-double dot(std::span<const double> a, std::span<const double> b) {
-    double sum = 0.0;
-    for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return sum;
-}
 
 glm::dvec2 place_on(const PageEdge& edge, double t) {
     return glm::mix(glm::dvec2(edge.begin), glm::dvec2(edge.end), t);
@@ -53,6 +46,10 @@ void for_each_bilinear(const PageEdge& edge, double t, uint32_t page_size, const
 
 }  // namespace
 
+struct SeamStitcher::Equations {
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
+};
+
 SeamStitcher::SeamStitcher(std::span<const Seam> seams, uint32_t page_size,
                            const std::function<double(uint64_t)>& weight) {
     std::vector<uint64_t> all;  // the texel of each entry
@@ -65,14 +62,12 @@ SeamStitcher::SeamStitcher(std::span<const Seam> seams, uint32_t page_size,
             static_cast<uint32_t>(std::ranges::lower_bound(texels_, all[i]) - texels_.begin());
     }
     for (const uint64_t texel : texels_) weights_.push_back(weight(texel));
-    diagonal_ = weights_;
-    for (size_t row = 0; row < place_count(); ++row) {
-        for (size_t i = row_begins_[row]; i < row_begins_[row + 1]; ++i) {
-            const double factor{entries_[i].factor};
-            diagonal_[entries_[i].texel] += double{lengths_[row]} * factor * factor;
-        }
-    }
+    is_zero_.assign(texels_.size(), false);
+    equations_ = std::make_unique<Equations>();
+    factor();
 }
+
+SeamStitcher::~SeamStitcher() = default;
 
 void SeamStitcher::add_seam(const Seam& seam, uint32_t page_size, std::vector<uint64_t>& all) {
     const double length =
@@ -129,75 +124,51 @@ double SeamStitcher::relative_percentile(std::span<const double> values, double 
     return relative.back().first;
 }
 
-std::vector<double> SeamStitcher::transposed(std::span<const double> differences) const {
-    std::vector<double> result(texels_.size(), 0.0);
-    for (size_t row = 0; row < differences.size(); ++row) {
-        for (size_t i = row_begins_[row]; i < row_begins_[row + 1]; ++i)
-            result[entries_[i].texel] +=
-                double{entries_[i].factor} * double{lengths_[row]} * differences[row];
-    }
-    return result;
-}
-
-void SeamStitcher::solve(std::span<const double> values, const std::vector<bool>& is_zero,
-                         std::vector<double>& x) const {
-    // (W + Aᵀ L A) (x − x_0) = −Aᵀ L A x_0 by conjugate gradients, scaled by the diagonal.
-    const auto keep_zeros = [&](std::vector<double>& vector) {
-        for (size_t i = 0; i < vector.size(); ++i) {
-            if (is_zero[i]) vector[i] = 0.0;
+void SeamStitcher::factor() {
+    if (texels_.empty()) return;
+    std::vector<Eigen::Triplet<double>> terms;  // of W + Aᵀ L A, lower triangle
+    for (uint32_t i = 0; i < texels_.size(); ++i)
+        terms.emplace_back(i, i, is_zero_[i] ? 1.0 : weights_[i]);
+    for (size_t row = 0; row < place_count(); ++row) {
+        const auto entries =
+            std::span(entries_).subspan(row_begins_[row], row_begins_[row + 1] - row_begins_[row]);
+        for (const Entry& a : entries) {
+            for (const Entry& b : entries) {
+                if (b.texel > a.texel || is_zero_[a.texel] || is_zero_[b.texel]) continue;
+                terms.emplace_back(a.texel, b.texel,
+                                   double{lengths_[row]} * double{a.factor} * double{b.factor});
+            }
         }
-    };
-    keep_zeros(x);
-    std::vector<double> residual = transposed(differences(x));
-    for (size_t i = 0; i < x.size(); ++i)
-        residual[i] = -residual[i] - weights_[i] * (x[i] - values[i]);
-    keep_zeros(residual);
-    const auto scaled = [&](const std::vector<double>& vector) {
-        std::vector<double> result = vector;
-        for (size_t i = 0; i < result.size(); ++i) result[i] /= diagonal_[i];
-        return result;
-    };
-    std::vector<double> direction = scaled(residual);
-    double square = dot(residual, direction);
-    const double enough = square * kResidual * kResidual;
-    for (int step = 0; step < kMaxSteps && square > enough; ++step) {
-        std::vector<double> image = transposed(differences(direction));
-        for (size_t i = 0; i < x.size(); ++i) image[i] += weights_[i] * direction[i];
-        keep_zeros(image);
-        const double length = square / dot(direction, image);
-        for (size_t i = 0; i < x.size(); ++i) {
-            x[i] += length * direction[i];
-            residual[i] -= length * image[i];
-        }
-        const std::vector<double> next_scaled = scaled(residual);
-        const double next = dot(residual, next_scaled);
-        for (size_t i = 0; i < x.size(); ++i)
-            direction[i] = next_scaled[i] + next / square * direction[i];
-        square = next;
     }
+    const auto size = static_cast<Eigen::Index>(texels_.size());
+    Eigen::SparseMatrix<double> matrix(size, size);
+    matrix.setFromTriplets(terms.begin(), terms.end());
+    equations_->factors.compute(matrix);
+    TETRALIGHT_ASSERT(equations_->factors.info() == Eigen::Success, "weights are above 0");
 }
 
-std::vector<double> SeamStitcher::stitched(std::span<const double> values,
-                                           const std::vector<bool>& is_zero) const {
-    std::vector<double> x(values.begin(), values.end());
-    solve(values, is_zero, x);
-    return x;
+std::vector<double> SeamStitcher::stitched(std::span<const double> values) const {
+    // (W + Aᵀ L A) x = W x_0 for the texels that are not held at 0.
+    if (texels_.empty()) return {};
+    Eigen::VectorXd right(static_cast<Eigen::Index>(values.size()));
+    for (size_t i = 0; i < values.size(); ++i)
+        right[static_cast<Eigen::Index>(i)] = is_zero_[i] ? 0.0 : weights_[i] * values[i];
+    const Eigen::VectorXd x = equations_->factors.solve(right);
+    return {x.begin(), x.end()};
 }
 
-std::vector<bool> SeamStitcher::zeros(std::span<const double> values) const {
-    std::vector<bool> is_zero(values.size(), false);
-    std::vector<double> x(values.begin(), values.end());
+void SeamStitcher::hold_zeros(std::span<const double> values) {
     for (int round = 0; round < kMaxRounds; ++round) {
-        solve(values, is_zero, x);
+        const std::vector<double> x = stitched(values);
         bool is_done = true;
         for (size_t i = 0; i < x.size(); ++i) {
-            if (x[i] >= 0.0 || is_zero[i]) continue;
-            is_zero[i] = true;
+            if (x[i] >= 0.0) continue;
+            is_zero_[i] = true;
             is_done = false;
         }
         if (is_done) break;
+        factor();
     }
-    return is_zero;
 }
 
 }  // namespace tetralight

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,14 +19,15 @@ namespace tetralight {
 ///     Σ_places l (A x)² + Σ_texels w (x − x_0)²
 ///
 /// A row of A has the weights of the four texels on each side of a place, which stands for l half
-/// texels of the seam. With the same texels held at 0 the solution is a linear function of x_0, so
-/// that the light of layers still adds up.
+/// texels of the seam. The solution is a linear function of x_0, so that the light of layers still
+/// adds up.
 class SeamStitcher {
   public:
     /// `weight`: w of a texel by its index in the pages (page · size² + row · size + column), above
     /// 0.
     SeamStitcher(std::span<const Seam> seams, uint32_t page_size,
                  const std::function<double(uint64_t)>& weight);
+    ~SeamStitcher();
 
     /// Indices of the texels that may change, in ascending order.
     [[nodiscard]] const std::vector<uint64_t>& texels() const { return texels_; }
@@ -41,31 +43,31 @@ class SeamStitcher {
     /// seams where that is more. 0 without light.
     [[nodiscard]] double relative_percentile(std::span<const double> values, double fraction) const;
 
-    /// The stitched values of the texels, of which those with `is_zero` (one a texel) are 0.
-    [[nodiscard]] std::vector<double> stitched(std::span<const double> values,
-                                               const std::vector<bool>& is_zero) const;
+    /// Holds texels at 0 from now on, so that none of these values becomes negative: between bright
+    /// and dark sides least squares would go below 0.
+    void hold_zeros(std::span<const double> values);
 
-    /// The texels that have to be 0 so that none of these values becomes negative, one a texel:
-    /// between bright and dark sides least squares would go below 0.
-    [[nodiscard]] std::vector<bool> zeros(std::span<const double> values) const;
+    /// The stitched values of the texels. Thread-safe.
+    [[nodiscard]] std::vector<double> stitched(std::span<const double> values) const;
 
   private:
+    struct Equations;
+
     struct Entry {
         uint32_t texel = 0;  ///< index into `texels_`
         float factor = 0.0f;
     };
 
     void add_seam(const Seam& seam, uint32_t page_size, std::vector<uint64_t>& all);
-    void solve(std::span<const double> values, const std::vector<bool>& is_zero,
-               std::vector<double>& x) const;
-    [[nodiscard]] std::vector<double> transposed(std::span<const double> differences) const;
+    void factor();
 
     std::vector<uint64_t> texels_;
     std::vector<double> weights_;
-    std::vector<double> diagonal_;  ///< of the normal equations
+    std::vector<bool> is_zero_;  ///< texels that are held at 0
     std::vector<size_t> row_begins_{0};
     std::vector<Entry> entries_;
     std::vector<float> lengths_;  ///< l of each place
+    std::unique_ptr<Equations> equations_;
 };
 
 }  // namespace tetralight

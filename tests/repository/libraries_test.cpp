@@ -20,12 +20,25 @@ using Files = std::set<std::string>;
 
 /// How the headers of a library begin, and the library's name in docs/architecture.md.
 const std::map<std::string, std::string> kLibraries = {
-    {"CGAL/", "CGAL"},       {"CLI/", "CLI11"},       {"EGL/", "EGL"},
-    {"GL/", "OpenGL"},       {"GLFW/", "GLFW"},       {"openssl/", "OpenSSL"},
-    {"Imf", "OpenEXR"},      {"boost/", "Boost"},     {"embree", "Embree"},
-    {"hwy/", "Highway"},     {"nanovdb/", "NanoVDB"}, {"nlohmann/", "nlohmann-json"},
-    {"openvdb/", "OpenVDB"}, {"sqlite3", "SQLite"},   {"stb_", "stb"},
-    {"tbb/", "TBB"},         {"tetgen.h", "TetGen"},  {"tiny_gltf", "tinygltf"},
+    {"CGAL/", "CGAL"},
+    {"CLI/", "CLI11"},
+    {"EGL/", "EGL"},
+    {"GL/", "OpenGL"},
+    {"GLFW/", "GLFW"},
+    {"openssl/", "OpenSSL"},
+    {"Eigen/", "Eigen"},
+    {"Imf", "OpenEXR"},
+    {"boost/", "Boost"},
+    {"embree", "Embree"},
+    {"hwy/", "Highway"},
+    {"nanovdb/", "NanoVDB"},
+    {"nlohmann/", "nlohmann-json"},
+    {"openvdb/", "OpenVDB"},
+    {"sqlite3", "SQLite"},
+    {"stb_", "stb"},
+    {"tbb/", "TBB"},
+    {"tetgen.h", "TetGen"},
+    {"tiny_gltf", "tinygltf"},
     {"xxhash", "xxHash"},
 };
 
