@@ -8,6 +8,7 @@
 #include <tetralight/base/hash/sha256.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
+#include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/server/page.h>
 #include <tetralight/server/problem.h>
 #include <tetralight/server/service.h>
@@ -17,8 +18,29 @@ namespace {
 
 const char* content_type_of(Kind kind) {
     constexpr const char* kTypes[] = {"model/gltf-binary", "application/octet-stream",
-                                      "application/json", "application/octet-stream"};
+                                      "application/json", "application/octet-stream",
+                                      "application/octet-stream"};
     return kTypes[static_cast<size_t>(kind)];
+}
+
+/// Why a file that begins like this is not of the kind; nothing if it may be.
+const char* fault_of_start(Kind kind, std::string_view start) {
+    const bool has_lightmaps = is_lightmap_file(std::as_bytes(std::span(start)));
+    switch (kind) {
+        case Kind::Scenes:
+            return start.starts_with("glTF") ? nullptr : "is not binary glTF (.glb)";
+        case Kind::Skies:
+            return start.starts_with("#?") || start.starts_with("\x76\x2f\x31\x01")
+                       ? nullptr
+                       : "is neither Radiance (.hdr) nor OpenEXR (.exr)";
+        case Kind::Groups:
+            return nullptr;
+        case Kind::Volumes:
+            return has_lightmaps ? "contains lightmaps, which /v1/lightmaps stores" : nullptr;
+        case Kind::Lightmaps:
+            break;
+    }
+    return has_lightmaps ? nullptr : "is not a lightmap file (.lightmaps)";
 }
 
 /// Throws if the first bytes are not those of the kind, before a program is run.
@@ -26,15 +48,9 @@ void check_magic(Kind kind, int file) {
     char bytes[8] = {};
     const ssize_t count = ::pread(file, bytes, sizeof bytes, 0);
     const std::string_view start(bytes, static_cast<size_t>(std::max<ssize_t>(count, 0)));
-    const bool is_right = kind == Kind::Scenes ? start.starts_with("glTF")
-                          : kind == Kind::Skies
-                              ? start.starts_with("#?") || start.starts_with("\x76\x2f\x31\x01")
-                              : true;
-    if (is_right) return;
-    throw Problem{422, "bad_data",
-                  kind == Kind::Scenes ? "is not binary glTF (.glb)"
-                                       : "is neither Radiance (.hdr) nor OpenEXR (.exr)",
-                  "body"};
+    if (const char* fault = fault_of_start(kind, start)) {
+        throw Problem{422, "bad_data", fault, "body"};
+    }
 }
 
 /// A scene without nodes, to read a sky with.
@@ -60,6 +76,7 @@ Job reading_job(Kind kind, const WorkFolder& folder) {
                     .settings = {{"groups", Json::array({kUpload})},
                                  {"output", str_cat(kResults, "/check.probes")}}};
         case Kind::Volumes:
+        case Kind::Lightmaps:
             break;
     }
     return {.command = "info", .settings = {{"volume", kUpload}}};
@@ -197,26 +214,6 @@ Response download(Service& service, Kind kind, const Request& request) {
     return response;
 }
 
-/// One section of a volume's file, byte for byte (docs/file_format.md).
-Response section(Service& service, const Request& request) {
-    const StoredFile stored = service.store.get(Kind::Volumes, request.captures[0]);
-    const auto volume = service.volumes.open(stored.id);
-    const ProbeFile& file = volume->file;
-    for (const ProbeFile::Section& section : file.sections()) {
-        if (section.name != request.captures[1]) continue;
-        const auto bytes = file.section_bytes(section.name, section.element_size);
-        if (!bytes) break;
-        Response response = bytes_response(request, {*bytes, volume}, "application/octet-stream",
-                                           stored.id + "-" + section.name);
-        response.is_intact = [volume] { return volume->is_whole(); };
-        return response;
-    }
-    Json names = Json::array();
-    for (const ProbeFile::Section& section : file.sections()) names.push_back(section.name);
-    throw Problem{404, "not_found", "the volume has no such section; it has " + dump(names),
-                  "section", request.captures[1].substr(0, 200)};
-}
-
 void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
     const std::string all = std::string("/v1/") + name_of(kind);
     const std::string one = all + "/{" + noun_of(kind) + "}";
@@ -260,9 +257,6 @@ void add_routes(Service& service, Kind kind, std::vector<Route>& routes) {
 std::vector<Route> file_routes(Service& service) {
     std::vector<Route> routes;
     for (const Kind kind : kKinds) add_routes(service, kind, routes);
-    routes.push_back({.method = "GET",
-                      .pattern = "/v1/volumes/{volume}/sections/{section}",
-                      .handle = [&](Request& r) { return section(service, r); }});
     return routes;
 }
 

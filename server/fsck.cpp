@@ -170,7 +170,10 @@ bool is_of_server(const std::string& data) {
         return fs::exists(data + "/" + name, error);
     };
     return is_there("tetralight.db") || is_there("index.json") ||
-           std::ranges::all_of(kKinds, [&](Kind kind) { return is_there(name_of(kind)); });
+           std::ranges::all_of(kKinds, [&](Kind kind) {
+               // Early servers had no lightmaps.
+               return kind == Kind::Lightmaps || is_there(name_of(kind));
+           });
 }
 
 /// Returns an error only if the database is out of reach.

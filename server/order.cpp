@@ -71,11 +71,11 @@ bool refers_to_files(const Setting& setting, const Json& value) {
     return setting.type == Type::Path || (setting.type == Type::Sky && value.is_string());
 }
 
-Kind kind_of(const Setting& setting) {
+Kind kind_of(const Setting& setting, Kind otherwise) {
     for (const Kind kind : kKinds) {
-        if (setting.name == noun_of(kind)) return kind;
+        if (kind != Kind::Volumes && setting.name == noun_of(kind)) return kind;
     }
-    return Kind::Volumes;
+    return otherwise;
 }
 
 settings::Values check_order(const Table& table, const Json& order, std::string_view own_members) {
@@ -95,12 +95,12 @@ settings::Values check_order(const Table& table, const Json& order, std::string_
     return std::move(*values);
 }
 
-std::vector<OrderFile> order_files(Store& store, const Table& table, const Json& order) {
+std::vector<OrderFile> order_files(Store& store, const Table& table, const Json& order, Kind kind) {
     std::vector<OrderFile> files;
     for_each_given(table, order, [&](const Setting& setting, const Json& value) {
         for_each_file(setting, value, [&](const std::string& reference, const std::string& name) {
             try {
-                files.push_back({store.get(kind_of(setting), reference), name});
+                files.push_back({store.get(kind_of(setting, kind), reference), name});
             } catch (Problem& problem) {
                 problem.field = name;
                 throw;

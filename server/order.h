@@ -29,16 +29,18 @@ struct OrderFile {
 settings::Values check_order(const settings::Table& table, const Json& order,
                              std::string_view own_members = {});
 
-/// The files that a checked order refers to. Throws a `Problem` that names the member: 404 if there
-/// is no such file, 410 if it is damaged.
+/// The files that a checked order refers to; `kind` is that of members such as "blend", whose names
+/// do not tell it. Throws a `Problem` that names the member: 404 if there is no such file, 410 if
+/// it is damaged.
 [[nodiscard]] std::vector<OrderFile> order_files(Store& store, const settings::Table& table,
-                                                 const Json& order);
+                                                 const Json& order, Kind kind = Kind::Volumes);
 
 /// The settings of the job for a checked order. Depends on the order alone.
 [[nodiscard]] Json job_settings(const settings::Table& table, const Json& order);
 
-/// The kind of stored files that a setting refers to.
-[[nodiscard]] Kind kind_of(const settings::Setting& setting);
+/// The kind of stored files that a setting refers to: the one that it is called after ("scene"), or
+/// else `otherwise`.
+[[nodiscard]] Kind kind_of(const settings::Setting& setting, Kind otherwise = Kind::Volumes);
 
 /// True if a client may set it.
 [[nodiscard]] bool is_for_clients(const settings::Setting& setting);

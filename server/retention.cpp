@@ -21,7 +21,7 @@ void Retention::delete_old() {
         log_.write(Log::Level::Error, "what is too old could not be deleted", {{"error", error}});
     };
     try {
-        delete_volumes();
+        for (const Kind kind : {Kind::Volumes, Kind::Lightmaps}) delete_unnamed(kind);
         delete_bakes();
     } catch (const Problem& problem) {
         report(problem.detail);
@@ -30,8 +30,8 @@ void Retention::delete_old() {
     }
 }
 
-void Retention::delete_volumes() {
-    auto unnamed = store_.list(Kind::Volumes);
+void Retention::delete_unnamed(Kind kind) {
+    auto unnamed = store_.list(kind);
     std::erase_if(unnamed, [](const StoredFile& file) {
         return !file.names.empty() || !file.damage.empty();
     });
@@ -39,9 +39,10 @@ void Retention::delete_volumes() {
     for (size_t i = 0; i < unnamed.size(); ++i) {
         const StoredFile& file = unnamed[i];
         if (!store_.settings().keep.is_over(file.created, i, now())) continue;
-        if (!store_.remove_unnamed(Kind::Volumes, file.id)) continue;
-        volumes_.forget(file.id);
-        log_.write(Log::Level::Info, "a volume without a name was deleted", {{"id", file.id}});
+        if (!store_.remove_unnamed(kind, file.id)) continue;
+        if (kind == Kind::Volumes) volumes_.forget(file.id);
+        log_.write(Log::Level::Info, "a file without a name was deleted",
+                   {{"kind", name_of(kind)}, {"id", file.id}});
     }
 }
 

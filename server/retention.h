@@ -9,8 +9,8 @@
 
 namespace tetralight::server {
 
-/// Deletes volumes without a name and bakes that have ended, once they are older or more than the
-/// settings keep. Volumes with a name, scenes, skies and groups stay.
+/// Deletes volumes and lightmaps without a name and bakes that have ended, once they are older or
+/// more than the settings keep. Files with a name, scenes, skies and groups stay.
 class Retention {
   public:
     /// Starts a thread if the settings limit anything. Keeps references.
@@ -18,7 +18,7 @@ class Retention {
 
   private:
     void delete_old();
-    void delete_volumes();
+    void delete_unnamed(Kind kind);
     void delete_bakes();
 
     Store& store_;

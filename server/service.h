@@ -39,6 +39,7 @@ struct Service {
 
 // The routes by subject.
 [[nodiscard]] std::vector<Route> file_routes(Service& service);
+[[nodiscard]] std::vector<Route> section_routes(Service& service);
 [[nodiscard]] std::vector<Route> quarantine_routes(Service& service);
 [[nodiscard]] std::vector<Route> query_routes(Service& service);
 [[nodiscard]] std::vector<Route> bake_routes(Service& service);

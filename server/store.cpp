@@ -56,16 +56,18 @@ std::optional<StoredFile> Store::find(Kind kind, const std::string& reference) {
 
 StoredFile Store::get(Kind kind, const std::string& reference) {
     auto file = find(kind, reference);
+    const bool is_plural = kind == Kind::Groups || kind == Kind::Lightmaps;
     if (!file) {
-        throw Problem{404, "not_found",
-                      str_cat(kind == Kind::Groups ? "there are no such " : "there is no such ",
-                              noun_of(kind)),
-                      noun_of(kind), reference.substr(0, 200)};
+        throw Problem{
+            404, "not_found",
+            str_cat(is_plural ? "there are no such " : "there is no such ", noun_of(kind)),
+            noun_of(kind), reference.substr(0, 200)};
     }
     if (!file->damage.empty()) {
-        throw Problem{410, "quarantined",
-                      str_cat("the ", noun_of(kind), " is damaged: ", file->damage), noun_of(kind),
-                      file->id};
+        throw Problem{
+            410, "quarantined",
+            str_cat("the ", noun_of(kind), is_plural ? " are" : " is", " damaged: ", file->damage),
+            noun_of(kind), file->id};
     }
     return std::move(*file);
 }

@@ -36,8 +36,9 @@ Result<std::unique_ptr<Store>> Store::open(const Settings& settings, Log& log, M
                                [s = store.get()] { s->read_index_if_changed(); });
         return store;
     }
-    for (const char* folder :
-         {"scenes", "skies", "groups", "volumes", "bakes", "work", "quarantine"}) {
+    std::vector<std::string> folders{"bakes", "work", "quarantine"};
+    for (const Kind kind : kKinds) folders.emplace_back(name_of(kind));
+    for (const std::string& folder : folders) {
         auto status = make_folder(settings.data + "/" + folder);
         if (!status) return status.error();
     }

@@ -10,9 +10,9 @@
 namespace tetralight::server {
 namespace {
 
-constexpr const char* kKindNames[] = {"scenes", "skies", "groups", "volumes"};
-constexpr const char* kKindNouns[] = {"scene", "sky", "groups", "volume"};
-constexpr const char* kExtensions[] = {".glb", ".hdr", ".json", ".probes"};
+constexpr const char* kKindNames[] = {"scenes", "skies", "groups", "volumes", "lightmaps"};
+constexpr const char* kKindNouns[] = {"scene", "sky", "groups", "volume", "lightmaps"};
+constexpr const char* kExtensions[] = {".glb", ".hdr", ".json", ".probes", ".lightmaps"};
 constexpr size_t kIdLength = 64;
 constexpr size_t kOldIdLength = 32;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
@@ -19,23 +20,30 @@ std::string result_name(Kind kind) {
     return result_name(extension_of(kind));
 }
 
+/// An order and the table of its command. `kind` is the kind of the files that its members "volume"
+/// and "blend" refer to, and of the file that it makes.
+struct Task {
+    const settings::Table& table;
+    const Json& order;
+    Kind kind = Kind::Volumes;
+};
+
 /// Links all files of an order into the folder of its job.
-void link_files(Service& service, const settings::Table& table, const Json& order,
-                const WorkFolder& folder) {
-    for (const auto& [file, name] : order_files(service.store, table, order)) {
+void link_files(Service& service, const Task& task, const WorkFolder& folder) {
+    for (const auto& [file, name] : order_files(service.store, task.table, task.order, task.kind)) {
         service.store.link(file, folder.file(name));
     }
 }
 
 /// Runs the command that an order is for, in a folder with its files.
-Json run_order(Service& service, const Request& request, const settings::Table& table,
-               const Json& order, const WorkFolder& folder, const std::string& output) {
-    link_files(service, table, order, folder);
-    Job job{.command = std::string(table.command),
-            .settings = job_settings(table, order),
+Json run_order(Service& service, const Request& request, const Task& task, const WorkFolder& folder,
+               const std::string& output) {
+    link_files(service, task, folder);
+    Job job{.command = std::string(task.table.command),
+            .settings = job_settings(task.table, task.order),
             .folder = folder.path()};
     job.settings["output"] = output;
-    return run_tool(service, request, order, std::move(job));
+    return run_tool(service, request, task.order, std::move(job));
 }
 
 /// A file that a job wrote, as a body that outlives the folder.
@@ -57,11 +65,11 @@ Response store_result(Service& service, Kind kind, const std::string& path, cons
     return response;
 }
 
-Json volume_facts(Service& service, const Request& request, const Json& order,
+Json result_facts(Service& service, const Request& request, const Task& task,
                   const WorkFolder& folder) {
-    return run_tool(service, request, order,
+    return run_tool(service, request, task.order,
                     {.command = "info",
-                     .settings = {{"volume", result_name(Kind::Volumes)}},
+                     .settings = {{"volume", result_name(task.kind)}},
                      .folder = folder.path()});
 }
 
@@ -79,36 +87,48 @@ Response grid(Service& service, const Request& request) {
     check_order(settings::kGrid, order);
     const WorkFolder folder = service.store.make_work_folder();
     const std::string output = result_name(Kind::Groups);
-    const Json report = run_order(service, request, settings::kGrid, order, folder, output);
+    const Json report = run_order(service, request, {settings::kGrid, order}, folder, output);
     return store_result(service, Kind::Groups, folder.file(output), name,
                         {{"probes", report.value("probes", 0u)}}, report);
 }
 
-/// Stores the volume that the command of `table` makes from an order.
-Response make_volume(Service& service, const Request& request, const settings::Table& table) {
-    const Json order = parse_object(request.body);
-    check_order(table, order, "name");
-    const std::string name = name_of_result(order);
+/// Stores the volume or the lightmaps that a command makes from an order.
+Response make_stored(Service& service, const Request& request, const Task& task) {
+    check_order(task.table, task.order, "name");
+    const std::string name = name_of_result(task.order);
     const WorkFolder folder = service.store.make_work_folder();
-    const std::string output = result_name(Kind::Volumes);
-    const Json report = run_order(service, request, table, order, folder, output);
-    return store_result(service, Kind::Volumes, folder.file(output), name,
-                        volume_facts(service, request, order, folder), report);
+    const std::string output = result_name(task.kind);
+    const Json report = run_order(service, request, task, folder, output);
+    return store_result(service, task.kind, folder.file(output), name,
+                        result_facts(service, request, task, folder), report);
 }
 
 Response tetrahedralize(Service& service, const Request& request) {
-    return make_volume(service, request, settings::kTetrahedralize);
+    return make_stored(service, request, {settings::kTetrahedralize, parse_object(request.body)});
 }
 
 Response relight(Service& service, const Request& request) {
-    return make_volume(service, request, settings::kRelight);
+    return make_stored(service, request, {settings::kRelight, parse_object(request.body)});
 }
 
-/// An invalid volume is an answer, not a problem.
-Response validate(Service& service, const Request& request) {
+/// Lightmaps have layers to weigh, and no sky and sun to replace.
+Response relight_lightmaps(Service& service, const Request& request) {
+    constexpr std::array<std::string_view, 4> kMembers{"weights", "blend", "blend_share", "name"};
+    Json order = parse_object(request.body);
+    for (const auto& [member, value] : order.items()) {
+        if (std::ranges::find(kMembers, member) != kMembers.end()) continue;
+        throw Problem{400, "unknown_member", "\"" + member + "\" is not a member of this order",
+                      member, shown(value)};
+    }
+    order["volume"] = request.captures[0];
+    return make_stored(service, request, {settings::kRelight, order, Kind::Lightmaps});
+}
+
+/// Damage is an answer, not a problem.
+Response validate_file(Service& service, const Request& request, Kind kind) {
     const Json order{{"volume", request.captures[0]}};
     const WorkFolder folder = service.store.make_work_folder();
-    link_files(service, settings::kValidate, order, folder);
+    link_files(service, {settings::kValidate, order, kind}, folder);
     JobResult result = try_tool(service, request,
                                 {.command = "validate",
                                  .settings = job_settings(settings::kValidate, order),
@@ -117,6 +137,14 @@ Response validate(Service& service, const Request& request) {
         throw job_problem(service.settings, result, request, order);
     }
     return json_response(result.report);
+}
+
+Response validate(Service& service, const Request& request) {
+    return validate_file(service, request, Kind::Volumes);
+}
+
+Response validate_lightmaps(Service& service, const Request& request) {
+    return validate_file(service, request, Kind::Lightmaps);
 }
 
 Response lppv(Service& service, const Request& request) {
@@ -129,7 +157,7 @@ Response lppv(Service& service, const Request& request) {
     }
     const WorkFolder folder = service.store.make_work_folder();
     const std::string output = result_name("." + format);
-    Json report = run_order(service, request, settings::kLppv, order, folder, output);
+    Json report = run_order(service, request, {settings::kLppv, order}, folder, output);
     report.erase("warnings");
     return {.content_type = "application/octet-stream",
             .headers = {{"X-Tetralight-Report", dump(report)}},
@@ -141,7 +169,7 @@ Response render(Service& service, const Request& request) {
     check_order(settings::kRender, order);
     const WorkFolder folder = service.store.make_work_folder();
     const std::string output = result_name(".png");
-    (void)run_order(service, request, settings::kRender, order, folder, output);
+    (void)run_order(service, request, {settings::kRender, order}, folder, output);
     return {.content_type = "image/png", .body = file_body(folder.file(output))};
 }
 
@@ -174,6 +202,8 @@ std::vector<Route> tool_routes(Service& service) {
     return {route("/v1/grid", true, grid),
             route("/v1/tetrahedralize", true, tetrahedralize),
             route("/v1/volumes/{volume}/validate", false, validate),
+            route("/v1/lightmaps/{lightmaps}/validate", false, validate_lightmaps),
+            route("/v1/lightmaps/{lightmaps}/relight", true, relight_lightmaps),
             route("/v1/relight", true, relight),
             route("/v1/lppv", false, lppv),
             route("/v1/render", false, render)};

@@ -21,7 +21,7 @@ import unittest
 
 import http_answers
 from http_cases import Case, sound_requests
-from service import BINARY, COMMAND, COURTYARD, ServiceTest, read
+from service import BINARY, COMMAND, COURTYARD, ServiceTest, read, triangle_scene
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 CORPUS = os.path.join(ROOT, "tests", "fuzz", "corpus", "http")
@@ -51,20 +51,6 @@ def allowed():
     return good | {status: codes for status, codes in documented().items() if status not in (500, 507)}
 
 
-def scene():
-    """One triangle as binary glTF."""
-    positions = struct.pack("<9f", 0, 0, 0, 4, 0, 0, 0, 0, 4)
-    text = json.dumps({
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                       "min": [0, 0, 0], "max": [4, 0, 4]}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36}]}).encode()
-    text += b" " * (-len(text) % 4)
-    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", 36, 0x004E4942) + positions
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
-
-
 SKY = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" + b"\x80\x80\x80\x81" * 2
 GROUPS = b'{"groups": [{"name": "g", "positions": [[0,0,0],[1,0,0],[0,1,0],[0,0,1],[2,2,2]]}]}'
 
@@ -79,8 +65,10 @@ class FuzzedServer:
         with open(groups, "wb") as file:
             file.write(GROUPS)
         subprocess.run([COMMAND, "tetrahedralize", groups, "-o", volume, "--quiet"], check=True)
-        self.files = {"volumes": read(volume), "groups": GROUPS, "scenes": scene(), "skies": SKY}
-        self.names = {"volumes": "level", "groups": "few", "scenes": "court", "skies": "white"}
+        self.files = {"volumes": read(volume), "groups": GROUPS, "scenes": triangle_scene(), "skies": SKY,
+                      "lightmaps": read(test.lightmap_file())}
+        self.names = {"volumes": "level", "groups": "few", "scenes": "court", "skies": "white",
+                      "lightmaps": "floor"}
         self.sound = sound_requests(self.files)
         self.allowed = allowed()
         self.keep_files()

@@ -6,6 +6,7 @@ import os
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import tempfile
 import time
@@ -158,6 +159,16 @@ class ServiceTest(unittest.TestCase):
         return subprocess.run([COMMAND, *arguments], cwd=self.folder, check=True,
                               capture_output=True, text=True).stdout
 
+    def lightmap_file(self, density=2):
+        """Lightmaps of `triangle_scene` under a grey sky."""
+        scene = os.path.join(self.folder, "triangle.glb")
+        with open(scene, "wb") as file:
+            file.write(triangle_scene())
+        path = os.path.join(self.folder, f"maps{density}.lightmaps")
+        self.command("lightmap", scene, "-o", path, "--texels-per-meter", str(density), "--page-size", "32",
+                     "--samples", "16", "--sky", "1", "--layers", "sky")
+        return path
+
     def upload(self, server, kind, path, name=""):
         with open(path, "rb") as file:
             answer = server.post(f"/v1/{kind}?name={name}", file.read(), BINARY)
@@ -196,3 +207,17 @@ def write_groups(path, positions, name="group"):
 def lattice(count, spacing=1.0):
     return [[x * spacing, y * spacing, z * spacing]
             for x in range(count) for y in range(count) for z in range(count)]
+
+
+def triangle_scene():
+    """One triangle as binary glTF."""
+    positions = struct.pack("<9f", 0, 0, 0, 4, 0, 0, 0, 0, 4)
+    text = json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [4, 0, 4]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36}]}).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", 36, 0x004E4942) + positions
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks

@@ -132,13 +132,14 @@ class Files(VolumeTest):
         for kind, body in (("scenes", b"nonsense"), ("scenes", glb[:1000]), ("skies", b"nonsense"),
                            ("skies", b"#?RADIANCE\n\nbroken"), ("groups", b"{}"),
                            ("groups", b'{"groups":[{"name":"a","positions":[[0,0,1e999]]}]}'),
-                           ("volumes", b"nonsense"), ("scenes", b"glTF" + b"\xff" * 100)):
+                           ("volumes", b"nonsense"), ("lightmaps", b"nonsense"),
+                           ("scenes", b"glTF" + b"\xff" * 100)):
             with self.subTest(kind=kind, body=body[:20]):
                 problem = self.assert_problem(server.post(f"/v1/{kind}", body, BINARY), 422,
                                               "bad_data")
                 self.assertNotIn(self.folder, json.dumps(problem))
         self.assert_problem(server.post("/v1/scenes", b"", BINARY), 400, "missing_value")
-        for kind in ("scenes", "skies", "groups", "volumes"):
+        for kind in ("scenes", "skies", "groups", "volumes", "lightmaps"):
             self.assertEqual(server.get(f"/v1/{kind}").json()[kind], [])
         self.assertEqual(os.listdir(os.path.join(self.data, "work")), [])
 
@@ -357,6 +358,8 @@ class Files(VolumeTest):
         self.assertEqual(again.get("/v1/volumes/level").json()["id"], named)
         self.assertEqual(self.names(again, named), ["level"])
         self.assertEqual(self.names(again, plain), [])
+        maps = self.upload(again, "lightmaps", self.lightmap_file(), "level")
+        self.assertEqual(again.get("/v1/lightmaps/level").json()["id"], maps)
 
     def test_names_move(self):
         server = self.start()
@@ -521,7 +524,8 @@ class Downloads(VolumeTest):
         shutil.rmtree(self.data)
 
     def test_damaged_files_are_not_sent(self):
-        for kind, path, extension in (("volumes", self.volume_file(3), ".probes"), ("scenes", COURTYARD, ".glb")):
+        for kind, path, extension in (("volumes", self.volume_file(3), ".probes"), ("scenes", COURTYARD, ".glb"),
+                                      ("lightmaps", self.lightmap_file(), ".lightmaps")):
             for damage in (self.damage_by_zeros, self.damage_by_cutting, self.damage_by_replacing,
                            self.damage_with_the_old_time):
                 with self.subTest(kind=kind, damage=damage.__name__):

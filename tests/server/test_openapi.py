@@ -111,6 +111,7 @@ class OpenApi(ServiceTest):
                 ("/v1/bakes", "BakeOrder", "samples"), ("/v1/grid", "GridOrder", "spacing"),
                 ("/v1/lppv", "LppvOrder", "density"), ("/v1/render", "RenderOrder", "camera"),
                 ("/v1/relight", "RelightOrder", "weights"),
+                ("/v1/lightmaps/none/relight", "RelightLightmapsOrder", "weights"),
                 ("/v1/tetrahedralize", "TetrahedralizeOrder", "groups")):
             properties = self.document["components"]["schemas"][schema]["properties"]
             self.assertIn(member, properties)
@@ -134,7 +135,8 @@ class OpenApi(ServiceTest):
         text = json.dumps(schemas)
         self.assertNotIn("x-settings", text)
         self.assertNotIn("--", text)
-        for order in ("BakeOrder", "GridOrder", "LppvOrder", "RenderOrder", "RelightOrder"):
+        for order in ("BakeOrder", "GridOrder", "LppvOrder", "RenderOrder", "RelightOrder",
+                      "RelightLightmapsOrder"):
             for name, setting in schemas[order]["properties"].items():
                 self.assertTrue(setting["description"], name)
 

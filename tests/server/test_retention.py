@@ -21,6 +21,15 @@ class Retention(VolumeTest):
         self.assertTrue(self.eventually(lambda: self.volumes(server) == sorted(plain[1:])))
         self.assertEqual(server.get("/v1/groups/" + groups).status, 200)
 
+    def test_lightmaps_without_a_name_are_counted_on_their_own(self):
+        server = self.start("--keep", "1")
+        volume = self.upload(server, "volumes", self.volume_file(2))
+        named = self.upload(server, "lightmaps", self.lightmap_file(1), "floor")
+        plain = [self.upload(server, "lightmaps", self.lightmap_file(n)) for n in (2, 3)]
+        kept = lambda: [m["id"] for m in server.get("/v1/lightmaps").json()["lightmaps"]]
+        self.assertTrue(self.eventually(lambda: kept() == sorted([named, plain[1]])))
+        self.assertEqual(self.volumes(server), [volume])
+
     def test_old_ones_go(self):
         server = self.start()
         named = self.upload(server, "volumes", self.volume_file(2), "level")
