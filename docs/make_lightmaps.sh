@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Renders the pictures of docs/lightmaps.md, lit by probes alone and with lightmaps: make_lightmaps.sh TETRALIGHT FOLDER
+# Renders the pictures of docs/lightmaps.md: make_lightmaps.sh TETRALIGHT FOLDER
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tetralight=$(realpath "$1") out=$2
@@ -8,11 +8,11 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$out"
 
+# The courtyard, lit by probes alone and with lightmaps.
 both() { # NAME SCENE VOLUME LIGHTMAPS ...
     "$tetralight" render "$2" "$3" -o "$out/$1_probes.png" --quiet "${@:5}"
     "$tetralight" render "$2" "$3" --lightmaps "$4" -o "$out/$1_maps.png" --quiet "${@:5}"
 }
-
 court=examples/scenes/courtyard.glb
 "$tetralight" bake "$court" -o "$work/court.probes" --samples 4096 --quiet
 "$tetralight" lightmap "$court" -o "$work/court.lightmaps" --target-error 3% --quiet
@@ -20,6 +20,136 @@ both lightmap_courtyard "$court" "$work/court.probes" "$work/court.lightmaps" --
     --width 560 --height 315 --exposure 0.9
 both lightmap_interior "$court" "$work/court.probes" "$work/court.lightmaps" --camera camera_interior \
     --width 560 --height 315 --exposure 1.6
+
+# The studio: one object for each thing that lightmaps do.
+studio() { # SCENE [options of the script, as one word] [options of the bake] ...
+    # shellcheck disable=SC2086
+    python3 -B examples/scenes/make_lightmap_studio.py "$work/$1.glb" ${2:-}
+    "$tetralight" bake "$work/$1.glb" -o "$work/$1.probes" --samples 2048 --quiet "${@:3}"
+}
+maps() { # LIGHTMAPS SCENE ... ($page: size of the pages)
+    "$tetralight" lightmap "$work/$2.glb" -o "$work/$1.lightmaps" --page-size "${page:-192}" \
+        --target-error 3% --quiet "${@:3}"
+}
+show() { # PICTURE SCENE LIGHTMAPS ... ($exposure)
+    "$tetralight" render "$work/$2.glb" "$work/$2.probes" --lightmaps "$work/$3.lightmaps" \
+        -o "$out/lightmap_$1.png" --width 400 --height 250 --exposure "${exposure:-1}" --quiet "${@:4}"
+}
+preview() { # PICTURE LIGHTMAPS ...
+    "$tetralight" export "$work/$2.lightmaps" --as preview -o "$out/lightmap_$1.png" --quiet "${@:3}"
+}
+balls=(--eye=-0.6,2.3,4.6 --target 0.05,0.25,0.95 --fov 32)
+box=(--eye 2.3,1.7,1.2 --target 1.5,0.35,-1.4 --fov 30)
+sphere=(--eye=-0.9,1.5,1.2 --target=-1.7,0.5,-1.7 --fov 30)
+lamp=(--eye 1.6,1.3,1.7 --target 2.4,0.2,0.1 --fov 42)
+leaves=(--eye 1.7,0.95,4.2 --target 1.5,0.15,2.3 --fov 34)
+gold=(--eye=-0.9,1.5,2.9 --target=-2.1,0.25,1.2 --fov 40)
+
+studio mixed
+maps mixed mixed
+show receivers mixed mixed
+show receivers_texels mixed mixed --show texels
+exposure=2.2 show receivers_bounce mixed mixed --show bounce "${balls[@]}"
+exposure=0.6 show side_by_side mixed mixed --show received "${balls[@]}"
+
+# What a mixed and a baked sun leave in the map.
+studio baked "--sun baked"
+page=512 maps mixed_20 mixed -t 20
+page=512 maps baked_20 baked -t 20
+show sun_mixed mixed mixed_20 "${balls[@]}"
+show sun_baked baked baked_20 "${balls[@]}"
+show sun_mixed_map mixed mixed_20 --show bounce "${balls[@]}"
+show sun_baked_map baked baked_20 --show bounce "${balls[@]}"
+
+# Resolution.
+under_ball=(--only tile_1_0 --only tile_1_1 --only tile_2_0 --only tile_2_1 --only ball_lightmap)
+above=(--eye=-1.5,2.2,2.9 --target=-0.9,0.1,1 --fov 28)
+for density in 5 10 20 40; do
+    page=1024 maps dense baked -t $density "${under_ball[@]}"
+    exposure=0.7 show "density_$density" baked dense --show received "${above[@]}"
+    show "density_${density}_texels" baked dense --show texels "${above[@]}"
+done
+
+# Pages and the rectangles of objects.
+preview page_all mixed
+preview page_marked mixed --mark sphere
+page=128 maps small mixed
+preview small small
+show pages mixed small --show pages
+show unwrapped_uv mixed mixed --show unwrapped-uv
+show page_uv mixed mixed --show lightmap-uv
+show scale mixed mixed --show texels "${lamp[@]}"
+
+# UVs of the scene that overlap.
+studio overlapping "--uvs overlapping --sun baked"
+maps keep overlapping --uvs keep
+maps repair overlapping --uvs repair
+show uvs_keep overlapping keep "${box[@]}"
+show uvs_repair overlapping repair "${box[@]}"
+
+# Seams.
+studio plain "--seams plain --sun baked"
+maps plain plain -t 5
+maps stitched baked -t 5
+maps many plain -t 5 --max-angle 12
+exposure=0.7 show seams_plain plain plain --show received "${sphere[@]}"
+exposure=0.7 show seams_stitched baked stitched --show received "${sphere[@]}"
+exposure=0.7 show seams_many plain many --show received "${sphere[@]}"
+show seams_lines baked stitched --show seams "${sphere[@]}"
+
+# Texels inside geometry.
+maps buried mixed --min-validity 0
+show validity_off mixed buried "${box[@]}"
+show validity_on mixed mixed "${box[@]}"
+show validity mixed mixed --show validity "${box[@]}"
+studio one_sided "--leaves one-sided"
+page=512 maps one_sided_0 one_sided -t 20 --min-validity 0
+page=512 maps one_sided one_sided -t 20
+exposure=2 show leaves_off one_sided one_sided_0 --show bounce "${leaves[@]}"
+exposure=2 show leaves_on one_sided one_sided --show bounce "${leaves[@]}"
+exposure=2 show leaves_two_sided mixed mixed_20 --show bounce "${leaves[@]}"
+show leaves_validity one_sided one_sided --show validity "${leaves[@]}"
+
+# As stored and as decoded.
+"$tetralight" export "$work/mixed.lightmaps" --as png -o "$work/rgbm.png" --quiet
+python3 -B docs/split_rgbm.py "$work/rgbm.png" "$out/lightmap_rgbm_rgb.png" "$out/lightmap_rgbm_a.png"
+
+# Parts of the light, and the sky.
+exposure=0.6 show received mixed mixed --show received
+show direct mixed mixed --show direct
+exposure=2 show bounce mixed mixed --show bounce
+show albedo mixed mixed --show albedo
+exposure=0.1 show emission mixed mixed --show emission
+studio night "" --sky-intensity 0
+maps night mixed --sky-intensity 0
+show sky_off night night
+
+# Boosted albedo, and rough metal.
+maps boosted mixed --albedo-boost 3
+exposure=2 show albedo_boost mixed boosted --show bounce
+studio smooth "--metal-roughness 0"
+maps smooth smooth
+exposure=2.5 show metal_rough mixed mixed --show bounce "${gold[@]}"
+exposure=2.5 show metal_smooth smooth smooth --show bounce "${gold[@]}"
+
+# Emission.
+studio unlit "--emission none"
+maps unlit unlit
+show emission_none unlit unlit "${lamp[@]}"
+show emission_baked mixed mixed "${lamp[@]}"
+studio glow "--floor emissive --sun none" --sky-intensity 0
+maps glow glow --sky-intensity 0
+show emission_floor glow glow
+studio glow_sun "--floor emissive"
+maps glow_sun glow_sun
+show emission_floor_sun glow_sun glow_sun
+
+# Roofs.
+for roof in none blend:0.3 blend:0.8 cutout; do
+    studio roof "--sun baked --roof $roof"
+    maps roof roof
+    show "roof_${roof/:0./_}" roof roof --antialias 8
+done
 
 if command -v pngquant >/dev/null; then
     for picture in "$out"/lightmap_*.png; do

@@ -180,16 +180,13 @@ def cylinder(radius, height, segments=32):
     return positions, normals, triangles
 
 
-def lattice_png(size=64, holes=2):
-    """An RGBA image of a wooden lattice: alpha 0 in `holes` x `holes` square holes. Tiles in both directions."""
-    period, bar = size // holes, size // holes * 5 // 32
+def rgba_png(size, pixel):
+    """An RGBA image of size x size pixels, whose bytes are pixel(x, y); y = 0 is the top row."""
     rows = bytearray()
     for y in range(size):
         rows.append(0)  # PNG: this row is not filtered
         for x in range(size):
-            hole = bar <= x % period < period - bar and bar <= y % period < period - bar
-            grain = (x * 7 + y * 3) % 11 + (x * y) % 7
-            rows += bytes((176 - grain, 128 - grain, 84 - grain, 0 if hole else 255))
+            rows += bytes(pixel(x, y))
     # One stored block by hand, since the bytes that compressors write differ from one zlib to the next.
     pixels = b"\x78\x01\x01" + struct.pack("<HH", len(rows), len(rows) ^ 0xFFFF) + rows
     pixels += struct.pack(">I", zlib.adler32(rows))
@@ -199,6 +196,18 @@ def lattice_png(size=64, holes=2):
 
     header = struct.pack(">IIBBBBB", size, size, 8, 6, 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", pixels) + chunk(b"IEND", b"")
+
+
+def lattice_png(size=64, holes=2):
+    """An image of a wooden lattice: alpha 0 in `holes` x `holes` square holes. Tiles in both directions."""
+    period, bar = size // holes, size // holes * 5 // 32
+
+    def pixel(x, y):
+        hole = bar <= x % period < period - bar and bar <= y % period < period - bar
+        grain = (x * 7 + y * 3) % 11 + (x * y) % 7
+        return 176 - grain, 128 - grain, 84 - grain, 0 if hole else 255
+
+    return rgba_png(size, pixel)
 
 
 # --- The glTF document ------------------------------------------------------------------------------------------------
