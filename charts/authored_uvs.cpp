@@ -61,20 +61,63 @@ double overlap_area(std::span<const FlatTriangle> triangles) {
     return grid.overlap_area();
 }
 
+/// Of a triangle or a mesh.
+struct Areas {
+    double uv = 0.0;
+    double surface = 0.0;
+};
+
+double lost_fraction(std::span<const Areas> triangles, const Areas& total) {
+    constexpr double kLeastShare = 1e-6;
+    if (!(total.surface > 0.0)) return 0.0;
+    double lost = 0.0;
+    for (const Areas& triangle : triangles) {
+        const bool is_lost = !(total.uv > 0.0) || triangle.uv * total.surface <
+                                                      kLeastShare * triangle.surface * total.uv;
+        if (is_lost) lost += triangle.surface;
+    }
+    return lost / total.surface;
+}
+
+/// The mean length on the surface of a step along U and V, in proportion to each other.
+glm::dvec2 step_lengths(const ChartMesh& mesh, std::span<const FlatTriangle> triangles) {
+    glm::dvec2 sum(0.0);
+    for (size_t t = 0; t < triangles.size(); ++t) {
+        const auto corner = [&](size_t k) {
+            return glm::dvec3(mesh.positions[mesh.indices[3 * t + k]]);
+        };
+        const glm::dvec2 a = triangles[t][1] - triangles[t][0],
+                         b = triangles[t][2] - triangles[t][0];
+        const double area = a.x * b.y - a.y * b.x;
+        if (area == 0.0) continue;
+        const glm::dvec3 u = corner(1) - corner(0), v = corner(2) - corner(0);
+        const double weight = glm::length(glm::cross(u, v)) / std::abs(area);
+        sum += weight * glm::dvec2(glm::length(b.y * u - a.y * v), glm::length(a.x * v - b.x * u));
+    }
+    const bool is_known = sum.x > 0.0 && sum.y > 0.0 && std::isfinite(sum.x + sum.y);
+    return is_known ? sum : glm::dvec2(1.0);
+}
+
 }  // namespace
 
 UvCheck check_uvs(const ChartMesh& mesh, std::span<const glm::vec2> uvs) {
     TETRALIGHT_ASSERT(uvs.size() == mesh.positions.size(), "a UV for each position");
     UvCheck check;
     std::vector<FlatTriangle> triangles;
+    std::vector<Areas> areas;
+    Areas total;
     for (size_t t = 0; t < mesh.indices.size() / 3; ++t) {
         const FlatTriangle triangle = uv_triangle(mesh, uvs, t);
+        const bool has_uvs = std::ranges::all_of(triangle, is_finite);
+        areas.push_back({has_uvs ? uv_area(triangle) : 0.0, surface_area(mesh, t)});
+        total.uv += areas.back().uv;
+        total.surface += areas.back().surface;
         check.outside_count += static_cast<uint32_t>(std::ranges::count_if(triangle, is_outside));
-        if (!std::ranges::all_of(triangle, is_finite)) continue;
-        triangles.push_back(triangle);
-        check.area += uv_area(triangle);
+        if (has_uvs) triangles.push_back(triangle);
     }
+    check.area = total.uv;
     check.overlap_area = overlap_area(triangles);
+    check.lost_fraction = lost_fraction(areas, total);
     return check;
 }
 
@@ -90,7 +133,9 @@ Unwrap keep_uvs(const ChartMesh& mesh, std::span<const glm::vec2> uvs) {
     Unwrap result;
     result.rotation = ChartRotation::Fixed;
     if (triangles.empty()) return result;
-    const double scale = flat > 0.0 ? std::sqrt(surface / flat) : 0.0;
+    const glm::dvec2 steps = step_lengths(mesh, triangles);
+    const glm::dvec2 ratio = steps / std::sqrt(steps.x * steps.y);  // keeps areas
+    const glm::dvec2 scale = flat > 0.0 ? std::sqrt(surface / flat) * ratio : glm::dvec2(0.0);
     const glm::dvec2 least = bounds_of(triangles).min;
     result.triangle_charts.resize(triangles.size());
     result.chart_sizes.resize(1, glm::vec2(0.0f));

@@ -9,8 +9,8 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
-#include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/pipeline/lightmap_images.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
 #include <tetralight/render/page_preview.h>
@@ -57,9 +57,9 @@ struct Export {
     }
 
     Status run() const {
-        const auto file = open_lightmap_file(lightmaps_path);
+        const auto file = open_lightmaps(lightmaps_path);
         if (!file) return file.error();
-        const LightmapsView& maps = file->view();
+        const LightmapsView& maps = (*file)->view();
         const auto paths = output_paths(maps.info.page_count);
         if (!paths) return paths.error();
         Json json{{"output", output}, {"files", *paths}, {"pages", maps.info.page_count}};
@@ -107,7 +107,8 @@ struct Export {
         for (const std::string& name : marked) {
             if (std::ranges::count(instances_named(maps, {name}), true) > 0) continue;
             return Error{ErrorCode::NotFound, "mark", name,
-                         str_cat(shown_path(lightmaps_path), ": has no object \"", name, "\"")};
+                         str_cat(shown_path(lightmaps_path), ": no object \"", name,
+                                 "\" has a lightmap there")};
         }
         const std::vector<bool> is_marked = instances_named(maps, marked);
         for (uint32_t page = 0; page < maps.info.page_count; ++page) {

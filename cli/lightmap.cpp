@@ -54,7 +54,7 @@ struct Lightmap {
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         auto prepared = prepare_lightmaps(*scene, settings);
-        if (!prepared) return prepared.error();
+        if (!prepared) return prepared.error().in(scene_options.path);
         const auto start = std::chrono::steady_clock::now();
         const auto bake = bake_with_progress(*scene, *prepared);
         if (!bake && bake.error().code == ErrorCode::Cancelled) return storing.interrupted();
@@ -97,7 +97,7 @@ struct Lightmap {
         common.report(output, json,
                       str_cat(output, ": texels ", name_of(bake.range), " of ",
                               grouped(prepared.baked.size()), "\n  ", times_text(light), "\n  ",
-                              errors_text(light)));
+                              to_text(errors_of(light))));
         storing.finish(bake.stored);
         return Ok{};
     }

@@ -9,6 +9,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
 #include <tetralight/cli/failure.h>
+#include <tetralight/cli/lightmap_report.h>
 #include <tetralight/lightmap/blend_lightmaps.h>
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/lightmap/relight_lightmaps.h>
@@ -22,7 +23,7 @@ namespace {
 /// Counts over all texels.
 struct TexelFacts {
     size_t covered = 0;
-    float median_error = 0.0f, worst_error = 0.0f;
+    TexelErrors errors;
 };
 
 TexelFacts texel_facts(const LightmapsView& maps) {
@@ -35,8 +36,8 @@ TexelFacts texel_facts(const LightmapsView& maps) {
     if (errors.empty()) return facts;
     const auto middle = errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2);
     std::ranges::nth_element(errors, middle);
-    facts.median_error = *middle;
-    facts.worst_error = *std::ranges::max_element(errors);
+    facts.errors.median = *middle;
+    facts.errors.worst = *std::ranges::max_element(errors);
     return facts;
 }
 
@@ -78,7 +79,7 @@ Json facts_json(const std::string& path, const LightmapsView& maps) {
               {"objects", object_count(maps)},
               {"texels", maps.texel_count()},
               {"covered_texels", facts.covered},
-              {"standard_error", {{"median", facts.median_error}, {"worst", facts.worst_error}}},
+              {"standard_error", to_json(facts.errors)},
               {"has_directions", !maps.light.empty()},
               {"layers", layers_json(maps)}};
     json["made_with"] = maps.metadata.empty() ? Json() : Json::parse(maps.metadata);
@@ -104,6 +105,13 @@ Status refuse_part(const LightmapFile& file, const std::string& path, const char
 
 }  // namespace
 
+Status check_output_kind(const std::string& input, const std::string& output, bool has_lightmaps) {
+    if (!output.ends_with(has_lightmaps ? ".probes" : ".lightmaps")) return Ok{};
+    return Error{ErrorCode::InvalidArgument, "output", output,
+                 str_cat(input, has_lightmaps ? ": contains lightmaps" : ": contains no lightmaps",
+                         "; give the output another name than ", output)};
+}
+
 Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path) {
     if (path.empty()) return std::optional<LightmapFile>();
     auto file = open_lightmap_file(path);
@@ -125,10 +133,7 @@ Status show_lightmaps(const std::string& path, const CommonOptions& common) {
     std::string text =
         str_cat(printable(path), ": ", pages_text(maps), ", ", grouped(facts.covered), " of ",
                 grouped(maps.texel_count()), " texels have light\n  ", maps.info.texels_per_meter,
-                " texels per metre; standard error: median ", percent(facts.median_error),
-                ", worst ", percent(facts.worst_error));
-    if (!maps.layers.empty()) text += "\n  layers " + layers_text(maps);
-    if (!maps.metadata.empty()) text += "\n  made with " + printable(std::string(maps.metadata));
+                " texels per metre; ", to_text(facts.errors));
     Json json = facts_json(path, maps);
     if (is_part(*file)) {
         const auto part = read_lightmap_part(path);
@@ -136,8 +141,13 @@ Status show_lightmaps(const std::string& path, const CommonOptions& common) {
         const PlaceRange& range = part->partial.range;
         const size_t count = part->prepared.baked.size();
         json["part"] = {{"range", {range.begin, range.end}}, {"all_texels", count}};
-        text += str_cat("\n  part of a bake: texels ", name_of(range), " of ", grouped(count));
+        text = str_cat(printable(path), ": part of a bake of lightmaps, texels ", name_of(range),
+                       " of ", grouped(count), "\n  ", maps.info.texels_per_meter,
+                       " texels per metre, pages of ", maps.info.page_size, " x ",
+                       maps.info.page_size);
     }
+    if (!maps.layers.empty()) text += "\n  layers " + layers_text(maps);
+    if (!maps.metadata.empty()) text += "\n  made with " + printable(std::string(maps.metadata));
     common.print(json, text);
     return Ok{};
 }
@@ -156,7 +166,9 @@ Status validate_lightmaps(const std::string& path, const CommonOptions& common) 
     Json json = facts_json(path, file->view());
     json["is_valid"] = true;
     json["problems"] = Json::array();
-    common.print(json, str_cat(printable(path), ": valid, ", pages_text(file->view())));
+    common.print(
+        json, str_cat(printable(path), ": valid, ",
+                      is_part(*file) ? "a part of a bake of lightmaps" : pages_text(file->view())));
     return Ok{};
 }
 

@@ -17,6 +17,10 @@ namespace tetralight::cli {
 /// True if the file begins as lightmaps do.
 [[nodiscard]] bool is_lightmap_file(const std::string& path);
 
+/// Refuses to write lightmaps to a file that is called `.probes`, and probes to `.lightmaps`.
+[[nodiscard]] Status check_output_kind(const std::string& input, const std::string& output,
+                                       bool has_lightmaps);
+
 /// Opens the lightmaps at a path; without a path there are none.
 [[nodiscard]] Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path);
 

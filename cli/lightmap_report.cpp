@@ -7,7 +7,7 @@
 namespace tetralight::cli {
 
 Json light_json(const LightmapReport& report) {
-    return {{"standard_error", {{"median", report.median_error}, {"worst", report.worst_error}}},
+    return {{"standard_error", to_json(errors_of(report))},
             {"over_target", report.over_target_count},
             {"rays", report.ray_count},
             {"seconds",
@@ -22,9 +22,19 @@ std::string times_text(const LightmapReport& report) {
                    magnitude(static_cast<double>(report.ray_count)), "rays)");
 }
 
-std::string errors_text(const LightmapReport& report) {
-    return str_cat("standard error: median ", percent(report.median_error), ", worst ",
-                   percent(report.worst_error));
+TexelErrors errors_of(const LightmapReport& report) {
+    return {report.median_error, report.worst_error};
+}
+
+Json to_json(const TexelErrors& errors) {
+    if (errors.worst == 0.0f) return nullptr;
+    return {{"median", errors.median}, {"worst", errors.worst}};
+}
+
+std::string to_text(const TexelErrors& errors) {
+    if (errors.worst == 0.0f) return "standard error: not known";
+    return str_cat("standard error: median ", percent(errors.median), ", worst ",
+                   percent(errors.worst));
 }
 
 Json pages_json(const LightmapsView& maps, const LightmapReport& report) {
@@ -59,7 +69,7 @@ void report_lightmaps(const CommonOptions& common, const std::string& output,
     json.update(light_json(report));
     common.report(output, json,
                   str_cat(output, ": ", pages_line(maps, report), "\n  ", times_text(report),
-                          "\n  ", seams_text(report), "\n  ", errors_text(report)));
+                          "\n  ", seams_text(report), "\n  ", to_text(errors_of(report))));
 }
 
 }  // namespace tetralight::cli

@@ -17,8 +17,19 @@ namespace tetralight::cli {
 /// Times and rays as one line for people.
 [[nodiscard]] std::string times_text(const LightmapReport& report);
 
-/// Standard errors as one line for people.
-[[nodiscard]] std::string errors_text(const LightmapReport& report);
+/// Standard errors of texels; 0: not known.
+struct TexelErrors {
+    float median = 0.0f;
+    float worst = 0.0f;
+};
+
+[[nodiscard]] TexelErrors errors_of(const LightmapReport& report);
+
+/// Null if they are not known.
+[[nodiscard]] Json to_json(const TexelErrors& errors);
+
+/// As one line for people.
+[[nodiscard]] std::string to_text(const TexelErrors& errors);
 
 /// Pages, charts, texels and seams, as fields of a bake's JSON.
 [[nodiscard]] Json pages_json(const LightmapsView& maps, const LightmapReport& report);

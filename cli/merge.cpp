@@ -24,15 +24,9 @@ struct Merge {
     Status run() {
         if (auto status = check_output(output, parts); !status) return status;
         const bool has_lightmaps = is_lightmap_file(parts[0]);
-        if (auto status = check_extension(has_lightmaps); !status) return status;
+        if (auto status = check_output_kind(parts[0], output, has_lightmaps); !status)
+            return status;
         return has_lightmaps ? merge_lightmaps() : merge_probes();
-    }
-
-    [[nodiscard]] Status check_extension(bool has_lightmaps) const {
-        if (!output.ends_with(has_lightmaps ? ".probes" : ".lightmaps")) return Ok{};
-        return Error{ErrorCode::InvalidArgument, "output", output,
-                     str_cat(parts[0], ": contains ", has_lightmaps ? "lightmaps" : "probes",
-                             ", not what ", output, " is called")};
     }
 
     [[nodiscard]] Status merge_lightmaps() const {
@@ -49,7 +43,7 @@ struct Merge {
         common.report(
             output, json,
             str_cat(output, ": ", pages_line(maps, report), " of ", counted(parts.size(), "part"),
-                    "\n  ", seams_text(report), "\n  ", errors_text(report)));
+                    "\n  ", seams_text(report), "\n  ", to_text(errors_of(report))));
         return Ok{};
     }
 

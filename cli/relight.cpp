@@ -53,12 +53,8 @@ struct Relight {
             return status;
         }
         const bool has_lightmaps = is_lightmap_file(volume_path);
-        if (output.ends_with(has_lightmaps ? ".probes" : ".lightmaps")) {
-            return Error{
-                ErrorCode::InvalidArgument, "output", output,
-                str_cat(volume_path, ": contains ", has_lightmaps ? "lightmaps" : "a probe volume",
-                        ", not what ", output, " is called")};
-        }
+        if (auto status = check_output_kind(volume_path, output, has_lightmaps); !status)
+            return status;
         if (has_lightmaps) return run_lightmaps();
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();

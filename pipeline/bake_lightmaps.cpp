@@ -6,6 +6,7 @@
 
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/round_plan.h>
+#include <tetralight/base/memory.h>
 #include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_key.h>
@@ -24,7 +25,7 @@ Status check_only(const Scene& scene, const BakeLightmapsSettings& settings) {
         });
         if (is_known) continue;
         return Error{ErrorCode::NotFound, "only", name,
-                     str_cat("only: no object \"", name, "\" of the scene takes a lightmap")};
+                     str_cat("no object \"", name, "\" of the scene takes a lightmap")};
     }
     return Ok{};
 }
@@ -85,17 +86,66 @@ void describe(const Scene& scene, const std::vector<std::string>& layer_names,
     maps.metadata = lightmap_metadata(scene, prepared.settings);
 }
 
-/// Seams between charts that have light: not those of objects that `only` leaves out.
-std::vector<Seam> seams_of(const Scene& scene, const PreparedLightmaps& prepared) {
+/// Which instances have baked texels: not those that `only` leaves out, or that are inside
+/// geometry.
+std::vector<bool> lit_instances(const PreparedLightmaps& prepared) {
     const auto& first_texel = prepared.texels.first_texel;
-    std::vector<bool> has_light;
+    std::vector<bool> is_lit;
     auto next = prepared.baked.begin();
-    for (size_t instance = 0; instance < scene.instances.size(); ++instance) {
+    for (size_t instance = 0; instance + 1 < first_texel.size(); ++instance) {
         const auto end = std::lower_bound(next, prepared.baked.end(), first_texel[instance + 1]);
-        has_light.push_back(next != end);
+        is_lit.push_back(next != end);
         next = end;
     }
-    return find_seams(scene, prepared.layout, has_light);
+    return is_lit;
+}
+
+/// Seams between charts that are stitched.
+std::vector<Seam> seams_of(const Scene& scene, const PreparedLightmaps& prepared,
+                           std::vector<bool> joins) {
+    for (size_t i = 0; i < scene.instances.size(); ++i)
+        joins[i] = joins[i] && scene.instances[i].lightmap.stitches_seams;
+    return find_seams(scene, prepared.layout, joins);
+}
+
+/// Warns of objects that take a lightmap and have no light in it.
+void warn_of_dark_objects(const Scene& scene, const std::vector<bool>& is_lit,
+                          PreparedLightmaps& prepared) {
+    constexpr size_t kNamed = 3;
+    std::string names;
+    size_t count = 0;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const bool is_asked =
+            takes_lightmap(scene, scene.instances[i]) && is_baked(scene, i, prepared.settings.only);
+        if (!is_asked || is_lit[i]) continue;
+        if (++count <= kNamed)
+            names += str_cat(count == 1 ? "" : ", ", "\"", scene.instances[i].name, "\"");
+    }
+    if (count == 0) return;
+    if (count > kNamed) names += str_cat(" and ", count - kNamed, " more");
+    prepared.report.warnings.push_back(
+        count == 1 ? str_cat("no light was found for 1 object, which stays black: all its texels "
+                             "are inside geometry, or its surface has no area (",
+                             names, ")")
+                   : str_cat("no light was found for ", count,
+                             " objects, which stay black: all their texels are inside geometry, or "
+                             "their surfaces have no area (",
+                             names, ")"));
+}
+
+/// Returns out_of_resources if the pages do not fit into the free memory.
+Status check_memory(const LightmapLayout& layout, size_t layer_count) {
+    constexpr uint64_t kLayerBytes = sizeof(LayerTexel) + sizeof(LightmapTexel);
+    // Validity and error; what stitching needs; and the bytes of the file.
+    constexpr uint64_t kTexelBytes = 2 * (sizeof(IrradianceTexel) + sizeof(LightmapTexel) + 3) + 5;
+    const uint64_t texels = uint64_t{layout.page_size} * layout.page_size * layout.page_count;
+    const uint64_t bytes = texels * (kTexelBytes + 2 * kLayerBytes * layer_count);
+    const uint64_t free = free_memory();
+    if (bytes <= free) return Ok{};
+    return Error{ErrorCode::OutOfResources, "page_size", str_cat(layout.page_size),
+                 str_cat(layout.page_count, " pages of ", layout.page_size, " x ", layout.page_size,
+                         " texels need about ", gigabytes(bytes), " of memory, ", gigabytes(free),
+                         " are free; use smaller pages or fewer texels per metre")};
 }
 
 void count_texels(PreparedLightmaps& prepared) {
@@ -131,6 +181,8 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     if (layout->page_count == 0) {
         return Error{ErrorCode::InvalidArgument, "the scene has no object that takes a lightmap"};
     }
+    if (auto status = check_memory(*layout, plan->layer_names.size()); !status)
+        return status.error();
     prepared.layout = std::move(*layout);
     auto& warnings = prepared.report.warnings;
     warnings.insert(warnings.end(), prepared.layout.warnings.begin(),
@@ -145,7 +197,9 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     prepared.texels = std::move(*texels);
     select_texels(scene, prepared);
     describe(scene, plan->layer_names, prepared);
-    prepared.seams = seams_of(scene, prepared);
+    const std::vector<bool> is_lit = lit_instances(prepared);
+    warn_of_dark_objects(scene, is_lit, prepared);
+    prepared.seams = seams_of(scene, prepared, is_lit);
     prepared.key = lightmap_key(prepared);
     count_texels(prepared);
     prepared.report.texel_seconds = watch.lap();

@@ -12,6 +12,7 @@
 #include <tetralight/pipeline/lightmap_part.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/pipeline/walls_metadata.h>
+#include <tetralight/probes/probe_file.h>
 
 namespace tetralight {
 namespace {
@@ -45,6 +46,8 @@ Status check_kinds(const std::vector<std::string>& paths) {
         const auto file = MappedFile::open(path);
         if (!file) return file.error();
         if (has_lightmaps(path) == first) continue;
+        if (first && !open_probe_file_lazy(path))
+            return Error{ErrorCode::InvalidArgument, str_cat(path, ": is not a part of lightmaps")};
         return Error{ErrorCode::InvalidArgument,
                      str_cat(path, ": contains ", what(!first), ", but ", paths[0], " contains ",
                              what(first))};

@@ -44,8 +44,10 @@ std::vector<bool> instances_named(const LightmapsView& lightmaps,
                                   const std::vector<std::string>& names) {
     std::vector<bool> result(lightmaps.rectangles.size(), false);
     const std::vector<std::string_view> all = split_names(lightmaps.instance_names);
-    for (size_t i = 0; i < std::min(all.size(), result.size()); ++i)
-        result[i] = std::ranges::find(names, all[i]) != names.end();
+    for (size_t i = 0; i < std::min(all.size(), result.size()); ++i) {
+        const bool has_page = lightmaps.rectangles[i].page != kNoIndex;
+        result[i] = has_page && std::ranges::find(names, all[i]) != names.end();
+    }
     return result;
 }
 

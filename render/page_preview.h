@@ -10,7 +10,7 @@
 
 namespace tetralight {
 
-/// Which instances of lightmaps have one of these names; empty names mark none.
+/// Which instances with a lightmap have one of these names.
 [[nodiscard]] std::vector<bool> instances_named(const LightmapsView& lightmaps,
                                                 const std::vector<std::string>& names);
 

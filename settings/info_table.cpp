@@ -28,9 +28,10 @@ constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettin
 
 }  // namespace
 
-const Table kInfo{.command = "info",
-                  .summary = "Describe a probe volume, or write its tetrahedra as lines",
-                  .examples = "tetralight info courtyard.probes --obj courtyard_cells.obj",
-                  .groups = kGroups};
+const Table kInfo{
+    .command = "info",
+    .summary = "Describe a probe volume, lightmaps or a part of them, or write tetrahedra as lines",
+    .examples = "tetralight info courtyard.probes --obj courtyard_cells.obj",
+    .groups = kGroups};
 
 }  // namespace tetralight::settings

@@ -37,7 +37,8 @@ constexpr Setting kSettings[] = {
      .needs = "sun_direction"},
     {.name = "blend",
      .type = Type::Path,
-     .help = "Blend with this volume, which has the same probes",
+     .help =
+         "Blend with this volume, which has the same probes, or with lightmaps of the same pages",
      .without = "no blending"},
     {.name = "blend_share",
      .type = Type::Number,
@@ -52,11 +53,13 @@ constexpr Group kGroups[] = {
 
 }  // namespace
 
-const Table kRelight{.command = "relight",
-                     .summary = "Change the light of a volume without baking it again",
-                     .examples =
-                         "tetralight relight court.probes --weights lamp=0,neon=2 "
-                         "--sky dusk.exr -o night.probes",
-                     .groups = kGroups};
+const Table kRelight{
+    .command = "relight",
+    .summary = "Change the light of a volume or of lightmaps without baking them again",
+    .examples =
+        "tetralight relight court.probes --weights lamp=0,neon=2 "
+        "--sky dusk.exr -o night.probes\n"
+        "tetralight relight court.lightmaps --weights sun=0 -o night.lightmaps",
+    .groups = kGroups};
 
 }  // namespace tetralight::settings

@@ -17,11 +17,12 @@ constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettin
 
 }  // namespace
 
-const Table kValidate{.command = "validate",
-                      .summary = "Check a probe volume: checksums, structure, Delaunay property",
-                      .examples =
-                          "tetralight validate courtyard.probes --json\n"
-                          "tetralight validate courtyard.probes --scene courtyard.glb",
-                      .groups = kGroups};
+const Table kValidate{
+    .command = "validate",
+    .summary = "Check a probe volume or lightmaps: checksums, structure, Delaunay property",
+    .examples =
+        "tetralight validate courtyard.probes --json\n"
+        "tetralight validate courtyard.probes --scene courtyard.glb",
+    .groups = kGroups};
 
 }  // namespace tetralight::settings

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <optional>
 #include <span>
@@ -93,7 +94,9 @@ struct Unwrapped {
     UvCheck check;
 
     [[nodiscard]] bool is_bad() const {
-        return check.overlap_area > 0.0 || check.outside_count > 0;
+        constexpr double kLostPart = 1e-3;  // slivers
+        return check.overlap_area > 0.0 || check.outside_count > 0 ||
+               check.lost_fraction > kLostPart;
     }
 };
 
@@ -113,18 +116,31 @@ Unwrapped unwrap_mesh(const Scene& scene, const UnwrapKey& key,
     return result;
 }
 
+/// The number to three significant digits.
+std::string three_digits(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.3g", value);
+    return buffer;
+}
+
 std::string uv_warning(const Scene& scene, uint32_t instance, const Unwrapped& unwrapped,
                        LightmapUvs uvs) {
-    std::string text = name_of(scene, instance) + ": TEXCOORD_1 ";
     const UvCheck& check = unwrapped.check;
+    std::vector<std::string> problems;
     if (check.overlap_area > 0.0) {
-        text += str_cat("overlaps itself on ", check.overlap_area, " of its ", check.area,
-                        " UV square");
+        problems.push_back(str_cat("overlaps itself on ", three_digits(check.overlap_area),
+                                   " of the ", three_digits(check.area),
+                                   " that its triangles cover (1 = the square from 0 to 1)"));
     }
-    if (check.outside_count > 0) {
-        if (check.overlap_area > 0.0) text += ", and ";
-        text += str_cat("leaves 0 to 1 at ", check.outside_count, " corners");
+    if (check.outside_count > 0)
+        problems.push_back(str_cat("leaves 0 to 1 at ", check.outside_count, " corners"));
+    if (check.lost_fraction > 0.0) {
+        problems.push_back(str_cat("has no area on ", three_digits(100.0 * check.lost_fraction),
+                                   " % of the surface, which gets no texels of its own"));
     }
+    std::string text = name_of(scene, instance) + ": TEXCOORD_1 ";
+    for (size_t i = 0; i < problems.size(); ++i)
+        text += (i == 0 ? "" : i + 1 < problems.size() ? ", " : ", and ") + problems[i];
     return text + (uvs == LightmapUvs::Repair ? "; the mesh is unwrapped anew"
                                               : "; the lightmap uses it unchanged");
 }
@@ -159,7 +175,8 @@ Error with_object(Error error, const Scene& scene, uint32_t instance, uint32_t p
     const float scale = scene.instances[instance].lightmap.scale;
     std::string help = str_cat("; lower its extras.lightmap_scale from ", scale);
     if (part > 0.0) help += str_cat(" to ", rounded_down(part * double{scale}));
-    help += str_cat(" or the texels per metre, or use pages larger than ", page_size);
+    help += " or the texels per metre";
+    if (page_size < kMaxPageSize) help += str_cat(", or use pages larger than ", page_size);
     error.message = error.message.prefixed(name_of(scene, instance) + ": ").suffixed(help);
     return error;
 }

@@ -121,14 +121,13 @@ class EdgeReader {
 };
 
 std::vector<WorldEdge> world_edges(const Scene& scene, const LightmapLayout& layout,
-                                   const std::vector<bool>& has_light) {
+                                   const std::vector<bool>& joins) {
     std::vector<std::vector<BorderEdge>> borders(layout.packings.size());
     std::vector<bool> is_known(layout.packings.size(), false);
     std::vector<WorldEdge> edges;
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const LightmapPlace& place = layout.places[i];
-        if (!place.has_lightmap() || !has_light[i]) continue;
-        if (!scene.instances[i].lightmap.stitches_seams) continue;
+        if (!place.has_lightmap() || !joins[i]) continue;
         const LightmapPacking& packing = layout.packings[place.packing];
         if (!is_known[place.packing]) {
             borders[place.packing] = border_edges(scene.meshes[packing.mesh], packing);
@@ -214,8 +213,8 @@ bool is_same_edge(const WorldEdge& a, const WorldEdge& b, std::array<size_t, 2> 
 }  // namespace
 
 std::vector<Seam> find_seams(const Scene& scene, const LightmapLayout& layout,
-                             const std::vector<bool>& has_light, const SeamSettings& settings) {
-    const std::vector<WorldEdge> edges = world_edges(scene, layout, has_light);
+                             const std::vector<bool>& joins, const SeamSettings& settings) {
+    const std::vector<WorldEdge> edges = world_edges(scene, layout, joins);
     const EdgeGrid grid(edges, settings.max_distance);
     std::vector<Seam> seams;
     std::vector<uint32_t> near;

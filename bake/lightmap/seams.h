@@ -38,10 +38,10 @@ struct SeamSettings {
 
 /// The seams between charts of one instance, and between instances that form one surface, such as
 /// the tiles of a floor. Edges count whose ends coincide: a long edge beside two short ones is not
-/// found. Instances with `stitches_seams` false, and those without light (`has_light`, one an
-/// instance), have no seams. In the order of instances and triangles.
+/// found. Only instances that `joins` names, one an instance, have seams. In the order of instances
+/// and triangles.
 [[nodiscard]] std::vector<Seam> find_seams(const Scene& scene, const LightmapLayout& layout,
-                                           const std::vector<bool>& has_light,
+                                           const std::vector<bool>& joins,
                                            const SeamSettings& settings = {});
 
 }  // namespace tetralight

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include <tetralight/charts/rasterize_texels.h>
 
@@ -117,10 +120,21 @@ class MapBuilder {
             });
         }
         std::ranges::sort(touched.texel_triangles);
+        std::vector<Touched> all;
         for (size_t begin = 0; begin < touched.texel_triangles.size();) {
             const size_t end = touched.end_of(begin);
-            add_texel(std::span(touched.texel_triangles).subspan(begin, end - begin));
+            all.push_back(
+                touched_texel(std::span(touched.texel_triangles).subspan(begin, end - begin)));
             begin = end;
+        }
+        std::set<uint32_t> covering;  // charts that cover a part of a texel
+        for (const Touched& texel : all) {
+            if (!texel.is_at_border) covering.insert(texel.chart);
+        }
+        for (const Touched& texel : all) {
+            // A surface that ends at the border of a texel covers none of it. One that has no other
+            // texel, because it is too small, takes the first.
+            if (!texel.is_at_border || covering.insert(texel.chart).second) add_texel(texel);
         }
         return std::move(map_);
     }
@@ -161,15 +175,32 @@ class MapBuilder {
         return best;
     }
 
-    void add_texel(TexelTriangles triangles) {
+    /// A texel that triangles touch, and their point nearest to its center.
+    struct Touched {
+        TexelTriangles triangles;
+        Nearest center;
+        uint32_t chart = 0;
+        bool is_at_border = false;
+    };
+
+    [[nodiscard]] glm::dvec2 corner_of(uint32_t texel) const {
+        return {texel % map_.width, texel / map_.width};
+    }
+
+    [[nodiscard]] Touched touched_texel(TexelTriangles triangles) const {
+        Touched texel{triangles, nearest(triangles, corner_of(triangles[0].first) + 0.5)};
+        const glm::dvec2 offset = glm::abs(texel.center.offset);
+        texel.chart = packing_.triangle_charts[triangles[0].second];
+        texel.is_at_border = std::max(offset.x, offset.y) > 0.5 - kOnBorder;
+        return texel;
+    }
+
+    void add_texel(const Touched& touched) {
+        const TexelTriangles triangles = touched.triangles;
         const uint32_t index = triangles[0].first;
-        const glm::dvec2 corner(index % map_.width, index / map_.width);
+        const glm::dvec2 corner = corner_of(index);
         TexelMap::Texel texel{index, static_cast<uint32_t>(map_.points.size()), 0};
-        const Nearest center = nearest(triangles, corner + 0.5);
-        // A surface that ends at the border of the texel covers none of it.
-        if (std::max(std::abs(center.offset.x), std::abs(center.offset.y)) > 0.5 - kOnBorder)
-            return;
-        map_.points.push_back(center.point);
+        map_.points.push_back(touched.center.point);
         for (uint32_t i = 0; i < grid_ * grid_; ++i) {
             const glm::dvec2 place(0.5 + i % grid_, 0.5 + i / grid_);
             const Nearest found = nearest(triangles, corner + place / static_cast<double>(grid_));

@@ -139,6 +139,24 @@ TEST(KeepUvs, KeepsTheShape) {
     EXPECT_EQ(charts.chart_sizes[0], glm::vec2(4.0f, 2.0f));
 }
 
+TEST(KeepUvs, StretchAlongAnAxisIsUndone) {
+    // UVs from 0 to 1 on both sides of a wall of 8 x 2 m, as packers write them.
+    const OwnedMesh mesh = plane_mesh({8.0, 2.0}, 4, 2);
+    const Unwrap charts = keep_uvs(mesh.view(), flat_uvs(mesh, {0.125f, 0.5f}));
+    EXPECT_NEAR(charts.chart_sizes[0].x, 8.0f, 1e-4f);
+    EXPECT_NEAR(charts.chart_sizes[0].y, 2.0f, 1e-4f);
+}
+
+TEST(CheckUvs, TellsWhatHasNoArea) {
+    const OwnedMesh mesh = plane_mesh({4.0, 2.0}, 4, 2);
+    EXPECT_EQ(check_uvs(mesh.view(), flat_uvs(mesh, {0.25f, 0.5f})).lost_fraction, 0.0);
+    EXPECT_EQ(check_uvs(mesh.view(), flat_uvs(mesh, {0.25f, 0.0f})).lost_fraction, 1.0);
+    // The left half of the surface on a line.
+    auto uvs = flat_uvs(mesh, {0.25f, 0.5f});
+    for (glm::vec2& uv : uvs) uv.x = std::max(uv.x, 0.5f);
+    EXPECT_NEAR(check_uvs(mesh.view(), uvs).lost_fraction, 0.5, 1e-6);
+}
+
 TEST(KeepUvs, UvsWithoutAreaBecomeAPoint) {
     const OwnedMesh mesh = plane_mesh({4.0, 2.0}, 1, 1);
     const Unwrap charts = keep_uvs(mesh.view(), flat_uvs(mesh, {1.0f, 0.0f}));

@@ -60,7 +60,7 @@ TEST_F(Export, PreviewsMarkObjects) {
     EXPECT_TRUE(read("p_0.png") != plain);
     EXPECT_TRUE(contains(
         fail({"export", "c.lightmaps", "--as", "preview", "-o", "p.png", "--mark", "no such"}),
-        "c.lightmaps: has no object \"no such\""));
+        "c.lightmaps: no object \"no such\" has a lightmap there"));
     EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "-o", "p.png", "--mark", name}),
                          "only previews"));
 }

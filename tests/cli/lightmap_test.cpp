@@ -58,7 +58,10 @@ TEST_F(Lightmap, RelightRefusesWhatLightmapsCannotDo) {
     EXPECT_TRUE(contains(fail({"relight", "c.lightmaps", "--sky", "2", "-o", "x.lightmaps"}),
                          "contains lightmaps"));
     EXPECT_TRUE(contains(fail({"relight", "c.lightmaps", "--weights", "sky=2", "-o", "x.probes"}),
-                         "contains lightmaps"));
+                         "c.lightmaps: contains lightmaps"));
+    write("empty", "");
+    EXPECT_TRUE(contains(fail({"relight", "empty", "--weights", "sky=2", "-o", "x.lightmaps"}),
+                         "empty: contains no lightmaps"));
 }
 
 TEST_F(Lightmap, StoresGiveTheSameBytes) {
@@ -110,7 +113,7 @@ TEST_F(Lightmap, MergeNamesWhatIsMissingAndKeepsTheOldFile) {
         contains(refusal({"a.part", "other.part"}), "other.part: is of another bake than a.part"));
     EXPECT_TRUE(contains(refusal({"a.part", "probes.part"}),
                          "probes.part: contains probes, but a.part contains lightmaps"));
-    EXPECT_TRUE(contains(refusal({"probes.part"}), "probes.part: contains probes"));
+    EXPECT_TRUE(contains(refusal({"probes.part"}), "probes.part: contains no lightmaps"));
     EXPECT_TRUE(contains(fail({"merge", "a.part", "-o", "v.probes"}), "contains lightmaps"));
 }
 

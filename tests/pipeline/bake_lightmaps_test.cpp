@@ -172,7 +172,50 @@ TEST(BakeLightmaps, OnlyTheNamedObjectIsBaked) {
     EXPECT_TRUE(irradiance_of(maps, 0).empty());
     EXPECT_FALSE(irradiance_of(maps, 1).empty());
     settings.only = {"door"};
-    EXPECT_EQ(error_of(scene, settings), "only: no object \"door\" of the scene takes a lightmap");
+    EXPECT_EQ(error_of(scene, settings), "no object \"door\" of the scene takes a lightmap");
+}
+
+TEST(BakeLightmaps, WarnsOfObjectsThatStayBlack) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, kGrey, 2.0f).name = "lit";
+    test::add_box(scene, kGrey, test::Facing::Outward, {9, 0, 9}, {11, 2, 11});
+    test::add_quad(scene, kGrey, {9.5, 1, 9.5}, {0, 0, 1}, {1, 0, 0}).name = "in a box";
+    const auto baked = bake_lightmaps(scene, settings_with(1));
+    ASSERT_EQ(baked->report.warnings.size(), 1u);
+    EXPECT_EQ(baked->report.warnings[0],
+              "no light was found for 1 object, which stays black: all its texels are inside "
+              "geometry, or its surface has no area (\"in a box\")");
+}
+
+TEST(BakeLightmaps, SurfacesWithoutAreaInUvsHaveOneTexel) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, kGrey, 2.0f).name = "on a point";
+    Mesh& mesh = scene.meshes.back();
+    mesh.uvs[1].assign(mesh.positions.size(), glm::vec2(0.5f));
+    BakeLightmapsSettings settings = settings_with(1);
+    settings.layout.uvs = LightmapUvs::Keep;
+    const auto kept = bake_lightmaps(scene, settings);
+    ASSERT_EQ(kept->report.warnings.size(), 1u);
+    EXPECT_TRUE(kept->report.warnings[0].starts_with(
+        "object \"on a point\": TEXCOORD_1 has no area on 100 % of the surface"));
+    EXPECT_EQ(kept->report.baked_count, 1u);
+    for (const float value : irradiance_of(kept->lightmaps, 0)) EXPECT_GT(value, 0.0f);
+    settings.layout.uvs = LightmapUvs::Repair;
+    const auto repaired = bake_lightmaps(scene, settings);
+    EXPECT_EQ(repaired->report.warnings.size(), 1u);
+    EXPECT_GT(repaired->report.baked_count, 100u);
+}
+
+TEST(BakeLightmaps, RefusesPagesThatDoNotFitIntoMemory) {
+    Scene scene;
+    test::add_floor(scene, kGrey, 500.0f);
+    scene.instances.resize(1000, scene.instances[0]);
+    BakeLightmapsSettings settings = settings_with(1, 9.0);
+    settings.layout.page_size = 16384;
+    EXPECT_TRUE(error_of(scene, settings).find("pages of 16384 x 16384 texels need about ") !=
+                std::string::npos);
 }
 
 TEST(BakeLightmaps, ObjectsThatAreLeftOutDarkenNoSeam) {
@@ -184,6 +227,16 @@ TEST(BakeLightmaps, ObjectsThatAreLeftOutDarkenNoSeam) {
     settings.only = {"tile"};
     for (const float value : irradiance_of(bake(scene, settings), 0))
         EXPECT_NEAR(double{value}, kPi, 0.03);
+}
+
+TEST(BakeLightmaps, SeamsAreStitchedUnlessAnObjectForbidsIt) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_quad(scene, kGrey, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
+    test::add_quad(scene, kGrey, {1, 0, 0}, {0, 0, 1}, {1, 0, 0});
+    EXPECT_EQ(prepare_lightmaps(scene, settings_with(1))->seams.size(), 1u);
+    scene.instances[1].lightmap.stitches_seams = false;
+    EXPECT_EQ(prepare_lightmaps(scene, settings_with(1))->seams.size(), 0u);
 }
 
 TEST(BakeLightmaps, RefusesWhatTexelsCannotHave) {

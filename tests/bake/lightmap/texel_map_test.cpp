@@ -41,6 +41,13 @@ TEST(TexelMap, TexelsCoverTheFloorOnce) {
     }
 }
 
+TEST(TexelMap, SurfacesFarBelowATexelHaveOne) {
+    for (const float half_size : {1e-5f, 1e-4f, 1e-3f, 1e-2f}) {
+        EXPECT_GE(Floor(half_size, 4.0).map.texels.size(), 1u) << half_size;
+        EXPECT_LE(Floor(half_size, 4.0).map.texels.size(), 4u) << half_size;
+    }
+}
+
 TEST(TexelMap, PlacesLieInsideTheFloorAndAreEvenlySpread) {
     const Floor floor(1.0f);
     glm::vec3 sum(0.0f);
