@@ -98,7 +98,11 @@ class AccumulatorBaker {
     }
 
     Status run() {
-        for (std::vector<uint32_t> probes = next_round(); !probes.empty(); probes = next_round()) {
+        std::vector<uint32_t> probes = next_round();
+        if (hooks_.begin && !probes.empty()) {
+            if (auto status = hooks_.begin(); !status) return status;
+        }
+        for (; !probes.empty(); probes = next_round()) {
             const uint64_t round = work_.accumulators[probes[0]].round_count;
             const size_t step = probes_at_once(round);
             for (size_t begin = 0; begin < probes.size(); begin += step) {
@@ -292,8 +296,9 @@ Status bake_accumulators(const Scene& scene, const BakePlaces& places, const Bak
     if (!trace_scene) return trace_scene.error();
     const PathSettings path_settings{settings.bounces, settings.clamp};
     std::vector<Opening> openings;
-    if (path_settings.samples_openings()) openings = openings_of(scene, *trace_scene);
-    const PathTracer tracer(scene, *trace_scene, path_settings, settings.plan, std::move(openings));
+    if (path_settings.traces_all_light()) openings = openings_of(scene, *trace_scene);
+    const PathTracer tracer(scene, *trace_scene, path_settings, settings.plan, std::move(openings),
+                            places.surfaces.cache);
     std::vector<Light> lights;
     for (const Light& light : scene.lights) lights.push_back(trace_scene->render_from_world(light));
     std::vector<double> mean_light;

@@ -18,6 +18,9 @@ namespace tetralight {
 /// Callbacks of a running bake.
 struct BakeHooks {
     BakeCallback progress{};
+    /// Called on the calling thread before the first sample, if any is missing. Its error ends the
+    /// bake. It counts in the time budget.
+    std::function<Status()> begin{};
     /// Called on the calling thread about every `save_seconds`, while no accumulator changes, so
     /// that the accumulators can be written to a checkpoint.
     std::function<void()> save{};

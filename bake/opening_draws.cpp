@@ -15,10 +15,11 @@ namespace tetralight {
 
 using detail::power_heuristic;
 
-PathTracer::Draws PathTracer::draws_at(const PathStart& start) {
+PathTracer::Draws PathTracer::draws_at(const PathStart& start) const {
     if (start.opening_weights == nullptr) return {};
     Draws draws = draws_with({start.origin, start.normal}, *start.opening_weights, 1.0f);
     draws.is_first = true;
+    draws.sees_sky = !settings_.is_reflected_only;
     return draws;
 }
 
@@ -125,6 +126,7 @@ PathTracer::OpeningSample PathTracer::draw_direction(const Draws& draws, glm::ve
     const auto surface = trace_scene_.intersect(
         {ray_origin, sample.to_light}, TraceScene::Detail::LightOnly, TraceScene::kDiffuseSpread);
     if (!surface) {
+        if (!draws.sees_sky) return sample;
         const float light_pdf = light_sampler_.pdf(sample.to_light) * light_samples;
         const float weight = power_heuristic(drawn, by_chance, light_pdf);
         sample.irradiance = path.throughput *
@@ -141,9 +143,15 @@ PathTracer::OpeningSample PathTracer::draw_direction(const Draws& draws, glm::ve
     Draws arrival = draws;
     arrival.chance_pdf = by_chance;
     arrival.is_drawn = true;
-    sample.irradiance = branch.throughput * reflected_light(*surface, branch, weight, arrival, {});
-    branch.throughput *= weight;
-    sample.irradiance += reflected_by_chance(*surface, branch);
+    if (const auto texel = cached_texel(*surface, ray_origin)) {
+        sample.irradiance =
+            branch.throughput * cached_light(*surface, *texel, branch, {weight, 0.0f}, arrival);
+    } else {
+        sample.irradiance =
+            branch.throughput * reflected_light(*surface, branch, weight, arrival, {});
+        branch.throughput *= weight;
+        sample.irradiance += reflected_by_chance(*surface, branch);
+    }
     path.ray_count = branch.ray_count;
     path.draw_sampler = branch.sampler;
     return sample;

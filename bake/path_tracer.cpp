@@ -69,7 +69,7 @@ glm::vec3 sample_start(glm::vec3 normal, glm::vec2 u) noexcept {
 
 PathTracer::PathTracer(const Scene& scene, const TraceScene& trace_scene,
                        const PathSettings& settings, const LightPlan& plan,
-                       std::vector<Opening> openings)
+                       std::vector<Opening> openings, const RadianceCache* cache)
     : scene_(scene),
       trace_scene_(trace_scene),
       settings_(settings),
@@ -80,7 +80,9 @@ PathTracer::PathTracer(const Scene& scene, const TraceScene& trace_scene,
         baked_lights_.push_back(trace_scene.render_from_world(scene.lights[i]));
         layer_of_baked_light_.push_back(plan.layer_of(plan.layer_of_light, i));
     }
-    if (openings.empty() || !settings.samples_openings()) return;
+    if (!settings.traces_all_light()) return;
+    cache_ = cache;
+    if (openings.empty()) return;
     std::vector<Light> lights;
     for (const auto& [light, source] : light_sampler_.directional_lights()) {
         lights.push_back(light);
@@ -100,7 +102,8 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
     Draws draws = draws_at(start);
     draws.chance_pdf = start_pdf(start.normal, start.direction);
     float pdf = start.paths_per_light_sample * draws.chance_pdf;
-    float weight = 1.0f;  // of light that arrives at the start of the segment from its sources
+    // Of light that arrives at the start of the segment from its sources.
+    float weight = settings_.is_reflected_only ? 0.0f : 1.0f;
     glm::vec3 light_before_last(0.0f);
     if (settings_.bounces == 0) sample.last_throughput = 1.0f;
     for (uint32_t bounce = 0;; ++bounce) {
@@ -147,12 +150,25 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
         const float drawn = direction_density(draws, ray.direction);
         weight = 1.0f;
         if (drawn > 0.0f) {
-            weight = thin_out(power_heuristic(draws.chance_pdf, drawn), path.draw_sampler);
+            weight = power_heuristic(draws.chance_pdf, drawn);
+            if (cache_ == nullptr) weight = thin_out(weight, path.draw_sampler);
         }
         shading_point = {surface->position, surface->geometric_normal};
+        const auto texel = cached_texel(*surface, ray.origin);
+        if (texel && cache_->has_reflected) {
+            reflected += throughput * cached_light(*surface, *texel, path, {weight, 1.0f}, draws);
+            break;
+        }
         const Draws arrival_draws =
             std::exchange(draws, draws_at(shading_point, std::min(1.0f, brightest(throughput))));
-        reflected += throughput * reflected_light(*surface, path, weight, arrival_draws, draws);
+        if (texel) {
+            reflected +=
+                throughput * cached_light(*surface, *texel, path, {weight, 0.0f}, arrival_draws);
+            draws.sees_sky = false;
+            weight = 0.0f;
+        } else {
+            reflected += throughput * reflected_light(*surface, path, weight, arrival_draws, draws);
+        }
 
         ray = {TraceScene::ray_origin(*surface, shading_point.normal),
                sample_cosine_hemisphere(shading_point.normal, path.sampler.next2())};
@@ -172,7 +188,7 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
 }
 
 bool PathTracer::can_sample_emission() const {
-    return settings_.strategy != LightStrategy::BsdfOnly &&
+    return settings_.strategy != LightStrategy::BsdfOnly && !settings_.is_reflected_only &&
            (light_sampler_.has(LightKind::Triangle) || light_sampler_.has(LightKind::Sky));
 }
 
@@ -201,33 +217,64 @@ bool PathTracer::occluded(glm::vec3 origin, const LightSample& sample, float ble
     return trace_scene_.occluded({origin, (sample.target - origin) * scale, 1.0f / scale});
 }
 
+glm::vec3 PathTracer::sampled_irradiance(LightKind kind, const Surface& surface, Path& path,
+                                         float weight, const Draws& arrival,
+                                         const Draws& here) const {
+    if (!light_sampler_.has(kind)) return glm::vec3(0.0f);
+    const ShadingPoint shading_point{surface.position, surface.geometric_normal};
+    const LightSample sample = light_sampler_.sample(kind, shading_point, path.sampler);
+    const float cosine = glm::dot(shading_point.normal, sample.to_light);
+    if (cosine <= 0.0f || !is_light(sample.irradiance)) return glm::vec3(0.0f);
+    float other_pdf = cosine * std::numbers::inv_pi_v<float>;
+    if (kind == LightKind::Sky)
+        other_pdf = std::hypot(other_pdf, direction_density(here, sample.to_light));
+    if (kind == LightKind::Directional) weight = spot_weight(arrival, surface, sample, weight);
+    const float mis = mis_weight_light(sample.pdf, other_pdf) * weight;
+    if (mis <= 0.0f) return glm::vec3(0.0f);
+    ++path.ray_count;
+    if (occluded(TraceScene::ray_origin(surface, shading_point.normal), sample))
+        return glm::vec3(0.0f);
+    const glm::vec3 light = sample.irradiance * (cosine * mis);
+    path.add(layer_of(kind, sample), path.throughput * light * std::numbers::inv_pi_v<float>,
+             PathLightGroups::Arrival::Reflected);
+    return light;
+}
+
 glm::vec3 PathTracer::reflected_light(const Surface& surface, Path& path, float weight,
                                       const Draws& arrival, const Draws& here) const {
-    const ShadingPoint shading_point{surface.position, surface.geometric_normal};
-    const glm::vec3 ray_origin = TraceScene::ray_origin(surface, shading_point.normal);
     glm::vec3 irradiance(0.0f);
     for (const LightKind kind :
          {LightKind::Directional, LightKind::Local, LightKind::Triangle, LightKind::Sky}) {
-        if (!light_sampler_.has(kind)) continue;
-        const LightSample sample = light_sampler_.sample(kind, shading_point, path.sampler);
-        const float cosine = glm::dot(shading_point.normal, sample.to_light);
-        if (cosine <= 0.0f || !is_light(sample.irradiance)) continue;
-        float other_pdf = cosine * std::numbers::inv_pi_v<float>;
-        if (kind == LightKind::Sky)
-            other_pdf = std::hypot(other_pdf, direction_density(here, sample.to_light));
-        const float mis =
-            mis_weight_light(sample.pdf, other_pdf) *
-            (kind == LightKind::Directional ? spot_weight(arrival, surface, sample, weight)
-                                            : weight);
-        if (mis <= 0.0f) continue;
-        ++path.ray_count;
-        if (occluded(ray_origin, sample)) continue;
-        const glm::vec3 light = sample.irradiance * (cosine * mis);
-        irradiance += light;
-        path.add(layer_of(kind, sample), path.throughput * light * std::numbers::inv_pi_v<float>,
-                 PathLightGroups::Arrival::Reflected);
+        irradiance += sampled_irradiance(kind, surface, path, weight, arrival, here);
     }
     return irradiance * std::numbers::inv_pi_v<float>;
+}
+
+std::optional<uint32_t> PathTracer::cached_texel(const Surface& surface, glm::vec3 origin) const {
+    return cache_ != nullptr ? cache_->find(surface, origin) : std::nullopt;
+}
+
+glm::vec3 PathTracer::cached_light(const Surface& surface, uint32_t texel, Path& path,
+                                   CacheWeights weights, const Draws& arrival) const {
+    // Draws find the sunlight of spots too. Their weights need the light's direction.
+    const bool samples_sun = arrival.spots > 0.0f;
+    const auto irradiance = [&](const RadianceCache::Irradiance& cached) {
+        const glm::vec3 direct = samples_sun ? cached.sources : cached.direct();
+        return weights.reflected * cached.reflected + weights.direct * direct;
+    };
+    glm::vec3 light = irradiance(cache_->irradiance[texel]);
+    if (path.light_groups != nullptr) {
+        const auto layers = cache_->layers(texel);
+        for (uint32_t layer = 0; layer < layers.size(); ++layer) {
+            path.add(layer,
+                     path.throughput * irradiance(layers[layer]) * std::numbers::inv_pi_v<float>,
+                     PathLightGroups::Arrival::Reflected);
+        }
+    }
+    if (samples_sun)
+        light +=
+            sampled_irradiance(LightKind::Directional, surface, path, weights.direct, arrival, {});
+    return light * std::numbers::inv_pi_v<float>;
 }
 
 uint32_t PathTracer::layer_of_geometry(uint32_t geometry) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <tetralight/bake/all_bounces.h>
@@ -12,6 +13,7 @@
 #include <tetralight/bake/lights/light_sampler.h>
 #include <tetralight/bake/lights/openings.h>
 #include <tetralight/bake/path_light_groups.h>
+#include <tetralight/bake/radiance_cache.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/sampling/sobol.h>
 #include <tetralight/bake/scene/scene.h>
@@ -33,11 +35,14 @@ struct PathSettings {
     /// is scaled down to it, which loses energy. 0 = no limit.
     float clamp = 0.0f;
     LightStrategy strategy = LightStrategy::Mis;
+    /// Leaves out the light that arrives from its source along the first segment.
+    bool is_reflected_only = false;
 
     bool operator==(const PathSettings&) const = default;
 
-    /// False if openings are ignored: MIS weights hold for paths of any length and brightness only.
-    [[nodiscard]] bool samples_openings() const {
+    /// False if openings and radiance caches are ignored: MIS weights and cached light hold for
+    /// paths of any length and brightness only.
+    [[nodiscard]] bool traces_all_light() const {
         return bounces == kAllBounces && clamp <= 0.0f && strategy == LightStrategy::Mis;
     }
 };
@@ -91,10 +96,12 @@ struct PathSample {
 class PathTracer {
   public:
     /// Keeps references to both scenes. The plan selects the baked lights and the light groups.
-    /// `openings`: in render space. They do not change the expected value, and are ignored unless
-    /// `PathSettings::samples_openings`.
+    /// `openings`: in render space. They do not change the expected value. `cache`: of the layers
+    /// of the plan, outlives the tracer; null = paths end by themselves. Both are ignored unless
+    /// `PathSettings::traces_all_light`.
     PathTracer(const Scene& scene, const TraceScene& trace_scene, const PathSettings& settings,
-               const LightPlan& plan = {}, std::vector<Opening> openings = {});
+               const LightPlan& plan = {}, std::vector<Opening> openings = {},
+               const RadianceCache* cache = nullptr);
 
     /// Radiance that arrives along a path. Excludes the direct light of punctual and area lights,
     /// which rays cannot hit. `light_groups` receives the same light by source, and does not change
@@ -102,7 +109,8 @@ class PathTracer {
     [[nodiscard]] PathSample trace(const PathStart& start, Sampler sampler,
                                    PathLightGroups* light_groups = nullptr) const;
 
-    /// True if the strategy samples lights and the scene has emission that rays can hit.
+    /// True if the strategy samples lights, the scene has emission that rays can hit, and its
+    /// direct light counts.
     [[nodiscard]] bool can_sample_emission() const;
 
     /// Direct light of one emissive triangle or sky direction (`kind`) at the start of paths, with
@@ -145,8 +153,7 @@ class PathTracer {
 
     [[nodiscard]] const LightPlan& plan() const { return plan_; }
 
-    /// `PathSettings::bounces`.
-    [[nodiscard]] uint32_t bounces() const { return settings_.bounces; }
+    [[nodiscard]] const PathSettings& settings() const { return settings_; }
 
     [[nodiscard]] const TraceScene& trace_scene() const { return trace_scene_; }
 
@@ -178,6 +185,8 @@ class PathTracer {
         bool is_drawn = false;
         /// At the start of a path.
         bool is_first = false;
+        /// The light of the sky counts: it is not known from a cache.
+        bool sees_sky = true;
     };
 
     /// Direct light of all kinds that a surface reflects, divided by its albedo. `weight`: of all
@@ -185,12 +194,29 @@ class PathTracer {
     /// the surface.
     [[nodiscard]] glm::vec3 reflected_light(const Surface& surface, Path& path, float weight,
                                             const Draws& arrival, const Draws& here) const;
+    /// The texel of the cache at a surface that a ray from `origin` hit, if there is one.
+    [[nodiscard]] std::optional<uint32_t> cached_texel(const Surface& surface,
+                                                       glm::vec3 origin) const;
+
+    /// Weights of the light of a texel.
+    struct CacheWeights {
+        float direct = 1.0f;  ///< but for the light of spots
+        float reflected = 1.0f;
+    };
+
+    /// The light that a surface reflects as a texel of the cache has it, divided by its albedo.
+    [[nodiscard]] glm::vec3 cached_light(const Surface& surface, uint32_t texel, Path& path,
+                                         CacheWeights weights, const Draws& arrival) const;
+    /// The light of one kind in `reflected_light`, as irradiance.
+    [[nodiscard]] glm::vec3 sampled_irradiance(LightKind kind, const Surface& surface, Path& path,
+                                               float weight, const Draws& arrival,
+                                               const Draws& here) const;
     /// The other part of it: emission and sky that a ray in proportion to the cosine hits.
     [[nodiscard]] glm::vec3 reflected_by_chance(const Surface& surface, Path& path) const;
     /// MIS weight of the sky on a segment: against light samples and draws.
     [[nodiscard]] float sky_weight(const Draws& draws, glm::vec3 direction, float pdf) const;
 
-    [[nodiscard]] static Draws draws_at(const PathStart& start);
+    [[nodiscard]] Draws draws_at(const PathStart& start) const;
     [[nodiscard]] static float chance_pdf(const Draws& draws, glm::vec3 direction);
     [[nodiscard]] static Draws draws_with(const ShadingPoint& shading_point,
                                           const Openings::Weights& weights, float count);
@@ -218,6 +244,7 @@ class PathTracer {
     LightSampler light_sampler_;
     Openings openings_;
     std::vector<uint32_t> opening_lights_;  ///< of `openings_`: indices in the scene
+    const RadianceCache* cache_ = nullptr;
     std::vector<Light> baked_lights_;
     std::vector<uint32_t> layer_of_baked_light_;
 };

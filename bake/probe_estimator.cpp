@@ -135,8 +135,8 @@ class Estimator {
         add_paths();
         if (light_sample_count_ > 0) add_emission();
         if (!tracer_.openings().is_empty()) add_openings();
-        add_baked_lights();
-        if (tracer_.bounces() == 0) {
+        if (!tracer_.settings().is_reflected_only) add_baked_lights();
+        if (tracer_.settings().bounces == 0) {
             estimate_.cut.last_radiance = estimate_.sample_count *
                                           (kSphereSolidAngle / receiver_.solid_angle()) *
                                           glm::dvec3(estimate_.radiance.coefficients[0]);

@@ -8,6 +8,8 @@
 
 namespace tetralight {
 
+struct RadianceCache;
+
 /// The part of a surface that one texel of a lightmap covers.
 struct TexelSurface {
     /// Unit shading normal. The light of its hemisphere counts.
@@ -27,6 +29,11 @@ struct TexelSurfaces {
 
     std::span<const Texel> texels;
     std::span<const glm::vec3> origins;
+    /// Where paths end (`PathTracer`); null = they are traced to their own ends. `BakeHooks::begin`
+    /// can fill it.
+    const RadianceCache* cache = nullptr;
+    /// Of all that the cache is made of beside the scene and the settings of the bake.
+    uint64_t cache_key = 0;
 
     [[nodiscard]] TexelSurface operator[](size_t i) const {
         return {texels[i].normal, origins.subspan(texels[i].first_origin, texels[i].origin_count)};

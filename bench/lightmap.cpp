@@ -14,6 +14,7 @@ void bench_scene(const std::string& path, const std::string& name, const Options
     light_if_dark(*scene);
     bench_lightmap_layout(*scene, name, options);
     bench_lightmap_texels(*scene, name, options);
+    bench_lightmap_cache(*scene, name);
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ void bench_lightmap_layout(const Scene& scene, const std::string& name, const Op
 /// Its texels: `lightmap.{texel,rays,seams,stitched}.NAME`.
 void bench_lightmap_texels(const Scene& scene, const std::string& name, const Options& options);
 
+/// Paths that end at cached light against those that do not: `lightmap.cache_*.NAME`.
+void bench_lightmap_cache(const Scene& scene, const std::string& name);
+
 /// `lightmap.dark_room` and `lightmap.sample`.
 void bench_dark_room();
 void bench_lightmap_samples(const Options& options);

@@ -13,13 +13,16 @@ Json light_json(const LightmapReport& report) {
             {"seconds",
              {{"layout", report.layout_seconds},
               {"texels", report.texel_seconds},
-              {"bake", report.bake_seconds}}}};
+              {"bake", report.bake_seconds},
+              {"cache", report.cache_seconds}}}};
 }
 
 std::string times_text(const LightmapReport& report) {
-    return str_cat("layout ", duration(report.layout_seconds), ", texels ",
-                   duration(report.texel_seconds), ", bake ", duration(report.bake_seconds), " (",
-                   magnitude(static_cast<double>(report.ray_count)), "rays)");
+    return str_cat(
+        "layout ", duration(report.layout_seconds), ", texels ", duration(report.texel_seconds),
+        ", bake ", duration(report.bake_seconds), " (",
+        report.cache_seconds > 0.0 ? "cached light " + duration(report.cache_seconds) + ", " : "",
+        magnitude(static_cast<double>(report.ray_count)), "rays)");
 }
 
 TexelErrors errors_of(const LightmapReport& report) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include <tetralight/bake/lightmap/make_radiance_cache.h>
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/probes/content_hash.h>
 #include <tetralight/probes/probe_file.h>
@@ -179,6 +180,15 @@ void add(Hash& hash, const BakeSettings& settings) {
     hash.add(seed);
 }
 
+template <class Hash>
+void add(Hash& hash, const std::vector<TexelMap>& maps) {
+    for (const TexelMap& map : maps) {
+        hash.add(map.width);
+        hash.add(map.charts);
+        hash.add(map.texels);
+    }
+}
+
 /// Merge and health settings show in the volume, lighting in the volume and in the plan.
 template <class Hash>
 void add(Hash& hash, const BakeVolumeSettings& settings) {
@@ -222,15 +232,29 @@ uint64_t bake_key(const PreparedBake& prepared) {
     return hash.value();
 }
 
+uint64_t cache_key(const PreparedLightmaps& prepared) {
+    ContentHash hash;
+    hash.add(prepared.layout.texels_per_meter);
+    for (const LightmapPacking& packing : prepared.layout.packings)
+        hash.add(packing.charts.corner_uvs);
+    for (const LightmapPlace& place : prepared.layout.places) hash.add(place.packing);
+    add(hash, prepared.maps);
+    const auto& [positions, surfaces, origins, validity, first_texel] = prepared.texels;
+    hash.add(positions);
+    hash.add(surfaces);
+    hash.add(origins);
+    const auto& [direct_sample_count, path_count] = RadianceCacheSettings();
+    hash.add(direct_sample_count);
+    hash.add(path_count);
+    return hash.value();
+}
+
 uint64_t lightmap_key(const PreparedLightmaps& prepared) {
     ContentHash hash;
     add(hash, prepared.settings.bake);
     hash.add(lightmap_file_bytes(prepared.lightmaps.view()));
-    for (const TexelMap& map : prepared.maps) {
-        hash.add(map.width);
-        hash.add(map.charts);
-        hash.add(map.texels);
-    }
+    add(hash, prepared.maps);
+    if (prepared.has_cache()) hash.add(cache_key(prepared));
     hash.add(prepared.texels.validity);
     hash.add(prepared.texels.origins);
     hash.add(prepared.baked);

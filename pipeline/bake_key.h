@@ -25,7 +25,10 @@ namespace tetralight {
 /// but for the number of threads. `prepared.key` is not hashed.
 [[nodiscard]] uint64_t bake_key(const PreparedBake& prepared);
 
-/// The same for lightmaps. `prepared.key` is not hashed.
+/// Hash of all that the radiance cache of a bake of lightmaps depends on beside `light_key`.
+[[nodiscard]] uint64_t cache_key(const PreparedLightmaps& prepared);
+
+/// The same as `bake_key` for lightmaps. `prepared.key` is not hashed.
 [[nodiscard]] uint64_t lightmap_key(const PreparedLightmaps& prepared);
 
 }  // namespace tetralight

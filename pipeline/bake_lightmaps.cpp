@@ -2,8 +2,11 @@
 #include <tetralight/pipeline/bake_lightmaps.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
+#include <tetralight/bake/lightmap/make_radiance_cache.h>
+#include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/round_plan.h>
 #include <tetralight/base/memory.h>
@@ -134,12 +137,16 @@ void warn_of_dark_objects(const Scene& scene, const std::vector<bool>& is_lit,
 }
 
 /// Returns out_of_resources if the pages do not fit into the free memory.
-Status check_memory(const LightmapLayout& layout, size_t layer_count) {
+Status check_memory(const LightmapLayout& layout, size_t layer_count, bool has_cache) {
     constexpr uint64_t kLayerBytes = sizeof(LayerTexel) + sizeof(LightmapTexel);
     // Validity and error; what stitching needs; and the bytes of the file.
     constexpr uint64_t kTexelBytes = 2 * (sizeof(IrradianceTexel) + sizeof(LightmapTexel) + 3) + 5;
     const uint64_t texels = uint64_t{layout.page_size} * layout.page_size * layout.page_count;
-    const uint64_t bytes = texels * (kTexelBytes + 2 * kLayerBytes * layer_count);
+    // Of cached light, and the reflected light while it is sampled.
+    constexpr uint64_t kCacheBytes = sizeof(RadianceCache::Irradiance) + sizeof(glm::vec3);
+    const uint64_t cache_bytes =
+        has_cache ? kCacheBytes * (1 + layer_count) + 2 * sizeof(uint32_t) : 0;
+    const uint64_t bytes = texels * (kTexelBytes + 2 * kLayerBytes * layer_count + cache_bytes);
     const uint64_t free = free_memory();
     if (bytes <= free) return Ok{};
     return Error{ErrorCode::OutOfResources, "page_size", str_cat(layout.page_size),
@@ -163,6 +170,11 @@ void count_texels(PreparedLightmaps& prepared) {
 
 }  // namespace
 
+bool PreparedLightmaps::has_cache() const {
+    const PathSettings paths{settings.bake.bounces, settings.bake.clamp};
+    return !settings.is_exact && paths.traces_all_light();
+}
+
 Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
                                             const BakeLightmapsSettings& settings) {
     if (auto status = RoundPlan::check(settings.bake); !status) return status.error();
@@ -181,7 +193,8 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     if (layout->page_count == 0) {
         return Error{ErrorCode::InvalidArgument, "the scene has no object that takes a lightmap"};
     }
-    if (auto status = check_memory(*layout, plan->layer_names.size()); !status)
+    if (auto status = check_memory(*layout, plan->layer_names.size(), prepared.has_cache());
+        !status)
         return status.error();
     prepared.layout = std::move(*layout);
     auto& warnings = prepared.report.warnings;
@@ -221,8 +234,23 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
     bake.rows.resize(range.count() * LightGroupLayout(settings.plan).size());
     for (const TexelSurfaces::Texel& texel : places.surfaces.texels)
         bake.normals.push_back(texel.normal);
+    RadianceCache cache;
+    std::function<Status()> begin;
+    if (prepared.has_cache()) {
+        places.surfaces.cache = &cache;
+        places.surfaces.cache_key = cache_key(prepared);
+        begin = [&]() -> Status {
+            const Stopwatch watch;
+            auto made = make_radiance_cache(scene, prepared.layout, prepared.maps, prepared.texels,
+                                            settings, {}, callback);
+            if (!made) return made.error();
+            cache = std::move(*made);
+            bake.cache_seconds = watch.seconds();
+            return Ok{};
+        };
+    }
     auto stored = bake_with_stores(scene, places, settings, storage,
-                                   {bake.accumulators, {bake.rows, {}}}, callback);
+                                   {bake.accumulators, {bake.rows, {}}}, callback, begin);
     if (!stored) return stored.error();
     bake.stored = std::move(*stored);
     return bake;

@@ -41,6 +41,9 @@ struct BakeLightmapsSettings {
     /// Samples, errors and bounces of a texel, as those of a probe. The plan follows from
     /// `lighting`.
     BakeSettings bake = texel_bake_settings();
+    /// Paths are traced to their ends. Else they end where they meet a texel whose light is known
+    /// (`RadianceCache`), unless bounces or brightness are limited.
+    bool is_exact = false;
     LightingSettings lighting{};
     /// Names of objects: the texels of all others stay black. Empty: all objects.
     std::vector<std::string> only;
@@ -73,6 +76,7 @@ struct LightmapReport {
     double layout_seconds = 0.0;
     double texel_seconds = 0.0;
     double bake_seconds = 0.0;
+    double cache_seconds = 0.0;  ///< part of `bake_seconds`
     std::vector<std::string> warnings;
 };
 
@@ -96,6 +100,9 @@ struct PreparedLightmaps {
     LightmapReport report;
 
     [[nodiscard]] BakePlaces places() const { return {positions, {surfaces, texels.origins}}; }
+
+    /// True if paths end at a radiance cache.
+    [[nodiscard]] bool has_cache() const;
 };
 
 /// The light of a range of the baked texels, one of each per texel.
@@ -105,6 +112,7 @@ struct TexelBake {
     std::vector<double> rows;  ///< of `LightGroupLayout(settings.bake.plan)`
     std::vector<glm::vec3> normals;
     StoredBake stored;
+    double cache_seconds = 0.0;  ///< 0 = no cache was made
 };
 
 /// Returns the errors of `make_lightmap_layout`, `make_lightmap_texels`, `plan_lighting` and
@@ -114,10 +122,11 @@ struct TexelBake {
 [[nodiscard]] Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
                                                           const BakeLightmapsSettings& settings);
 
-/// Samples the light of a range of the baked texels. Texels that a store has, from an earlier bake
-/// of the same light at the same place, are loaded. Returns invalid_argument (field "texels") if
-/// the range is not within the baked texels, else the errors of `bake_accumulators` and of the
-/// storage.
+/// Samples the light of a range of the baked texels, after a radiance cache of the light of all
+/// texels of the scene is made (`make_radiance_cache`), if the settings ask for it and any sample
+/// is missing. Texels that a store has, from an earlier bake of the same light at the same place,
+/// are loaded. Returns invalid_argument (field "texels") if the range is not within the baked
+/// texels, else the errors of `bake_accumulators` and of the storage.
 [[nodiscard]] Result<TexelBake> bake_texel_range(const Scene& scene,
                                                  const PreparedLightmaps& prepared,
                                                  PlaceRange range, const BakeStorage& storage = {},
@@ -136,7 +145,8 @@ struct BakedLightmaps {
     LightmapReport report;
 };
 
-/// Adds rays and errors of baked texels to a report. `target_error`: 0 = none.
+/// Adds rays, errors and the time of the cache of baked texels to a report. `target_error`: 0 =
+/// none.
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report);
 
 /// Writes the light into pages, fills texels that have none, and stitches seams. A function of the

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/mat3x3.hpp>
 #include <optional>
 #include <utility>
 
 #include <tetralight/bake/lightmap/fill_texels.h>
 #include <tetralight/bake/lightmap/stitch_seams.h>
 #include <tetralight/bake/parallel.h>
-#include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bake/texel_light.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/half.h>
 #include <tetralight/base/str_cat.h>
@@ -19,37 +18,7 @@
 namespace tetralight {
 namespace {
 
-constexpr double kY0 = 0.28209479177387814, kY1 = 0.4886025119029199;
-
-/// The light of a texel, in world axes.
-struct TexelLight {
-    glm::vec3 irradiance{0.0f};
-    glm::vec3 flux{0.0f};
-    glm::mat3 vector{0.0f};  ///< a column a colour channel
-
-    TexelLight& operator+=(const TexelLight& other) {
-        irradiance += other.irradiance;
-        flux += other.flux;
-        vector += other.vector;
-        return *this;
-    }
-
-    friend TexelLight operator*(const TexelLight& light, float factor) {
-        return {light.irradiance * factor, light.flux * factor, light.vector * factor};
-    }
-
-    [[nodiscard]] float largest() const {
-        float largest = 0.0f;
-        for (int channel = 0; channel < 3; ++channel) {
-            largest = std::max({largest, irradiance[channel], flux[channel]});
-            for (int axis = 0; axis < 3; ++axis)
-                largest = std::max(largest, std::abs(vector[channel][axis]));
-        }
-        return largest;
-    }
-};
-
-/// Its values one by one: irradiance, flux, vector.
+/// The values of a `TexelLight` one by one: irradiance, flux, vector.
 constexpr size_t kValueCount = 15;
 
 float& value_of(TexelLight& light, size_t i) {
@@ -62,23 +31,6 @@ float& value_of(TexelLight& light, size_t i) {
 /// How much a texel resists a change at a seam, in squares of differences at places. Texels that
 /// were filled have no light of their own.
 constexpr double kBakedWeight = 0.0002, kFilledWeight = 0.00002;
-
-/// From coefficients in the frame of the normal (`estimate_texel`), three values each.
-TexelLight texel_light(std::span<const double> coefficients, double sample_count,
-                       glm::vec3 normal) {
-    const glm::mat3 frame = frame_around(normal);
-    TexelLight light;
-    for (int channel = 0; channel < 3; ++channel) {
-        const auto at = [&](size_t i) {
-            return coefficients[3 * i + static_cast<size_t>(channel)] / sample_count;
-        };
-        const glm::dvec3 local = glm::dvec3(at(3), at(1), at(2)) / kY1;
-        light.irradiance[channel] = static_cast<float>(std::max(0.0, local.z));
-        light.flux[channel] = static_cast<float>(std::max(0.0, at(0) / kY0));
-        light.vector[channel] = frame * glm::vec3(local);
-    }
-    return light;
-}
 
 std::array<double, 27> flat(const RadianceSums& sums) {
     std::array<double, 27> values{};
@@ -329,6 +281,7 @@ uint8_t validity_byte(float validity) noexcept {
 }
 
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
+    report.cache_seconds += bake.cache_seconds;
     std::vector<float> errors;
     for (const ProbeAccumulator& sums : bake.accumulators) {
         report.ray_count += sums.ray_count;

@@ -23,11 +23,12 @@ StoreKey probe_key_of(const StoreKey& light, const glm::dvec3& position,
     return hash.digest();
 }
 
-StoreKey texel_key_of(const StoreKey& light, const glm::dvec3& position,
+StoreKey texel_key_of(const StoreKey& light, uint64_t cache_key, const glm::dvec3& position,
                       const TexelSurface& surface) {
     Sha256 hash;
     hash.add(std::string_view("texel"));
     hash.add(light);
+    hash.add(std::as_bytes(std::span(&cache_key, 1)));
     hash.add(std::as_bytes(std::span(&position, 1)));
     hash.add(std::as_bytes(std::span(&surface.normal, 1)));
     hash.add(std::as_bytes(surface.origins));
@@ -49,7 +50,8 @@ ProbeStore::ProbeStore(const Scene& scene, const BakeSettings& settings, const B
     for (size_t i = 0; i < places.positions.size(); ++i) {
         const glm::dvec3& position = places.positions[i];
         if (measure_ == ErrorMeasure::OwnNormal) {
-            keys_.push_back(texel_key_of(light, position, places.surfaces[i]));
+            keys_.push_back(
+                texel_key_of(light, places.surfaces.cache_key, position, places.surfaces[i]));
             continue;
         }
         const bool has_occlusion = settings.plan.has_occlusion;

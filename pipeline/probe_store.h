@@ -16,9 +16,9 @@ namespace tetralight {
 
 /// Accumulators and light-group rows of probes or texels in bake stores. The key is SHA-256 of what
 /// the light depends on: what the bake reads of the scene, the settings, the program's version, the
-/// capture position, and the occlusion lights of a probe or the surface of a texel. So probes of
-/// other groups and other volumes are found too. The value is the newest state of the probe,
-/// finished or not: a bake goes on from there.
+/// capture position, and the occlusion lights of a probe or the surface and the cache of a texel.
+/// So probes of other groups and other volumes are found too. The value is the newest state of the
+/// probe, finished or not: a bake goes on from there.
 class ProbeStore {
   public:
     /// `places` and `split` as of `bake_accumulators`; they outlive this object.

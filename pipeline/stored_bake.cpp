@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/pipeline/stored_bake.h>
 
+#include <utility>
+
 #include <tetralight/pipeline/probe_store.h>
 
 namespace tetralight {
@@ -49,12 +51,13 @@ uint64_t ray_count(std::span<const ProbeAccumulator> accumulators) {
 /// Bakes all places to the end and saves them on the way.
 Status bake_and_save(const Scene& scene, const BakePlaces& places, const BakeSettings& settings,
                      const BakeStorage& storage, const BakeSums& sums, Keeper& keeper,
-                     const BakeCallback& callback) {
+                     BakeHooks hooks) {
     if (places.positions.empty()) return Ok{};
-    BakeHooks hooks{.save_seconds = storage.save_seconds};
+    const BakeCallback callback = std::exchange(hooks.progress, {});
     hooks.progress = [&](const BakeProgress& progress) {
         return !keeper.must_stop() && (!callback || callback(progress));
     };
+    hooks.save_seconds = storage.save_seconds;
     if (storage.target != nullptr) hooks.save = [&] { keeper.save(); };
     if (storage.save_seconds < 1.0) hooks.samples_between_saves = kFrequentSamples;
     const Status status =
@@ -69,11 +72,13 @@ Status bake_and_save(const Scene& scene, const BakePlaces& places, const BakeSet
 
 Result<StoredBake> bake_with_stores(const Scene& scene, const BakePlaces& places,
                                     const BakeSettings& settings, const BakeStorage& storage,
-                                    const BakeSums& sums, const BakeCallback& callback) {
+                                    const BakeSums& sums, const BakeCallback& callback,
+                                    const std::function<Status()>& begin) {
     Keeper keeper(scene, places, settings, storage, sums);
     StoredBake stored;
     stored.earlier_ray_count = ray_count(sums.accumulators);
-    const Status status = bake_and_save(scene, places, settings, storage, sums, keeper, callback);
+    const Status status =
+        bake_and_save(scene, places, settings, storage, sums, keeper, {callback, begin});
     if (!status && keeper.failure()) {
         return keeper.failure()->in("interrupted; what is done could not be kept");
     }

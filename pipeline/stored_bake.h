@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,10 +44,12 @@ struct StoredBake {
 
 /// Bakes places to the end: loads what stores know of them, samples the rest, and saves it on the
 /// way. The sums are those of a bake without stores. Returns cancelled if the callback returns
-/// false, else errors of `bake_accumulators`, and that of a save if saving is required.
+/// false, else errors of `bake_accumulators`, and that of a save if saving is required. `begin`: as
+/// of `BakeHooks`.
 [[nodiscard]] Result<StoredBake> bake_with_stores(const Scene& scene, const BakePlaces& places,
                                                   const BakeSettings& settings,
                                                   const BakeStorage& storage, const BakeSums& sums,
-                                                  const BakeCallback& callback = {});
+                                                  const BakeCallback& callback = {},
+                                                  const std::function<Status()>& begin = {});
 
 }  // namespace tetralight

@@ -314,8 +314,9 @@ std::optional<Surface> TraceScene::intersect(const Ray& ray, Detail detail, floa
 
     std::optional<Surface> result(std::in_place);  // no copy of a surface
     Surface& surface = *result;
-    place_surface(geometry.triangles[hit->primitive].corners, corner_weights(geometry, *hit),
-                  surface);
+    const glm::vec3 weights = corner_weights(geometry, *hit);
+    place_surface(geometry.triangles[hit->primitive].corners, weights, surface);
+    surface.barycentric = {weights.y, weights.z};
     surface.geometric_normal = glm::normalize(hit->normal);
     if (detail == Detail::Full) {
         surface.shading_normal = shading_normal(

@@ -35,6 +35,8 @@ struct Surface {
     /// Indices of the triangle, as in `TraceScene::triangle`.
     uint32_t geometry = 0;
     uint32_t primitive = 0;
+    /// Weights of the second and third corner of the triangle, in the order of the mesh.
+    glm::vec2 barycentric{0.0f};
     /// Upper bound of the distance of `position` from the triangle by rounding, metres.
     float error_bound = 0.0f;
     /// The ray hit the triangle from behind.

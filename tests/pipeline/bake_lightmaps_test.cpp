@@ -161,6 +161,68 @@ TEST(BakeLightmaps, ThreadsAndStoresChangeNoByteAndStoresSaveTheWork) {
     EXPECT_EQ(rays, again->stored.earlier_ray_count);
 }
 
+/// A floor and a box on it under a white sky, which light each other.
+Scene box_on_floor() {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, kGrey, 2.0f).name = "floor";
+    test::add_box(scene, kGrey, test::Facing::Outward, {-0.5f, -0.1f, -0.5f}, {0.5f, 1, 0.5f});
+    return scene;
+}
+
+TEST(BakeLightmaps, TexelsOfAnotherCacheAreNotReused) {
+    const Scene scene = box_on_floor();
+    const TempFolder folder;
+    auto store = BakeStore::open(folder.path("store"));
+    ASSERT_TRUE(store);
+    const BakeStorage storage{.sources = {&*store}, .target = &*store, .is_saved_at_end = true};
+    BakeLightmapsSettings settings = settings_with(64);
+    const auto earlier_rays = [&](const Scene& lit) {
+        const auto prepared = prepare_lightmaps(lit, settings);
+        EXPECT_TRUE(prepared);
+        const auto baked = bake_texels(lit, *prepared, storage);
+        EXPECT_TRUE(baked);
+        EXPECT_EQ(baked->cache_seconds > 0.0,
+                  prepared->has_cache() && baked->stored.earlier_ray_count == 0);
+        return baked->stored.earlier_ray_count;
+    };
+    EXPECT_EQ(earlier_rays(scene), 0u);
+    EXPECT_GT(earlier_rays(scene), 0u);
+    settings.is_exact = true;
+    EXPECT_EQ(earlier_rays(scene), 0u);
+    settings.is_exact = false;
+    Scene finer = scene;  // the texels of the floor stay, the cache of the box changes
+    finer.instances[1].lightmap.scale = 2.0f;
+    EXPECT_EQ(earlier_rays(finer), 0u);
+}
+
+TEST(BakeLightmaps, LimitedPathsAreExact) {
+    const Scene scene = box_on_floor();
+    BakeLightmapsSettings settings = settings_with(64);
+    settings.bake.bounces = 3;
+    const auto limited = lightmap_file_bytes(bake(scene, settings).view());
+    const auto prepared = prepare_lightmaps(scene, settings);
+    ASSERT_TRUE(prepared);
+    EXPECT_FALSE(prepared->has_cache());
+    settings.is_exact = true;
+    const Lightmaps exact = bake(scene, settings);
+    EXPECT_NE(lightmap_file_bytes(exact.view()), limited);  // the metadata
+    settings.is_exact = false;
+    const auto light = irradiance_of(bake(scene, settings), 0);
+    EXPECT_EQ(light, irradiance_of(exact, 0));
+}
+
+TEST(BakeLightmaps, TexelsHaveTheirLightWhateverElseIsBaked) {
+    const Scene scene = box_on_floor();
+    BakeLightmapsSettings settings = settings_with(64);
+    const auto light = irradiance_of(bake(scene, settings), 0);
+    settings.only = {"floor"};
+    EXPECT_EQ(irradiance_of(bake(scene, settings), 0), light);
+    settings.only.clear();
+    settings.layout.page_size = 64;
+    EXPECT_EQ(irradiance_of(bake(scene, settings), 0), light);
+}
+
 TEST(BakeLightmaps, OnlyTheNamedObjectIsBaked) {
     Scene scene;
     scene.environment.radiance = glm::vec3(1.0f);
