@@ -19,6 +19,7 @@
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/round_plan.h>
 #include <tetralight/bake/sampling/sampling.h>
+#include <tetralight/bake/texel_light.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/is_finite.h>
@@ -170,8 +171,10 @@ class AccumulatorBaker {
         const glm::vec3 origin = work_.trace_scene.render_from_world(position);
         const uint64_t key = estimate_key(probe_key(settings_.seed, position), round, number);
         if (plan_.measure() == ErrorMeasure::OwnNormal) {
-            return estimate_texel(work_.tracer, origin, work_.places.surfaces[probe], key,
-                                  directions.size());
+            ProbeEstimate texel = estimate_texel(work_.tracer, origin, work_.places.surfaces[probe],
+                                                 key, directions.size());
+            keep_half(texel, number < plan_.estimates_in_round(round) / 2);
+            return texel;
         }
         ProbeEstimate estimate = estimate_probe(work_.tracer, origin, key, directions);
         if (has_occlusion(layout_, round, number)) {

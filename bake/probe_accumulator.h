@@ -19,7 +19,7 @@ namespace tetralight {
 /// accumulator have the same `measure`.
 struct ProbeAccumulator {
     /// Σ samples · radiance, over all estimates. Of texels: in the frame of the normal
-    /// (`estimate_texel`).
+    /// (`estimate_texel`), with the light of one half in place of band 2 (`keep_half`).
     RadianceSums radiance_sum{};
     /// Σ samples² · variance of the mean irradiance of a round, over rounds of two or more
     /// estimates, by `irradiance_square`.

@@ -15,6 +15,7 @@ void bench_scene(const std::string& path, const std::string& name, const Options
     bench_lightmap_layout(*scene, name, options);
     bench_lightmap_texels(*scene, name, options);
     bench_lightmap_cache(*scene, name);
+    bench_lightmap_filter(*scene, name);
 }
 
 }  // namespace

@@ -18,6 +18,10 @@ void bench_lightmap_texels(const Scene& scene, const std::string& name, const Op
 /// Paths that end at cached light against those that do not: `lightmap.cache_*.NAME`.
 void bench_lightmap_cache(const Scene& scene, const std::string& name);
 
+/// What the filter makes of noise, and the time to an error of 5 %: `lightmap.{filter,filter_bias,
+/// time_to_5_percent}.NAME`.
+void bench_lightmap_filter(const Scene& scene, const std::string& name);
+
 /// `lightmap.dark_room` and `lightmap.sample`.
 void bench_dark_room();
 void bench_lightmap_samples(const Options& options);

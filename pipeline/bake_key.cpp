@@ -215,7 +215,7 @@ uint64_t adjustments_key(const std::vector<ProbeAdjustment>& adjustments) {
 
 Sha256Digest light_key(const Scene& scene, const BakeSettings& settings) {
     KeyHash hash;
-    hash.add(std::string_view("light of probes 3, tetralight " TETRALIGHT_VERSION));
+    hash.add(std::string_view("light of probes 4, tetralight " TETRALIGHT_VERSION));
     add(hash, scene);
     add(hash, settings);
     return hash.digest();

@@ -44,6 +44,8 @@ struct BakeLightmapsSettings {
     /// Paths are traced to their ends. Else they end where they meet a texel whose light is known
     /// (`RadianceCache`), unless bounces or brightness are limited.
     bool is_exact = false;
+    /// Texels have the light of their own samples only. Else they are filtered (`TexelLights`).
+    bool is_unfiltered = false;
     LightingSettings lighting{};
     /// Names of objects: the texels of all others stay black. Empty: all objects.
     std::vector<std::string> only;
@@ -149,9 +151,9 @@ struct BakedLightmaps {
 /// none.
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report);
 
-/// Writes the light into pages, fills texels that have none, and stitches seams. A function of the
-/// light, the prepared lightmaps, maps (but for their points), validity, seams and settings alone.
-/// Precondition: the light is that of all baked texels.
+/// Filters the light, writes it into pages, fills texels that have none, and stitches seams. A
+/// function of the light, the prepared lightmaps, maps (but for their points), validity, seams and
+/// settings alone. Precondition: the light is that of all baked texels.
 [[nodiscard]] BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bake);
 
 /// All three steps.

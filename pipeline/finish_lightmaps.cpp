@@ -9,11 +9,11 @@
 #include <tetralight/bake/lightmap/fill_texels.h>
 #include <tetralight/bake/lightmap/stitch_seams.h>
 #include <tetralight/bake/parallel.h>
-#include <tetralight/bake/texel_light.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/half.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
+#include <tetralight/pipeline/texel_lights.h>
 
 namespace tetralight {
 namespace {
@@ -32,15 +32,6 @@ float& value_of(TexelLight& light, size_t i) {
 /// were filled have no light of their own.
 constexpr double kBakedWeight = 0.0002, kFilledWeight = 0.00002;
 
-std::array<double, 27> flat(const RadianceSums& sums) {
-    std::array<double, 27> values{};
-    for (size_t i = 0; i < sums.size(); ++i) {
-        for (int channel = 0; channel < 3; ++channel)
-            values[3 * i + static_cast<size_t>(channel)] = sums[i][channel];
-    }
-    return values;
-}
-
 std::array<uint16_t, 3> halves(glm::vec3 value, float scale) {
     return {half_from_float_saturated(value.x / scale), half_from_float_saturated(value.y / scale),
             half_from_float_saturated(value.z / scale)};
@@ -54,10 +45,11 @@ LightmapTexel packed(const TexelLight& light, float scale) {
 
 class PageWriter {
   public:
-    PageWriter(const PreparedLightmaps& prepared, const TexelBake& bake)
+    PageWriter(const PreparedLightmaps& prepared, const TexelLights& lights,
+               std::span<const float> errors)
         : prepared_(prepared),
-          bake_(bake),
-          layout_(prepared.settings.bake.plan),
+          lights_(lights),
+          errors_(errors),
           baked_index_(prepared.texels.validity.size(), kNoIndex),
           maps_(prepared.lightmaps) {
         for (uint32_t i = 0; i < prepared.baked.size(); ++i) baked_index_[prepared.baked[i]] = i;
@@ -100,40 +92,17 @@ class PageWriter {
         maps_.layer_light.resize(layer_count() * texel_count_);
     }
 
-    /// The light of a baked texel: the total, or of one layer.
-    [[nodiscard]] TexelLight total_light(uint32_t baked) const {
-        const ProbeAccumulator& sums = bake_.accumulators[baked];
-        const auto count = static_cast<double>(std::max<uint64_t>(1, sums.sample_count));
-        return texel_light(flat(sums.radiance_sum), count, bake_.normals[baked]);
-    }
-
-    [[nodiscard]] TexelLight layer_light(uint32_t baked, size_t layer) const {
-        const ProbeAccumulator& sums = bake_.accumulators[baked];
-        const auto count = static_cast<double>(std::max<uint64_t>(1, sums.sample_count));
-        const auto row = std::span(bake_.rows).subspan(baked * layout_.size(), layout_.size());
-        constexpr size_t kSize = LightGroupLayout::kLayerSize;
-        std::array<double, kSize> values{};
-        if (layer < layout_.layer_count) {
-            std::ranges::copy(row.subspan(layer * kSize, kSize), values.begin());
-        } else {  // "rest"
-            values = flat(sums.radiance_sum);
-            for (size_t other = 0; other < layout_.layer_count; ++other) {
-                for (size_t i = 0; i < kSize; ++i) values[i] -= row[other * kSize + i];
-            }
-        }
-        return texel_light(values, count, bake_.normals[baked]);
-    }
-
     /// Filled texels are means of baked ones, which bound them.
     void write_scales() {
         const auto count = static_cast<uint32_t>(prepared_.baked.size());
         float largest = 0.0f;
-        for (uint32_t i = 0; i < count; ++i) largest = std::max(largest, total_light(i).largest());
+        for (uint32_t i = 0; i < count; ++i)
+            largest = std::max(largest, lights_.total(i).largest());
         maps_.info.scale = lightmap_scale(largest);
         for (size_t layer = 0; layer < layer_count(); ++layer) {
             largest = 0.0f;
             for (uint32_t i = 0; i < count; ++i)
-                largest = std::max(largest, layer_light(i, layer).largest());
+                largest = std::max(largest, lights_.layer(i, layer).largest());
             maps_.layers[layer].scale = lightmap_scale(largest);
         }
     }
@@ -180,7 +149,7 @@ class PageWriter {
                 const uint32_t baked = baked_at(instance, i);
                 if (baked == kNoIndex) continue;
                 values[map.texels[i].index] =
-                    layer ? layer_light(baked, *layer) : total_light(baked);
+                    layer ? lights_.layer(baked, *layer) : lights_.total(baked);
             }
             fills_[instance].apply(values);
             for (uint32_t texel = 0; texel < map.charts.size(); ++texel) {
@@ -243,8 +212,7 @@ class PageWriter {
             const uint32_t baked = baked_index_[texel];
             if (baked == kNoIndex) continue;
             is_baked_[index] = 1;
-            const float error = bake_.accumulators[baked].standard_error(ErrorMeasure::OwnNormal);
-            maps_.error[index] = half_from_float_saturated(error);
+            maps_.error[index] = half_from_float_saturated(errors_[baked]);
         }
     }
 
@@ -263,8 +231,8 @@ class PageWriter {
     }
 
     const PreparedLightmaps& prepared_;
-    const TexelBake& bake_;
-    const LightGroupLayout layout_;
+    const TexelLights& lights_;
+    std::span<const float> errors_;
     std::vector<uint32_t> baked_index_;  ///< of each texel in `prepared.baked`, or kNoIndex
     uint64_t texel_count_ = 0;
     std::vector<TexelFill> fills_;      ///< one an instance
@@ -274,6 +242,15 @@ class PageWriter {
     Lightmaps maps_;
 };
 
+/// `ProbeAccumulator::standard_error` of all texels: of their own samples, also where texels are
+/// filtered.
+std::vector<float> texel_errors(const TexelBake& bake) {
+    std::vector<float> errors;
+    for (const ProbeAccumulator& sums : bake.accumulators)
+        errors.push_back(sums.standard_error(ErrorMeasure::OwnNormal));
+    return errors;
+}
+
 }  // namespace
 
 uint8_t validity_byte(float validity) noexcept {
@@ -282,19 +259,17 @@ uint8_t validity_byte(float validity) noexcept {
 
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
     report.cache_seconds += bake.cache_seconds;
-    std::vector<float> errors;
-    for (const ProbeAccumulator& sums : bake.accumulators) {
-        report.ray_count += sums.ray_count;
-        const float error = sums.standard_error(ErrorMeasure::OwnNormal);
-        if (error > 0.0f) errors.push_back(error);
-        const bool is_over = target_error > 0.0 && double{error} > target_error;
-        report.over_target_count += is_over;
+    for (const ProbeAccumulator& sums : bake.accumulators) report.ray_count += sums.ray_count;
+    std::vector<float> known;
+    for (const float error : texel_errors(bake)) {
+        if (error > 0.0f) known.push_back(error);
+        report.over_target_count += target_error > 0.0 && double{error} > target_error;
     }
-    if (errors.empty()) return;
-    const auto middle = errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2);
-    std::ranges::nth_element(errors, middle);
+    if (known.empty()) return;
+    const auto middle = known.begin() + static_cast<ptrdiff_t>(known.size() / 2);
+    std::ranges::nth_element(known, middle);
     report.median_error = *middle;
-    report.worst_error = *std::ranges::max_element(errors);
+    report.worst_error = *std::ranges::max_element(known);
 }
 
 BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bake) {
@@ -302,7 +277,9 @@ BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bak
     BakedLightmaps result;
     result.report = std::move(prepared.report);
     LightmapReport& report = result.report;
-    result.lightmaps = PageWriter(prepared, bake).run(report);
+    const TexelLights lights(prepared, bake);
+    const std::vector<float> errors = texel_errors(bake);
+    result.lightmaps = PageWriter(prepared, lights, errors).run(report);
     const double target_error = prepared.settings.bake.target_error;
     report_texels(bake, target_error, report);
     if (report.over_target_count > 0) {

@@ -82,6 +82,7 @@ class PartReader {
         part_.partial.range = info->range();
         prepared_.key = info->key;
         prepared_.settings.bake = info->bake_settings();
+        prepared_.settings.is_unfiltered = info->is_unfiltered != 0;
         for (const auto read : {&PartReader::read_lightmaps, &PartReader::read_maps,
                                 &PartReader::read_texels, &PartReader::read_seams}) {
             if (auto status = (this->*read)(); !status) return status;
@@ -260,7 +261,9 @@ Status write_lightmap_part(const std::string& path, const PreparedLightmaps& pre
                            const TexelBake& partial) {
     TETRALIGHT_ASSERT(partial.accumulators.size() == partial.range.count(),
                       "one accumulator for each texel of the range");
-    const std::vector<PartInfo> infos{{prepared.key, partial.range, prepared.settings.bake}};
+    PartInfo info(prepared.key, partial.range, prepared.settings.bake);
+    info.is_unfiltered = prepared.settings.is_unfiltered ? 1 : 0;
+    const std::vector<PartInfo> infos{info};
     const PartArrays arrays(prepared);
     const Lightmaps& maps = prepared.lightmaps;
     const std::vector<char> names(maps.instance_names.begin(), maps.instance_names.end());

@@ -10,7 +10,7 @@ namespace tetralight {
 /// lightmap` (settings/lightmap_table.cpp) sets, as `for_each_bake_member` does it for `bake`.
 template <class Settings, class Use>
 void for_each_lightmap_setting(Settings& settings, Use use) {
-    auto& [layout, texels, bake, is_exact, lighting, only] = settings;
+    auto& [layout, texels, bake, is_exact, is_unfiltered, lighting, only] = settings;
     use("texels_per_meter", layout.texels_per_meter, Recorded::Always);
     use("page_size", layout.page_size, Recorded::Always);
     use("uvs", layout.uvs, Recorded::WhenChanged);
@@ -22,6 +22,7 @@ void for_each_lightmap_setting(Settings& settings, Use use) {
     use("seed", bake.seed, Recorded::Always);
     for_each_refinement_member(bake, use);
     use("exact", is_exact, Recorded::WhenChanged);
+    use("no_filter", is_unfiltered, Recorded::WhenChanged);
     use("layers", lighting.layers, Recorded::Never);
     use("only", only, Recorded::Never);
     use("threads", bake.thread_count, Recorded::Never);

@@ -37,7 +37,7 @@ struct PartInfo {
     InvalidProbes invalid_probes = InvalidProbes::LeaveOut;
     DeringWindow dering_window = DeringWindow::Mildest;
     uint8_t dering_for_all_groups = 0;
-    uint8_t reserved = 0;
+    uint8_t is_unfiltered = 0;  ///< of lightmaps only
     float target_layer_error = 0.0f;
 
     PartInfo() = default;

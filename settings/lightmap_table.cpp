@@ -58,6 +58,10 @@ constexpr Setting kSampling[] = {
      .range = {1, 0x1p32},
      .without = "64 times --samples"},
     kTimeBudget,
+    {.name = "no_filter",
+     .type = Type::Flag,
+     .help = "Keep the noise of each texel. Without it, texels become means of texels around them "
+             "that differ by no more than their noise"},
     seed_setting("Seed of the random numbers")};
 
 constexpr Setting kTransport[] = {

@@ -46,6 +46,11 @@ TEST_F(MergeLightmapParts, OfAdaptiveBakesToo) {
     expect_whole_of_two();
 }
 
+TEST_F(MergeLightmapParts, OfUnfilteredBakesToo) {
+    settings.is_unfiltered = true;
+    expect_whole_of_two();
+}
+
 TEST_F(MergeLightmapParts, OfLayersToo) {
     settings.lighting.layers = {"sky"};
     settings.bake.target_layer_error = 0.05;

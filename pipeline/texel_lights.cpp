@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/pipeline/texel_lights.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include <tetralight/bake/lightmap/filter_texels.h>
+#include <tetralight/bake/parallel.h>
+
+namespace tetralight {
+namespace {
+
+/// Texels that a thread takes at once.
+constexpr size_t kChunk = 1024;
+
+constexpr size_t kCoefficients = LightGroupLayout::kLayerSize;
+
+using Coefficients = std::array<double, kCoefficients>;
+
+Coefficients flat(const RadianceSums& sums) {
+    Coefficients values{};
+    for (size_t i = 0; i < sums.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel)
+            values[3 * i + static_cast<size_t>(channel)] = sums[i][channel];
+    }
+    return values;
+}
+
+/// The sums of one texel: the total, the layers of the plan, and the rest if there is one.
+std::vector<Coefficients> sums_of(const TexelBake& bake, const LightGroupLayout& layout,
+                                  size_t texel, size_t value_count) {
+    std::vector<Coefficients> sums{flat(bake.accumulators[texel].radiance_sum)};
+    const auto row = std::span(bake.rows).subspan(texel * layout.size(), layout.size());
+    for (size_t layer = 0; layer < layout.layer_count; ++layer) {
+        const auto values = row.subspan(layer * kCoefficients, kCoefficients);
+        std::ranges::copy(values, sums.emplace_back().begin());
+    }
+    if (sums.size() == value_count) return sums;
+    Coefficients rest = sums[0];
+    for (size_t layer = 1; layer < sums.size(); ++layer) {
+        for (size_t i = 0; i < kCoefficients; ++i) rest[i] -= sums[layer][i];
+    }
+    sums.push_back(rest);
+    return sums;
+}
+
+double sample_count(const ProbeAccumulator& sums) {
+    return static_cast<double>(std::max<uint64_t>(1, sums.sample_count));
+}
+
+template <class Work>
+void for_each_texel(const TexelBake& bake, uint32_t thread_count, const Work& work) {
+    const size_t count = bake.accumulators.size();
+    parallel_for((count + kChunk - 1) / kChunk, thread_count, [&](size_t chunk) {
+        const size_t end = std::min(count, (chunk + 1) * kChunk);
+        for (size_t i = chunk * kChunk; i < end; ++i) work(i);
+    });
+}
+
+/// The charts in the pages, with the baked texels.
+PageCharts page_charts(const PreparedLightmaps& prepared) {
+    const Lightmaps& maps = prepared.lightmaps;
+    PageCharts pages(maps.info.page_size, maps.info.page_count);
+    auto baked = prepared.baked.begin();
+    for (size_t instance = 0; instance < maps.rectangles.size(); ++instance) {
+        const LightmapRectangle& place = maps.rectangles[instance];
+        if (place.page == kNoIndex) continue;
+        const TexelMap& map = prepared.maps[place.mesh];
+        const glm::ivec2 corner(place.x, place.y);
+        pages.add(place.page, corner, map.width, map.charts);
+        const uint32_t first = prepared.texels.first_texel[instance];
+        const uint32_t last = prepared.texels.first_texel[instance + 1];
+        for (; baked != prepared.baked.end() && *baked < last; ++baked) {
+            const uint32_t index = map.texels[*baked - first].index;
+            pages.set_texel(place.page, corner + glm::ivec2(index % map.width, index / map.width),
+                            static_cast<uint32_t>(baked - prepared.baked.begin()));
+        }
+    }
+    pages.add_seams(prepared.seams);
+    return pages;
+}
+
+}  // namespace
+
+TexelLights::TexelLights(const PreparedLightmaps& prepared, const TexelBake& bake)
+    : value_count_(1 + prepared.lightmaps.layers.size()),
+      lights_(value_count_ * bake.accumulators.size()) {
+    const LightGroupLayout layout(prepared.settings.bake.plan);
+    for_each_texel(bake, prepared.settings.bake.thread_count, [&](size_t texel) {
+        const ProbeAccumulator& accumulator = bake.accumulators[texel];
+        const auto sums = sums_of(bake, layout, texel, value_count_);
+        for (size_t i = 0; i < value_count_; ++i) {
+            lights_[texel * value_count_ + i] =
+                texel_light(sums[i], sample_count(accumulator), bake.normals[texel]);
+        }
+    });
+    if (!prepared.settings.is_unfiltered) filter(prepared, bake);
+}
+
+void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bake) {
+    const LightGroupLayout layout(prepared.settings.bake.plan);
+    const uint32_t threads = prepared.settings.bake.thread_count;
+    std::vector<TexelHalves> halves(lights_.size());
+    std::vector<NoisyTexel> noisy(bake.accumulators.size());
+    for_each_texel(bake, threads, [&](size_t texel) {
+        const ProbeAccumulator& accumulator = bake.accumulators[texel];
+        const double count = sample_count(accumulator);
+        const auto sums = sums_of(bake, layout, texel, value_count_);
+        const double first_half_count = sums[0][kCoefficients - 1];
+        for (size_t i = 0; i < value_count_; ++i) {
+            halves[texel * value_count_ + i] =
+                texel_halves(sums[i], count, first_half_count, bake.normals[texel]);
+        }
+        const TexelHalves& total = halves[texel * value_count_];
+        // A half has half of the samples.
+        noisy[texel] = {{total[0].irradiance, total[1].irradiance},
+                        static_cast<float>(2.0 * accumulator.variance_sum / (count * count)),
+                        bake.normals[texel]};
+    });
+    filter_texels(page_charts(prepared), noisy, {}, threads,
+                  [&](uint32_t texel, std::span<const TexelShare> shares) {
+                      const glm::vec3 normal = bake.normals[texel];
+                      for (size_t i = 0; i < value_count_; ++i) {
+                          TexelLight light;
+                          for (const TexelShare& share : shares) {
+                              const TexelHalves& other = halves[share.texel * value_count_ + i];
+                              light += other[0] * (0.5f * share.halves[0]);
+                              light += other[1] * (0.5f * share.halves[1]);
+                          }
+                          light.irradiance = glm::max(normal * light.vector, 0.0f);
+                          lights_[texel * value_count_ + i] = light;
+                      }
+                  });
+}
+
+}  // namespace tetralight
