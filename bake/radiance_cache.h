@@ -15,7 +15,7 @@
 namespace tetralight {
 
 /// The light that reaches the surfaces of a scene, known at the texels of its lightmaps: a path
-/// that meets one of them takes its light from the texel and ends. Surfaces that are not covered,
+/// that hits one of them takes its light from the texel and ends. Surfaces that are not covered,
 /// backs, and texels that a wall crosses have no light here.
 struct RadianceCache {
     /// Irradiance of a surface, by how the light arrives.
@@ -53,7 +53,7 @@ struct RadianceCache {
     /// One a texel and layer of the plan, texel by texel.
     std::vector<Irradiance> layer_irradiance;
     size_t layer_count = 0;
-    /// False while the cache is made: paths take direct light from it and go on.
+    /// False while the cache is made: paths then take direct light from it and continue.
     bool has_reflected = false;
 
     /// The texel that has the light of a surface, for a ray that starts at `origin`.

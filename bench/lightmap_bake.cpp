@@ -11,27 +11,12 @@
 #include <tetralight/bake/sampling/sampling.h>
 #include <tetralight/base/half.h>
 #include <tetralight/bench/lightmap.h>
+#include <tetralight/bench/lightmap_texels.h>
 #include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
 
 namespace tetralight::bench {
 namespace {
-
-/// Every n-th valid texel of a prepared bake, about `count` of them.
-struct Chosen {
-    std::vector<glm::dvec3> positions;
-    std::vector<TexelSurfaces::Texel> surfaces;
-};
-
-Chosen choose(const PreparedLightmaps& prepared, size_t count) {
-    Chosen chosen;
-    const size_t step = std::max<size_t>(1, prepared.positions.size() / count);
-    for (size_t i = 0; i < prepared.positions.size(); i += step) {
-        chosen.positions.push_back(prepared.positions[i]);
-        chosen.surfaces.push_back(prepared.surfaces[i]);
-    }
-    return chosen;
-}
 
 /// Mean and variance of the mean of the irradiance of a texel (green), by paths in proportion to
 /// the cosine that sample nothing at the texel.
@@ -62,7 +47,7 @@ std::pair<double, double> brute_force(const PathTracer& tracer, glm::vec3 positi
 /// in standard errors, which is 1, and the largest.
 void bench_brute_force(const Scene& scene, const PreparedLightmaps& prepared,
                        const std::string& name) {
-    const Chosen chosen = choose(prepared, 64);
+    const ChosenTexels chosen = every_nth(prepared, 64);
     const auto traced = TraceScene::make_static(scene);
     const PathTracer tracer(scene, *traced, {});
     double squares = 0.0, worst = 0.0;
@@ -75,8 +60,7 @@ void bench_brute_force(const Scene& scene, const PreparedLightmaps& prepared,
     for (size_t i = 0; i < sums.size(); ++i) {
         const auto [mean, variance] = brute_force(
             tracer, traced->render_from_world(chosen.positions[i]), surfaces[i], i + 1, 1u << 16);
-        const double ours = double{sums[i].radiance().coefficients[2].y} / 0.4886025119029199;
-        const double error = ours * double{sums[i].sampling_error(ErrorMeasure::OwnNormal)};
+        const auto [ours, error] = green_light(sums[i]);
         const double spread = variance + error * error;
         if (!(spread > 0.0)) continue;
         const double z = std::abs(ours - mean) / std::sqrt(spread);
@@ -92,7 +76,7 @@ void bench_brute_force(const Scene& scene, const PreparedLightmaps& prepared,
 /// Rays a second of texels against those of probes at the same places.
 void bench_rays(const Scene& scene, const PreparedLightmaps& prepared, const std::string& name,
                 const Options& options) {
-    const Chosen chosen = choose(prepared, 2000);
+    const ChosenTexels chosen = every_nth(prepared, 2000);
     BakeSettings settings;
     settings.sample_count = 256;
     const auto bake = [&](const BakePlaces& places) {

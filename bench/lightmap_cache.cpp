@@ -2,36 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tetralight/bake/lightmap/make_radiance_cache.h>
 #include <tetralight/bench/lightmap.h>
-#include <tetralight/pipeline/bake_lightmaps.h>
+#include <tetralight/bench/lightmap_texels.h>
 
 namespace tetralight::bench {
 namespace {
 
-/// Some texels of a prepared bake.
-struct ChosenTexels {
-    std::vector<glm::dvec3> positions;
-    std::vector<TexelSurfaces::Texel> surfaces;
-};
-
-ChosenTexels every_nth(const PreparedLightmaps& prepared, size_t count) {
-    ChosenTexels chosen;
-    const size_t step = std::max<size_t>(1, prepared.positions.size() / count);
-    for (size_t i = step / 2; i < prepared.positions.size(); i += step) {
-        chosen.positions.push_back(prepared.positions[i]);
-        chosen.surfaces.push_back(prepared.surfaces[i]);
-    }
-    return chosen;
-}
-
-struct Light {
-    double value = 0.0;  ///< irradiance on the normal, green
-    double error = 0.0;  ///< standard error
-};
-
 struct Sampled {
-    std::vector<Light> lights;
+    std::vector<GreenLight> lights;
     double seconds = 0.0;
     double rays = 0.0;
 };
@@ -50,9 +28,7 @@ Sampled sample(const Scene& scene, const PreparedLightmaps& prepared, const Chos
                 "bake");
     });
     for (const ProbeAccumulator& sum : sums) {
-        const double value = double{sum.radiance().coefficients[2].y} / 0.4886025119029199;
-        sampled.lights.push_back(
-            {value, value * double{sum.sampling_error(ErrorMeasure::OwnNormal)}});
+        sampled.lights.push_back(green_light(sum));
         sampled.rays += static_cast<double>(sum.ray_count);
     }
     return sampled;
@@ -66,20 +42,14 @@ void bench_lightmap_cache(const Scene& scene, const std::string& name) {
     settings.layout.page_size = 2048;
     const auto prepared = prepare_lightmaps(scene, settings);
     require(bool(prepared), "the scene has texels");
-    Result<RadianceCache> cache = RadianceCache{};
-    const double cache_seconds = seconds([&] {
-        cache = make_radiance_cache(scene, prepared->layout, prepared->maps, prepared->texels,
-                                    prepared->settings.bake);
-    });
-    require(bool(cache), "cache");
-    const auto trusted = static_cast<double>(std::ranges::count(cache->is_trusted, true));
+    const auto [cache, cache_seconds_each] = make_timed_cache(scene, *prepared);
+    const auto trusted = static_cast<double>(std::ranges::count(cache.is_trusted, true));
     report("lightmap.cache_trusted." + name, trusted / static_cast<double>(prepared->baked.size()),
            "of valid texels");
-    report("lightmap.cache_time." + name,
-           1e6 * cache_seconds / static_cast<double>(prepared->baked.size()), "us a texel");
+    report("lightmap.cache_time." + name, 1e6 * cache_seconds_each, "us a texel");
     const ChosenTexels chosen = every_nth(*prepared, 512);
     constexpr uint32_t kSamples = 1u << 14, kMoreSamples = 2;
-    const Sampled cached = sample(scene, *prepared, chosen, kSamples, &*cache);
+    const Sampled cached = sample(scene, *prepared, chosen, kSamples, &cache);
     const Sampled exact = sample(scene, *prepared, chosen, kMoreSamples * kSamples, nullptr);
     double sum_cached = 0.0, sum_exact = 0.0, variance = 0.0;
     for (size_t i = 0; i < exact.lights.size(); ++i) {
@@ -91,7 +61,7 @@ void bench_lightmap_cache(const Scene& scene, const std::string& name) {
     std::vector<double> differences;
     double cached_noise = 0.0, exact_noise = 0.0;
     for (size_t i = 0; i < exact.lights.size(); ++i) {
-        const Light &a = cached.lights[i], &b = exact.lights[i];
+        const GreenLight &a = cached.lights[i], &b = exact.lights[i];
         if (b.value < least) continue;
         const double noise = std::hypot(a.error, b.error);
         differences.push_back(std::max(0.0, std::abs(a.value - b.value) - 2.0 * noise) / b.value);

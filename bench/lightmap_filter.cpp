@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include <tetralight/bake/lightmap/make_radiance_cache.h>
 #include <tetralight/bench/lightmap.h>
+#include <tetralight/bench/lightmap_texels.h>
 #include <tetralight/pipeline/texel_lights.h>
 
 namespace tetralight::bench {
@@ -104,27 +104,21 @@ TexelLights lights_of(PreparedLightmaps& prepared, const TexelBake& bake, bool i
     return {prepared, bake};
 }
 
-/// Green irradiance of the inner texels, and its standard error.
-struct Light {
-    double value = 0.0;
-    double error = 0.0;
-};
-
-std::vector<Light> inner_lights(Windows& windows, const TexelBake& bake, bool is_filtered) {
+/// The light of the inner texels. The errors are those of their own samples.
+std::vector<GreenLight> inner_lights(Windows& windows, const TexelBake& bake, bool is_filtered) {
     const TexelLights lights = lights_of(windows.prepared, bake, is_filtered);
-    std::vector<Light> inner;
+    std::vector<GreenLight> inner;
     for (const uint32_t i : windows.inner) {
-        const double value = double{lights.total(i).irradiance.y};
-        const ProbeAccumulator& sums = bake.accumulators[i];
-        inner.push_back({value, value * double{sums.sampling_error(ErrorMeasure::OwnNormal)}});
+        inner.push_back(
+            {double{lights.total(i).irradiance.y}, green_light(bake.accumulators[i]).error});
     }
     return inner;
 }
 
 /// Root mean square of relative errors over lit texels, without the noise of the truth.
-double relative_error(const std::vector<Light>& lights, const std::vector<Light>& truth) {
+double relative_error(const std::vector<GreenLight>& lights, const std::vector<GreenLight>& truth) {
     double mean = 0.0;
-    for (const Light& light : truth) mean += light.value / static_cast<double>(truth.size());
+    for (const GreenLight& light : truth) mean += light.value / static_cast<double>(truth.size());
     double sum = 0.0;
     size_t count = 0;
     for (size_t i = 0; i < truth.size(); ++i) {
@@ -137,9 +131,9 @@ double relative_error(const std::vector<Light>& lights, const std::vector<Light>
     return std::sqrt(std::max(0.0, sum) / static_cast<double>(count));
 }
 
-double mean_of(const std::vector<Light>& lights) {
+double mean_of(const std::vector<GreenLight>& lights) {
     double sum = 0.0;
-    for (const Light& light : lights) sum += light.value;
+    for (const GreenLight& light : lights) sum += light.value;
     return sum / static_cast<double>(lights.size());
 }
 
@@ -150,13 +144,7 @@ void bench_lightmap_filter(const Scene& scene, const std::string& name) {
     settings.layout.page_size = 4096;
     const auto prepared = prepare_lightmaps(scene, settings);
     require(bool(prepared), "the scene has texels");
-    Result<RadianceCache> cache = RadianceCache{};
-    const double cache_seconds = seconds([&] {
-        cache = make_radiance_cache(scene, prepared->layout, prepared->maps, prepared->texels,
-                                    prepared->settings.bake);
-    });
-    require(bool(cache), "cache");
-    const double cache_each = cache_seconds / static_cast<double>(prepared->baked.size());
+    const auto [cache, cache_each] = make_timed_cache(scene, *prepared);
     Windows windows(*prepared, 8);
     const auto all = static_cast<double>(windows.prepared.baked.size());
 
@@ -172,7 +160,7 @@ void bench_lightmap_filter(const Scene& scene, const std::string& name) {
         alone.surfaces.push_back(windows.prepared.surfaces[i]);
     }
     for (uint32_t i = 0; i < inner.inner.size(); ++i) inner.inner[i] = i;
-    const std::vector<Light> truth =
+    const std::vector<GreenLight> truth =
         inner_lights(inner, sample(scene, alone, 1u << 15, nullptr, 1).bake, false);
 
     constexpr uint32_t kPlain = 512;
@@ -186,11 +174,11 @@ void bench_lightmap_filter(const Scene& scene, const std::string& name) {
 
     double last_error = 0.0, last_time = 0.0, time = 0.0;
     for (uint32_t count = 16; count <= 8192 && time == 0.0; count *= 2) {
-        const Sampled sampled = sample(scene, windows.prepared, count, &*cache, 2);
-        std::vector<Light> filtered;
+        const Sampled sampled = sample(scene, windows.prepared, count, &cache, 2);
+        std::vector<GreenLight> filtered;
         const double filter_seconds =
             seconds([&] { filtered = inner_lights(windows, sampled.bake, true); });
-        const std::vector<Light> raw = inner_lights(windows, sampled.bake, false);
+        const std::vector<GreenLight> raw = inner_lights(windows, sampled.bake, false);
         const double error = relative_error(filtered, truth);
         const double raw_error = relative_error(raw, truth);
         report("lightmap.filtered_error." + name + "." + std::to_string(count), error,

@@ -45,11 +45,10 @@ LightmapTexel packed(const TexelLight& light, float scale) {
 
 class PageWriter {
   public:
-    PageWriter(const PreparedLightmaps& prepared, const TexelLights& lights,
-               std::span<const float> errors)
+    PageWriter(const PreparedLightmaps& prepared, const TexelBake& bake, const TexelLights& lights)
         : prepared_(prepared),
+          bake_(bake),
           lights_(lights),
-          errors_(errors),
           baked_index_(prepared.texels.validity.size(), kNoIndex),
           maps_(prepared.lightmaps) {
         for (uint32_t i = 0; i < prepared.baked.size(); ++i) baked_index_[prepared.baked[i]] = i;
@@ -203,7 +202,8 @@ class PageWriter {
         percentile = static_cast<float>(stitcher.relative_percentile(values, 0.99));
     }
 
-    /// Validity and error of the texels that surfaces touch.
+    /// Validity and error of the texels that surfaces touch. The error is that of their own
+    /// samples, also where they are filtered.
     void write_facts(uint32_t instance, const TexelMap& map, const LightmapRectangle& place) {
         for (size_t i = 0; i < map.texels.size(); ++i) {
             const size_t index = page_index(map, place, map.texels[i].index);
@@ -212,7 +212,8 @@ class PageWriter {
             const uint32_t baked = baked_index_[texel];
             if (baked == kNoIndex) continue;
             is_baked_[index] = 1;
-            maps_.error[index] = half_from_float_saturated(errors_[baked]);
+            const float error = bake_.accumulators[baked].standard_error(ErrorMeasure::OwnNormal);
+            maps_.error[index] = half_from_float_saturated(error);
         }
     }
 
@@ -231,8 +232,8 @@ class PageWriter {
     }
 
     const PreparedLightmaps& prepared_;
+    const TexelBake& bake_;
     const TexelLights& lights_;
-    std::span<const float> errors_;
     std::vector<uint32_t> baked_index_;  ///< of each texel in `prepared.baked`, or kNoIndex
     uint64_t texel_count_ = 0;
     std::vector<TexelFill> fills_;      ///< one an instance
@@ -242,15 +243,6 @@ class PageWriter {
     Lightmaps maps_;
 };
 
-/// `ProbeAccumulator::standard_error` of all texels: of their own samples, also where texels are
-/// filtered.
-std::vector<float> texel_errors(const TexelBake& bake) {
-    std::vector<float> errors;
-    for (const ProbeAccumulator& sums : bake.accumulators)
-        errors.push_back(sums.standard_error(ErrorMeasure::OwnNormal));
-    return errors;
-}
-
 }  // namespace
 
 uint8_t validity_byte(float validity) noexcept {
@@ -259,17 +251,19 @@ uint8_t validity_byte(float validity) noexcept {
 
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
     report.cache_seconds += bake.cache_seconds;
-    for (const ProbeAccumulator& sums : bake.accumulators) report.ray_count += sums.ray_count;
-    std::vector<float> known;
-    for (const float error : texel_errors(bake)) {
-        if (error > 0.0f) known.push_back(error);
-        report.over_target_count += target_error > 0.0 && double{error} > target_error;
+    std::vector<float> errors;
+    for (const ProbeAccumulator& sums : bake.accumulators) {
+        report.ray_count += sums.ray_count;
+        const float error = sums.standard_error(ErrorMeasure::OwnNormal);
+        if (error > 0.0f) errors.push_back(error);
+        const bool is_over = target_error > 0.0 && double{error} > target_error;
+        report.over_target_count += is_over;
     }
-    if (known.empty()) return;
-    const auto middle = known.begin() + static_cast<ptrdiff_t>(known.size() / 2);
-    std::ranges::nth_element(known, middle);
+    if (errors.empty()) return;
+    const auto middle = errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2);
+    std::ranges::nth_element(errors, middle);
     report.median_error = *middle;
-    report.worst_error = *std::ranges::max_element(known);
+    report.worst_error = *std::ranges::max_element(errors);
 }
 
 BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bake) {
@@ -278,8 +272,7 @@ BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bak
     result.report = std::move(prepared.report);
     LightmapReport& report = result.report;
     const TexelLights lights(prepared, bake);
-    const std::vector<float> errors = texel_errors(bake);
-    result.lightmaps = PageWriter(prepared, lights, errors).run(report);
+    result.lightmaps = PageWriter(prepared, bake, lights).run(report);
     const double target_error = prepared.settings.bake.target_error;
     report_texels(bake, target_error, report);
     if (report.over_target_count > 0) {

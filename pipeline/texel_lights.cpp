@@ -88,50 +88,47 @@ PageCharts page_charts(const PreparedLightmaps& prepared) {
 TexelLights::TexelLights(const PreparedLightmaps& prepared, const TexelBake& bake)
     : value_count_(1 + prepared.lightmaps.layers.size()),
       lights_(value_count_ * bake.accumulators.size()) {
+    const bool is_filtered = !prepared.settings.is_unfiltered;
+    std::vector<TexelHalves> halves(is_filtered ? lights_.size() : 0);
     const LightGroupLayout layout(prepared.settings.bake.plan);
     for_each_texel(bake, prepared.settings.bake.thread_count, [&](size_t texel) {
-        const ProbeAccumulator& accumulator = bake.accumulators[texel];
+        const double count = sample_count(bake.accumulators[texel]);
+        const glm::vec3 normal = bake.normals[texel];
         const auto sums = sums_of(bake, layout, texel, value_count_);
+        const double first_half_count = sums[0].back();
         for (size_t i = 0; i < value_count_; ++i) {
-            lights_[texel * value_count_ + i] =
-                texel_light(sums[i], sample_count(accumulator), bake.normals[texel]);
+            const size_t value = index(texel) + i;
+            lights_[value] = texel_light(sums[i], count, normal);
+            if (is_filtered) halves[value] = texel_halves(sums[i], count, first_half_count, normal);
         }
     });
-    if (!prepared.settings.is_unfiltered) filter(prepared, bake);
+    if (is_filtered) filter(prepared, bake, halves);
 }
 
-void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bake) {
-    const LightGroupLayout layout(prepared.settings.bake.plan);
-    const uint32_t threads = prepared.settings.bake.thread_count;
-    std::vector<TexelHalves> halves(lights_.size());
-    std::vector<NoisyTexel> noisy(bake.accumulators.size());
-    for_each_texel(bake, threads, [&](size_t texel) {
+void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bake,
+                         std::span<const TexelHalves> halves) {
+    std::vector<NoisyTexel> noisy;
+    for (size_t texel = 0; texel < bake.accumulators.size(); ++texel) {
         const ProbeAccumulator& accumulator = bake.accumulators[texel];
         const double count = sample_count(accumulator);
-        const auto sums = sums_of(bake, layout, texel, value_count_);
-        const double first_half_count = sums[0][kCoefficients - 1];
-        for (size_t i = 0; i < value_count_; ++i) {
-            halves[texel * value_count_ + i] =
-                texel_halves(sums[i], count, first_half_count, bake.normals[texel]);
-        }
-        const TexelHalves& total = halves[texel * value_count_];
+        const TexelHalves& total = halves[index(texel)];
         // A half has half of the samples.
-        noisy[texel] = {{total[0].irradiance, total[1].irradiance},
-                        static_cast<float>(2.0 * accumulator.variance_sum / (count * count)),
-                        bake.normals[texel]};
-    });
-    filter_texels(page_charts(prepared), noisy, {}, threads,
+        noisy.push_back({{total[0].irradiance, total[1].irradiance},
+                         static_cast<float>(2.0 * accumulator.variance_sum / (count * count)),
+                         bake.normals[texel]});
+    }
+    filter_texels(page_charts(prepared), noisy, {}, prepared.settings.bake.thread_count,
                   [&](uint32_t texel, std::span<const TexelShare> shares) {
                       const glm::vec3 normal = bake.normals[texel];
                       for (size_t i = 0; i < value_count_; ++i) {
                           TexelLight light;
                           for (const TexelShare& share : shares) {
-                              const TexelHalves& other = halves[share.texel * value_count_ + i];
+                              const TexelHalves& other = halves[index(share.texel) + i];
                               light += other[0] * (0.5f * share.halves[0]);
                               light += other[1] * (0.5f * share.halves[1]);
                           }
                           light.irradiance = glm::max(normal * light.vector, 0.0f);
-                          lights_[texel * value_count_ + i] = light;
+                          lights_[index(texel) + i] = light;
                       }
                   });
 }

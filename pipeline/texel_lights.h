@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <tetralight/bake/texel_light.h>
@@ -25,9 +26,12 @@ class TexelLights {
     }
 
   private:
-    [[nodiscard]] size_t index(uint32_t baked) const { return baked * size_t{value_count_}; }
+    /// Of the total of a texel in `lights_`; its layers follow.
+    [[nodiscard]] size_t index(size_t baked) const { return baked * value_count_; }
 
-    void filter(const PreparedLightmaps& prepared, const TexelBake& bake);
+    /// `halves`: as `lights_`.
+    void filter(const PreparedLightmaps& prepared, const TexelBake& bake,
+                std::span<const TexelHalves> halves);
 
     size_t value_count_ = 0;  ///< of a texel: the total and the layers
     std::vector<TexelLight> lights_;

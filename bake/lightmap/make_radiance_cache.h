@@ -22,7 +22,7 @@ struct RadianceCacheSettings {
 };
 
 /// Makes the cache of a bake of lightmaps: first the direct light of all texels, then their
-/// reflected light, by paths that take the direct light where they meet surfaces. All lights that
+/// reflected light, by paths that take the direct light where they hit surfaces. All lights that
 /// the bake includes count, mixed ones with their direct light. Settings: the plan, the surfaces,
 /// the seed and the threads. A function of the scene, the texels and the settings alone.
 ///

@@ -48,7 +48,7 @@ class PageCharts {
                      std::span<uint32_t> texels) const;
 
   private:
-    /// An edge of a chart, and the same edge where the surface goes on.
+    /// A seam as one chart sees it: its own edge, and that of the chart behind it.
     struct Border {
         uint32_t chart = 0;
         uint32_t other_chart = 0;

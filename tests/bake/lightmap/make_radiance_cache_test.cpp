@@ -213,7 +213,7 @@ TEST(MakeRadianceCache, StopsIfItIsCancelled) {
 
 class FindCachedTexel : public testing::Test {
   protected:
-    /// The texel that has the light of what a ray meets.
+    /// The cached texel of the surface that a ray hits.
     [[nodiscard]] std::optional<uint32_t> find(glm::vec3 origin, glm::vec3 direction) const {
         const glm::vec3 from = traced_->render_from_world(glm::dvec3(origin));
         const auto surface = traced_->intersect({from, direction});
