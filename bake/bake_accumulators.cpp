@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <tetralight/bake/ambient_occlusion.h>
 #include <tetralight/bake/layer_errors.h>
 #include <tetralight/bake/lights/scene_openings.h>
 #include <tetralight/bake/occlusion.h>
@@ -75,9 +76,10 @@ struct Work {
     std::vector<double> mean_layer_light;
 };
 
-/// True for the one estimate of a probe that includes its occlusion: the first of the first round.
-bool has_occlusion(const LightGroupLayout& layout, uint64_t round, uint32_t number) {
-    return layout.has_occlusion && round == 0 && number == 0;
+/// True for the one estimate of a place that includes single values, such as its occlusion: the
+/// first of the first round.
+bool has_single_values(const LightGroupLayout& layout, uint64_t round, uint32_t number) {
+    return layout.has_single_values() && round == 0 && number == 0;
 }
 
 class AccumulatorBaker {
@@ -170,20 +172,33 @@ class AccumulatorBaker {
         const glm::dvec3& position = work_.places.positions[probe];
         const glm::vec3 origin = work_.trace_scene.render_from_world(position);
         const uint64_t key = estimate_key(probe_key(settings_.seed, position), round, number);
-        if (plan_.measure() == ErrorMeasure::OwnNormal) {
-            ProbeEstimate texel = estimate_texel(work_.tracer, origin, work_.places.surfaces[probe],
-                                                 key, directions.size());
-            keep_half(texel, number < plan_.estimates_in_round(round) / 2);
-            return texel;
-        }
-        ProbeEstimate estimate = estimate_probe(work_.tracer, origin, key, directions);
-        if (has_occlusion(layout_, round, number)) {
-            const glm::vec4 occlusion =
-                probe_occlusion(work_.tracer, work_.lights,
-                                work_.light_groups.occlusion_lights[probe], origin, key);
-            for (int i = 0; i < 4; ++i) estimate.light_groups.push_back(occlusion[i]);
+        const bool is_texel = plan_.measure() == ErrorMeasure::OwnNormal;
+        ProbeEstimate estimate =
+            is_texel ? estimate_texel(work_.tracer, origin, work_.places.surfaces[probe], key,
+                                      directions.size())
+                     : estimate_probe(work_.tracer, origin, key, directions);
+        if (is_texel) keep_half(estimate, number < plan_.estimates_in_round(round) / 2);
+        if (has_single_values(layout_, round, number)) {
+            add_single_values(probe, origin, key, estimate.light_groups);
         }
         return estimate;
+    }
+
+    void add_single_values(uint32_t probe, glm::vec3 origin, uint64_t key,
+                           std::vector<float>& values) const {
+        const bool is_texel = plan_.measure() == ErrorMeasure::OwnNormal;
+        if (layout_.has_occlusion) {
+            const OcclusionLights& lights = work_.light_groups.occlusion_lights[probe];
+            const glm::vec4 occlusion =
+                is_texel ? texel_occlusion(work_.tracer, work_.lights, lights, origin,
+                                           work_.places.surfaces[probe], key)
+                         : probe_occlusion(work_.tracer, work_.lights, lights, origin, key);
+            for (int i = 0; i < 4; ++i) values.push_back(occlusion[i]);
+        }
+        if (layout_.has_ambient_occlusion) {
+            values.push_back(ambient_occlusion(work_.tracer, origin, work_.places.surfaces[probe],
+                                               settings_.plan.ambient_occlusion_distance, key));
+        }
     }
 
     void end_round(uint32_t probe, std::span<const ProbeEstimate> estimates) {
@@ -213,7 +228,7 @@ class AccumulatorBaker {
             }
         }
         add_layer_variances(layout_, estimates, row, plan_.measure());
-        if (!has_occlusion(layout_, round, 0)) return;
+        if (!has_single_values(layout_, round, 0)) return;
         for (size_t i = summed; i < layout_.variance_begin(); ++i) {
             row[i] = static_cast<double>(estimates[0].light_groups[i]);
         }
@@ -288,6 +303,8 @@ Status bake_accumulators(const Scene& scene, const BakePlaces& places, const Bak
     TETRALIGHT_ASSERT(
         places.surfaces.texels.empty() || places.surfaces.texels.size() == positions.size(),
         "no surfaces, or one for each position");
+    TETRALIGHT_ASSERT(!layout.has_ambient_occlusion || !places.surfaces.texels.empty(),
+                      "ambient occlusion is of texels");
     if (auto status = RoundPlan::check(settings); !status) return status;
     if (auto status = check_positions(places); !status) return status;
     if (auto status =

@@ -33,8 +33,8 @@ struct BakeHooks {
 /// the plan has no occlusion.
 struct LightGroupRows {
     /// One row per position, as `LightGroupLayout(settings.plan)` describes it: Σ samples · value
-    /// over all estimates for layers and transfer; the value itself for occlusion; Σ samples² ·
-    /// variance of the mean irradiance of a round for variances.
+    /// over all estimates for layers and transfer; the value itself for both kinds of occlusion;
+    /// Σ samples² · variance of the mean irradiance of a round for variances.
     std::span<double> rows = {};
     /// One element per position if the plan has occlusion, else empty.
     std::span<const OcclusionLights> occlusion_lights = {};
@@ -69,7 +69,8 @@ struct BakePlaces {
 /// the progress callback returns false, in which case the accumulators hold all complete rounds.
 ///
 /// Precondition: the accumulators are empty or come from the same settings. There are as many of
-/// them, and as many rows if the plan has light groups, as positions. Texels have no occlusion.
+/// them, and as many rows if the plan has light groups, as positions. Probes have no ambient
+/// occlusion.
 [[nodiscard]] Status bake_accumulators(const Scene& scene, const BakePlaces& places,
                                        const BakeSettings& settings,
                                        std::span<ProbeAccumulator> accumulators,

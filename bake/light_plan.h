@@ -30,6 +30,9 @@ struct LightPlan {
     bool has_transfer = false;
     /// Bake the visibility of lights (bake/occlusion.h).
     bool has_occlusion = false;
+    /// Of texels: bake how open their surroundings are up to this distance, metres
+    /// (bake/ambient_occlusion.h). 0: no.
+    float ambient_occlusion_distance = 0.0f;
 
     [[nodiscard]] LightMode mode_of(const Scene& scene, size_t light) const {
         return light_modes.empty() ? scene.lights[light].mode : light_modes[light];
@@ -46,8 +49,8 @@ struct LightPlan {
 };
 
 /// Layout of the light groups of one probe as a row of values: the radiance of each layer (9 RGB
-/// coefficients), the direct transfer, the bounced transfer (RGB), the four occlusion channels, and
-/// the variance of each layer, the last that of the rest if there is one.
+/// coefficients), the direct transfer, the bounced transfer (RGB), the four occlusion channels, the
+/// ambient occlusion, and the variance of each layer, the last that of the rest if there is one.
 struct LightGroupLayout {
     static constexpr size_t kLayerSize = 3 * size_t{kShCoefficientCount};
     static constexpr size_t kDirectSize = size_t{kShCoefficientCount} * kDistantCoefficientCount;
@@ -59,12 +62,14 @@ struct LightGroupLayout {
         : layer_count(plan.layer_count),
           has_rest(plan.has_rest),
           has_transfer(plan.has_transfer),
-          has_occlusion(plan.has_occlusion) {}
+          has_occlusion(plan.has_occlusion),
+          has_ambient_occlusion(plan.ambient_occlusion_distance > 0.0f) {}
 
     uint32_t layer_count = 0;
     bool has_rest = false;
     bool has_transfer = false;
     bool has_occlusion = false;
+    bool has_ambient_occlusion = false;
 
     [[nodiscard]] size_t direct_begin() const { return layer_count * kLayerSize; }
 
@@ -74,9 +79,16 @@ struct LightGroupLayout {
         return direct_begin() + (has_transfer ? kDirectSize + kBouncedSize : 0);
     }
 
-    [[nodiscard]] size_t variance_begin() const {
+    [[nodiscard]] size_t ambient_occlusion_begin() const {
         return occlusion_begin() + (has_occlusion ? 4 : 0);
     }
+
+    [[nodiscard]] size_t variance_begin() const {
+        return ambient_occlusion_begin() + (has_ambient_occlusion ? 1 : 0);
+    }
+
+    /// True if a place has values that are found once, not summed over its samples.
+    [[nodiscard]] bool has_single_values() const { return has_occlusion || has_ambient_occlusion; }
 
     /// Layers that have a variance: all, and the rest.
     [[nodiscard]] uint32_t variance_count() const { return layer_count + (has_rest ? 1 : 0); }

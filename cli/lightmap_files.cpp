@@ -81,6 +81,9 @@ Json facts_json(const std::string& path, const LightmapsView& maps) {
               {"covered_texels", facts.covered},
               {"standard_error", to_json(facts.errors)},
               {"has_directions", !maps.light.empty()},
+              {"mixed_lighting", name_of(maps.info.mixed_lighting)},
+              {"has_shadow_mask", !maps.shadow_mask.empty()},
+              {"ambient_occlusion_distance", maps.info.ambient_occlusion_distance},
               {"layers", layers_json(maps)}};
     json["made_with"] = maps.metadata.empty() ? Json() : Json::parse(maps.metadata);
     return json;
@@ -147,6 +150,10 @@ Status show_lightmaps(const std::string& path, const CommonOptions& common) {
                        maps.info.page_size);
     }
     if (!maps.layers.empty()) text += "\n  layers " + layers_text(maps);
+    if (maps.info.mixed_lighting != MixedLighting::Indirect)
+        text += str_cat("\n  mixed lighting ", name_of(maps.info.mixed_lighting));
+    if (maps.info.ambient_occlusion_distance > 0.0f)
+        text += str_cat("\n  ambient occlusion up to ", maps.info.ambient_occlusion_distance, " m");
     if (!maps.metadata.empty()) text += "\n  made with " + printable(std::string(maps.metadata));
     common.print(json, text);
     return Ok{};

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
@@ -37,6 +39,8 @@ struct Render {
     std::string lightmap_path;
     std::string output;
     ShowSettings shown;
+    bool has_ambient_occlusion = false;
+    std::optional<glm::vec3> shadow_color;
     ProbeLight probes = ProbeLight::AsTheScene;
     Walls walls = Walls::HideProbes;
     RendererKind renderer = RendererKind::Cpu;
@@ -49,17 +53,22 @@ struct Render {
           lightmap_path(values.text("lightmaps")),
           output(values.text("output")),
           shown(show_settings(values)),
+          has_ambient_occlusion(values.flag("ambient_occlusion")),
           probes(choice<ProbeLight>(values, "probes")),
           walls(choice<Walls>(values, "walls")),
           renderer(choice<RendererKind>(values, "renderer")),
           view(values),
-          common(values) {}
+          common(values) {
+        if (values.is_given("shadow_color")) shadow_color = glm::vec3(vec3(values, "shadow_color"));
+    }
 
     /// By OpenGL if it was asked for and is available, else by rays.
     [[nodiscard]] Result<Image8> draw(const Scene& scene, const ProbeVolumeView& volume,
                                       const LightmapsView& lightmaps, const Camera& camera) const {
         auto light = make_scene_light(scene, volume, probes, lightmaps);
         if (!light) return light.error().in(scene_path);
+        light->has_ambient_occlusion = has_ambient_occlusion;
+        if (shadow_color) light->shadow_color = *shadow_color;
         Gizmos gizmos = make_gizmos(volume, light->proxy_volumes, shown.gizmos);
         if (shown.gizmos.has_seams)
             std::ranges::move(make_seam_lines(scene, lightmaps), std::back_inserter(gizmos.lines));
@@ -93,6 +102,22 @@ struct Render {
         return render(ray_traced_pictures(*shader, volume, shown.view));
     }
 
+    /// What the picture needs of the lightmaps.
+    [[nodiscard]] Status check_sections(const LightmapsView& lightmaps) const {
+        const auto missing = [&](const char* what, const char* option) {
+            return Error{
+                ErrorCode::InvalidArgument, "lightmaps", lightmap_path,
+                str_cat(shown_path(lightmap_path), ": has no ", what, "; bake it with ", option)};
+        };
+        const bool shows_occlusion =
+            has_ambient_occlusion || shown.view == SurfaceView::AmbientOcclusion;
+        if (shows_occlusion && lightmaps.ambient_occlusion.empty())
+            return missing("ambient occlusion", "--ambient-occlusion");
+        if (shown.view == SurfaceView::ShadowMask && lightmaps.shadow_mask.empty())
+            return missing("shadow mask", "--mixed-lighting shadowmask");
+        return Ok{};
+    }
+
     Status run() {
         const std::vector<std::string> inputs{scene_path, volume_path, lightmap_path};
         if (auto status = check_output(output, inputs); !status) return status;
@@ -108,6 +133,9 @@ struct Render {
         const auto start = std::chrono::steady_clock::now();
         const auto lightmaps = open_lightmaps(lightmap_path);
         if (!lightmaps) return lightmaps.error();
+        if (*lightmaps) {
+            if (auto status = check_sections((*lightmaps)->view()); !status) return status;
+        }
         const auto image = draw(*scene, with_walls(file->view(), walls),
                                 *lightmaps ? (*lightmaps)->view() : LightmapsView{}, *chosen);
         if (!image) return image.error();

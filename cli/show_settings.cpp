@@ -42,7 +42,8 @@ constexpr NamedView kViews[] = {
     {"bounce", SurfaceView::Bounce},          {"emission", SurfaceView::Emission},
     {"albedo", SurfaceView::Albedo},          {"unwrapped-uv", SurfaceView::UnwrappedUv},
     {"lightmap-uv", SurfaceView::LightmapUv}, {"texels", SurfaceView::Texels},
-    {"validity", SurfaceView::Validity},      {"pages", SurfaceView::Pages}};
+    {"validity", SurfaceView::Validity},      {"pages", SurfaceView::Pages},
+    {"shadow-mask", SurfaceView::ShadowMask}, {"ambient-occlusion", SurfaceView::AmbientOcclusion}};
 
 struct NamedGizmo {
     std::string_view name;

@@ -20,6 +20,10 @@ Status check_same_layout(const LightmapsView& a, const LightmapsView& b) {
     if (a.rectangles.size() != b.rectangles.size()) {
         return different(str_cat(a.rectangles.size(), " and ", b.rectangles.size(), " rectangles"));
     }
+    if (a.info.mixed_lighting != b.info.mixed_lighting) {
+        return different(str_cat("mixed lighting ", name_of(a.info.mixed_lighting), " and ",
+                                 name_of(b.info.mixed_lighting)));
+    }
     for (size_t i = 0; i < a.rectangles.size(); ++i) {
         if (a.rectangles[i] == b.rectangles[i]) continue;
         return different(str_cat("different rectangles of instance ", i));

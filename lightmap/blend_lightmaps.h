@@ -11,8 +11,8 @@ namespace tetralight {
 /// 0 and t = 1 give the bytes of the light of `a` and `b`. All else is that of `a`, but the blend
 /// has no layers and no `error`: relight before blending.
 ///
-/// Returns invalid_argument if t is out of range, if pages, rectangles or meshes differ, or if only
-/// one of them has `light`. Precondition: both pass `verify`.
+/// Returns invalid_argument if t is out of range, if pages, rectangles, meshes or mixed lighting
+/// differ, or if only one of them has `light`. Precondition: both pass `verify`.
 [[nodiscard]] Result<Lightmaps> blend_lightmaps(const LightmapsView& a, const LightmapsView& b,
                                                 float t);
 

@@ -20,6 +20,8 @@ constexpr void for_each_lightmap_member(Visit&& visit) {
     visit("corner_uvs", &Owner::corner_uvs, &View::corner_uvs);
     visit("validity", &Owner::validity, &View::validity);
     visit("error", &Owner::error, &View::error);
+    visit("shadow_mask", &Owner::shadow_mask, &View::shadow_mask);
+    visit("ambient_occlusion", &Owner::ambient_occlusion, &View::ambient_occlusion);
     visit("layers", &Owner::layers, &View::layers);
     visit("layer_names", &Owner::layer_names, &View::layer_names);
     visit("layer_irradiance", &Owner::layer_irradiance, &View::layer_irradiance);

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <tetralight/probes/mixed_lighting.h>
 #include <tetralight/probes/no_index.h>
 
 // Lightmaps: baked light of the surfaces of static instances, as texels of square pages. Each
@@ -39,8 +40,13 @@ struct LightmapInfo {
     /// The light of a half in `irradiance` and `light` is its value times this power of two
     /// (`lightmap_scale`).
     float scale = 1.0f;
+    /// How mixed lights are in the texels. Indirect: their bounces. Shadowmask: the same, and their
+    /// shadows are in `shadow_mask`. Subtractive: their bounces and their direct light.
+    MixedLighting mixed_lighting = MixedLighting::Indirect;
+    /// Surfaces nearer than this darken `ambient_occlusion`, metres. 0: it is not there.
+    float ambient_occlusion_distance = 0.0f;
     /// 0. Readers of this version reject other values.
-    std::array<uint32_t, 12> reserved{};
+    std::array<uint32_t, 10> reserved{};
 
     bool operator==(const LightmapInfo&) const = default;
 };
@@ -82,6 +88,11 @@ struct LayerTexel {
 };
 
 static_assert(sizeof(LayerTexel) == 6 && std::is_trivially_copyable_v<LayerTexel>);
+
+/// How much of four lights a texel sees, times 255: the shadows of static objects. A light's
+/// channel is that of its `LightState`; where lights share a channel, it is of the one whose volume
+/// contains the texel.
+using ShadowMaskTexel = std::array<uint8_t, 4>;
 
 /// Where an instance of the scene lies in the pages: uv_page = uv · scale + offset, where uv in
 /// [0, 1] is the unwrapped UV (TEXCOORD_1) of its mesh, from edge to edge of the rectangle.
@@ -137,6 +148,10 @@ struct LightmapsView {
     std::span<const uint8_t> validity;
     /// Relative standard error of the baked irradiance, a half ≥ 0. Empty: not known.
     std::span<const uint16_t> error;
+    std::span<const ShadowMaskTexel> shadow_mask;  ///< empty: no static shadows of mixed lights
+    /// How open the hemisphere of the texel is, times 255: 255 = nothing is near. It is in none of
+    /// the light. Empty: not known.
+    std::span<const uint8_t> ambient_occlusion;
 
     std::span<const LightmapRectangle> rectangles;  ///< one an instance, in the scene's order
     std::string_view instance_names;                ///< each ended by '\n'; empty: not known
@@ -164,6 +179,8 @@ struct Lightmaps {
     std::vector<LightmapTexel> light;
     std::vector<uint8_t> validity;
     std::vector<uint16_t> error;
+    std::vector<ShadowMaskTexel> shadow_mask;
+    std::vector<uint8_t> ambient_occlusion;
     std::vector<LightmapRectangle> rectangles;
     std::string instance_names;
     std::vector<LightmapMesh> meshes;

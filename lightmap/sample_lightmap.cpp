@@ -22,14 +22,21 @@ struct TexelPages {
     float scale = 0.0f;
 };
 
+/// `scale`: of the texels' values.
 template <class Texel>
-TexelPages<Texel> pages_of(const LightmapInfo& info, std::span<const Texel> texels) noexcept {
+TexelPages<Texel> pages_of(const LightmapInfo& info, std::span<const Texel> texels,
+                           float scale) noexcept {
     const bool is_sound = info.page_size > 0 && info.page_size <= kLargestPageSize &&
-                          info.scale > 0.0f && info.scale <= kLargestLightmapScale;
+                          scale > 0.0f && scale <= kLargestLightmapScale;
     if (!is_sound) return {};
     const uint64_t count = texels.size() / (uint64_t{info.page_size} * info.page_size);
     return {texels.data(), static_cast<uint32_t>(std::min<uint64_t>(count, info.page_count)),
-            info.page_size, info.scale};
+            info.page_size, scale};
+}
+
+template <class Texel>
+TexelPages<Texel> pages_of(const LightmapInfo& info, std::span<const Texel> texels) noexcept {
+    return pages_of(info, texels, info.scale);
 }
 
 /// Along one axis: the first of two texels, whether the second is another one, and its weight.
@@ -153,6 +160,30 @@ glm::vec3 sample_lightmap(const LightmapsView& lightmaps, uint32_t page, glm::ve
     const glm::vec3 irradiance(glm::dot(normal, v[0]), glm::dot(normal, v[1]),
                                glm::dot(normal, v[2]));
     return glm::max(irradiance, glm::vec3(0.0f));
+}
+
+glm::vec4 sample_shadow_mask(const LightmapsView& lightmaps, uint32_t page,
+                             glm::vec2 uv_page) noexcept {
+    const auto pages = pages_of(lightmaps.info, lightmaps.shadow_mask, 1.0f / 255.0f);
+    if (page >= pages.page_count) return glm::vec4(1.0f);
+    const Corners corners = corners_at(pages, page, uv_page);
+    glm::vec4 visible(0.0f);
+    for (size_t corner = 0; corner < 4; ++corner) {
+        const auto& [x, y, z, w] = pages.texels[corners.texels[corner]];
+        visible += corners.weights[corner] * glm::vec4(x, y, z, w);
+    }
+    return visible;
+}
+
+float sample_ambient_occlusion(const LightmapsView& lightmaps, uint32_t page,
+                               glm::vec2 uv_page) noexcept {
+    const auto pages = pages_of(lightmaps.info, lightmaps.ambient_occlusion, 1.0f / 255.0f);
+    if (page >= pages.page_count) return 1.0f;
+    const Corners corners = corners_at(pages, page, uv_page);
+    float open = 0.0f;
+    for (size_t corner = 0; corner < 4; ++corner)
+        open += corners.weights[corner] * pages.texels[corners.texels[corner]];
+    return open;
 }
 
 void sample_irradiance(const LightmapsView& lightmaps, std::span<const uint32_t> pages,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 
 #include <tetralight/lightmap/lightmaps.h>
@@ -27,6 +28,16 @@ namespace tetralight {
 /// `sample_irradiance`.
 [[nodiscard]] glm::vec3 sample_lightmap(const LightmapsView& lightmaps, uint32_t page,
                                         glm::vec2 uv_page, glm::vec3 normal) noexcept;
+
+/// How much of the light of each channel the texels see, in [0, 1] (`ShadowMaskTexel`): a mixed
+/// light adds its direct term times this, times the shadows of moving objects. 1 without section
+/// "shadow_mask".
+[[nodiscard]] glm::vec4 sample_shadow_mask(const LightmapsView& lightmaps, uint32_t page,
+                                           glm::vec2 uv_page) noexcept;
+
+/// How open the surroundings are, in [0, 1]. 1 without section "ambient_occlusion".
+[[nodiscard]] float sample_ambient_occlusion(const LightmapsView& lightmaps, uint32_t page,
+                                             glm::vec2 uv_page) noexcept;
 
 /// Many samples: irradiance[i] is that of uvs_page[i] on pages[i], the same bits as those of one
 /// sample. Cost: reading four texels each, which is fetched ahead.

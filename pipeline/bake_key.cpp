@@ -151,7 +151,7 @@ void add(Hash& hash, const Scene& scene) {
 template <class Hash>
 void add(Hash& hash, const LightPlan& plan) {
     const auto& [light_modes, layer_of_light, layer_of_material, layer_of_sky, layer_count,
-                 has_rest, has_transfer, has_occlusion] = plan;
+                 has_rest, has_transfer, has_occlusion, ambient_occlusion_distance] = plan;
     hash.add(light_modes);
     hash.add(layer_of_light);
     hash.add(layer_of_material);
@@ -160,6 +160,7 @@ void add(Hash& hash, const LightPlan& plan) {
     hash.add(has_rest);
     hash.add(has_transfer);
     hash.add(has_occlusion);
+    hash.add(ambient_occlusion_distance);
 }
 
 template <class Hash>

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <tetralight/bake/lightmap/make_radiance_cache.h>
+#include <tetralight/bake/occlusion_channels.h>
 #include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/round_plan.h>
@@ -62,11 +63,36 @@ size_t chart_count(const LightmapPacking& packing) {
     return charts.empty() ? 0 : size_t{*std::ranges::max_element(charts)} + 1;
 }
 
+/// The plan of lights for texels. Subtractive: static objects take all light of mixed lights from
+/// their texels.
+LightPlan texel_plan(const LightingPlan& plan, const BakeLightmapsSettings& settings) {
+    const MixedLighting mode = settings.lighting.mixed_lighting;
+    LightPlan texels = plan.bake;
+    texels.has_occlusion = mode == MixedLighting::Shadowmask;
+    texels.ambient_occlusion_distance = settings.ambient_occlusion_distance;
+    if (mode != MixedLighting::Subtractive) return texels;
+    for (LightMode& light : texels.light_modes) {
+        if (light == LightMode::Mixed) light = LightMode::Baked;
+    }
+    return texels;
+}
+
+/// The lights whose visibility each baked texel stores.
+void store_occlusion_lights(const LightingPlan& plan, PreparedLightmaps& prepared) {
+    if (!prepared.has_shadow_mask()) return;
+    const std::vector<uint32_t> channels = channels_of(plan.light_states);
+    for (const glm::dvec3& position : prepared.positions) {
+        prepared.occlusion_lights.push_back(occlusion_lights_at(position, plan.lights, channels));
+    }
+}
+
 /// What the pages hold beside texels.
-void describe(const Scene& scene, const std::vector<std::string>& layer_names,
-              PreparedLightmaps& prepared) {
+void describe(const Scene& scene, const LightingPlan& plan, PreparedLightmaps& prepared) {
     const LightmapLayout& layout = prepared.layout;
+    const auto& layer_names = plan.layer_names;
     Lightmaps& maps = prepared.lightmaps;
+    maps.info.mixed_lighting = prepared.settings.lighting.mixed_lighting;
+    maps.info.ambient_occlusion_distance = prepared.settings.ambient_occlusion_distance;
     maps.info.page_size = layout.page_size;
     maps.info.page_count = layout.page_count;
     maps.info.texels_per_meter = static_cast<float>(layout.texels_per_meter);
@@ -86,7 +112,7 @@ void describe(const Scene& scene, const std::vector<std::string>& layer_names,
     }
     maps.layers.resize(layer_names.size());
     for (const std::string& name : layer_names) maps.layer_names += name + "\n";
-    maps.metadata = lightmap_metadata(scene, prepared.settings);
+    maps.metadata = lightmap_metadata(scene, plan, prepared.settings);
 }
 
 /// Which instances have baked texels: not those that `only` leaves out, or that are inside
@@ -140,7 +166,9 @@ void warn_of_dark_objects(const Scene& scene, const std::vector<bool>& is_lit,
 Status check_memory(const LightmapLayout& layout, size_t layer_count, bool has_cache) {
     constexpr uint64_t kLayerBytes = sizeof(LayerTexel) + sizeof(LightmapTexel);
     // Validity and error; what stitching needs; and the bytes of the file.
-    constexpr uint64_t kTexelBytes = 2 * (sizeof(IrradianceTexel) + sizeof(LightmapTexel) + 3) + 5;
+    // With what can be there of occlusion.
+    constexpr uint64_t kTexelBytes =
+        2 * (sizeof(IrradianceTexel) + sizeof(LightmapTexel) + 3 + sizeof(ShadowMaskTexel) + 1) + 5;
     const uint64_t texels = uint64_t{layout.page_size} * layout.page_size * layout.page_count;
     // Of cached light, and the reflected light while it is sampled.
     constexpr uint64_t kCacheBytes = sizeof(RadianceCache::Irradiance) + sizeof(glm::vec3);
@@ -184,8 +212,7 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     if (!plan) return plan.error();
     PreparedLightmaps prepared;
     prepared.settings = settings;
-    prepared.settings.bake.plan = plan->bake;
-    prepared.settings.bake.plan.has_occlusion = false;
+    prepared.settings.bake.plan = texel_plan(*plan, settings);
     prepared.report.warnings = plan->warnings;
     Stopwatch watch;
     auto layout = make_lightmap_layout(scene, settings.layout);
@@ -209,7 +236,8 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     if (!texels) return texels.error();
     prepared.texels = std::move(*texels);
     select_texels(scene, prepared);
-    describe(scene, plan->layer_names, prepared);
+    describe(scene, *plan, prepared);
+    store_occlusion_lights(*plan, prepared);
     const std::vector<bool> is_lit = lit_instances(prepared);
     warn_of_dark_objects(scene, is_lit, prepared);
     prepared.seams = seams_of(scene, prepared, is_lit);
@@ -228,6 +256,9 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
     BakePlaces places = prepared.places();
     places.positions = places.positions.subspan(range.begin, range.count());
     places.surfaces.texels = places.surfaces.texels.subspan(range.begin, range.count());
+    std::span<const OcclusionLights> occlusion_lights = prepared.occlusion_lights;
+    if (!occlusion_lights.empty())
+        occlusion_lights = occlusion_lights.subspan(range.begin, range.count());
     TexelBake bake;
     bake.range = range;
     bake.accumulators.resize(range.count());
@@ -249,8 +280,9 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
             return Ok{};
         };
     }
-    auto stored = bake_with_stores(scene, places, settings, storage,
-                                   {bake.accumulators, {bake.rows, {}}}, callback, begin);
+    auto stored =
+        bake_with_stores(scene, places, settings, storage,
+                         {bake.accumulators, {bake.rows, occlusion_lights}}, callback, begin);
     if (!stored) return stored.error();
     bake.stored = std::move(*stored);
     return bake;

@@ -47,6 +47,8 @@ struct BakeLightmapsSettings {
     /// Texels have the light of their own samples only. Else they are filtered (`TexelLights`).
     bool is_unfiltered = false;
     LightingSettings lighting{};
+    /// Bakes `Lightmaps::ambient_occlusion` of surfaces nearer than this, metres. 0: no.
+    float ambient_occlusion_distance = 0.0f;
     /// Names of objects: the texels of all others stay black. Empty: all objects.
     std::vector<std::string> only;
 };
@@ -92,6 +94,8 @@ struct PreparedLightmaps {
     std::vector<uint32_t> baked;
     std::vector<glm::dvec3> positions;
     std::vector<TexelSurfaces::Texel> surfaces;
+    /// The lights of the channels of each baked texel's shadow mask; empty without one.
+    std::vector<OcclusionLights> occlusion_lights;
     /// Complete but for texels: rectangles, UVs, layers and metadata.
     Lightmaps lightmaps;
     /// Between instances that have baked texels.
@@ -105,6 +109,14 @@ struct PreparedLightmaps {
 
     /// True if paths end at a radiance cache.
     [[nodiscard]] bool has_cache() const;
+
+    [[nodiscard]] bool has_shadow_mask() const {
+        return lightmaps.info.mixed_lighting == MixedLighting::Shadowmask;
+    }
+
+    [[nodiscard]] bool has_ambient_occlusion() const {
+        return lightmaps.info.ambient_occlusion_distance > 0.0f;
+    }
 };
 
 /// The light of a range of the baked texels, one of each per texel.
@@ -139,8 +151,8 @@ struct TexelBake {
                                             const BakeStorage& storage = {},
                                             const BakeCallback& callback = {});
 
-/// A validity as lightmaps store it: times 255.
-[[nodiscard]] uint8_t validity_byte(float validity) noexcept;
+/// A fraction in [0, 1] as lightmaps store it: times 255.
+[[nodiscard]] uint8_t fraction_byte(float fraction) noexcept;
 
 struct BakedLightmaps {
     Lightmaps lightmaps;

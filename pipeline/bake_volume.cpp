@@ -40,8 +40,7 @@ void store_layers(const Scene& scene, const LightingPlan& plan, uint32_t thread_
 /// The lights whose visibility each probe stores.
 void store_occlusion_lights(const LightingPlan& plan, ProbeVolume& volume) {
     if (!plan.bake.has_occlusion) return;
-    std::vector<uint32_t> channels;
-    for (const LightState& state : plan.light_states) channels.push_back(state.channel);
+    const std::vector<uint32_t> channels = channels_of(plan.light_states);
     for (const glm::dvec3& position : volume.exact_positions) {
         volume.occlusion_lights.push_back(occlusion_lights_at(position, plan.lights, channels));
     }

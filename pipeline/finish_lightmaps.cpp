@@ -43,6 +43,22 @@ LightmapTexel packed(const TexelLight& light, float scale) {
              halves(light.vector[2], scale)}};
 }
 
+/// What of its surroundings a texel sees, in [0, 1].
+struct TexelVisibility {
+    glm::vec4 lights{0.0f};  ///< the lights of the channels
+    float surroundings = 0.0f;
+
+    TexelVisibility& operator+=(const TexelVisibility& other) {
+        lights += other.lights;
+        surroundings += other.surroundings;
+        return *this;
+    }
+
+    friend TexelVisibility operator*(const TexelVisibility& visibility, float factor) {
+        return {visibility.lights * factor, visibility.surroundings * factor};
+    }
+};
+
 class PageWriter {
   public:
     PageWriter(const PreparedLightmaps& prepared, const TexelBake& bake, const TexelLights& lights)
@@ -50,6 +66,7 @@ class PageWriter {
           bake_(bake),
           lights_(lights),
           baked_index_(prepared.texels.validity.size(), kNoIndex),
+          layout_(prepared.settings.bake.plan),
           maps_(prepared.lightmaps) {
         for (uint32_t i = 0; i < prepared.baked.size(); ++i) baked_index_[prepared.baked[i]] = i;
     }
@@ -84,6 +101,8 @@ class PageWriter {
         maps_.light.resize(texel_count_);
         maps_.validity.resize(texel_count_);
         maps_.error.resize(texel_count_);
+        if (layout_.has_occlusion) maps_.shadow_mask.resize(texel_count_);
+        if (layout_.has_ambient_occlusion) maps_.ambient_occlusion.resize(texel_count_);
         is_baked_.resize(texel_count_);
         seam_index_.assign(texel_count_, kNoIndex);
         fills_.resize(maps_.rectangles.size());
@@ -125,6 +144,39 @@ class PageWriter {
         fills_[instance] = make_texel_fill(map, has_light);
         write_facts(instance, map, place);
         write_coverage(map, place, fills_[instance]);
+        if (layout_.has_single_values()) write_visibility(instance, map, place);
+    }
+
+    [[nodiscard]] TexelVisibility visibility_of(uint32_t baked) const {
+        const auto row = std::span(bake_.rows).subspan(baked * layout_.size(), layout_.size());
+        TexelVisibility visibility;
+        for (int i = 0; layout_.has_occlusion && i < 4; ++i) {
+            visibility.lights[i] =
+                static_cast<float>(row[layout_.occlusion_begin() + static_cast<size_t>(i)]);
+        }
+        if (layout_.has_ambient_occlusion) {
+            visibility.surroundings = static_cast<float>(row[layout_.ambient_occlusion_begin()]);
+        }
+        return visibility;
+    }
+
+    /// Shadow mask and ambient occlusion.
+    void write_visibility(uint32_t instance, const TexelMap& map, const LightmapRectangle& place) {
+        std::vector<TexelVisibility> values(map.charts.size() + 1);
+        for (size_t i = 0; i < map.texels.size(); ++i) {
+            const uint32_t baked = baked_at(instance, i);
+            if (baked != kNoIndex) values[map.texels[i].index] = visibility_of(baked);
+        }
+        fills_[instance].apply(values);
+        for (uint32_t texel = 0; texel < map.charts.size(); ++texel) {
+            const size_t index = page_index(map, place, texel);
+            for (size_t i = 0; layout_.has_occlusion && i < 4; ++i) {
+                maps_.shadow_mask[index][i] =
+                    fraction_byte(values[texel].lights[static_cast<int>(i)]);
+            }
+            if (layout_.has_ambient_occlusion)
+                maps_.ambient_occlusion[index] = fraction_byte(values[texel].surroundings);
+        }
     }
 
     [[nodiscard]] uint32_t baked_at(uint32_t instance, size_t texel) const {
@@ -208,7 +260,7 @@ class PageWriter {
         for (size_t i = 0; i < map.texels.size(); ++i) {
             const size_t index = page_index(map, place, map.texels[i].index);
             const size_t texel = prepared_.texels.first_texel[instance] + i;
-            maps_.validity[index] = validity_byte(prepared_.texels.validity[texel]);
+            maps_.validity[index] = fraction_byte(prepared_.texels.validity[texel]);
             const uint32_t baked = baked_index_[texel];
             if (baked == kNoIndex) continue;
             is_baked_[index] = 1;
@@ -240,13 +292,14 @@ class PageWriter {
     std::vector<uint8_t> is_baked_;     ///< one a texel of the pages
     std::vector<uint32_t> seam_index_;  ///< of each texel in `seam_light_`, or kNoIndex
     std::vector<TexelLight> seam_light_;
+    LightGroupLayout layout_;
     Lightmaps maps_;
 };
 
 }  // namespace
 
-uint8_t validity_byte(float validity) noexcept {
-    return static_cast<uint8_t>(std::lround(255.0f * std::clamp(validity, 0.0f, 1.0f)));
+uint8_t fraction_byte(float fraction) noexcept {
+    return static_cast<uint8_t>(std::lround(255.0f * std::clamp(fraction, 0.0f, 1.0f)));
 }
 
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {

@@ -227,6 +227,12 @@ class Planner {
 
 }  // namespace
 
+std::vector<uint32_t> channels_of(const std::vector<LightState>& states) {
+    std::vector<uint32_t> channels;
+    for (const LightState& state : states) channels.push_back(state.channel);
+    return channels;
+}
+
 Result<LightingPlan> plan_lighting(const Scene& scene, const LightingSettings& settings) {
     TETRALIGHT_ASSERT(scene.light_names.size() == scene.lights.size(), "one name for each light");
     return Planner(scene, settings).make();

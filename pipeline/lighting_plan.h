@@ -43,4 +43,7 @@ struct LightingPlan {
 [[nodiscard]] Result<LightingPlan> plan_lighting(const Scene& scene,
                                                  const LightingSettings& settings);
 
+/// The occlusion channel of each light; kNoIndex: none.
+[[nodiscard]] std::vector<uint32_t> channels_of(const std::vector<LightState>& states);
+
 }  // namespace tetralight

@@ -21,9 +21,20 @@ LightmapJson recordable_settings(const BakeLightmapsSettings& settings) {
     return json;
 }
 
+LightmapJson mask_lights(const Scene& scene, const LightingPlan& plan) {
+    LightmapJson lights = LightmapJson::array();
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const uint32_t channel = plan.light_states[i].channel;
+        if (channel == kNoIndex) continue;
+        lights.push_back({{"light", scene.light_names[i]}, {"channel", channel}});
+    }
+    return lights;
+}
+
 }  // namespace
 
-std::string lightmap_metadata(const Scene& scene, const BakeLightmapsSettings& settings) {
+std::string lightmap_metadata(const Scene& scene, const LightingPlan& plan,
+                              const BakeLightmapsSettings& settings) {
     LightmapJson json;
     json["generator"] = "tetralight " TETRALIGHT_VERSION;
     json["scene"] = hex(scene_key(scene));
@@ -32,6 +43,9 @@ std::string lightmap_metadata(const Scene& scene, const BakeLightmapsSettings& s
     for_each_lightmap_setting(settings, [&](const char* name, const auto&, Recorded record) {
         if (record == Recorded::WhenChanged && json[name] == defaults[name]) json.erase(name);
     });
+    if (settings.lighting.mixed_lighting == MixedLighting::Shadowmask) {
+        json["shadow_mask"] = mask_lights(scene, plan);
+    }
     return json.dump();
 }
 

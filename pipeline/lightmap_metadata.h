@@ -5,11 +5,13 @@
 
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
+#include <tetralight/pipeline/lighting_plan.h>
 
 namespace tetralight {
 
-/// How lightmaps were baked, as a JSON object: generator, key of the scene, and settings.
-[[nodiscard]] std::string lightmap_metadata(const Scene& scene,
+/// How lightmaps were baked, as a JSON object: generator, key of the scene, settings, and with a
+/// shadow mask `shadow_mask`: the name and the channel of each of its lights.
+[[nodiscard]] std::string lightmap_metadata(const Scene& scene, const LightingPlan& plan,
                                             const BakeLightmapsSettings& settings);
 
 }  // namespace tetralight

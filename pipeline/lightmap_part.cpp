@@ -53,7 +53,7 @@ struct PartArrays {
         for (size_t i = 0; i < prepared.texels.validity.size(); ++i) {
             const bool is_valid = prepared.texels.is_valid(i);
             states.push_back(is_valid ? TexelState::LeftOut : TexelState::InsideGeometry);
-            validity.push_back(validity_byte(prepared.texels.validity[i]));
+            validity.push_back(fraction_byte(prepared.texels.validity[i]));
         }
         for (const uint32_t texel : prepared.baked) states[texel] = TexelState::Baked;
         for (const Seam& seam : prepared.seams) seams.push_back(SeamEdges{seam.first, seam.second});
@@ -118,6 +118,9 @@ class PartReader {
         prepared_.settings.bake.plan.has_rest = !names.empty() && names.back() == "rest";
         prepared_.settings.bake.plan.layer_count =
             static_cast<uint32_t>(names.size() - (prepared_.settings.bake.plan.has_rest ? 1 : 0));
+        prepared_.settings.bake.plan.has_occlusion = prepared_.has_shadow_mask();
+        prepared_.settings.bake.plan.ambient_occlusion_distance =
+            maps.info.ambient_occlusion_distance;
         return Ok{};
     }
 

@@ -87,28 +87,59 @@ glm::vec2 SceneShader::page_uv_at(const Surface& surface) const {
                       traced_.world_from_render(surface.position));
 }
 
+bool SceneShader::has_lightmap(const Surface& surface) const {
+    return light_.instances[surface.instance].use == ProbeUse::Lightmap && !surface.is_from_behind;
+}
+
 glm::vec3 SceneShader::baked_light(const Surface& surface) const {
-    const bool has_lightmap = light_.instances[surface.instance].use == ProbeUse::Lightmap;
-    if (!has_lightmap || surface.is_from_behind) {
-        const glm::vec3 light = sample_sh9(probe_light(surface), surface.shading_normal);
-        return glm::max(light, glm::vec3(0.0f));
-    }
+    if (has_lightmap(surface)) return lightmap_light(surface);
+    const glm::vec3 light = sample_sh9(probe_light(surface), surface.shading_normal);
+    return glm::max(light, glm::vec3(0.0f));
+}
+
+glm::vec3 SceneShader::lightmap_light(const Surface& surface) const {
     const LightmapsView& maps = light_.lightmaps;
     const uint32_t page = maps.rectangles[surface.instance].page;
-    return sample_irradiance(maps, page, page_uv_at(surface)) * std::numbers::inv_pi_v<float>;
+    const glm::vec2 uv = page_uv_at(surface);
+    glm::vec3 light = sample_irradiance(maps, page, uv) * std::numbers::inv_pi_v<float>;
+    const glm::vec3 origin = TraceScene::ray_origin(surface, surface.geometric_normal);
+    const glm::dvec3 world_origin = traced_.world_from_render(origin);
+    for (const RuntimeLight& runtime : light_.lights) {
+        const bool subtracts =
+            runtime.lights_moving && lightmap_shadow(maps, runtime) == LightmapShadow::InTexels;
+        if (!subtracts) continue;
+        const Illumination arriving = illuminate(runtime.light, surface.position);
+        const bool is_lit =
+            !occluded(world_origin, arriving.to_light, arriving.distance, Casters::Moving);
+        light = subtract_shadow(light, direct_light(arriving, surface.shading_normal),
+                                is_lit ? 1.0f : 0.0f, light_.shadow_color);
+    }
+    return light_.has_ambient_occlusion ? light * sample_ambient_occlusion(maps, page, uv) : light;
 }
 
 glm::vec3 SceneShader::direct_term(const Surface& surface) const {
     const bool moves = !scene_->instances[surface.instance].contributes_gi;
+    const bool is_mapped = has_lightmap(surface);
     const glm::vec3 origin = TraceScene::ray_origin(surface, surface.geometric_normal);
     const glm::dvec3 world_origin = traced_.world_from_render(origin);
+    glm::vec4 mask(1.0f);
+    if (is_mapped) {
+        const LightmapsView& maps = light_.lightmaps;
+        mask =
+            sample_shadow_mask(maps, maps.rectangles[surface.instance].page, page_uv_at(surface));
+    }
     glm::vec3 sum(0.0f);
     for (size_t i = 0; i < light_.lights.size(); ++i) {
         const RuntimeLight& runtime = light_.lights[i];
         if (moves && !runtime.lights_moving) continue;
+        const LightmapShadow shadow =
+            is_mapped ? lightmap_shadow(light_.lightmaps, runtime) : LightmapShadow::RealTime;
+        if (shadow == LightmapShadow::InTexels) continue;
         glm::vec3 direct = direct_light(runtime.light, surface.position, surface.shading_normal);
-        const bool has_static_shadow = moves && runtime.channel != kNoIndex;
+        const bool has_static_shadow =
+            shadow == LightmapShadow::Mask || (moves && runtime.channel != kNoIndex);
         direct *= light_.instances[surface.instance].visibility[i];
+        if (shadow == LightmapShadow::Mask) direct *= runtime.visibility(mask);
         if (direct == glm::vec3(0.0f)) continue;
         const Illumination arriving = illuminate(runtime.light, surface.position);
         const bool is_shadowed = occluded(world_origin, arriving.to_light, arriving.distance,

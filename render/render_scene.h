@@ -23,7 +23,8 @@ namespace tetralight {
 ///   proxy volume if their node asks for one.
 /// - Lights of the volume that are not `Baked` add their direct term with shadow rays. If probes
 ///   store the occlusion of a light, it replaces the shadows that static objects cast on moving
-///   ones, and shadow rays test moving objects only.
+///   ones, and shadow rays test moving objects only. The shadow mask of lightmaps does the same for
+///   static surfaces. Subtractive lightmaps hold the light, and moving objects subtract it.
 /// - Lights and baked emission are scaled by the weights of the volume's layers.
 class SceneShader {
   public:
@@ -75,6 +76,9 @@ class SceneShader {
     [[nodiscard]] glm::vec2 page_uv_at(const Surface& surface) const;
     /// Irradiance / π from probes or from the lightmap.
     [[nodiscard]] glm::vec3 baked_light(const Surface& surface) const;
+    /// The same from the lightmap, with the shadows of moving objects if they darken it.
+    [[nodiscard]] glm::vec3 lightmap_light(const Surface& surface) const;
+    [[nodiscard]] bool has_lightmap(const Surface& surface) const;
     [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
     [[nodiscard]] glm::vec3 emitted(const Surface& surface) const;
     [[nodiscard]] glm::vec3 show(const Surface& surface, SurfaceView view) const;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/render/scene_light.h>
 
+#include <numbers>
 #include <utility>
 
 #include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/pipeline/lppv_object.h>
 #include <tetralight/probes/interpolate.h>
@@ -73,6 +75,29 @@ Status add_proxy_volumes(const Scene& scene, const ProbeVolumeView& volume, Scen
     return Ok{};
 }
 
+/// Of mixed lights alone does the mode change what is baked.
+Status check_mixed_lighting(const ProbeVolumeView& volume, const LightmapsView& lightmaps) {
+    for (size_t i = 0; i < volume.lights.size(); ++i) {
+        const LightState state =
+            i < volume.light_states.size() ? volume.light_states[i] : LightState{};
+        const bool is_mixed = volume.lights[i].mode == LightMode::Mixed || state.fell_back != 0;
+        if (!is_mixed || state.mixed_lighting == lightmaps.info.mixed_lighting) continue;
+        const char* of_maps = name_of(lightmaps.info.mixed_lighting);
+        return Error{ErrorCode::InvalidArgument, "lightmaps", of_maps,
+                     str_cat("the lightmaps were baked with --mixed-lighting ", of_maps,
+                             " and the probes with ", name_of(state.mixed_lighting),
+                             "; bake both for the same")};
+    }
+    return Ok{};
+}
+
+/// What a white surface reflects of the ambient light, in the mean of all normals.
+glm::vec3 mean_ambient(const ProbeVolumeView& volume) {
+    constexpr float kY0 = 0.28209479f;
+    const glm::vec3 irradiance = kY0 * volume.info.ambient.coefficients[0];
+    return glm::max(irradiance * std::numbers::inv_pi_v<float>, glm::vec3(0.0f));
+}
+
 void use_lightmaps(const Scene& scene, const LightmapsView& lightmaps, SceneLight& light) {
     light.lightmaps = lightmaps;
     for (size_t i = 0; i < lightmaps.rectangles.size(); ++i) {
@@ -84,14 +109,24 @@ void use_lightmaps(const Scene& scene, const LightmapsView& lightmaps, SceneLigh
 
 }  // namespace
 
+LightmapShadow lightmap_shadow(const LightmapsView& lightmaps, const RuntimeLight& light) noexcept {
+    if (light.light.mode != LightMode::Mixed) return LightmapShadow::RealTime;
+    if (lightmaps.info.mixed_lighting == MixedLighting::Subtractive)
+        return LightmapShadow::InTexels;
+    const bool has_mask = light.channel < 4 && !lightmaps.shadow_mask.empty();
+    return has_mask ? LightmapShadow::Mask : LightmapShadow::RealTime;
+}
+
 Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& volume,
                                     ProbeLight probes, const LightmapsView& lightmaps) {
     const bool has_lightmaps = lightmaps.info.page_count > 0;
     if (has_lightmaps) {
         if (auto status = check_lightmap_scene(lightmaps, scene); !status) return status.error();
+        if (auto status = check_mixed_lighting(volume, lightmaps); !status) return status.error();
     }
     SceneLight light;
     light.lights = runtime_lights(volume);
+    light.shadow_color = mean_ambient(volume);
     light.emission_weights = find_emission_weights(scene, volume);
     const bool lights_moving = probes == ProbeLight::AsTheScene || probes == ProbeLight::OnePlace;
     for (const MeshInstance& instance : scene.instances) {

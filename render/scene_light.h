@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include <tetralight/bake/scene/scene.h>
@@ -46,6 +47,13 @@ struct InstanceLight {
     std::vector<float> visibility;
 };
 
+/// How a light whose direct term is added reaches static surfaces that have a lightmap.
+enum class LightmapShadow : uint8_t {
+    RealTime,  ///< with real-time shadows of all objects
+    Mask,      ///< the mask has the shadows of static objects; real-time shadows of moving ones
+    InTexels,  ///< not: its light is in the texels; real-time shadows of moving objects darken them
+};
+
 struct SceneLight {
     /// Lights whose direct term renderers add, world space.
     std::vector<RuntimeLight> lights;
@@ -54,14 +62,24 @@ struct SceneLight {
     std::vector<Lppv> proxy_volumes;
     /// Of instances with `Lightmap`; empty if there are none.
     LightmapsView lightmaps{};
+    /// True: the ambient occlusion of lightmaps darkens their light.
+    bool has_ambient_occlusion = false;
+    /// What white surfaces with `InTexels` reflect in the real-time shadow of the main sun, at
+    /// least: radiance.
+    glm::vec3 shadow_color{0.0f};
     /// One for each material: the weight of the volume's layer that holds its emission; 1 if the
     /// emission was not baked.
     std::vector<float> emission_weights;
 };
 
+[[nodiscard]] LightmapShadow lightmap_shadow(const LightmapsView& lightmaps,
+                                             const RuntimeLight& light) noexcept;
+
 /// Static objects that have a lightmap take their light from it; all others take it from probes.
-/// `lightmaps` outlives the result. Returns the error of a proxy volume that cannot be made, whose
-/// message names the node, and those of `check_lightmap_scene`.
+/// `lightmaps` outlives the result. The shadow color is the mean light of the volume's ambient
+/// probe. Returns the error of a proxy volume that cannot be made, whose message names the node,
+/// those of `check_lightmap_scene`, and invalid_argument (field "lightmaps") if lightmaps and
+/// volume were baked for other mixed lighting, so that light would count twice or never.
 [[nodiscard]] Result<SceneLight> make_scene_light(const Scene& scene, const ProbeVolumeView& volume,
                                                   ProbeLight probes,
                                                   const LightmapsView& lightmaps = {});

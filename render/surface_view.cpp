@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/render/health_balls.h>
 
 namespace tetralight {
@@ -50,6 +51,10 @@ glm::vec3 lightmap_color(SurfaceView view, const LightmapsView& lightmaps, uint3
             if (index >= lightmaps.validity.size()) break;
             return validity_color(static_cast<float>(lightmaps.validity[index]) / 255.0f);
         }
+        case SurfaceView::ShadowMask:
+            return glm::vec3(sample_shadow_mask(lightmaps, rectangle.page, uv_page));
+        case SurfaceView::AmbientOcclusion:
+            return glm::vec3(sample_ambient_occlusion(lightmaps, rectangle.page, uv_page));
         default:
             break;
     }

@@ -28,6 +28,8 @@ enum class SurfaceView : uint8_t {
     Texels,       ///< a chessboard of texels, in one hue an object
     Validity,     ///< of texels, in the colours of `health_color`; grey = not known
     Pages,        ///< a hue for each page
+    ShadowMask,   ///< red, green, blue: how much of the lights of the first three channels is seen
+    AmbientOcclusion,  ///< white = open surroundings
 };
 
 /// True for parts of the light, which need an exposure.

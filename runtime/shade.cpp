@@ -17,6 +17,11 @@ glm::vec3 direct_light(const Illumination& arriving, glm::vec3 normal) noexcept 
     return arriving.irradiance * (cosine * std::numbers::inv_pi_v<float>);
 }
 
+glm::vec3 subtract_shadow(glm::vec3 baked, glm::vec3 direct, float lit,
+                          glm::vec3 shadow_color) noexcept {
+    return glm::min(baked, glm::max(baked - direct * (1.0f - lit), shadow_color));
+}
+
 glm::vec3 shade_diffuse(glm::vec3 albedo, const PackedSh& probe_light, glm::vec3 normal,
                         glm::vec3 direct) noexcept {
     return albedo * (glm::max(sample_sh9(probe_light, normal), glm::vec3(0.0f)) + direct);

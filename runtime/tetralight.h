@@ -401,6 +401,11 @@ typedef struct tetralight_lightmaps_info {
     uint32_t has_light;
     /** What halves of textures are multiplied by. */
     float scale;
+    /** How mixed lights are in the texels: 0 = bounces, with real-time shadows; 1 = bounces, with a
+     * shadow mask; 2 = bounces and direct light. */
+    uint32_t mixed_lighting;
+    /** 1 if there is ambient occlusion, else 0. */
+    uint32_t has_ambient_occlusion;
 } tetralight_lightmaps_info;
 
 /** The place of an instance: uv_page = uv * scale + offset, with the unwrapped uv (TEXCOORD_1) of
@@ -436,6 +441,20 @@ TETRALIGHT_API tetralight_status tetralight_lightmaps_rectangle(
 TETRALIGHT_API tetralight_status tetralight_lightmaps_sample(
     const tetralight_lightmaps* lightmaps, uint32_t page, const float* uv_page, const float* normal,
     float* irradiance, tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** How much of the light of each of the four occlusion channels the texels see at a place of a
+ * page, 0 to 1 (four floats): the shadows of static objects. 1 without a shadow mask. Returns
+ * TETRALIGHT_NOT_THERE if there is no such page. */
+TETRALIGHT_API tetralight_status tetralight_lightmaps_shadow_mask(
+    const tetralight_lightmaps* lightmaps, uint32_t page, const float* uv_page, float* visible,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** How open the surroundings are at a place of a page, 0 to 1 (one float), which the irradiance
+ * does not include. 1 if it was not baked. Returns TETRALIGHT_NOT_THERE if there is no such page.
+ */
+TETRALIGHT_API tetralight_status tetralight_lightmaps_ambient_occlusion(
+    const tetralight_lightmaps* lightmaps, uint32_t page, const float* uv_page, float* open,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 #ifdef __cplusplus
 }

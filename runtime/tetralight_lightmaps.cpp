@@ -25,6 +25,15 @@ using detail::succeed;
 
 static_assert(TETRALIGHT_NO_PAGE == kNoIndex);
 
+/// What is wrong with the place of a sample.
+CallError check_place(const tetralight_lightmaps* lightmaps, uint32_t page, const float* uv_page) {
+    if (auto wrong = check_pointer("lightmaps", lightmaps)) return wrong;
+    if (auto wrong = check_floats("uv_page", uv_page, 2)) return wrong;
+    const uint32_t page_count = lightmaps->file.view().info.page_count;
+    if (page < page_count) return {};
+    return {TETRALIGHT_NOT_THERE, str_cat("page ", page, " is not there; there are ", page_count)};
+}
+
 }  // namespace
 
 tetralight_status tetralight_lightmaps_open(const char* path, tetralight_lightmaps** lightmaps,
@@ -49,9 +58,13 @@ tetralight_status tetralight_lightmaps_get_info(const tetralight_lightmaps* ligh
     if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
     if (auto wrong = check_pointer("info", info)) return finish(wrong, error);
     const LightmapsView& view = lightmaps->file.view();
-    *info = {view.info.page_size, view.info.page_count,
-             static_cast<uint32_t>(view.rectangles.size()), view.light.empty() ? 0u : 1u,
-             view.info.scale};
+    *info = {view.info.page_size,
+             view.info.page_count,
+             static_cast<uint32_t>(view.rectangles.size()),
+             view.light.empty() ? 0u : 1u,
+             view.info.scale,
+             static_cast<uint32_t>(view.info.mixed_lighting),
+             view.ambient_occlusion.empty() ? 0u : 1u};
     return succeed(error);
 }
 
@@ -77,21 +90,37 @@ tetralight_status tetralight_lightmaps_rectangle(const tetralight_lightmaps* lig
 tetralight_status tetralight_lightmaps_sample(const tetralight_lightmaps* lightmaps, uint32_t page,
                                               const float* uv_page, const float* normal,
                                               float* irradiance, tetralight_error* error) noexcept {
-    if (auto wrong = check_pointer("lightmaps", lightmaps)) return finish(wrong, error);
-    if (auto wrong = check_floats("uv_page", uv_page, 2)) return finish(wrong, error);
+    if (auto wrong = check_place(lightmaps, page, uv_page)) return finish(wrong, error);
     if (normal) {
         if (auto wrong = check_floats("normal", normal, 3)) return finish(wrong, error);
     }
     if (auto wrong = check_pointer("irradiance", irradiance)) return finish(wrong, error);
     const LightmapsView& view = lightmaps->file.view();
-    if (page >= view.info.page_count) {
-        return finish({TETRALIGHT_NOT_THERE,
-                       str_cat("page ", page, " is not there; there are ", view.info.page_count)},
-                      error);
-    }
     const glm::vec2 uv = glm::make_vec2(uv_page);
     const glm::vec3 sampled = normal ? sample_lightmap(view, page, uv, glm::make_vec3(normal))
                                      : sample_irradiance(view, page, uv);
     std::memcpy(irradiance, &sampled, sizeof sampled);
+    return succeed(error);
+}
+
+tetralight_status tetralight_lightmaps_shadow_mask(const tetralight_lightmaps* lightmaps,
+                                                   uint32_t page, const float* uv_page,
+                                                   float* visible,
+                                                   tetralight_error* error) noexcept {
+    if (auto wrong = check_place(lightmaps, page, uv_page)) return finish(wrong, error);
+    if (auto wrong = check_pointer("visible", visible)) return finish(wrong, error);
+    const glm::vec4 sampled =
+        sample_shadow_mask(lightmaps->file.view(), page, glm::make_vec2(uv_page));
+    std::memcpy(visible, &sampled, sizeof sampled);
+    return succeed(error);
+}
+
+tetralight_status tetralight_lightmaps_ambient_occlusion(const tetralight_lightmaps* lightmaps,
+                                                         uint32_t page, const float* uv_page,
+                                                         float* open,
+                                                         tetralight_error* error) noexcept {
+    if (auto wrong = check_place(lightmaps, page, uv_page)) return finish(wrong, error);
+    if (auto wrong = check_pointer("open", open)) return finish(wrong, error);
+    *open = sample_ambient_occlusion(lightmaps->file.view(), page, glm::make_vec2(uv_page));
     return succeed(error);
 }

@@ -74,12 +74,20 @@ constexpr Setting kTransport[] = {
     kClamp,
     kAlbedoBoost,
     kMaxAlbedo,
+    kMixedLighting,
     {.name = "layers",
      .type = Type::Words,
      .help = "Keep this light in separate layers, which `tetralight relight` can scale later: sun, "
              "sky, emission, light:NAME, material:NAME",
      .without = "one layer",
-     .value_name = "LIST"}};
+     .value_name = "LIST"},
+    {.name = "ambient_occlusion",
+     .type = Type::Number,
+     .help = "Also bake how open the surroundings of each texel are up to this distance, as a map "
+             "of its own that is in none of the light",
+     .unit = "metres",
+     .range = {0, 1e6, true},
+     .without = "no ambient occlusion"}};
 
 constexpr Setting kStoring[] = {
     {.name = "texels",

@@ -18,7 +18,8 @@ constexpr Setting kShown[] = {
              "(the cell at a position, its probes with their weights, and the interpolated light). "
              "Or instead of light and materials: received (light on white surfaces), direct (of "
              "lights that are not baked), bounce (baked light), emission, albedo, and of "
-             "lightmaps unwrapped-uv, lightmap-uv, texels, validity, pages",
+             "lightmaps unwrapped-uv, lightmap-uv, texels, validity, pages, shadow-mask (of three "
+             "lights), ambient-occlusion",
      .without = "the scene only",
      .value_name = "LIST"},
     {.name = "ball_radius",
@@ -41,6 +42,21 @@ constexpr Setting kShown[] = {
              "objects, moving ones from one position each; still = static objects only; none",
      .choices = "scene one still none",
      .default_text = "scene"},
+    {.name = "ambient_occlusion",
+     .type = Type::Flag,
+     .help =
+         "Darken the light of lightmaps by their ambient occlusion. Their light has the shadows "
+         "of surfaces around it already",
+     .needs = "lightmaps"},
+    {.name = "shadow_color",
+     .type = Type::Vector,
+     .help = "Radiance of white surfaces in shadows of moving objects, at least, if lightmaps are "
+             "subtractive",
+     .unit = "linear RGB",
+     .range = kRadiance,
+     .without = "the mean light of the sky",
+     .value_name = "R,G,B",
+     .needs = "lightmaps"},
     kWalls,
     kRenderer};
 

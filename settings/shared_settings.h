@@ -106,7 +106,8 @@ inline constexpr Setting kMixedLighting{
     .type = Type::Choice,
     .help =
         "Shadows of mixed lights: indirect = all in real time; shadowmask, subtractive = "
-        "probes also hold the occlusion of up to four lights",
+        "probes, and texels of a shadowmask, also hold the occlusion of up to four lights; the "
+        "texels of subtractive lightmaps hold the direct light of mixed lights",
     .choices = "indirect shadowmask subtractive",
     .default_text = "indirect"};
 

@@ -34,7 +34,17 @@ Status check_lightmap_info(const LightmapInfo& info) {
         return wrong_info("scale",
                           str_cat("scale ", info.scale, " is not a power of two in 2^-64 to 2^64"));
     }
-    if (info.reserved == std::array<uint32_t, 12>{}) return Ok{};
+    if (info.mixed_lighting > MixedLighting::Subtractive) {
+        return wrong_info("mixed_lighting",
+                          str_cat("mixed lighting ", static_cast<uint32_t>(info.mixed_lighting),
+                                  " is not known"));
+    }
+    if (!std::isfinite(info.ambient_occlusion_distance) || info.ambient_occlusion_distance < 0.0f) {
+        return wrong_info(
+            "ambient_occlusion_distance",
+            str_cat("a distance of ", info.ambient_occlusion_distance, " metres is out of range"));
+    }
+    if (info.reserved == std::array<uint32_t, 10>{}) return Ok{};
     return wrong_info("reserved", "a reserved word is not zero");
 }
 
@@ -55,6 +65,8 @@ Status check_element_counts(const LightmapsView& v) {
           check_element_count("light", v.light.size(), texels),
           check_element_count("validity", v.validity.size(), texels),
           check_element_count("error", v.error.size(), texels),
+          check_element_count("shadow_mask", v.shadow_mask.size(), texels),
+          check_element_count("ambient_occlusion", v.ambient_occlusion.size(), texels),
           check_element_count("instance_names", split_names(v.instance_names).size(),
                               v.rectangles.size()),
           check_element_count("layer_names", names, v.layers.size(), Presence::Required)}) {

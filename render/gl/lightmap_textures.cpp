@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/render/gl/lightmap_textures.h>
 
+#include <array>
+#include <cstddef>
 #include <glm/vec4.hpp>
 #include <vector>
+
+#include <tetralight/render/gl/renderer_shaders.h>
 
 namespace tetralight {
 namespace {
@@ -16,14 +20,24 @@ struct GlLightmapPlace {
 
 static_assert(sizeof(GlLightmapPlace) == 32);
 
-GlTexture make_pages(const LightmapsView& lightmaps) {
-    const auto size = static_cast<GLsizei>(lightmaps.info.page_size);
-    const auto count = static_cast<GLsizei>(lightmaps.info.page_count);
+/// How the texels of an array texture are stored.
+struct TexelLayout {
+    GLenum stored = GL_RGBA16F;
+    GLenum channels = GL_RGBA;
+    GLenum type = GL_HALF_FLOAT;
+};
+
+GlTexture make_pages(uint32_t page_size, uint32_t page_count, const TexelLayout& layout,
+                     const void* texels) {
+    const auto size = static_cast<GLsizei>(page_size);
+    const auto count = static_cast<GLsizei>(page_count);
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &name);
-    glTextureStorage3D(name, 1, GL_RGBA16F, size, size, count);
-    glTextureSubImage3D(name, 0, 0, 0, 0, size, size, count, GL_RGBA, GL_HALF_FLOAT,
-                        lightmaps.irradiance.data());
+    glTextureStorage3D(name, 1, layout.stored, size, size, count);
+    // Rows of one byte a texel have any length.
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage3D(name, 0, 0, 0, 0, size, size, count, layout.channels, layout.type, texels);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
@@ -31,10 +45,21 @@ GlTexture make_pages(const LightmapsView& lightmaps) {
     return GlTexture(name);
 }
 
+/// Pages of bytes, or a single white texel if there are none.
+template <class Texel>
+GlTexture make_byte_pages(const LightmapInfo& info, std::span<const Texel> texels) {
+    constexpr bool kHasFour = sizeof(Texel) == 4;
+    const TexelLayout layout{kHasFour ? GL_RGBA8 : GL_R8, kHasFour ? GL_RGBA : GL_RED,
+                             GL_UNSIGNED_BYTE};
+    if (!texels.empty()) return make_pages(info.page_size, info.page_count, layout, texels.data());
+    constexpr std::array<uint8_t, 4> kWhite{255, 255, 255, 255};
+    return make_pages(1, 1, layout, kWhite.data());
+}
+
 }  // namespace
 
-LightmapTextures::LightmapTextures(const LightmapsView& lightmaps,
-                                   std::span<const uint32_t> instances) {
+LightmapTextures::LightmapTextures(const SceneLight& light, std::span<const uint32_t> instances) {
+    const LightmapsView& lightmaps = light.lightmaps;
     std::vector<GlLightmapPlace> places;
     for (const uint32_t index : instances) {
         GlLightmapPlace& place = places.emplace_back();
@@ -44,12 +69,19 @@ LightmapTextures::LightmapTextures(const LightmapsView& lightmaps,
         place.page = {static_cast<float>(rectangle.page), lightmaps.info.scale, 0.0f, 0.0f};
     }
     places_ = make_gl_buffer(places);
-    if (lightmaps.info.page_count > 0) pages_ = make_pages(lightmaps);
+    const LightmapInfo& info = lightmaps.info;
+    if (info.page_count == 0) return;
+    pages_ = make_pages(info.page_size, info.page_count, {}, lightmaps.irradiance.data());
+    shadow_mask_ = make_byte_pages(info, lightmaps.shadow_mask);
+    ambient_occlusion_ = make_byte_pages(
+        info, light.has_ambient_occlusion ? lightmaps.ambient_occlusion : std::span<uint8_t>());
 }
 
-void LightmapTextures::bind(GLuint places_binding, GLuint pages_unit) const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, places_binding, places_.name());
-    glBindTextureUnit(pages_unit, pages_.name());
+void LightmapTextures::bind() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLightmapPlaceBinding, places_.name());
+    glBindTextureUnit(kLightmapUnit, pages_.name());
+    glBindTextureUnit(kShadowMaskUnit, shadow_mask_.name());
+    glBindTextureUnit(kAmbientOcclusionUnit, ambient_occlusion_.name());
 }
 
 }  // namespace tetralight

@@ -4,24 +4,27 @@
 #include <cstdint>
 #include <span>
 
-#include <tetralight/lightmap/lightmaps.h>
 #include <tetralight/render/gl/gl.h>
+#include <tetralight/render/scene_light.h>
 
 namespace tetralight {
 
-/// The pages of lightmaps as one array texture, and where each instance lies in them.
+/// The pages of lightmaps as array textures, and where each instance lies in them.
 class LightmapTextures {
   public:
     LightmapTextures() = default;
 
-    /// `instances`: for each instance that is drawn, its index in `lightmaps.rectangles`; others
-    /// have no place.
-    LightmapTextures(const LightmapsView& lightmaps, std::span<const uint32_t> instances);
+    /// `instances`: for each instance that is drawn, its index in the rectangles of the lightmaps;
+    /// others have no place.
+    LightmapTextures(const SceneLight& light, std::span<const uint32_t> instances);
 
-    void bind(GLuint places_binding, GLuint pages_unit) const;
+    /// To the bindings of `RendererBinding`.
+    void bind() const;
 
   private:
     GlTexture pages_;
+    GlTexture shadow_mask_;        ///< white if there is none
+    GlTexture ambient_occlusion_;  ///< white if it darkens nothing
     GlBuffer places_;
 };
 

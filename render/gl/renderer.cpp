@@ -123,11 +123,12 @@ Renderer::Renderer(const Scene& scene, const ProbeVolumeView& volume, const Scen
       volume_(moved(make_shader_volume(volume), volume, origin_)),
       meshes_(scene, light),
       instances_(scene.instances.size()),
-      shadows_(moved(light.lights, origin_), caster_bounds(scene, settings.sphere_bounds, origin_),
-               settings.shadow_map_size),
+      shadows_(moved(light.lights, origin_), light.lightmaps,
+               caster_bounds(scene, settings.sphere_bounds, origin_), settings.shadow_map_size),
       frame_(make_gl_buffer()) {
     near_ = 1e-5f * caster_bounds(scene, settings.sphere_bounds, origin_).w;
     for (const Lppv& lppv : light.proxy_volumes) proxies_.emplace_back(lppv, origin_);
+    shadow_color_ = light.shadow_color;
     add_instances(scene, light);
     glNamedBufferStorage(frame_.name(), sizeof(detail::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
@@ -169,7 +170,7 @@ void Renderer::add_instances(const Scene& scene, const SceneLight& light) {
         }
         ++batches_.back().count;
     }
-    lightmaps_ = LightmapTextures(light.lightmaps, order);
+    lightmaps_ = LightmapTextures(light, order);
 }
 
 Result<ImageF> Renderer::render(const Camera& camera, const RenderSettings& settings,

@@ -118,6 +118,7 @@ class Renderer {
     std::vector<Batch> batches_;
     std::vector<ProxyTextures> proxies_;
     LightmapTextures lightmaps_;
+    glm::vec3 shadow_color_{0.0f};
     InstanceBuffer instances_;
     ShadowMaps shadows_;
     GlBuffer frame_;

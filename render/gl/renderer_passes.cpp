@@ -46,6 +46,7 @@ void Renderer::write_frame(const Camera& camera, const RenderTarget& target) {
     frame.up = glm::vec4(camera.world_from_camera[1] * height);
     frame.ahead = glm::vec4(-camera.world_from_camera[2]);
     frame.counts.x = shadows_.light_count();
+    frame.shadow_color = glm::vec4(shadow_color_, 0.0f);
     frame.sky = sky_;
     glNamedBufferSubData(frame_.name(), 0, sizeof frame, &frame);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBinding, frame_.name());
@@ -185,7 +186,7 @@ Status Renderer::draw(const Camera& camera, const RenderTarget& target,
     write_frame(camera, target);
     volume_.bind();
     shadows_.bind(kLightBinding, kLayerBinding, kShadowUnit);
-    lightmaps_.bind(kLightmapPlaceBinding, kLightmapUnit);
+    lightmaps_.bind();
     glUseProgram(shaders_.lit.name());
     glUniformMatrix4fv(kClipFromSpace, 1, GL_FALSE, &matrix[0][0]);
     draw_surfaces(spheres);

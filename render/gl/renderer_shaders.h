@@ -22,6 +22,8 @@ enum RendererBinding : uint32_t {
     kProxyLightUnit = 4,
     kProxyOcclusionUnit = 5,
     kLightmapUnit = 6,
+    kShadowMaskUnit = 7,
+    kAmbientOcclusionUnit = 8,
 };
 
 /// Locations of uniforms.

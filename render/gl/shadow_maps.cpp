@@ -30,7 +30,7 @@ glm::mat4 face_matrix(glm::vec3 position, int face, float reach) {
     return glm::perspectiveRH_ZO(glm::half_pi<float>(), 1.0f, 1e-3f * reach, reach) * view;
 }
 
-GlLight make_light(const RuntimeLight& runtime) {
+GlLight make_light(const RuntimeLight& runtime, const LightmapsView& lightmaps) {
     const Light& light = runtime.light;
     GlLight result;
     result.position = glm::vec4(light.position, light.range);
@@ -38,18 +38,20 @@ GlLight make_light(const RuntimeLight& runtime) {
     result.intensity = glm::vec4(light.intensity, static_cast<float>(light.falloff));
     result.shape = {light.cos_inner_cone, light.cos_outer_cone, light_area(light), 0.0f};
     result.shadow.w = runtime.channel == kNoIndex ? -1 : static_cast<int>(runtime.channel);
-    result.lights_moving.x = runtime.lights_moving ? 1 : 0;
+    result.reach.x = runtime.lights_moving ? 1 : 0;
+    result.reach.y = static_cast<int>(lightmap_shadow(lightmaps, runtime));
     return result;
 }
 
 }  // namespace
 
-ShadowMaps::ShadowMaps(std::span<const RuntimeLight> lights, glm::vec4 bounds, uint32_t size)
+ShadowMaps::ShadowMaps(std::span<const RuntimeLight> lights, const LightmapsView& lightmaps,
+                       glm::vec4 bounds, uint32_t size)
     : light_count_(static_cast<uint32_t>(lights.size())), size_(size) {
     std::vector<GlLight> gl_lights;
     std::vector<GlShadowLayer> gl_layers;
     for (const RuntimeLight& runtime : lights) {
-        GlLight& light = gl_lights.emplace_back(make_light(runtime));
+        GlLight& light = gl_lights.emplace_back(make_light(runtime, lightmaps));
         const bool is_sun = runtime.light.type == LightType::Directional;
         const int layer_count = is_sun ? 1 : 6;
         const bool has_moving = runtime.channel != kNoIndex;

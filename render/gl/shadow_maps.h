@@ -23,7 +23,8 @@ struct GlLight {
     /// x: first layer with the shadows of all objects; y: first layer with those of moving objects;
     /// z: layers of each (0 = no shadows); w: occlusion channel of the probes (-1 = none).
     glm::ivec4 shadow{0, 0, 0, -1};
-    glm::ivec4 lights_moving{1, 0, 0, 0};
+    /// x: 1 if it lights moving objects; y: `LightmapShadow`.
+    glm::ivec4 reach{1, 0, 0, 0};
 };
 
 static_assert(sizeof(GlLight) == 96 && std::is_trivially_copyable_v<GlLight>);
@@ -43,7 +44,9 @@ struct GlShadowLayer {
 class ShadowMaps {
   public:
     /// `bounds`: center and radius of all casters in render space. Lights may be outside.
-    ShadowMaps(std::span<const RuntimeLight> lights, glm::vec4 bounds, uint32_t size);
+    /// `lightmaps`: of the static surfaces; may have no pages.
+    ShadowMaps(std::span<const RuntimeLight> lights, const LightmapsView& lightmaps,
+               glm::vec4 bounds, uint32_t size);
 
     /// Draws every layer: `draw(clip_from_space, casters)`.
     void draw(const std::function<void(const glm::mat4&, ShadowCasters)>& draw) const;

@@ -20,6 +20,25 @@ vec3 tetralight_lightmap_irradiance(TETRALIGHT_TEXTURE_ARRAY(pages), vec2 uv_pag
     return TETRALIGHT_SAMPLE_ARRAY(pages, uv_page, page).xyz * scale;
 }
 
+// How much of the light of each occlusion channel the texels see, from section `shadow_mask` as an
+// RGBA8 texture: the shadows of static objects.
+vec4 tetralight_lightmap_shadow_mask(TETRALIGHT_TEXTURE_ARRAY(masks), vec2 uv_page, float page) {
+    return TETRALIGHT_SAMPLE_ARRAY(masks, uv_page, page);
+}
+
+// How open the surroundings are, from section `ambient_occlusion` as an R8 texture. The irradiance
+// does not include it.
+float tetralight_lightmap_ambient_occlusion(TETRALIGHT_TEXTURE_ARRAY(maps), vec2 uv_page,
+                                            float page) {
+    return TETRALIGHT_SAMPLE_ARRAY(maps, uv_page, page).x;
+}
+
+// Twin of subtract_shadow (runtime/shade.h): the real-time shadow of a light that is in the baked
+// light.
+vec3 tetralight_subtract_shadow(vec3 baked, vec3 direct, float lit, vec3 shadow_color) {
+    return min(baked, max(baked - direct * (1.0f - lit), shadow_color));
+}
+
 // Irradiance on a unit normal in world space near the baked one, as normal maps give, from
 // `make_light_texture`, whose layers are the three channels of each page.
 vec3 tetralight_lightmap_directional(TETRALIGHT_TEXTURE_ARRAY(light), vec2 uv_page, float page,

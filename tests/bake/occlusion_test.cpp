@@ -32,6 +32,16 @@ class Occlusion {
                                trace_scene_.render_from_world(position), 1);
     }
 
+    /// Of a texel at `position` that looks up, with places at these offsets.
+    [[nodiscard]] glm::vec4 of_texel(const std::vector<Light>& lights,
+                                     const OcclusionLights& owners, const glm::dvec3& position,
+                                     const std::vector<glm::vec3>& places) const {
+        std::vector<Light> moved;
+        for (const Light& light : lights) moved.push_back(trace_scene_.render_from_world(light));
+        return texel_occlusion(tracer_, moved, owners, trace_scene_.render_from_world(position),
+                               {{0, 1, 0}, places}, 1);
+    }
+
   private:
     TraceScene trace_scene_;
     PathTracer tracer_;
@@ -179,6 +189,25 @@ TEST(Occlusion, SurfacesBehindTheLightDoNotOccludeIt) {
     const Scene scene = half_roof();
     EXPECT_EQ(Occlusion(scene).visibility(lamp({3, 1.9f, 0}), {3, 0, 0}), 1.0f);
     EXPECT_EQ(Occlusion(scene).visibility(lamp({3, 2.1f, 0}), {3, 0, 0}), 0.0f);
+}
+
+TEST(Occlusion, OfATexelIsTheMeanOverItsPlaces) {
+    // The roof begins at x = 0: three of four places see the sun.
+    const Occlusion scene(half_roof());
+    const std::vector<glm::vec3> places{{-0.3f, 0, 0}, {-0.2f, 0, 0}, {-0.1f, 0, 0}, {0.1f, 0, 0}};
+    const OcclusionLights owners{0, kNoIndex, kNoIndex, kNoIndex};
+    const std::vector<Light> hard{sun(0.0f)};
+    EXPECT_EQ(scene.of_texel(hard, owners, {0, 0, 0}, places), glm::vec4(0.75f, 1, 1, 1));
+    // At a single place it is that of a probe, ray by ray.
+    const std::vector<Light> soft{sun(0.2f)};
+    EXPECT_EQ(scene.of_texel(soft, owners, {0.1, 0, 0}, {glm::vec3(0.0f)}),
+              scene.of(soft, owners, {0.1, 0, 0}));
+    // A penumbra: the mean of the disc's shares.
+    double expected = 0.0;
+    for (const glm::vec3& place : places) {
+        expected += disc_share(-double{place.x} / (2.0 * std::tan(0.2))) / 4.0;
+    }
+    EXPECT_NEAR(double{scene.of_texel(soft, owners, {0, 0, 0}, places).x}, expected, 0.06);
 }
 
 }  // namespace

@@ -57,14 +57,14 @@ TEST_F(BlendLightmaps, HasNoLayersAndNoErrors) {
 
 TEST_F(BlendLightmaps, RefusesOtherLayouts) {
     using Break = void (*)(Lightmaps&);
-    for (const Break break_it :
-         std::initializer_list<Break>{[](Lightmaps& l) { l.info.page_size = 8; },
-                                      [](Lightmaps& l) { l.info.page_count = 1; },
-                                      [](Lightmaps& l) { l.rectangles.pop_back(); },
-                                      [](Lightmaps& l) { l.rectangles[1].x = 0; },
-                                      [](Lightmaps& l) { l.meshes[0].geometry_key = 1; },
-                                      [](Lightmaps& l) { l.corner_uvs[0].x = 0.5f; },
-                                      [](Lightmaps& l) { l.light.clear(); }}) {
+    for (const Break break_it : std::initializer_list<Break>{
+             [](Lightmaps& l) { l.info.page_size = 8; },
+             [](Lightmaps& l) { l.info.page_count = 1; },
+             [](Lightmaps& l) { l.rectangles.pop_back(); },
+             [](Lightmaps& l) { l.rectangles[1].x = 0; },
+             [](Lightmaps& l) { l.meshes[0].geometry_key = 1; },
+             [](Lightmaps& l) { l.corner_uvs[0].x = 0.5f; }, [](Lightmaps& l) { l.light.clear(); },
+             [](Lightmaps& l) { l.info.mixed_lighting = MixedLighting::Subtractive; }}) {
         Lightmaps other = night;
         break_it(other);
         const auto blend = blend_lightmaps(day.view(), other.view(), 0.5f);

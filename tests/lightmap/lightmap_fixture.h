@@ -71,6 +71,8 @@ inline Lightmaps make_full_lightmaps(uint32_t seed = 1) {
         lightmaps.layer_light.push_back(light_of(2.0f * sky, {0.0f, 0.5f, 0.0f}));
         lightmaps.validity.push_back(static_cast<uint8_t>(random()));
         lightmaps.error.push_back(half_from_float(0.01f));
+        lightmaps.shadow_mask.push_back({255, static_cast<uint8_t>(i), 0, 17});
+        lightmaps.ambient_occlusion.push_back(static_cast<uint8_t>(3 * i));
     }
     for (size_t i = 0; i < lightmaps.irradiance.size(); ++i) {
         const auto rest = [](uint16_t sum, uint16_t part) {
@@ -99,6 +101,8 @@ inline Lightmaps make_full_lightmaps(uint32_t seed = 1) {
     lightmaps.corner_uvs = {{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, 1.0f}};
     lightmaps.layers = {{1.0f, 0.25f, {}}, {1.0f, 0.25f, {}}};
     lightmaps.layer_names = "sky\nlight:lamp\n";
+    lightmaps.info.mixed_lighting = MixedLighting::Shadowmask;
+    lightmaps.info.ambient_occlusion_distance = 0.5f;
     lightmaps.metadata = "{\"samples\":16}";
     return lightmaps;
 }
@@ -111,6 +115,8 @@ inline Lightmaps make_one_texel() {
     lightmaps.light.resize(1);
     lightmaps.validity.resize(1);
     lightmaps.error.resize(1);
+    lightmaps.shadow_mask.resize(1);
+    lightmaps.ambient_occlusion.resize(1);
     lightmaps.layer_irradiance.resize(2);
     lightmaps.layer_light.resize(2);
     lightmaps.rectangles = {rectangle_at(0, {0, 0, 1, 1}, 1)};

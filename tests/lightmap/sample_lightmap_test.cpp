@@ -197,5 +197,22 @@ TEST(SampleLightmap, IsBlackWhereTexelsAreMissing) {
               glm::vec3(0.0f));
 }
 
+TEST(SampleShadowMask, InterpolatesTheBytesOfEachChannel) {
+    Lightmaps maps = test::make_black_page(2);
+    EXPECT_EQ(sample_shadow_mask(maps.view(), 0, {0.5f, 0.5f}), glm::vec4(1.0f));
+    EXPECT_EQ(sample_ambient_occlusion(maps.view(), 0, {0.5f, 0.5f}), 1.0f);
+    maps.info.scale = 0.25f;  // of light alone
+    maps.shadow_mask = {{0, 255, 51, 0}, {255, 255, 51, 0}, {0, 255, 51, 0}, {255, 255, 51, 255}};
+    maps.ambient_occlusion = {0, 0, 255, 255};
+    const glm::vec4 middle = sample_shadow_mask(maps.view(), 0, {0.5f, 0.5f});
+    EXPECT_NEAR(middle.x, 0.5f, 1e-6f);
+    EXPECT_NEAR(middle.y, 1.0f, 1e-6f);
+    EXPECT_NEAR(middle.z, 0.2f, 1e-6f);
+    EXPECT_NEAR(middle.w, 0.25f, 1e-6f);
+    EXPECT_NEAR(sample_ambient_occlusion(maps.view(), 0, {0.3f, 0.5f}), 0.5f, 1e-6f);
+    EXPECT_NEAR(sample_ambient_occlusion(maps.view(), 0, {0.3f, 0.625f}), 0.75f, 1e-6f);
+    EXPECT_EQ(sample_shadow_mask(maps.view(), 7, {0.5f, 0.5f}), glm::vec4(1.0f));
+}
+
 }  // namespace
 }  // namespace tetralight

@@ -44,7 +44,13 @@ TEST(VerifyLightmaps, RefusesWrongFacts) {
         {"info.scale", [](Lightmaps& l) { l.info.scale = -0.5f; }},
         {"info.scale", [](Lightmaps& l) { l.info.scale = 0x1p65f; }},
         {"info.scale", [](Lightmaps& l) { l.info.scale = std::nanf(""); }},
-        {"info.reserved", [](Lightmaps& l) { l.info.reserved[11] = 1; }},
+        {"info.mixed_lighting",
+         [](Lightmaps& l) { l.info.mixed_lighting = static_cast<MixedLighting>(3); }},
+        {"info.ambient_occlusion_distance",
+         [](Lightmaps& l) { l.info.ambient_occlusion_distance = -0.5f; }},
+        {"info.ambient_occlusion_distance",
+         [](Lightmaps& l) { l.info.ambient_occlusion_distance = std::nanf(""); }},
+        {"info.reserved", [](Lightmaps& l) { l.info.reserved[9] = 1; }},
     });
 }
 
@@ -55,6 +61,8 @@ TEST(VerifyLightmaps, RefusesCountsThatDoNotAgree) {
         {"light", [](Lightmaps& l) { l.light.pop_back(); }},
         {"validity", [](Lightmaps& l) { l.validity.pop_back(); }},
         {"error", [](Lightmaps& l) { l.error.push_back(0); }},
+        {"shadow_mask", [](Lightmaps& l) { l.shadow_mask.pop_back(); }},
+        {"ambient_occlusion", [](Lightmaps& l) { l.ambient_occlusion.push_back(0); }},
         {"instance_names", [](Lightmaps& l) { l.instance_names += "more\n"; }},
         {"layer_names", [](Lightmaps& l) { l.layer_names = "sky\n"; }},
         {"layer_names", [](Lightmaps& l) { l.layers.pop_back(); }},

@@ -58,6 +58,14 @@ TEST_F(MergeLightmapParts, OfLayersToo) {
     expect_whole_of_two();
 }
 
+TEST_F(MergeLightmapParts, OfShadowMasksAndAmbientOcclusionToo) {
+    scene.lights[0].mode = LightMode::Mixed;
+    settings.lighting.mixed_lighting = MixedLighting::Shadowmask;
+    settings.ambient_occlusion_distance = 0.5f;
+    settings.lighting.layers = {"sky"};
+    expect_whole_of_two();
+}
+
 TEST_F(MergeLightmapParts, OfNamedObjectsToo) {
     settings.only = {"next"};
     expect_whole_of_two();

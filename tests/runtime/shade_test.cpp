@@ -31,5 +31,17 @@ TEST(Shade, DirectLightFollowsTheCosine) {
     EXPECT_EQ(direct_light(sun, {}, {0, -1, 0}), glm::vec3(0.0f));
 }
 
+TEST(Shade, SubtractedShadowsEndAtTheShadowColor) {
+    const glm::vec3 direct(1.0f), shadow(0.4f);
+    // Lit: the light goes, and what is left is brighter than the color of shadows.
+    EXPECT_EQ(subtract_shadow(glm::vec3(1.5f), direct, 1.0f, shadow), glm::vec3(1.5f));
+    EXPECT_EQ(subtract_shadow(glm::vec3(1.5f), direct, 0.0f, shadow), glm::vec3(0.5f));
+    EXPECT_EQ(subtract_shadow(glm::vec3(1.5f), direct, 0.5f, shadow), glm::vec3(1.0f));
+    // Penumbra of a baked shadow: no darker than the color.
+    EXPECT_EQ(subtract_shadow(glm::vec3(0.8f), direct, 0.0f, shadow), shadow);
+    // In a baked shadow that is darker than the color nothing changes.
+    EXPECT_EQ(subtract_shadow(glm::vec3(0.2f), direct, 0.0f, shadow), glm::vec3(0.2f));
+}
+
 }  // namespace
 }  // namespace tetralight

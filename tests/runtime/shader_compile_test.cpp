@@ -85,11 +85,17 @@ const std::vector<Use>& uses() {
             return tetralight_sample_sh9(probe.sh, float3(0.0, 1.0, 0.0)) * probe.occlusion.x;)"},
         {"lightmap", ShaderPart::Lightmap,
          R"(vec2 uv = tetralight_page_uv(v, v.xy);
+            vec4 mask = tetralight_lightmap_shadow_mask(pages, uv, v.z);
+            float open = tetralight_lightmap_ambient_occlusion(pages, uv, v.z);
             return tetralight_lightmap_irradiance(pages, uv, v.z, v.w) +
-                   tetralight_lightmap_directional(pages, uv, v.z, v.w, v.xyz);)",
+                   tetralight_lightmap_directional(pages, uv, v.z, v.w, v.xyz) +
+                   tetralight_subtract_shadow(mask.xyz, v.xyz, open, v.zyx);)",
          R"(float2 uv = tetralight_page_uv(v, v.xy);
+            float4 mask = tetralight_lightmap_shadow_mask(pages, pages_sampler, uv, v.z);
+            float open = tetralight_lightmap_ambient_occlusion(pages, pages_sampler, uv, v.z);
             return tetralight_lightmap_irradiance(pages, pages_sampler, uv, v.z, v.w) +
-                   tetralight_lightmap_directional(pages, pages_sampler, uv, v.z, v.w, v.xyz);)",
+                   tetralight_lightmap_directional(pages, pages_sampler, uv, v.z, v.w, v.xyz) +
+                   tetralight_subtract_shadow(mask.xyz, v.xyz, open, v.zyx);)",
          "#ifdef VULKAN\nlayout(binding = 7)\n#endif\nuniform sampler2DArray pages;\n",
          "Texture2DArray<float4> pages : register(t7);\n"
          "SamplerState pages_sampler : register(s8);\n"},

@@ -44,6 +44,27 @@ TEST_F(CApiLightmaps, HasWhatTheFileHas) {
     EXPECT_EQ(info.instance_count, 3u);
     EXPECT_EQ(info.has_light, 1u);
     EXPECT_EQ(info.scale, data.info.scale);
+    EXPECT_EQ(info.mixed_lighting, 1u);
+    EXPECT_EQ(info.has_ambient_occlusion, 1u);
+}
+
+TEST_F(CApiLightmaps, SamplesTheShadowMaskAndAmbientOcclusion) {
+    float visible[4]{-7.0f, -7.0f, -7.0f, -7.0f};
+    float open = -7.0f;
+    ASSERT_EQ(tetralight_lightmaps_shadow_mask(lightmaps, 1, uv, visible, &error), TETRALIGHT_OK);
+    const glm::vec4 expected = sample_shadow_mask(data.view(), 1, {0.3f, 0.6f});
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(visible[i], expected[i]);
+    ASSERT_EQ(tetralight_lightmaps_ambient_occlusion(lightmaps, 1, uv, &open, nullptr),
+              TETRALIGHT_OK);
+    EXPECT_EQ(open, sample_ambient_occlusion(data.view(), 1, {0.3f, 0.6f}));
+    EXPECT_EQ(tetralight_lightmaps_shadow_mask(lightmaps, 2, uv, visible, &error),
+              TETRALIGHT_NOT_THERE);
+    EXPECT_EQ(tetralight_lightmaps_ambient_occlusion(lightmaps, 2, uv, &open, &error),
+              TETRALIGHT_NOT_THERE);
+    EXPECT_EQ(tetralight_lightmaps_shadow_mask(lightmaps, 1, uv, nullptr, &error),
+              TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_ambient_occlusion(lightmaps, 1, nullptr, &open, &error),
+              TETRALIGHT_BAD_POINTER);
 }
 
 TEST_F(CApiLightmaps, KnowsThePlacesOfInstances) {

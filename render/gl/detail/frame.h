@@ -13,10 +13,11 @@ struct Frame {
     glm::vec4 right;  ///< length: half the width of the picture at distance 1
     glm::vec4 up;     ///< length: half the height of the picture at distance 1
     glm::vec4 ahead;
-    glm::uvec4 counts;  ///< x: number of lights
+    glm::uvec4 counts;       ///< x: number of lights
+    glm::vec4 shadow_color;  ///< `SceneLight::shadow_color`
     PackedSh sky;
 };
 
-static_assert(sizeof(Frame) == 80 + sizeof(PackedSh));
+static_assert(sizeof(Frame) == 96 + sizeof(PackedSh));
 
 }  // namespace tetralight::detail

@@ -10,7 +10,7 @@ struct Light {
     vec4 intensity;
     vec4 shape;
     ivec4 shadow;
-    ivec4 lights_moving;
+    ivec4 reach;  // x: lights moving objects; y: LightmapShadow of render/scene_light.h
 };
 layout(std430, binding = 8) readonly buffer PunctualLights { Light lights[]; };
 struct ShadowLayer {
@@ -23,6 +23,8 @@ layout(binding = 3) uniform sampler2DArrayShadow shadow_maps;
 layout(binding = 4) uniform sampler3D proxy_light;
 layout(binding = 5) uniform sampler3D proxy_occlusion;
 layout(binding = 6) uniform sampler2DArray lightmap_pages;
+layout(binding = 7) uniform sampler2DArray lightmap_shadow_masks;
+layout(binding = 8) uniform sampler2DArray lightmap_ambient_occlusion;
 out vec4 radiance;
 
 const float kPi = 3.14159265;
@@ -119,17 +121,20 @@ vec3 reflected(ShadingPoint point, vec3 to_light, vec3 irradiance) {
     return irradiance * (diffuse + specular);
 }
 
-vec3 direct_light(ShadingPoint point, vec4 occlusion) {
+// `occlusion`: of the probes or of the lightmap.
+vec3 direct_light(ShadingPoint point, vec4 occlusion, bool has_lightmap) {
     vec3 sum = vec3(0.0);
     if (instances[instance].direct == 2u) return sum;
     bool moves = instances[instance].direct == 1u;
     for (uint i = 0u; i < counts.x; ++i) {
         Light light = lights[i];
-        if (moves && light.lights_moving.x == 0) continue;
+        if (moves && light.reach.x == 0) continue;
+        if (has_lightmap && light.reach.y == 2) continue;
         Arriving arriving = illuminate(light, position);
         if (!(dot(point.normal, arriving.to_light) > 0.0)) continue;
         if (!(dot(point.flat_normal, arriving.to_light) > 0.0)) continue;
-        bool has_static_shadow = moves && light.shadow.w >= 0;
+        bool has_static_shadow =
+            light.shadow.w >= 0 && (moves || (has_lightmap && light.reach.y == 1));
         float visible =
             has_static_shadow ? tetralight_probe_occlusion(occlusion, light.shadow.w) : 1.0;
         visible *= shadow(light, has_static_shadow ? light.shadow.y : light.shadow.x, position,
@@ -162,10 +167,21 @@ TetralightPackedSh probe_light(vec3 flat_normal, out vec4 occlusion) {
     return no_light();
 }
 
-// What a diffuse surface of albedo 1 reflects of the lightmap's light.
-vec3 lightmap_light() {
-    return tetralight_lightmap_irradiance(lightmap_pages, lightmap_uv, lightmap_page.x,
-                                          lightmap_page.y) / kPi;
+// What a diffuse surface of albedo 1 reflects of the lightmap's light, with the shadows of moving
+// objects if they darken it.
+vec3 lightmap_light(ShadingPoint point) {
+    vec3 light = tetralight_lightmap_irradiance(lightmap_pages, lightmap_uv, lightmap_page.x,
+                                                lightmap_page.y) / kPi;
+    for (uint i = 0u; i < counts.x; ++i) {
+        if (lights[i].reach.x == 0 || lights[i].reach.y != 2 || lights[i].shadow.w < 0) continue;
+        Arriving arriving = illuminate(lights[i], position);
+        vec3 direct = arriving.irradiance * (max(dot(point.normal, arriving.to_light), 0.0) / kPi);
+        float lit = shadow(lights[i], lights[i].shadow.y, position, point.flat_normal,
+                           arriving.to_light);
+        light = tetralight_subtract_shadow(light, direct, lit, shadow_color.xyz);
+    }
+    return light * tetralight_lightmap_ambient_occlusion(lightmap_ambient_occlusion, lightmap_uv,
+                                                         lightmap_page.x);
 }
 
 void main() {
@@ -203,8 +219,12 @@ void main() {
     point.has_specular = instances[instance].factors.z > 0.0;
     vec4 occlusion;
     TetralightPackedSh probe_sh = probe_light(flat_normal, occlusion);
-    vec3 baked = instances[instance].use == 4u && gl_FrontFacing
-                     ? lightmap_light() : max(tetralight_sample_sh9(probe_sh, unit_normal), vec3(0.0));
+    bool has_lightmap = instances[instance].use == 4u && gl_FrontFacing;
+    if (has_lightmap) {
+        occlusion = tetralight_lightmap_shadow_mask(lightmap_shadow_masks, lightmap_uv,
+                                                    lightmap_page.x);
+    }
+    vec3 baked = has_lightmap ? lightmap_light(point) : max(tetralight_sample_sh9(probe_sh, unit_normal), vec3(0.0));
     baked *= point.albedo;
     if (point.has_specular) {
         vec3 dominant = tetralight_dominant_direction(probe_sh);
@@ -212,7 +232,7 @@ void main() {
                   tetralight_specular_reflection(unit_normal, dominant, point.to_eye, point.f0,
                                                  factors.y);
     }
-    radiance.rgb = emission + baked + direct_light(point, occlusion);
+    radiance.rgb = emission + baked + direct_light(point, occlusion, has_lightmap);
 }
 )";
 

@@ -122,6 +122,7 @@ layout(std140, binding = 1) uniform Frame {
     vec4 up;
     vec4 ahead;
     uvec4 counts;  // lights
+    vec4 shadow_color;
     TetralightPackedSh sky;
 };
 )";

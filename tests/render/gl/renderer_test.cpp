@@ -215,6 +215,30 @@ TEST_F(GlRenderer, AgreesOnLightmapsBesideProbes) {
     EXPECT_LE(difference(scene, varied_volume(), kCamera, maps.view()), kEdges);
 }
 
+TEST_F(GlRenderer, AgreesOnShadowsOfLightmaps) {
+    for (const auto mode :
+         {MixedLighting::Indirect, MixedLighting::Shadowmask, MixedLighting::Subtractive}) {
+        ProbeVolume volume = varied_volume();
+        test::add_sun(volume, {0.5f, -1.0f, 0.3f});
+        volume.light_states[0] = {mode, 0, kNoIndex, 0};
+        if (mode == MixedLighting::Indirect) volume.light_states[0].channel = kNoIndex;
+        volume.occlusion.assign(60, {0.25f, 1, 1, 1});
+        volume.occlusion_lights.assign(60, {0, kNoIndex, kNoIndex, kNoIndex});
+        Scene scene = box_on_floor();
+        MeshInstance moving = scene.instances[1];
+        moving.contributes_gi = false;
+        moving.world_from_mesh = glm::translate(glm::dmat4(1.0), glm::dvec3(2.5, 0.3, 1));
+        scene.instances.push_back(moving);
+        Lightmaps maps = varied_lightmaps(scene);
+        maps.info.mixed_lighting = mode;
+        if (mode == MixedLighting::Shadowmask) {
+            for (size_t i = 0; i < maps.irradiance.size(); ++i)
+                maps.shadow_mask.push_back({static_cast<uint8_t>(i % 5 * 60), 255, 0, 255});
+        }
+        EXPECT_LE(difference(scene, volume, kCamera, maps.view()), kShadowEdges) << name_of(mode);
+    }
+}
+
 TEST_F(GlRenderer, AgreesOnTheSunAndItsShadows) {
     ProbeVolume volume = varied_volume();
     test::add_sun(volume, {0.5f, -1.0f, 0.3f});
