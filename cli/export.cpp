@@ -12,6 +12,7 @@
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/pipeline/lightmap_images.h>
+#include <tetralight/pipeline/texel_values.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
 #include <tetralight/render/page_preview.h>
 
@@ -39,6 +40,8 @@ struct Export {
     std::string output;
     std::string scene_path;
     ExportFormat format;
+    LightmapMap map;
+    std::vector<std::string> packed;
     std::vector<std::string> marked;
     CommonOptions common;
 
@@ -47,11 +50,19 @@ struct Export {
           output(values.text("output")),
           scene_path(values.text("scene")),
           format(format_of(values)),
+          map(choice<LightmapMap>(values, "map")),
+          packed(values.texts("pack")),
           marked(values.texts("mark")),
           common(values) {
         if (format == ExportFormat::Glb && scene_path.empty()) require(values, "scene");
         if (format != ExportFormat::Glb && !scene_path.empty())
             refuse(values, "scene", "only glb has a scene");
+        if (format == ExportFormat::Glb && map != LightmapMap::Irradiance)
+            refuse(values, "map", "a glb has irradiance only");
+        if (format == ExportFormat::Glb && !packed.empty())
+            refuse(values, "pack", "a glb has irradiance only");
+        if (!packed.empty() && values.is_given("map"))
+            refuse(values, "pack", "is given beside " + values.shown("map"));
         if (format != ExportFormat::Preview && !marked.empty())
             refuse(values, "mark", "only previews mark objects");
     }
@@ -92,18 +103,20 @@ struct Export {
     }
 
     [[nodiscard]] Status write(const LightmapsView& maps, Json& json) const {
-        if (format == ExportFormat::Exr) return write_lightmap_exr(output, maps);
         if (format == ExportFormat::Glb) return write_scene(maps);
-        if (format == ExportFormat::Preview) return write_preview(maps);
+        const auto values = packed.empty() ? map_values(maps, map) : packed_values(maps, packed);
+        if (!values) return values.error().in(shown_path(lightmaps_path));
+        if (format == ExportFormat::Exr) return write_exr_pages(output, *values);
+        if (format == ExportFormat::Preview) return write_preview(maps, *values);
         const bool is_png = format == ExportFormat::Png;
         const auto factor =
-            is_png ? write_lightmap_png(output, maps) : write_lightmap_ktx2(output, maps);
+            is_png ? write_png_pages(output, *values) : write_ktx2_pages(output, *values);
         if (!factor) return factor.error();
-        json[is_png ? "range" : "scale"] = *factor;
+        if (!values->is_fraction) json[is_png ? "range" : "scale"] = *factor;
         return Ok{};
     }
 
-    [[nodiscard]] Status write_preview(const LightmapsView& maps) const {
+    [[nodiscard]] Status write_preview(const LightmapsView& maps, const TexelValues& values) const {
         for (const std::string& name : marked) {
             if (std::ranges::count(instances_named(maps, {name}), true) > 0) continue;
             return Error{ErrorCode::NotFound, "mark", name,
@@ -112,7 +125,7 @@ struct Export {
         }
         const std::vector<bool> is_marked = instances_named(maps, marked);
         for (uint32_t page = 0; page < maps.info.page_count; ++page) {
-            const Image8 image = page_preview(maps, page, is_marked);
+            const Image8 image = page_preview(maps, values, page, is_marked);
             auto status = write_png(page_path(output, page, maps.info.page_count), image);
             if (!status) return status;
         }
@@ -130,11 +143,12 @@ struct Export {
         return error;
     }
 
-    [[nodiscard]] static std::string note(const Json& json) {
+    [[nodiscard]] std::string note(const Json& json) const {
+        const char* value = packed.empty() ? ", irradiance = " : ", value = ";
         if (json.contains("range"))
-            return str_cat(", irradiance = ", json["range"].get<float>(), " x alpha x rgb");
+            return str_cat(value, json["range"].get<float>(), " x alpha x rgb");
         if (json.contains("scale") && json["scale"] != 1.0f)
-            return str_cat(", irradiance = ", json["scale"].get<float>(), " x rgb");
+            return str_cat(value, json["scale"].get<float>(), " x rgb");
         return "";
     }
 };

@@ -9,6 +9,7 @@
 #include <tetralight/bake/image/srgb.h>
 #include <tetralight/bake/image/texture_3d.h>
 #include <tetralight/bake/image/write_image.h>
+#include <tetralight/bake/image/write_layered_exr.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/half.h>
 #include <tetralight/base/str_cat.h>
@@ -18,12 +19,6 @@ namespace {
 
 constexpr float kLargestHalf = 65504.0f;
 constexpr float kAlphaExponent = 2.2f;
-
-glm::vec3 irradiance_of(const IrradianceTexel& texel, float scale) {
-    return glm::vec3(float_from_half(texel.rgb[0]), float_from_half(texel.rgb[1]),
-                     float_from_half(texel.rgb[2])) *
-           scale;
-}
 
 float factor_of_alpha(uint8_t alpha, RgbmCurve curve) {
     const float value = static_cast<float>(alpha) / 255.0f;
@@ -51,23 +46,30 @@ std::array<uint8_t, 4> rgbm_pixel(glm::vec3 share, RgbmCurve curve) {
     return pixel;
 }
 
-}  // namespace
-
-ImageF page_irradiance(const LightmapsView& lightmaps, uint32_t page) {
-    const size_t size = lightmaps.info.page_size;
-    const auto texels = lightmaps.irradiance.subspan(page * size * size, size * size);
-    ImageF image{lightmaps.info.page_size, lightmaps.info.page_size, {}};
-    image.pixels.reserve(texels.size());
-    for (const IrradianceTexel& texel : texels)
-        image.pixels.push_back(irradiance_of(texel, lightmaps.info.scale));
+Image8 fractions(const TexelValues& values, uint32_t page) {
+    const size_t count = values.page_texel_count();
+    Image8 image{values.page_size, values.page_size, {}};
+    image.pixels.reserve(count);
+    for (size_t i = 0; i < count; ++i) {
+        glm::vec4 value = values.at(page * count + i);
+        if (values.channel_count == 3) value.w = 1.0f;
+        auto& pixel = image.pixels.emplace_back();
+        for (int channel = 0; channel < 4; ++channel) {
+            const float byte = std::round(255.0f * std::clamp(value[channel], 0.0f, 1.0f));
+            pixel[static_cast<size_t>(channel)] = static_cast<uint8_t>(byte);
+        }
+    }
     return image;
 }
 
-float largest_irradiance(const LightmapsView& lightmaps) {
+}  // namespace
+
+float largest_value(const TexelValues& values) {
     float largest = 0.0f;
-    for (const IrradianceTexel& texel : lightmaps.irradiance) {
-        const glm::vec3 value = irradiance_of(texel, lightmaps.info.scale);
-        largest = std::max({largest, value.x, value.y, value.z});
+    for (size_t texel = 0; texel < values.page_texel_count() * values.page_count; ++texel) {
+        const glm::vec4 value = values.at(texel);
+        for (uint32_t i = 0; i < values.channel_count; ++i)
+            largest = std::max(largest, value[static_cast<int>(i)]);
     }
     return largest;
 }
@@ -104,41 +106,68 @@ std::string page_path(const std::string& path, uint32_t page, uint32_t page_coun
     return str_cat(path.substr(0, dot), "_", page, path.substr(dot));
 }
 
-Status write_lightmap_exr(const std::string& path, const LightmapsView& lightmaps) {
-    for (uint32_t page = 0; page < lightmaps.info.page_count; ++page) {
-        const auto status = write_exr(page_path(path, page, lightmaps.info.page_count),
-                                      page_irradiance(lightmaps, page));
+ImageF page_colors(const TexelValues& values, uint32_t page) {
+    const size_t count = values.page_texel_count();
+    ImageF image{values.page_size, values.page_size, {}};
+    image.pixels.reserve(count);
+    for (size_t i = 0; i < count; ++i) image.pixels.emplace_back(values.at(page * count + i));
+    return image;
+}
+
+Status write_exr_pages(const std::string& path, const TexelValues& values) {
+    constexpr const char* kNames[] = {"R", "G", "B", "A"};
+    const size_t count = values.page_texel_count();
+    std::vector<glm::vec4> pixels(count);
+    LayeredImage image{values.page_size, values.page_size, {}, {}};
+    for (uint32_t i = 0; i < values.channel_count; ++i) {
+        image.channels.push_back({kNames[i], &pixels[0][static_cast<int>(i)], sizeof(glm::vec4)});
+    }
+    for (uint32_t page = 0; page < values.page_count; ++page) {
+        for (size_t i = 0; i < count; ++i) pixels[i] = values.at(page * count + i);
+        auto status =
+            write_layered_exr(page_path(path, page, values.page_count), image, ExrPrecision::Float);
         if (!status) return status;
     }
     return Ok{};
 }
 
-Result<float> write_lightmap_png(const std::string& path, const LightmapsView& lightmaps) {
-    const float largest = largest_irradiance(lightmaps);
-    const float range = largest > 0.0f ? largest : 1.0f;
-    const PngTexts texts{{"tetralight", str_cat(R"({"encoding":"rgbm","range":)", range, "}")}};
-    for (uint32_t page = 0; page < lightmaps.info.page_count; ++page) {
-        const std::string to = page_path(path, page, lightmaps.info.page_count);
+Result<float> write_png_pages(const std::string& path, const TexelValues& values) {
+    if (!values.is_fraction && values.channel_count == 4) {
+        return Error{ErrorCode::InvalidArgument, "pack", "",
+                     "a PNG holds no light in four channels; write .exr or .ktx2"};
+    }
+    const float largest = largest_value(values);
+    const float range = values.is_fraction || largest == 0.0f ? 1.0f : largest;
+    PngTexts texts;
+    if (!values.is_fraction) {
+        texts = {{"tetralight", str_cat(R"({"encoding":"rgbm","range":)", range, "}")}};
+    }
+    for (uint32_t page = 0; page < values.page_count; ++page) {
+        const std::string to = page_path(path, page, values.page_count);
         const auto bytes = encode_png(
-            encode_rgbm(page_irradiance(lightmaps, page), range, RgbmCurve::Linear), texts);
+            values.is_fraction ? fractions(values, page)
+                               : encode_rgbm(page_colors(values, page), range, RgbmCurve::Linear),
+            texts);
         if (!bytes) return bytes.error().in(to);
         if (auto status = write_file(to, *bytes); !status) return status.error();
     }
     return range;
 }
 
-Result<float> write_lightmap_ktx2(const std::string& path, const LightmapsView& lightmaps) {
-    const bool fits = largest_irradiance(lightmaps) <= kLargestHalf;
-    const float scale = fits ? 1.0f : lightmaps.info.scale;
-    std::vector<IrradianceTexel> texels(lightmaps.irradiance.begin(), lightmaps.irradiance.end());
-    for (IrradianceTexel& texel : texels) {
-        const glm::vec3 value = irradiance_of(texel, lightmaps.info.scale / scale);
-        for (int i = 0; i < 3; ++i)
-            texel.rgb[static_cast<size_t>(i)] = half_from_float_saturated(value[i]);
+Result<float> write_ktx2_pages(const std::string& path, const TexelValues& values) {
+    const float largest = largest_value(values);
+    const float scale = largest <= kLargestHalf ? 1.0f : lightmap_scale(largest);
+    std::vector<std::array<uint16_t, 4>> texels(values.page_texel_count() * values.page_count);
+    for (size_t texel = 0; texel < texels.size(); ++texel) {
+        const glm::vec4 value = values.at(texel);
+        const bool scales_alpha = values.channel_count == 4;
+        for (int i = 0; i < 4; ++i) {
+            const float factor = i < 3 || scales_alpha ? scale : 1.0f;
+            texels[texel][static_cast<size_t>(i)] = half_from_float_saturated(value[i] / factor);
+        }
     }
-    const Texture3dView layers{lightmaps.info.page_size, lightmaps.info.page_size,
-                               lightmaps.info.page_count, TexelFormat::Rgba16Float,
-                               std::as_bytes(std::span(texels))};
+    const Texture3dView layers{values.page_size, values.page_size, values.page_count,
+                               TexelFormat::Rgba16Float, std::as_bytes(std::span(texels))};
     const auto status =
         write_ktx2_array(path, layers, {{"tetralight", str_cat(R"({"scale":)", scale, "}")}});
     if (!status) return status.error();

@@ -9,17 +9,15 @@
 #include <tetralight/bake/image/image.h>
 #include <tetralight/base/result.h>
 #include <tetralight/lightmap/lightmaps.h>
+#include <tetralight/pipeline/texel_values.h>
 
-// Pages of lightmaps as images for other programs. Texels hold irradiance E in the units of the
-// lights, not divided by π; row 0 is at v = 0. Texels that belong to no surface are 0.
+// Pages of lightmaps as images for other programs. Irradiance E is in the units of the lights, not
+// divided by π; row 0 is at v = 0. The light of texels that belong to no surface is 0.
 
 namespace tetralight {
 
-/// Precondition of all: `page` is less than the number of pages.
-[[nodiscard]] ImageF page_irradiance(const LightmapsView& lightmaps, uint32_t page);
-
-/// The largest channel of all texels.
-[[nodiscard]] float largest_irradiance(const LightmapsView& lightmaps);
+/// The largest channel of all texels; alpha counts if there are four.
+[[nodiscard]] float largest_value(const TexelValues& values);
 
 /// How 8-bit RGBM pixels are decoded, r, g, b and a in [0, 1].
 enum class RgbmCurve : uint8_t {
@@ -40,18 +38,20 @@ inline constexpr double kThirdRoomRange = 34.49;
 /// Path of a page among several: "a.exr" becomes "a_2.exr". One page keeps the path.
 [[nodiscard]] std::string page_path(const std::string& path, uint32_t page, uint32_t page_count);
 
-/// Writes one 32-bit float OpenEXR file a page, at its `page_path`.
-[[nodiscard]] Status write_lightmap_exr(const std::string& path, const LightmapsView& lightmaps);
+/// The first three channels of a page. Precondition: the page exists.
+[[nodiscard]] ImageF page_colors(const TexelValues& values, uint32_t page);
 
-/// Writes one linear RGBM PNG a page, at its `page_path`. The text "tetralight" of each has
-/// {"encoding":"rgbm","range":R}. Returns R, which is the largest irradiance.
-[[nodiscard]] Result<float> write_lightmap_png(const std::string& path,
-                                               const LightmapsView& lightmaps);
+/// Writes one OpenEXR file of 32-bit floats a page with ZIP compression, at its `page_path`.
+[[nodiscard]] Status write_exr_pages(const std::string& path, const TexelValues& values);
 
-/// Writes a KTX 2.0 file: a 2D array of RGBA16F, one layer a page, irradiance divided by the scale
-/// in RGB and coverage in alpha. The metadata "tetralight" has {"scale":S}. Returns S: 1 unless
-/// some irradiance is more than a half can hold.
-[[nodiscard]] Result<float> write_lightmap_ktx2(const std::string& path,
-                                                const LightmapsView& lightmaps);
+/// Writes one PNG a page, at its `page_path`: fractions times 255; other values as linear RGBM with
+/// the text "tetralight" {"encoding":"rgbm","range":R}. Returns R, the largest value; 1 for
+/// fractions. Returns invalid_argument for four channels that are not fractions.
+[[nodiscard]] Result<float> write_png_pages(const std::string& path, const TexelValues& values);
+
+/// Writes a KTX 2.0 file: a 2D array of RGBA16F, one layer a page, values divided by the scale. The
+/// alpha of three channels is not scaled: coverage, or 1. The metadata "tetralight" has
+/// {"scale":S}. Returns S: 1 unless some value is more than a half can hold.
+[[nodiscard]] Result<float> write_ktx2_pages(const std::string& path, const TexelValues& values);
 
 }  // namespace tetralight

@@ -41,7 +41,8 @@ Status write_unwrapped_glb(const std::string& path, const std::string& scene_pat
 Status write_lightmap_glb(const std::string& path, const std::string& scene_path,
                           const Scene& scene, const LightmapsView& lightmaps) {
     if (auto status = check_lightmap_scene(lightmaps, scene); !status) return status;
-    const float largest = largest_irradiance(lightmaps);
+    const auto irradiance = map_values(lightmaps, LightmapMap::Irradiance);
+    const float largest = largest_value(*irradiance);
     const float range = largest > 0.0f ? largest : 1.0f;
     GltfLightmaps gltf;
     gltf.intensity = double{range} / kThirdRoomRange;
@@ -55,7 +56,7 @@ Status write_lightmap_glb(const std::string& path, const std::string& scene_path
     }
     for (uint32_t page = 0; page < lightmaps.info.page_count; ++page) {
         auto image =
-            encode_png(encode_rgbm(page_irradiance(lightmaps, page), range, RgbmCurve::ThirdRoom));
+            encode_png(encode_rgbm(page_colors(*irradiance, page), range, RgbmCurve::ThirdRoom));
         if (!image) return image.error();
         gltf.pages.push_back(std::move(*image));
     }

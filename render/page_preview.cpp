@@ -51,9 +51,10 @@ std::vector<bool> instances_named(const LightmapsView& lightmaps,
     return result;
 }
 
-Image8 page_preview(const LightmapsView& lightmaps, uint32_t page,
+Image8 page_preview(const LightmapsView& lightmaps, const TexelValues& values, uint32_t page,
                     const std::vector<bool>& is_marked) {
-    Image8 image = develop(page_irradiance(lightmaps, page), 0.0f);
+    const ImageF colors = page_colors(values, page);
+    Image8 image = values.is_fraction ? quantized(colors) : develop(colors, 0.0f);
     const size_t first = image.pixels.size() * page;
     for (size_t i = 0; i < image.pixels.size(); ++i) {
         if (lightmaps.irradiance[first + i].coverage == 0) image.pixels[i] = kEmpty;

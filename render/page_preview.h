@@ -7,6 +7,7 @@
 
 #include <tetralight/bake/image/image.h>
 #include <tetralight/lightmap/lightmaps.h>
+#include <tetralight/pipeline/texel_values.h>
 
 namespace tetralight {
 
@@ -14,11 +15,12 @@ namespace tetralight {
 [[nodiscard]] std::vector<bool> instances_named(const LightmapsView& lightmaps,
                                                 const std::vector<std::string>& names);
 
-/// A page for looking at, v = 0 at the top: its light, exposed and tone-mapped by itself, on grey
-/// where no surface is. Each rectangle has a blue border of one texel, those of marked instances
+/// A page for looking at, v = 0 at the top, on grey where no surface is: its values, exposed and
+/// tone-mapped by themselves unless they are fractions. Each rectangle has a blue border of one
+/// texel, those of marked instances
 /// (`is_marked`, one a rectangle) an orange one of three; all others are then dimmed.
-/// Precondition: the page exists.
-[[nodiscard]] Image8 page_preview(const LightmapsView& lightmaps, uint32_t page,
-                                  const std::vector<bool>& is_marked);
+/// Precondition: the page exists; the values are those of the lightmaps.
+[[nodiscard]] Image8 page_preview(const LightmapsView& lightmaps, const TexelValues& values,
+                                  uint32_t page, const std::vector<bool>& is_marked);
 
 }  // namespace tetralight

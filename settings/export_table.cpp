@@ -16,6 +16,23 @@ constexpr Setting kFiles[] = {
              "at, with the rectangle of each object",
      .choices = "exr ktx2 png glb preview",
      .without = "by the extension of the output"},
+    {.name = "map",
+     .type = Type::Choice,
+     .help = "What is written of the texels: irradiance; direction = dominant direction of the "
+             "light, for normal maps; mono-sh = the same with how much of the light has it; "
+             "shadow-mask = how much is seen of the lights of four occlusion channels; "
+             "ambient-occlusion",
+     .choices = "irradiance direction mono-sh shadow-mask ambient-occlusion",
+     .default_text = "irradiance"},
+    {.name = "pack",
+     .type = Type::Words,
+     .help =
+         "Write up to four channels instead: the luminance of layers by their names, light (all "
+         "of it), sky-occlusion (that of layer sky over its largest value), shadow:0 to "
+         "shadow:3 (of the shadow mask), ambient-occlusion; each to a power if it ends with "
+         "^POWER: sun,sky,emission^0.5",
+     .without = "a map",
+     .value_name = "LIST"},
     {.name = "scene",
      .type = Type::Path,
      .help = "glTF 2.0 scene that the lightmaps were baked for",

@@ -80,6 +80,39 @@ TEST_F(Export, GlbHasTheSceneWithLightmaps) {
     EXPECT_TRUE(read_gltf(path("lit.glb")));
 }
 
+TEST_F(Export, WritesOtherMapsAndPackedChannels) {
+    EXPECT_TRUE(contains(fail({"export", "c.lightmaps", "--map", "shadow-mask", "-o", "m.png"}),
+                         "c.lightmaps: the lightmaps have no shadow mask; bake them with "
+                         "--mixed-lighting shadowmask"));
+    succeed({"lightmap", kCourtyard, "-o", "m.lightmaps", "-t", "1", "--page-size", "256", "-s",
+             "1", "--mixed-lighting", "shadowmask", "--ambient-occlusion", "1", "--layers",
+             "sun,sky,emission"});
+    for (const std::string map : {"direction", "mono-sh", "shadow-mask", "ambient-occlusion"}) {
+        for (const std::string format : {"png", "exr", "ktx2", "preview"}) {
+            const std::string file = map + "." + (format == "preview" ? "png" : format);
+            const Json json =
+                run_json({"export", "m.lightmaps", "--map", map, "--as", format, "-o", file});
+            EXPECT_FALSE(read(json["files"][0]).empty());
+            EXPECT_FALSE(json.contains("range"));
+        }
+    }
+    const Json json =
+        run_json({"export", "m.lightmaps", "--pack", "sun,sky,emission^0.5", "-o", "p.png"});
+    EXPECT_GT(json["range"].get<double>(), 0.0);
+    succeed({"export", "m.lightmaps", "--pack", "sun,sky,emission,shadow:0", "-o", "p.exr"});
+    EXPECT_TRUE(contains(
+        fail({"export", "m.lightmaps", "--pack", "sun,sky,emission,shadow:0", "-o", "q.png"}),
+        "write .exr or .ktx2"));
+    EXPECT_TRUE(contains(fail({"export", "m.lightmaps", "--pack", "moon", "-o", "q.exr"}),
+                         "m.lightmaps: \"moon\" is none of what the lightmaps have"));
+    EXPECT_TRUE(contains(
+        misuse({"export", "m.lightmaps", "--pack", "sun", "--map", "mono-sh", "-o", "q.exr"}),
+        "--map"));
+    EXPECT_TRUE(contains(
+        misuse({"export", "m.lightmaps", "--map", "mono-sh", "--scene", kCourtyard, "-o", "q.glb"}),
+        "irradiance only"));
+}
+
 TEST_F(Export, RefusesAnotherSceneAndNamesTheObject) {
     succeed({"unwrap", kCourtyard, "-o", "uv1.glb"});
     const std::string error =

@@ -25,6 +25,10 @@ Lightmaps pages_of(const std::vector<float>& red, float scale = 1.0f) {
     return maps;
 }
 
+TexelValues irradiance_of(const Lightmaps& maps) {
+    return *map_values(maps.view(), LightmapMap::Irradiance);
+}
+
 TEST(LightmapImages, RgbmKeepsTheLargestChannelToAPart) {
     for (const RgbmCurve curve : {RgbmCurve::Linear, RgbmCurve::ThirdRoom}) {
         ImageF image{100, 1, {}};
@@ -60,7 +64,7 @@ TEST(LightmapImages, PagePathsHaveNumbersIfThereAreSeveral) {
 TEST(LightmapImages, ExrHasTheIrradianceOfEachPage) {
     const TempFolder folder;
     const Lightmaps maps = pages_of({1, 2, 3, 4, 5, 6, 7, 8}, 256.0f);
-    ASSERT_TRUE(write_lightmap_exr(folder.path("a.exr"), maps.view()));
+    ASSERT_TRUE(write_exr_pages(folder.path("a.exr"), irradiance_of(maps)));
     const auto second = read_hdr_image(folder.path("a_1.exr"));
     ASSERT_TRUE(second);
     ASSERT_EQ(second->image.pixels.size(), 4u);
@@ -70,7 +74,7 @@ TEST(LightmapImages, ExrHasTheIrradianceOfEachPage) {
 TEST(LightmapImages, PngSaysItsRange) {
     const TempFolder folder;
     const Lightmaps maps = pages_of({1, 2, 3, 4}, 4.0f);
-    const auto range = write_lightmap_png(folder.path("a.png"), maps.view());
+    const auto range = write_png_pages(folder.path("a.png"), irradiance_of(maps));
     ASSERT_TRUE(range);
     EXPECT_EQ(*range, 16.0f);
     const auto bytes = read_file(folder.path("a.png"));
@@ -84,12 +88,58 @@ TEST(LightmapImages, PngSaysItsRange) {
 TEST(LightmapImages, Ktx2HasAScaleOnlyForLightThatHalvesCannotHold) {
     const TempFolder folder;
     const std::string path = folder.path("a.ktx2");
-    EXPECT_EQ(*write_lightmap_ktx2(path, pages_of({1, 2, 3, 4}, 4.0f).view()), 1.0f);
+    const Lightmaps dim = pages_of({1, 2, 3, 4}, 4.0f);
+    EXPECT_EQ(*write_ktx2_pages(path, irradiance_of(dim)), 1.0f);
     const auto bytes = read_file(path);
     uint16_t red = 0;
     std::memcpy(&red, bytes->data() + bytes->size() - 8, sizeof red);
     EXPECT_EQ(float_from_half(red), 16.0f);
-    EXPECT_EQ(*write_lightmap_ktx2(path, pages_of({1, 2, 3, 30000}, 4.0f).view()), 4.0f);
+    const Lightmaps bright = pages_of({1, 2, 3, 30000}, 4.0f);
+    EXPECT_EQ(*write_ktx2_pages(path, irradiance_of(bright)), 4.0f);
+}
+
+/// Two pages of one texel with four fractions.
+TexelValues fractions() {
+    TexelValues values;
+    values.page_size = 1;
+    values.page_count = 2;
+    values.channel_count = 4;
+    values.is_fraction = true;
+    values.at = [](size_t texel) { return glm::vec4(0.0f, 1.0f, 0.2f, texel == 0 ? 0.4f : 1.0f); };
+    return values;
+}
+
+TEST(LightmapImages, FractionsArePlainBytes) {
+    const TempFolder folder;
+    ASSERT_TRUE(write_png_pages(folder.path("a.png"), fractions()));
+    const auto bytes = read_file(folder.path("a_0.png"));
+    const auto image = decode_image8(*bytes, "a_0.png");
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->pixels[0], (std::array<uint8_t, 4>{0, 255, 51, 102}));
+    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    EXPECT_EQ(text.find("rgbm"), std::string::npos);
+}
+
+TEST(LightmapImages, ExrAndKtx2HaveFourChannels) {
+    const TempFolder folder;
+    ASSERT_TRUE(write_exr_pages(folder.path("a.exr"), fractions()));
+    const auto header = read_file(folder.path("a_1.exr"));
+    const std::string text(reinterpret_cast<const char*>(header->data()), header->size());
+    EXPECT_NE(text.find(std::string("A\0", 2)), std::string::npos);
+    ASSERT_TRUE(write_ktx2_pages(folder.path("a.ktx2"), fractions()));
+    const auto bytes = read_file(folder.path("a.ktx2"));
+    uint16_t last[8];  // two layers of four halves
+    std::memcpy(last, bytes->data() + bytes->size() - sizeof last, sizeof last);
+    EXPECT_NEAR(float_from_half(last[3]), 0.4f, 1e-3f);
+    EXPECT_EQ(float_from_half(last[7]), 1.0f);
+}
+
+TEST(LightmapImages, PngHoldsNoLightInFourChannels) {
+    const TempFolder folder;
+    TexelValues values = fractions();
+    values.is_fraction = false;
+    EXPECT_FALSE(write_png_pages(folder.path("a.png"), values));
+    EXPECT_FALSE(read_file(folder.path("a_0.png")));
 }
 
 }  // namespace

@@ -27,13 +27,18 @@ Lightmaps two_rectangles() {
     return maps;
 }
 
+Image8 preview(const Lightmaps& maps, const std::vector<bool>& is_marked) {
+    const auto values = map_values(maps.view(), LightmapMap::Irradiance);
+    return page_preview(maps.view(), *values, 0, is_marked);
+}
+
 Pixel pixel(const Image8& image, uint32_t x, uint32_t y) {
     return image.pixels[size_t{y} * image.width + x];
 }
 
 TEST(PagePreview, RectanglesHaveBorders) {
     const Lightmaps maps = two_rectangles();
-    const Image8 image = page_preview(maps.view(), 0, {false, false});
+    const Image8 image = preview(maps, {false, false});
     EXPECT_EQ(pixel(image, 1, 2), pixel(image, 17, 2));
     EXPECT_EQ(pixel(image, 1, 13), pixel(image, 12, 2));
     EXPECT_NE(pixel(image, 1, 2), pixel(image, 2, 3));  // border, light
@@ -45,7 +50,7 @@ TEST(PagePreview, MarkedObjectsStandOut) {
     const Lightmaps maps = two_rectangles();
     const std::vector<bool> marked = instances_named(maps.view(), {"right"});
     EXPECT_EQ(marked, (std::vector<bool>{false, true}));
-    const Image8 image = page_preview(maps.view(), 0, marked);
+    const Image8 image = preview(maps, marked);
     EXPECT_NE(pixel(image, 1, 2), pixel(image, 17, 2));
     EXPECT_EQ(pixel(image, 17, 2), pixel(image, 19, 4));  // three texels wide
     EXPECT_GT(pixel(image, 22, 6)[0], pixel(image, 6, 6)[0]);
