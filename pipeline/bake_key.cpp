@@ -54,7 +54,8 @@ template <class Hash>
 void add(Hash& hash, const Material& material) {
     const auto& [name, base_color, base_color_texture, metallic, roughness,
                  metallic_roughness_texture, emission, emission_texture, alpha_mode, alpha_cutoff,
-                 is_double_sided, is_unlit, bakes_emission] = material;
+                 is_double_sided, is_unlit, bakes_emission, normal_texture, normal_scale] =
+        material;
     hash.add(base_color);
     add(hash, base_color_texture);
     hash.add(metallic);
@@ -81,7 +82,7 @@ void add(Hash& hash, const Texture& texture) {
 
 template <class Hash>
 void add(Hash& hash, const Mesh& mesh) {
-    const auto& [positions, normals, uvs, colors, indices, material] = mesh;
+    const auto& [positions, normals, uvs, colors, tangents, indices, material] = mesh;
     hash.add(positions);
     hash.add(normals);
     for (const auto& set : uvs) hash.add(set);
@@ -137,8 +138,8 @@ void add_each(Hash& hash, const std::vector<T>& elements) {
 
 template <class Hash>
 void add(Hash& hash, const Scene& scene) {
-    const auto& [textures, materials, meshes, instances, nodes, lights, light_names, environment,
-                 cameras, probe_groups, probe_adjustments, portals, warnings] = scene;
+    const auto& [textures, normal_maps, materials, meshes, instances, nodes, lights, light_names,
+                 environment, cameras, probe_groups, probe_adjustments, portals, warnings] = scene;
     add_each(hash, textures);
     add_each(hash, materials);
     add_each(hash, meshes);

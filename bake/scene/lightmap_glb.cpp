@@ -46,7 +46,7 @@ Result<std::vector<std::byte>> lightmapped(const detail::GltfDocument& document,
     if (!nodes) return nodes.error();
     const auto groups = detail::read_gltf_probe_groups(document, *nodes);
     if (!groups) return groups.error();
-    const auto meshes = detail::read_meshes(document);
+    const auto meshes = detail::read_meshes(document, NormalMaps::Skip);
     if (!meshes) return meshes.error();
     const auto objects =
         detail::lightmap_objects(document, *nodes, groups->is_probe, *meshes, lightmaps.places);

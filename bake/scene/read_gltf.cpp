@@ -22,16 +22,17 @@ void append_warnings(Scene& scene, const std::vector<std::string>& warnings) {
     scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
 }
 
-Status add_surfaces(const detail::GltfDocument& document, Scene& scene,
+Status add_surfaces(const detail::GltfDocument& document, NormalMaps normal_maps, Scene& scene,
                     detail::GltfMeshes& meshes) {
-    auto read = detail::read_meshes(document);
+    auto read = detail::read_meshes(document, normal_maps);
     if (!read) return read.error();
-    auto materials = detail::read_materials(document);
+    auto materials = detail::read_materials(document, normal_maps);
     if (!materials) return materials.error();
     meshes = std::move(*read);
     scene.meshes = std::move(meshes.meshes);
     scene.materials = std::move(materials->materials);
     scene.textures = std::move(materials->textures);
+    scene.normal_maps = std::move(materials->normal_maps);
     detail::assign_default_material(scene.materials, scene.meshes);
     append_warnings(scene, meshes.warnings);
     append_warnings(scene, materials->warnings);
@@ -88,9 +89,9 @@ Status add_sky(const detail::GltfDocument& document, Scene& scene) {
                  str_cat("scene: extras.sky.radiance (", value, ") is negative")};
 }
 
-Status add_all(const detail::GltfDocument& document, Scene& scene) {
+Status add_all(const detail::GltfDocument& document, NormalMaps normal_maps, Scene& scene) {
     detail::GltfMeshes meshes;
-    const auto surfaces = add_surfaces(document, scene, meshes);
+    const auto surfaces = add_surfaces(document, normal_maps, scene, meshes);
     if (!surfaces) return surfaces;
     const auto sky = add_sky(document, scene);
     if (!sky) return sky;
@@ -99,11 +100,11 @@ Status add_all(const detail::GltfDocument& document, Scene& scene) {
 
 }  // namespace
 
-Result<Scene> read_gltf(const std::string& path) {
+Result<Scene> read_gltf(const std::string& path, NormalMaps normal_maps) {
     const auto document = detail::read_gltf_document(path);
     if (!document) return document.error();
     Scene scene;
-    const auto status = add_all(*document, scene);
+    const auto status = add_all(*document, normal_maps, scene);
     if (!status) return status.error().in(path);
     for (std::string& warning : scene.warnings) warning.insert(0, path + ": ");
     return scene;

@@ -8,11 +8,15 @@
 
 namespace tetralight {
 
+/// Whether a reader reads normal maps and tangents. Most bakes do not use them.
+enum class NormalMaps : bool { Skip, Read };
+
 /// Reads a glTF 2.0 scene (.gltf or .glb): its default scene's node hierarchy flattened into
 /// instances.
 ///
 /// Read: indexed and non-indexed triangles, strips and fans; base colour and emission with textures
-/// (KHR_texture_transform, KHR_materials_emissive_strength); KHR_lights_punctual;
+/// (KHR_texture_transform, KHR_materials_emissive_strength); normal maps and tangents if asked for;
+/// KHR_lights_punctual;
 /// EXT_mesh_gpu_instancing; KHR_mesh_quantization; `extras.contribute_gi`,
 /// `extras.portal` of a node; `extras.walkable`, `extras.receive_gi`, `extras.lightmap_scale`,
 /// `extras.stitch_seams` and `extras.light_probes` of a node (inherited);
@@ -26,6 +30,7 @@ namespace tetralight {
 /// out of range, unsupported if the file requires an extension that is not listed here, and
 /// not_found (or the system's reason) if it refers to a file that cannot be read. Messages name the
 /// file, the element and the value; fields name the member: `materials[2].alphaCutoff`.
-[[nodiscard]] Result<Scene> read_gltf(const std::string& path);
+[[nodiscard]] Result<Scene> read_gltf(const std::string& path,
+                                      NormalMaps normal_maps = NormalMaps::Skip);
 
 }  // namespace tetralight

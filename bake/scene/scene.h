@@ -65,6 +65,9 @@ struct Material {
     bool is_unlit = false;
     /// True if a bake includes the material's emission (`extras.bake_emission`).
     bool bakes_emission = true;
+    /// `texture` is an index into `Scene::normal_maps`.
+    TextureUse normal_texture;
+    float normal_scale = 1.0f;  ///< factor on x and y of the normal map's normals
 
     bool operator==(const Material&) const = default;
 };
@@ -77,6 +80,9 @@ struct Mesh {
     std::vector<glm::vec2> uvs[2];
     /// Linear, at least 0: times the material's base colour and alpha (COLOR_0).
     std::vector<glm::vec4> colors;
+    /// xyz: the direction of u of the normal map; w: 1, or −1 if it is mirrored. Empty: tangents
+    /// come from the UVs (bake/scene/mapped_normal.h).
+    std::vector<glm::vec4> tangents;
     /// Three a triangle, counter-clockwise seen from the front.
     std::vector<uint32_t> indices;
     uint32_t material = kNoIndex;
@@ -171,6 +177,8 @@ struct Portal {
 
 struct Scene {
     std::vector<Texture> textures;
+    /// Textures of normal maps, apart from the others: bakes of probes do not depend on them.
+    std::vector<Texture> normal_maps;
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<MeshInstance> instances;

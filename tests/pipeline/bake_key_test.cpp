@@ -87,6 +87,10 @@ TEST_F(BakeKey, StaysWithWhatChangesNoByte) {
         [](BakeKey& t) { t.scene.materials[0].name = "plaster"; },
         [](BakeKey& t) { t.scene.cameras.resize(1); },
         [](BakeKey& t) { t.scene.warnings = {"mended"}; },
+        [](BakeKey& t) { t.scene.normal_maps = t.scene.textures; },
+        [](BakeKey& t) { t.scene.materials[0].normal_texture.texture = 0; },
+        [](BakeKey& t) { t.scene.materials[0].normal_scale = 0.5f; },
+        [](BakeKey& t) { t.scene.meshes[0].tangents.resize(4); },
     });
 }
 

@@ -83,6 +83,8 @@ struct GltfMaterial {
     TextureUse base_color_texture;
     TextureUse metallic_roughness_texture;
     TextureUse emission_texture;
+    TextureUse normal_texture;
+    double normal_scale = 1.0;
 };
 
 struct GltfTexture {

@@ -25,6 +25,21 @@ glm::mat3 texture_matrix(const tinygltf::Value& transform) {
             glm::vec3(sine * scale.y, cosine * scale.y, 0.0), glm::vec3(offset, 1.0)};
 }
 
+/// `Info` is one of the classes that tinygltf has for textures of materials.
+template <class Info>
+TextureUse texture_use(const Info& info) {
+    TextureUse use;
+    use.texture = index_from(info.index);
+    use.uv_set = static_cast<uint32_t>(info.texCoord);
+    const auto* transform = find_extension(info.extensions, "KHR_texture_transform");
+    if (transform == nullptr) return use;
+    use.image_from_mesh = texture_matrix(*transform);
+    if (transform->Has("texCoord")) {
+        use.uv_set = static_cast<uint32_t>(transform->Get("texCoord").GetNumberAsInt());
+    }
+    return use;
+}
+
 }  // namespace
 
 uint32_t index_from(int index) {
@@ -64,16 +79,11 @@ double number_at(const tinygltf::Value& object, const char* key, double otherwis
 }
 
 TextureUse texture_use_from(const tinygltf::TextureInfo& info) {
-    TextureUse use;
-    use.texture = index_from(info.index);
-    use.uv_set = static_cast<uint32_t>(info.texCoord);
-    const auto* transform = find_extension(info.extensions, "KHR_texture_transform");
-    if (transform == nullptr) return use;
-    use.image_from_mesh = texture_matrix(*transform);
-    if (transform->Has("texCoord")) {
-        use.uv_set = static_cast<uint32_t>(transform->Get("texCoord").GetNumberAsInt());
-    }
-    return use;
+    return texture_use(info);
+}
+
+TextureUse texture_use_from(const tinygltf::NormalTextureInfo& info) {
+    return texture_use(info);
 }
 
 std::optional<std::string> bake_emission_from(const tinygltf::Value& extras) {

@@ -38,6 +38,7 @@ namespace tetralight::detail {
 
 /// With KHR_texture_transform.
 [[nodiscard]] TextureUse texture_use_from(const tinygltf::TextureInfo& info);
+[[nodiscard]] TextureUse texture_use_from(const tinygltf::NormalTextureInfo& info);
 
 /// The mask of `extras.rendering_layers`. Precondition: they obey the rules.
 [[nodiscard]] std::optional<uint32_t> rendering_layers_extra(const tinygltf::Value& extras);

@@ -109,6 +109,19 @@ Status read_textures(const GltfMaterial& source, GltfTextureReader& reader, Mate
     return Ok{};
 }
 
+/// Reads the normal map. Unlit materials have no use for one.
+Status read_normal_map(const GltfMaterial& source, GltfTextureReader& reader, Material& material) {
+    material.normal_scale = static_cast<float>(source.normal_scale);
+    if (!std::isfinite(material.normal_scale)) {
+        return Error{ErrorCode::Corrupt, ".normalTexture.scale", str_cat(source.normal_scale),
+                     str_cat("normalTexture: scale ", source.normal_scale, " is too large")};
+    }
+    const auto use = texture_use_from(source.normal_texture, ".normalTexture", reader);
+    if (!use) return use.error();
+    material.normal_texture = *use;
+    return Ok{};
+}
+
 Result<bool> bakes_emission_from(const std::string& word) {
     if (word == "baked") return true;
     if (word == "none") return false;
@@ -157,17 +170,24 @@ Result<Material> read_material(const GltfMaterial& source, GltfTextureReader& re
 
 }  // namespace
 
-Result<GltfMaterials> read_materials(const GltfDocument& document) {
+Result<GltfMaterials> read_materials(const GltfDocument& document, NormalMaps normal_maps) {
     GltfMaterials result;
-    GltfTextureReader reader(document);
+    GltfTextureReader reader(document), normal_reader(document);
     for (size_t i = 0; i < document.materials.size(); ++i) {
         const GltfMaterial& source = document.materials[i];
         auto material = read_material(source, reader);
         if (!material) return in_element(material.error(), "materials", i, source.name);
+        if (normal_maps == NormalMaps::Read && !material->is_unlit) {
+            const auto status = read_normal_map(source, normal_reader, *material);
+            if (!status) return in_element(status.error(), "materials", i, source.name);
+        }
         result.materials.push_back(std::move(*material));
     }
     result.textures = std::move(reader.textures);
+    result.normal_maps = std::move(normal_reader.textures);
     result.warnings = std::move(reader.warnings);
+    result.warnings.insert(result.warnings.end(), normal_reader.warnings.begin(),
+                           normal_reader.warnings.end());
     return result;
 }
 

@@ -107,6 +107,18 @@ Status read_vertex_colors(const GltfDocument& document, const GltfAttributes& at
     return Ok{};
 }
 
+/// Reads TANGENT. Its length has no meaning; w is 1 or −1.
+Status read_tangents(const GltfDocument& document, const GltfAttributes& attributes, Mesh& mesh) {
+    const auto tangent = attributes.find("TANGENT");
+    if (tangent == attributes.end()) return Ok{};
+    auto tangents = read_vec4s(document, tangent->second);
+    if (!tangents) return tangents.error().in("TANGENT");
+    const auto status = check_count(tangents->size(), "TANGENT", mesh);
+    if (!status) return status;
+    mesh.tangents = std::move(*tangents);
+    return Ok{};
+}
+
 /// Reads normals, texture coordinates and colours, if the primitive has them.
 Status read_optional_attributes(const GltfDocument& document, const GltfAttributes& attributes,
                                 Mesh& mesh) {
@@ -130,7 +142,8 @@ Status read_optional_attributes(const GltfDocument& document, const GltfAttribut
     return read_vertex_colors(document, attributes, mesh);
 }
 
-Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& primitive) {
+Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& primitive,
+                            NormalMaps normal_maps) {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
         return Error{ErrorCode::Corrupt, ".attributes.POSITION", "", "has no POSITION"};
@@ -142,6 +155,10 @@ Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& p
     mesh.material = primitive.material;
     const auto status = read_optional_attributes(document, primitive.attributes, mesh);
     if (!status) return status.error();
+    if (normal_maps == NormalMaps::Read) {
+        const auto tangents = read_tangents(document, primitive.attributes, mesh);
+        if (!tangents) return tangents.error();
+    }
     auto corners = read_corners(document, primitive, mesh.positions.size());
     if (!corners) return corners.error();
     auto indices = triangles_from(std::move(*corners), primitive.mode);
@@ -150,7 +167,8 @@ Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& p
     return mesh;
 }
 
-Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshes& result) {
+Status read_mesh(const GltfDocument& document, const GltfMesh& source, NormalMaps normal_maps,
+                 GltfMeshes& result) {
     auto& meshes_of_source = result.meshes_of.emplace_back();
     size_t flat_count = 0;
     for (size_t i = 0; i < source.primitives.size(); ++i) {
@@ -162,7 +180,7 @@ Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshe
                          str_cat(place, ": mode ", primitive.mode, " is not known")};
         }
         if (primitive.mode < kTriangles) continue;  // points and lines reflect no light
-        auto mesh = read_primitive(document, primitive);
+        auto mesh = read_primitive(document, primitive, normal_maps);
         if (!mesh) return in_member(mesh.error().in(place), str_cat(".primitives[", i, "]"));
         flat_count += remove_flat_triangles(*mesh);
         if (mesh->indices.empty()) continue;
@@ -181,10 +199,10 @@ Status read_mesh(const GltfDocument& document, const GltfMesh& source, GltfMeshe
 
 }  // namespace
 
-Result<GltfMeshes> read_meshes(const GltfDocument& document) {
+Result<GltfMeshes> read_meshes(const GltfDocument& document, NormalMaps normal_maps) {
     GltfMeshes result;
     for (size_t i = 0; i < document.meshes.size(); ++i) {
-        const auto status = read_mesh(document, document.meshes[i], result);
+        const auto status = read_mesh(document, document.meshes[i], normal_maps, result);
         if (!status) return in_element(status.error(), "meshes", i, document.meshes[i].name);
     }
     return result;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::detail {
@@ -20,7 +21,8 @@ struct GltfMeshes {
     std::vector<std::string> warnings;
 };
 
-/// Reads all triangle primitives. `material` is kNoIndex if the file names none.
-[[nodiscard]] Result<GltfMeshes> read_meshes(const GltfDocument& document);
+/// Reads all triangle primitives, with tangents if normal maps are read. `material` is kNoIndex if
+/// the file names none.
+[[nodiscard]] Result<GltfMeshes> read_meshes(const GltfDocument& document, NormalMaps normal_maps);
 
 }  // namespace tetralight::detail

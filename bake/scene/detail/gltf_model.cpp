@@ -76,6 +76,8 @@ GltfMaterial converted(const tinygltf::Material& material) {
     result.bake_emission = bake_emission_from(material.extras);
     result.metallic_roughness_texture = texture_use_from(pbr.metallicRoughnessTexture);
     result.emission_texture = texture_use_from(material.emissiveTexture);
+    result.normal_texture = texture_use_from(material.normalTexture);
+    result.normal_scale = material.normalTexture.scale;
     return result;
 }
 

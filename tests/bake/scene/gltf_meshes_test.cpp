@@ -94,6 +94,30 @@ TEST(GltfMeshes, NormalsAndBothUvSets) {
     EXPECT_EQ(scene->meshes[0].uvs[1], (std::vector<glm::vec2>{{5, 6}, {7, 8}, {9, 10}}));
 }
 
+TEST(GltfMeshes, TangentsAreReadWithNormalMaps) {
+    GltfBuilder gltf;
+    gltf.add_triangle();
+    gltf.primitive(0)["attributes"]["TANGENT"] =
+        gltf.add_floats({1, 0, 0, 1, 0, 1, 0, -1, 0, 0, 1, 1}, "VEC4");
+    EXPECT_TRUE(gltf.read()->meshes[0].tangents.empty());
+    const auto scene = gltf.read(NormalMaps::Read);
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    EXPECT_EQ(scene->meshes[0].tangents,
+              (std::vector<glm::vec4>{{1, 0, 0, 1}, {0, 1, 0, -1}, {0, 0, 1, 1}}));
+}
+
+TEST(GltfMeshes, NamesWhatIsWrongWithTangents) {
+    GltfBuilder gltf;
+    gltf.add_triangle();
+    auto& tangent = gltf.primitive(0)["attributes"]["TANGENT"];
+    tangent = gltf.add_floats({1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
+    EXPECT_NE(gltf.error(NormalMaps::Read).find("TANGENT: accessor 1: is not of type VEC4"),
+              std::string::npos);
+    tangent = gltf.add_floats({1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    EXPECT_NE(gltf.error(NormalMaps::Read).find("TANGENT has 2 elements, POSITION has 3"),
+              std::string::npos);
+}
+
 TEST(GltfMeshes, VertexColorsHaveThreeOrFourChannels) {
     GltfBuilder gltf;
     auto& opaque = gltf.primitive(gltf.add_triangle())["attributes"];

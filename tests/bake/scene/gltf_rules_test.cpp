@@ -20,7 +20,8 @@ GltfBuilder linked_scene() {
         gltf.add_accessor(std::vector<uint16_t>{0, 1, 2}, "SCALAR", 5123);
     gltf.primitive(mesh)["material"] =
         gltf.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
-                               {"emissiveTexture", {{"index", 0}}}});
+                               {"emissiveTexture", {{"index", 0}}},
+                               {"normalTexture", {{"index", 0}}}});
     gltf.add("textures", {{"sampler", 0}});
     gltf.add("samplers", Json::object());
     gltf.add("images", {{"bufferView", 0}});
@@ -62,6 +63,7 @@ const char* const kIndexPointers[] = {
     "/meshes/0/primitives/0/material",
     "/materials/0/pbrMetallicRoughness/baseColorTexture/index",
     "/materials/0/emissiveTexture/index",
+    "/materials/0/normalTexture/index",
     "/textures/0/sampler",
     "/textures/0/source",
     "/images/0/bufferView",

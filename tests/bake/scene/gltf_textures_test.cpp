@@ -99,11 +99,45 @@ TEST(GltfTextures, SameImageAndWrapIsDecodedOnce) {
 
 TEST(GltfTextures, ImagesThatNothingUsesAreNotDecoded) {
     GltfBuilder gltf = with_embedded_png();
-    gltf.add("images", {{"uri", "missing_normals.png"}});
+    gltf.add("images", {{"uri", "missing.png"}});
     gltf.add("textures", {{"source", 1}});
     gltf.json["materials"][0]["normalTexture"] = {{"index", 1}};
     gltf.json["materials"][0]["emissiveTexture"] = {{"index", 1}};  // of no emission
     EXPECT_EQ(scene_of(gltf).textures.size(), 1u);
+}
+
+TEST(GltfTextures, NormalMapsAreReadIfAskedFor) {
+    GltfBuilder gltf = with_embedded_png();
+    gltf.json["materials"][0]["normalTexture"] = {
+        {"index", 0},
+        {"texCoord", 1},
+        {"scale", -0.5},
+        {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}}}}}};
+    EXPECT_TRUE(scene_of(gltf).normal_maps.empty());
+    const auto scene = gltf.read(NormalMaps::Read);
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    EXPECT_EQ(scene->textures.size(), 1u);
+    ASSERT_EQ(scene->normal_maps.size(), 1u);
+    EXPECT_EQ(scene->normal_maps[0].image, kImage);
+    const Material& material = scene->materials[0];
+    EXPECT_EQ(material.normal_texture.texture, 0u);
+    EXPECT_EQ(material.normal_texture.uv_set, 1u);
+    EXPECT_EQ(material.normal_texture.image_from_mesh[2], glm::vec3(0.5f, 0.25f, 1.0f));
+    EXPECT_EQ(material.normal_scale, -0.5f);
+}
+
+TEST(GltfTextures, NamesWhatIsWrongWithANormalMap) {
+    GltfBuilder gltf = with_embedded_png();
+    const auto error_with = [&](Json map) {
+        gltf.json["materials"][0]["normalTexture"] = std::move(map);
+        return gltf.error(NormalMaps::Read);
+    };
+    EXPECT_EQ(error_with({{"index", 0}, {"scale", 1e39}}),
+              "scene.glb: material 0: normalTexture: scale 1e+39 is too large");
+    EXPECT_EQ(error_with({{"index", 0}, {"texCoord", 2}}),
+              "scene.glb: material 0: normalTexture: texCoord 2 is not supported (0 and 1 are)");
+    EXPECT_EQ(error_with({{"index", 1}}),
+              "scene.glb: material 0: normalTexture/index 1 is out of range (1 textures)");
 }
 
 TEST(GltfTextures, TextureWithoutSourceIsLeftOutWithAWarning) {
