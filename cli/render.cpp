@@ -42,6 +42,7 @@ struct Render {
     bool has_ambient_occlusion = false;
     std::optional<glm::vec3> shadow_color;
     ProbeLight probes = ProbeLight::AsTheScene;
+    LightmapLight lightmap_light = LightmapLight::Directional;
     Walls walls = Walls::HideProbes;
     RendererKind renderer = RendererKind::Cpu;
     ViewOptions view;
@@ -55,6 +56,7 @@ struct Render {
           shown(show_settings(values)),
           has_ambient_occlusion(values.flag("ambient_occlusion")),
           probes(choice<ProbeLight>(values, "probes")),
+          lightmap_light(choice<LightmapLight>(values, "lightmap_light")),
           walls(choice<Walls>(values, "walls")),
           renderer(choice<RendererKind>(values, "renderer")),
           view(values),
@@ -69,6 +71,7 @@ struct Render {
         if (!light) return light.error().in(scene_path);
         light->has_ambient_occlusion = has_ambient_occlusion;
         if (shadow_color) light->shadow_color = *shadow_color;
+        light->lightmap_light = lightmap_light;
         Gizmos gizmos = make_gizmos(volume, light->proxy_volumes, shown.gizmos);
         if (shown.gizmos.has_seams)
             std::ranges::move(make_seam_lines(scene, lightmaps), std::back_inserter(gizmos.lines));
@@ -121,7 +124,7 @@ struct Render {
     Status run() {
         const std::vector<std::string> inputs{scene_path, volume_path, lightmap_path};
         if (auto status = check_output(output, inputs); !status) return status;
-        const auto scene = read_gltf(scene_path);
+        const auto scene = read_gltf(scene_path, NormalMaps::Read);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         const auto file = open_probe_file(volume_path);

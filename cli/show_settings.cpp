@@ -37,13 +37,19 @@ struct NamedView {
     SurfaceView view;
 };
 
-constexpr NamedView kViews[] = {
-    {"received", SurfaceView::Received},      {"direct", SurfaceView::Direct},
-    {"bounce", SurfaceView::Bounce},          {"emission", SurfaceView::Emission},
-    {"albedo", SurfaceView::Albedo},          {"unwrapped-uv", SurfaceView::UnwrappedUv},
-    {"lightmap-uv", SurfaceView::LightmapUv}, {"texels", SurfaceView::Texels},
-    {"validity", SurfaceView::Validity},      {"pages", SurfaceView::Pages},
-    {"shadow-mask", SurfaceView::ShadowMask}, {"ambient-occlusion", SurfaceView::AmbientOcclusion}};
+constexpr NamedView kViews[] = {{"received", SurfaceView::Received},
+                                {"direct", SurfaceView::Direct},
+                                {"bounce", SurfaceView::Bounce},
+                                {"emission", SurfaceView::Emission},
+                                {"albedo", SurfaceView::Albedo},
+                                {"normal", SurfaceView::Normal},
+                                {"unwrapped-uv", SurfaceView::UnwrappedUv},
+                                {"lightmap-uv", SurfaceView::LightmapUv},
+                                {"texels", SurfaceView::Texels},
+                                {"validity", SurfaceView::Validity},
+                                {"pages", SurfaceView::Pages},
+                                {"shadow-mask", SurfaceView::ShadowMask},
+                                {"ambient-occlusion", SurfaceView::AmbientOcclusion}};
 
 struct NamedGizmo {
     std::string_view name;

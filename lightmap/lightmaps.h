@@ -54,8 +54,8 @@ struct LightmapInfo {
 static_assert(sizeof(LightmapInfo) == 64 && std::is_trivially_copyable_v<LightmapInfo>);
 
 /// The light that a texel receives over the hemisphere of its normal, for normal maps. For each
-/// color channel: φ = ∫ L dω, and v = ∫ L ω dω in world axes. Irradiance on a normal n near that of
-/// the texel is E = max(0, dot(n, v)), exact for the texel's own normal. Halves.
+/// color channel: φ = ∫ L dω, and v = ∫ L ω dω in world axes. Irradiance on the texel's own normal
+/// n is dot(n, v); lightmap/directional_light.h gives that on normals near it. Halves.
 struct LightmapTexel {
     std::array<uint16_t, 3> flux{};                   ///< φ, one a channel
     std::array<std::array<uint16_t, 3>, 3> vector{};  ///< v: vector[channel][axis]

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <tetralight/base/contract.h>
 #include <tetralight/base/half.h>
+#include <tetralight/lightmap/directional_light.h>
 
 namespace tetralight {
 namespace {
@@ -121,20 +120,26 @@ inline glm::vec3 blended(const IrradianceTexel* texels, const Corners& corners) 
     return {sum[0], sum[1], sum[2]};
 }
 
-/// The sums of one texel's vectors times the corners' weights: v of each channel.
-std::array<glm::vec3, 3> blended_vectors(const LightmapTexel* texels,
-                                         const Corners& corners) noexcept {
+/// Flux and v of each channel: the sums of the texels' times the corners' weights.
+struct BlendedLight {
+    glm::vec3 flux{0.0f};
     std::array<glm::vec3, 3> vectors{glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
+};
+
+BlendedLight blended_light(const LightmapTexel* texels, const Corners& corners) noexcept {
+    BlendedLight light;
     for (size_t corner = 0; corner < 4; ++corner) {
-        const auto& texel = texels[corners.texels[corner]].vector;
-        for (size_t channel = 0; channel < 3; ++channel) {
-            const auto& [x, y, z] = texel[channel];
-            vectors[channel] +=
-                corners.weights[corner] *
-                glm::vec3(float_from_half(x), float_from_half(y), float_from_half(z));
+        const LightmapTexel& texel = texels[corners.texels[corner]];
+        const float weight = corners.weights[corner];
+        for (int channel = 0; channel < 3; ++channel) {
+            const auto c = static_cast<size_t>(channel);
+            const auto& [x, y, z] = texel.vector[c];
+            light.flux[channel] += weight * float_from_half(texel.flux[c]);
+            light.vectors[c] +=
+                weight * glm::vec3(float_from_half(x), float_from_half(y), float_from_half(z));
         }
     }
-    return vectors;
+    return light;
 }
 
 }  // namespace
@@ -152,14 +157,18 @@ glm::vec3 sample_irradiance(const LightmapsView& lightmaps, uint32_t page,
 }
 
 glm::vec3 sample_lightmap(const LightmapsView& lightmaps, uint32_t page, glm::vec2 uv_page,
-                          glm::vec3 normal) noexcept {
+                          const MappedNormals& normals) noexcept {
     if (lightmaps.light.empty()) return sample_irradiance(lightmaps, page, uv_page);
     const auto pages = pages_of(lightmaps.info, lightmaps.light);
     if (page >= pages.page_count) return glm::vec3(0.0f);
-    const auto v = blended_vectors(pages.texels, corners_at(pages, page, uv_page));
-    const glm::vec3 irradiance(glm::dot(normal, v[0]), glm::dot(normal, v[1]),
-                               glm::dot(normal, v[2]));
-    return glm::max(irradiance, glm::vec3(0.0f));
+    const BlendedLight light = blended_light(pages.texels, corners_at(pages, page, uv_page));
+    glm::vec3 irradiance;
+    for (int channel = 0; channel < 3; ++channel) {
+        irradiance[channel] =
+            directional_irradiance(light.flux[channel], light.vectors[static_cast<size_t>(channel)],
+                                   normals.base, normals.mapped);
+    }
+    return irradiance;
 }
 
 glm::vec4 sample_shadow_mask(const LightmapsView& lightmaps, uint32_t page,

@@ -23,11 +23,17 @@ namespace tetralight {
 [[nodiscard]] glm::vec3 sample_irradiance(const LightmapsView& lightmaps, uint32_t page,
                                           glm::vec2 uv_page) noexcept;
 
-/// Irradiance on a unit normal near the baked one, as normal maps give: max(0, dot(normal, v)) of
-/// the interpolated v of each channel (`LightmapTexel`). Without section "light" it is that of
-/// `sample_irradiance`.
+/// The normals of a place, unit, in world space.
+struct MappedNormals {
+    glm::vec3 base{0.0f};    ///< of the surface: the interpolated normal of its vertices
+    glm::vec3 mapped{0.0f};  ///< with the normal map
+};
+
+/// Irradiance on the mapped normal: `directional_irradiance` (lightmap/directional_light.h) of the
+/// interpolated flux and vector of each channel. On the base normal it is that of
+/// `sample_irradiance`, but for rounding. Without section "light" it is so on each normal.
 [[nodiscard]] glm::vec3 sample_lightmap(const LightmapsView& lightmaps, uint32_t page,
-                                        glm::vec2 uv_page, glm::vec3 normal) noexcept;
+                                        glm::vec2 uv_page, const MappedNormals& normals) noexcept;
 
 /// How much of the light of each channel the texels see, in [0, 1] (`ShadowMaskTexel`): a mixed
 /// light adds its direct term times this, times the shadows of moving objects. 1 without section

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <tetralight/bake/image/srgb.h>
+#include <tetralight/bake/scene/mapped_normal.h>
 #include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/probes/interpolate.h>
@@ -91,17 +92,32 @@ bool SceneShader::has_lightmap(const Surface& surface) const {
     return light_.instances[surface.instance].use == ProbeUse::Lightmap && !surface.is_from_behind;
 }
 
-glm::vec3 SceneShader::baked_light(const Surface& surface) const {
-    if (has_lightmap(surface)) return lightmap_light(surface);
+glm::vec3 SceneShader::normal_with_map(const Surface& surface) const {
+    const MeshInstance& instance = scene_->instances[surface.instance];
+    const Mesh& mesh = scene_->meshes[instance.mesh];
+    if (!has_normal_map(*scene_, mesh)) return surface.shading_normal;
+    const float side = surface.is_from_behind ? -1.0f : 1.0f;
+    const MeshPoint point = mesh_point(mesh, surface.primitive, surface.barycentric);
+    return side * mapped_normal(*scene_, point, glm::mat3(instance.world_from_mesh),
+                                side * surface.shading_normal);
+}
+
+glm::vec3 SceneShader::baked_light(const Surface& surface, const glm::vec3& base_normal) const {
+    if (has_lightmap(surface)) return lightmap_light(surface, base_normal);
     const glm::vec3 light = sample_sh9(probe_light(surface), surface.shading_normal);
     return glm::max(light, glm::vec3(0.0f));
 }
 
-glm::vec3 SceneShader::lightmap_light(const Surface& surface) const {
+glm::vec3 SceneShader::lightmap_light(const Surface& surface, const glm::vec3& base_normal) const {
     const LightmapsView& maps = light_.lightmaps;
     const uint32_t page = maps.rectangles[surface.instance].page;
     const glm::vec2 uv = page_uv_at(surface);
-    glm::vec3 light = sample_irradiance(maps, page, uv) * std::numbers::inv_pi_v<float>;
+    const bool is_directional = light_.lightmap_light == LightmapLight::Directional &&
+                                surface.shading_normal != base_normal;
+    const glm::vec3 irradiance =
+        is_directional ? sample_lightmap(maps, page, uv, {base_normal, surface.shading_normal})
+                       : sample_irradiance(maps, page, uv);
+    glm::vec3 light = irradiance * std::numbers::inv_pi_v<float>;
     const glm::vec3 origin = TraceScene::ray_origin(surface, surface.geometric_normal);
     const glm::dvec3 world_origin = traced_.world_from_render(origin);
     for (const RuntimeLight& runtime : light_.lights) {
@@ -163,21 +179,24 @@ glm::vec3 SceneShader::emitted(const Surface& surface) const {
     return surface.emission * light_.emission_weights[material];
 }
 
-glm::vec3 SceneShader::show(const Surface& surface, SurfaceView view) const {
+glm::vec3 SceneShader::show(const Surface& surface, const glm::vec3& base_normal,
+                            SurfaceView view) const {
     switch (view) {
         case SurfaceView::Shaded:
             return emitted(surface) +
-                   surface.albedo * (baked_light(surface) + direct_term(surface));
+                   surface.albedo * (baked_light(surface, base_normal) + direct_term(surface));
         case SurfaceView::Received:
-            return baked_light(surface) + direct_term(surface);
+            return baked_light(surface, base_normal) + direct_term(surface);
         case SurfaceView::Direct:
             return surface.albedo * direct_term(surface);
         case SurfaceView::Bounce:
-            return surface.albedo * baked_light(surface);
+            return surface.albedo * baked_light(surface, base_normal);
         case SurfaceView::Emission:
             return emitted(surface);
         case SurfaceView::Albedo:
             return encoded(surface.albedo);
+        case SurfaceView::Normal:
+            return 0.5f + 0.5f * surface.shading_normal;
         default:
             break;
     }
@@ -189,10 +208,12 @@ glm::vec3 SceneShader::show(const Surface& surface, SurfaceView view) const {
 std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin, glm::vec3 direction,
                                                       SurfaceView view) const {
     const glm::vec3 render_origin = traced_.render_from_world(origin);
-    const auto surface = first_front_face(render_origin, direction);
+    auto surface = first_front_face(render_origin, direction);
     if (!surface) return std::nullopt;
     const float distance = glm::distance(render_origin, surface->position);
-    return Shaded{show(*surface, view), distance};
+    const glm::vec3 base_normal = surface->shading_normal;
+    surface->shading_normal = normal_with_map(*surface);
+    return Shaded{show(*surface, base_normal, view), distance};
 }
 
 std::optional<float> SceneShader::distance(const glm::dvec3& origin, glm::vec3 direction) const {

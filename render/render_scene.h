@@ -17,6 +17,8 @@
 namespace tetralight {
 
 /// Shades a scene with a volume's light, as an engine would with this runtime.
+/// - Normal maps change the normals that light falls on: of lights, of probes, and of lightmaps
+///   (`LightmapLight`).
 /// - Static surfaces sample their lightmap on the side of their normals. On the other side, or
 ///   without a lightmap, they query the probes at each point.
 /// - Moving objects (`contributes_gi` false) query once, at the center of their bounds, or sample a
@@ -74,14 +76,18 @@ class SceneShader {
     [[nodiscard]] PackedSh probe_light(const Surface& surface) const;
     /// Where a surface lies in the page of its lightmap. Precondition: its instance has one.
     [[nodiscard]] glm::vec2 page_uv_at(const Surface& surface) const;
-    /// Irradiance / π from probes or from the lightmap.
-    [[nodiscard]] glm::vec3 baked_light(const Surface& surface) const;
-    /// The same from the lightmap, with the shadows of moving objects if they darken it.
-    [[nodiscard]] glm::vec3 lightmap_light(const Surface& surface) const;
+    /// The shading normal with the normal map.
+    [[nodiscard]] glm::vec3 normal_with_map(const Surface& surface) const;
     [[nodiscard]] bool has_lightmap(const Surface& surface) const;
+    /// Irradiance / π from probes or from the lightmap. `base_normal`: without the normal map.
+    [[nodiscard]] glm::vec3 baked_light(const Surface& surface, const glm::vec3& base_normal) const;
+    /// The same from the lightmap, with the shadows of moving objects if they darken it.
+    [[nodiscard]] glm::vec3 lightmap_light(const Surface& surface,
+                                           const glm::vec3& base_normal) const;
     [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
     [[nodiscard]] glm::vec3 emitted(const Surface& surface) const;
-    [[nodiscard]] glm::vec3 show(const Surface& surface, SurfaceView view) const;
+    [[nodiscard]] glm::vec3 show(const Surface& surface, const glm::vec3& base_normal,
+                                 SurfaceView view) const;
 
     const Scene* scene_;
     ProbeVolumeView volume_;

@@ -35,6 +35,12 @@ enum class ProbeUse : uint32_t {
     Lightmap,     ///< from its lightmap instead
 };
 
+/// How surfaces with normal maps take light from lightmaps.
+enum class LightmapLight : uint8_t {
+    Directional,  ///< on their mapped normals, if the lightmaps have section `light`
+    Flat,         ///< on the normals without the map
+};
+
 /// How one instance of the scene is lit.
 struct InstanceLight {
     ProbeUse use = ProbeUse::EachPoint;
@@ -67,6 +73,7 @@ struct SceneLight {
     /// What white surfaces with `InTexels` reflect in the real-time shadow of the main sun, at
     /// least: radiance.
     glm::vec3 shadow_color{0.0f};
+    LightmapLight lightmap_light = LightmapLight::Directional;
     /// One for each material: the weight of the volume's layer that holds its emission; 1 if the
     /// emission was not baked.
     std::vector<float> emission_weights;

@@ -23,6 +23,7 @@ enum class SurfaceView : uint8_t {
 
     // Colours: sRGB-encoded, without exposure.
     Albedo,
+    Normal,       ///< red, green, blue: x, y and z of the normal with its map, −1 to 1
     UnwrappedUv,  ///< red, green: UVs of the mesh, 0 to 1 in the rectangle of each object
     LightmapUv,   ///< red, green: UVs of the page, after scale and offset
     Texels,       ///< a chessboard of texels, in one hue an object

@@ -436,11 +436,13 @@ TETRALIGHT_API tetralight_status tetralight_lightmaps_rectangle(
     tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** Irradiance (three floats) at a place of a page (two floats), bilinear, not divided by pi. With a
- * unit normal (three floats) near the baked one it is that on this normal, as normal maps give;
- * `normal` may be NULL. Returns TETRALIGHT_NOT_THERE if there is no such page. */
-TETRALIGHT_API tetralight_status tetralight_lightmaps_sample(
-    const tetralight_lightmaps* lightmaps, uint32_t page, const float* uv_page, const float* normal,
-    float* irradiance, tetralight_error* error) TETRALIGHT_NOEXCEPT;
+ * unit `normal` (three floats, world space) it is that on this normal, as normal maps give, on a
+ * surface whose own unit normal is `base_normal`. Both may be NULL: the irradiance is that on the
+ * surface. Returns TETRALIGHT_NOT_THERE if there is no such page. */
+TETRALIGHT_API tetralight_status
+tetralight_lightmaps_sample(const tetralight_lightmaps* lightmaps, uint32_t page,
+                            const float* uv_page, const float* base_normal, const float* normal,
+                            float* irradiance, tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** How much of the light of each of the four occlusion channels the texels see at a place of a
  * page, 0 to 1 (four floats): the shadows of static objects. 1 without a shadow mask. Returns

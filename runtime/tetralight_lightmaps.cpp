@@ -88,17 +88,21 @@ tetralight_status tetralight_lightmaps_rectangle(const tetralight_lightmaps* lig
 }
 
 tetralight_status tetralight_lightmaps_sample(const tetralight_lightmaps* lightmaps, uint32_t page,
-                                              const float* uv_page, const float* normal,
-                                              float* irradiance, tetralight_error* error) noexcept {
+                                              const float* uv_page, const float* base_normal,
+                                              const float* normal, float* irradiance,
+                                              tetralight_error* error) noexcept {
     if (auto wrong = check_place(lightmaps, page, uv_page)) return finish(wrong, error);
     if (normal) {
         if (auto wrong = check_floats("normal", normal, 3)) return finish(wrong, error);
+        if (auto wrong = check_floats("base_normal", base_normal, 3)) return finish(wrong, error);
     }
     if (auto wrong = check_pointer("irradiance", irradiance)) return finish(wrong, error);
     const LightmapsView& view = lightmaps->file.view();
     const glm::vec2 uv = glm::make_vec2(uv_page);
-    const glm::vec3 sampled = normal ? sample_lightmap(view, page, uv, glm::make_vec3(normal))
-                                     : sample_irradiance(view, page, uv);
+    const glm::vec3 sampled =
+        normal
+            ? sample_lightmap(view, page, uv, {glm::make_vec3(base_normal), glm::make_vec3(normal)})
+            : sample_irradiance(view, page, uv);
     std::memcpy(irradiance, &sampled, sizeof sampled);
     return succeed(error);
 }

@@ -11,15 +11,16 @@ constexpr Setting kFiles[] = {input_file("scene", "glTF 2.0 scene (.glb or .gltf
 constexpr Setting kShown[] = {
     {.name = "show",
      .type = Type::Text,
-     .help = "Draw over the scene, with commas between: probes (balls with the light of each "
-             "probe), cells (their edges; hull edges in orange), lppv (points of proxy volumes), "
-             "openings (windows and doors where bakes look for light, and where the sun falls "
-             "through them), seams (of lightmaps; red where their sides differ), selection=x,y,z "
-             "(the cell at a position, its probes with their weights, and the interpolated light). "
-             "Or instead of light and materials: received (light on white surfaces), direct (of "
-             "lights that are not baked), bounce (baked light), emission, albedo, and of "
-             "lightmaps unwrapped-uv, lightmap-uv, texels, validity, pages, shadow-mask (of three "
-             "lights), ambient-occlusion",
+     .help =
+         "Draw over the scene, with commas between: probes (balls with the light of each "
+         "probe), cells (their edges; hull edges in orange), lppv (points of proxy volumes), "
+         "openings (windows and doors where bakes look for light, and where the sun falls "
+         "through them), seams (of lightmaps; red where their sides differ), selection=x,y,z "
+         "(the cell at a position, its probes with their weights, and the interpolated light). "
+         "Or instead of light and materials: received (light on white surfaces), direct (of "
+         "lights that are not baked), bounce (baked light), emission, albedo, normal "
+         "(with normal maps), and of lightmaps unwrapped-uv, lightmap-uv, texels, validity, pages, "
+         "shadow-mask (of three lights), ambient-occlusion",
      .without = "the scene only",
      .value_name = "LIST"},
     {.name = "ball_radius",
@@ -56,6 +57,14 @@ constexpr Setting kShown[] = {
      .range = kRadiance,
      .without = "the mean light of the sky",
      .value_name = "R,G,B",
+     .needs = "lightmaps"},
+    {.name = "lightmap_light",
+     .type = Type::Choice,
+     .help =
+         "Light from lightmaps on surfaces with normal maps: directional = on the normals of the "
+         "map; flat = as without the map",
+     .choices = "directional flat",
+     .default_text = "directional",
      .needs = "lightmaps"},
     kWalls,
     kRenderer};

@@ -65,10 +65,9 @@ std::optional<TangentAxes> tangent_axes(const Scene& scene, const MeshPoint& poi
                                         const glm::mat3& world_from_mesh,
                                         const glm::vec3& base_normal) {
     const TextureUse& use = material_of(scene, *point.mesh).normal_texture;
-    const bool has_tangents =
-        !point.mesh->tangents.empty() && keeps_directions(use.image_from_mesh);
-    TangentAxes axes = has_tangents ? axes_of_tangents(point, world_from_mesh, base_normal)
-                                    : axes_of_uvs(use, point, world_from_mesh);
+    TangentAxes axes = uses_tangents(scene, *point.mesh)
+                           ? axes_of_tangents(point, world_from_mesh, base_normal)
+                           : axes_of_uvs(use, point, world_from_mesh);
     axes.along -= glm::dot(axes.along, base_normal) * base_normal;
     if (!is_direction(axes.along) || !is_direction(axes.across)) return std::nullopt;
     axes.along = glm::normalize(axes.along);
@@ -94,6 +93,11 @@ glm::vec3 sampled_normal(const Scene& scene, const MeshPoint& point) {
 bool has_normal_map(const Scene& scene, const Mesh& mesh) {
     const TextureUse& use = material_of(scene, mesh).normal_texture;
     return use.texture != kNoIndex && !mesh.uvs[use.uv_set].empty();
+}
+
+bool uses_tangents(const Scene& scene, const Mesh& mesh) {
+    return !mesh.tangents.empty() &&
+           keeps_directions(material_of(scene, mesh).normal_texture.image_from_mesh);
 }
 
 glm::vec3 mapped_normal(const Scene& scene, const MeshPoint& point,

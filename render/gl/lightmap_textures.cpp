@@ -6,6 +6,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include <tetralight/lightmap/lightmap_texture.h>
 #include <tetralight/render/gl/renderer_shaders.h>
 
 namespace tetralight {
@@ -14,7 +15,7 @@ namespace {
 /// Where an instance lies in the pages as shaders read it (std430).
 struct GlLightmapPlace {
     glm::vec4 rectangle{0.0f};  ///< scale, offset
-    /// x: page; y: scale of its halves.
+    /// x: page; y: scale of its halves; z: 1 = normal maps have an effect.
     glm::vec4 page{0.0f};
 };
 
@@ -58,20 +59,28 @@ GlTexture make_byte_pages(const LightmapInfo& info, std::span<const Texel> texel
 
 }  // namespace
 
-LightmapTextures::LightmapTextures(const SceneLight& light, std::span<const uint32_t> instances) {
+LightmapTextures::LightmapTextures(const SceneLight& light, bool has_normal_maps,
+                                   std::span<const uint32_t> instances) {
     const LightmapsView& lightmaps = light.lightmaps;
+    const bool is_directional =
+        has_normal_maps && light.lightmap_light == LightmapLight::Directional;
+    const auto directions =
+        is_directional ? make_light_texture(lightmaps) : std::vector<TextureHalves>();
     std::vector<GlLightmapPlace> places;
     for (const uint32_t index : instances) {
         GlLightmapPlace& place = places.emplace_back();
         if (index >= lightmaps.rectangles.size()) continue;
         const LightmapRectangle& rectangle = lightmaps.rectangles[index];
         place.rectangle = {rectangle.scale, rectangle.offset};
-        place.page = {static_cast<float>(rectangle.page), lightmaps.info.scale, 0.0f, 0.0f};
+        place.page = {static_cast<float>(rectangle.page), lightmaps.info.scale,
+                      directions.empty() ? 0.0f : 1.0f, 0.0f};
     }
     places_ = make_gl_buffer(places);
     const LightmapInfo& info = lightmaps.info;
     if (info.page_count == 0) return;
     pages_ = make_pages(info.page_size, info.page_count, {}, lightmaps.irradiance.data());
+    if (!directions.empty())
+        directions_ = make_pages(info.page_size, 3 * info.page_count, {}, directions.data());
     shadow_mask_ = make_byte_pages(info, lightmaps.shadow_mask);
     ambient_occlusion_ = make_byte_pages(
         info, light.has_ambient_occlusion ? lightmaps.ambient_occlusion : std::span<uint8_t>());
@@ -80,6 +89,7 @@ LightmapTextures::LightmapTextures(const SceneLight& light, std::span<const uint
 void LightmapTextures::bind() const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLightmapPlaceBinding, places_.name());
     glBindTextureUnit(kLightmapUnit, pages_.name());
+    glBindTextureUnit(kLightmapLightUnit, directions_.name());
     glBindTextureUnit(kShadowMaskUnit, shadow_mask_.name());
     glBindTextureUnit(kAmbientOcclusionUnit, ambient_occlusion_.name());
 }

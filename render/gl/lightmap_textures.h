@@ -15,14 +15,16 @@ class LightmapTextures {
     LightmapTextures() = default;
 
     /// `instances`: for each instance that is drawn, its index in the rectangles of the lightmaps;
-    /// others have no place.
-    LightmapTextures(const SceneLight& light, std::span<const uint32_t> instances);
+    /// others have no place. Copies section `light` for `Directional` if there are normal maps.
+    LightmapTextures(const SceneLight& light, bool has_normal_maps,
+                     std::span<const uint32_t> instances);
 
     /// To the bindings of `RendererBinding`.
     void bind() const;
 
   private:
     GlTexture pages_;
+    GlTexture directions_;
     GlTexture shadow_mask_;        ///< white if there is none
     GlTexture ambient_occlusion_;  ///< white if it darkens nothing
     GlBuffer places_;

@@ -170,7 +170,7 @@ void Renderer::add_instances(const Scene& scene, const SceneLight& light) {
         }
         ++batches_.back().count;
     }
-    lightmaps_ = LightmapTextures(light, order);
+    lightmaps_ = LightmapTextures(light, !scene.normal_maps.empty(), order);
 }
 
 Result<ImageF> Renderer::render(const Camera& camera, const RenderSettings& settings,

@@ -58,6 +58,7 @@ void Renderer::draw_batch(const Batch& batch, Pass pass) {
         glBindTextureUnit(unit, mesh.textures[unit]);
     }
     if (pass == Pass::Lit || pass == Pass::Blended) {
+        glBindTextureUnit(kNormalUnit, mesh.normal_map);
         if (batch.proxy_volume != kNoIndex) {
             proxies_[batch.proxy_volume].bind(kProxyBinding, kProxyLightUnit, kProxyOcclusionUnit);
         }

@@ -22,8 +22,10 @@ enum RendererBinding : uint32_t {
     kProxyLightUnit = 4,
     kProxyOcclusionUnit = 5,
     kLightmapUnit = 6,
-    kShadowMaskUnit = 7,
-    kAmbientOcclusionUnit = 8,
+    kNormalUnit = 7,
+    kLightmapLightUnit = 8,
+    kShadowMaskUnit = 9,
+    kAmbientOcclusionUnit = 10,
 };
 
 /// Locations of uniforms.

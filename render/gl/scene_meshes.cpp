@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include <tetralight/bake/scene/mapped_normal.h>
 #include <tetralight/render/gl/sphere_mesh.h>
 
 namespace tetralight {
@@ -20,6 +21,7 @@ struct Vertex {
     glm::vec2 uvs[2]{};
     glm::vec4 color{1.0f};
     glm::vec2 lightmap_uv{0.0f};
+    glm::vec4 tangent{0.0f};  ///< 0 = tangent space comes from the UVs of the normal map
 };
 
 GLint gl_wrap(TextureWrap wrap) {
@@ -61,17 +63,19 @@ GlMaterial make_material(const Material& material, const Mesh& mesh, float emiss
     GlMaterial result;
     result.base_color = material.base_color;
     result.emission = glm::vec4(material.emission * emission_weight, emission_weight);
-    result.factors = {material.metallic, material.roughness, material.alpha_cutoff, 0.0f};
+    result.factors = {material.metallic, material.roughness, material.alpha_cutoff,
+                      material.normal_scale};
     const TextureUse* uses[] = {&material.base_color_texture, &material.metallic_roughness_texture,
-                                &material.emission_texture};
-    for (int i = 0; i < 3; ++i) {
-        result.textures[i] = uv_set(*uses[i], mesh);
+                                &material.emission_texture, &material.normal_texture};
+    for (int i = 0; i < 4; ++i) {
+        if (i < 3) result.textures[i] = uv_set(*uses[i], mesh);
         const glm::mat3& m = uses[i]->image_from_mesh;
         result.uv_rows[2 * i] = {m[0][0], m[1][0], m[2][0], 0.0f};
         result.uv_rows[2 * i + 1] = {m[0][1], m[1][1], m[2][1], 0.0f};
     }
     result.textures[3] = material.is_unlit ? 1 : 0;
     result.alpha_mode.x = static_cast<uint32_t>(material.alpha_mode);
+    result.alpha_mode.y = uv_set(material.normal_texture, mesh);
     return result;
 }
 
@@ -93,6 +97,7 @@ Mesh with_split_vertices(const Mesh& mesh) {
     for (size_t set = 0; set < std::size(mesh.uvs); ++set)
         result.uvs[set] = one_a_corner(mesh.uvs[set], mesh.indices);
     result.colors = one_a_corner(mesh.colors, mesh.indices);
+    result.tangents = one_a_corner(mesh.tangents, mesh.indices);
     result.indices.resize(mesh.indices.size());
     std::iota(result.indices.begin(), result.indices.end(), 0u);
     return result;
@@ -104,7 +109,15 @@ std::span<const glm::vec2> corner_uvs(const LightmapsView& lightmaps, uint32_t p
     return lightmaps.corner_uvs.subspan(mesh.first_corner, 3 * size_t{mesh.triangle_count});
 }
 
-void append_vertices(const Mesh& mesh, std::vector<Vertex>& vertices) {
+/// Which tangents vertices get.
+enum class TangentUse : bool { None, OfVertices };
+
+TangentUse tangent_use(const Scene& scene, const Mesh& mesh) {
+    const bool is_used = has_normal_map(scene, mesh) && uses_tangents(scene, mesh);
+    return is_used ? TangentUse::OfVertices : TangentUse::None;
+}
+
+void append_vertices(const Mesh& mesh, TangentUse tangents, std::vector<Vertex>& vertices) {
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
         Vertex& vertex = vertices.emplace_back();
         vertex.position = mesh.positions[i];
@@ -113,6 +126,7 @@ void append_vertices(const Mesh& mesh, std::vector<Vertex>& vertices) {
             if (!mesh.uvs[set].empty()) vertex.uvs[set] = mesh.uvs[set][i];
         }
         if (!mesh.colors.empty()) vertex.color = mesh.colors[i];
+        if (tangents == TangentUse::OfVertices) vertex.tangent = mesh.tangents[i];
     }
 }
 
@@ -122,11 +136,10 @@ GlVertexArray make_arrays(const GlBuffer& vertices, const GlBuffer& indices) {
         GLuint offset;
     };
 
-    static constexpr Attribute kAttributes[] = {{3, offsetof(Vertex, position)},
-                                                {3, offsetof(Vertex, normal)},
-                                                {4, offsetof(Vertex, uvs)},
-                                                {4, offsetof(Vertex, color)},
-                                                {2, offsetof(Vertex, lightmap_uv)}};
+    static constexpr Attribute kAttributes[] = {
+        {3, offsetof(Vertex, position)},    {3, offsetof(Vertex, normal)},
+        {4, offsetof(Vertex, uvs)},         {4, offsetof(Vertex, color)},
+        {2, offsetof(Vertex, lightmap_uv)}, {4, offsetof(Vertex, tangent)}};
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
     glVertexArrayVertexBuffer(name, 0, vertices.name(), 0, sizeof(Vertex));
@@ -151,16 +164,25 @@ GLuint SceneMeshes::texture(const Scene& scene, const TextureUse& use, GLenum fo
     return texture.name();
 }
 
+GLuint SceneMeshes::normal_map(const Scene& scene, const TextureUse& use) {
+    if (use.texture == kNoIndex) return 0;
+    normal_maps_.resize(scene.normal_maps.size());
+    GlTexture& texture = normal_maps_[use.texture];
+    if (texture.name() == 0) texture = make_texture(scene.normal_maps[use.texture], GL_RGBA8);
+    return texture.name();
+}
+
 SceneMeshes::SceneMeshes(const Scene& scene, const SceneLight& light) {
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
     std::vector<GlMaterial> materials;
-    const auto add = [&](const Mesh& mesh, const GlMaterial& material) -> GlMesh& {
+    const auto add = [&](const Mesh& mesh, const GlMaterial& material,
+                         TangentUse tangents = TangentUse::None) -> GlMesh& {
         GlMesh& added = meshes_.emplace_back();
         added.first_index = static_cast<uint32_t>(indices.size());
         added.index_count = static_cast<uint32_t>(mesh.indices.size());
         added.first_vertex = static_cast<int32_t>(vertices.size());
-        append_vertices(mesh, vertices);
+        append_vertices(mesh, tangents, vertices);
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
         materials.push_back(material);
         return added;
@@ -168,12 +190,13 @@ SceneMeshes::SceneMeshes(const Scene& scene, const SceneLight& light) {
     for (const Mesh& mesh : scene.meshes) {
         const Material& material = scene.materials[mesh.material];
         const float weight = light.emission_weights[mesh.material];
-        GlMesh& added = add(mesh, make_material(material, mesh, weight));
+        GlMesh& added = add(mesh, make_material(material, mesh, weight), tangent_use(scene, mesh));
         added.alpha_mode = material.alpha_mode;
         added.is_double_sided = material.is_double_sided;
         added.textures = {texture(scene, material.base_color_texture, GL_SRGB8_ALPHA8),
                           texture(scene, material.metallic_roughness_texture, GL_RGBA8),
                           texture(scene, material.emission_texture, GL_SRGB8_ALPHA8)};
+        added.normal_map = normal_map(scene, material.normal_texture);
     }
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> unwrapped;  // by mesh and packing
     for (size_t i = 0; i < scene.instances.size(); ++i) {
@@ -186,10 +209,12 @@ SceneMeshes::SceneMeshes(const Scene& scene, const SceneLight& light) {
         instance_meshes_.back() = known->second;
         if (!is_new) continue;
         const GlMesh original = meshes_[mesh];
-        GlMesh& added = add(with_split_vertices(scene.meshes[mesh]), materials[mesh]);
+        GlMesh& added = add(with_split_vertices(scene.meshes[mesh]), materials[mesh],
+                            tangent_use(scene, scene.meshes[mesh]));
         added.alpha_mode = original.alpha_mode;
         added.is_double_sided = original.is_double_sided;
         added.textures = original.textures;
+        added.normal_map = original.normal_map;
         const std::span<const glm::vec2> uvs = corner_uvs(light.lightmaps, packing);
         for (size_t corner = 0; corner < uvs.size(); ++corner)
             vertices[added.first_vertex + corner].lightmap_uv = uvs[corner];

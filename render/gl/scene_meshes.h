@@ -18,18 +18,19 @@ namespace tetralight {
 struct GlMaterial {
     glm::vec4 base_color{1.0f};
     glm::vec4 emission{0.0f};  ///< w: weight of an unlit material's colour
-    /// Metallic, roughness, alpha cutoff.
-    glm::vec4 factors{1.0f, 1.0f, 0.5f, 0.0f};
+    /// Metallic, roughness, alpha cutoff, scale of the normal map.
+    glm::vec4 factors{1.0f, 1.0f, 0.5f, 1.0f};
     /// xyz: texture coordinate sets of base colour, metallic-roughness and emission, counted from
     /// 1; 0 = no texture. w: 1 = unlit.
     glm::uvec4 textures{0};
-    /// Two rows of each texture's transform.
-    glm::vec4 uv_rows[6]{};
-    /// x: its `AlphaMode`.
+    /// Two rows of the transform of each texture, the normal map last.
+    glm::vec4 uv_rows[8]{};
+    /// x: its `AlphaMode`. y: the texture coordinate set of the normal map, counted from 1; 0 =
+    /// none.
     glm::uvec4 alpha_mode{0};
 };
 
-static_assert(sizeof(GlMaterial) == 176 && std::is_trivially_copyable_v<GlMaterial>);
+static_assert(sizeof(GlMaterial) == 208 && std::is_trivially_copyable_v<GlMaterial>);
 
 /// The range of a mesh in the vertex and index buffers.
 struct GlMesh {
@@ -40,6 +41,7 @@ struct GlMesh {
     bool is_double_sided = false;
     /// Textures of base colour, metallic-roughness and emission; 0 = none.
     std::array<GLuint, 3> textures{};
+    GLuint normal_map = 0;  ///< 0 = none
 };
 
 /// The meshes of a scene, their materials and textures, and spheres of each subdivision.
@@ -67,11 +69,13 @@ class SceneMeshes {
 
   private:
     GLuint texture(const Scene& scene, const TextureUse& use, GLenum format);
+    GLuint normal_map(const Scene& scene, const TextureUse& use);
 
     std::vector<GlMesh> meshes_;
     std::vector<uint32_t> instance_meshes_;
     /// For each texture of the scene: [0] decoded from sRGB, [1] as linear data.
     std::array<std::vector<GlTexture>, 2> textures_;
+    std::vector<GlTexture> normal_maps_;
     GlVertexArray arrays_;
     GlBuffer vertices_, indices_, materials_;
 };

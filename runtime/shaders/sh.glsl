@@ -89,6 +89,24 @@ vec3 tetralight_instance_normal(vec3 x_axis, vec3 y_axis, vec3 z_axis, vec3 norm
     return square > 0.0f ? transformed * inversesqrt(square) : normal;
 }
 
+// The unit normal of a surface with its normal map, in the space of its unit normal. `tangent.xyz`
+// points along u of the map; w is -1 if y points to cross(tangent, normal), as in glTF, and times
+// -1 for instances that are mirrored. `texel` is red and green of the map, whose z is made from
+// them; `scale` is that of glTF. Twin: bake/scene/mapped_normal.h.
+vec3 tetralight_mapped_normal(vec3 normal, vec4 tangent, vec2 texel, float scale) {
+    vec3 along = vec3(tangent.x, tangent.y, tangent.z);
+    along = along - dot(along, normal) * normal;
+    float square = dot(along, along);
+    if (!(square > 0.0f)) return normal;
+    along = along * inversesqrt(square);
+    vec3 across = cross(normal, along) * (tangent.w < 0.0f ? -1.0f : 1.0f);
+    vec2 xy = texel * 2.0f - vec2(1.0f, 1.0f);
+    float z = sqrt(max(0.0f, 1.0f - dot(xy, xy)));
+    vec3 mapped = (along * xy.x + across * xy.y) * scale + normal * z;
+    square = dot(mapped, mapped);
+    return square > 0.0f ? mapped * inversesqrt(square) : normal;
+}
+
 // The direction of most light: that of the second band.
 vec3 tetralight_dominant_direction(TetralightPackedSh sh) {
     vec4 sum = sh.sha_r * 0.2126f + sh.sha_g * 0.7152f + sh.sha_b * 0.0722f;

@@ -56,7 +56,7 @@ void sample_everywhere(const LightmapsView& view) {
             const glm::vec2 uv = page_uv(rectangle, {u, 1.0f - u});
             const glm::vec3 e = sample_irradiance(view, rectangle.page, uv);
             ASSERT_TRUE(std::isfinite(e.x + e.y + e.z));
-            static_cast<void>(sample_lightmap(view, rectangle.page, uv, {0.0f, 1.0f, 0.0f}));
+            static_cast<void>(sample_lightmap(view, rectangle.page, uv, {{0, 1, 0}, {0, 1, 0}}));
         }
     }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <random>
 
@@ -156,45 +157,54 @@ TEST(SampleIrradiance, InBatchesWithoutPagesIsBlack) {
     EXPECT_EQ(batch, std::vector<glm::vec3>(20, glm::vec3(0.0f)));
 }
 
-TEST(SampleLightmap, FollowsTheCosineOfTheNormal) {
+TEST(SampleLightmap, OfLightFromOneDirectionFollowsItsCosine) {
     Lightmaps lightmaps = test::make_black_page(2);
     lightmaps.info.scale = 2.0f;
     lightmaps.light.assign(4, test::light_of({1.0f, 2.0f, 4.0f}, {0.0f, 1.0f, 0.0f}));
+    const glm::vec3 base(0.0f, 1.0f, 0.0f);
     const auto lit = [&](const glm::vec3& normal) {
-        return sample_lightmap(lightmaps.view(), 0, {0.3f, 0.7f}, normal);
+        return sample_lightmap(lightmaps.view(), 0, {0.3f, 0.7f}, {base, normal});
     };
-    EXPECT_EQ(lit({0.0f, 1.0f, 0.0f}), glm::vec3(2.0f, 4.0f, 8.0f));
+    EXPECT_EQ(lit(base), glm::vec3(2.0f, 4.0f, 8.0f));
     EXPECT_EQ(lit({0.8f, 0.6f, 0.0f}), glm::vec3(2.0f, 4.0f, 8.0f) * 0.6f);
     EXPECT_EQ(lit({0.0f, -1.0f, 0.0f}), glm::vec3(0.0f));
 }
 
-TEST(SampleLightmap, InterpolatesTheVectorsOfEachChannel) {
+TEST(SampleLightmap, OfAUniformSkyFollowsItsVisiblePart) {
     Lightmaps lightmaps = test::make_black_page(2);
-    const glm::vec3 x(1.0f, 0.0f, 0.0f), z(0.0f, 0.0f, 1.0f);
-    lightmaps.light = {test::light_of({4.0f, 0.0f, 8.0f}, x), test::light_of({8.0f, 4.0f, 0.0f}, z),
-                       test::light_of({4.0f, 0.0f, 8.0f}, x),
-                       test::light_of({8.0f, 4.0f, 0.0f}, z)};
+    lightmaps.light.assign(4, test::light_of({2.0f, 4.0f, 8.0f}, {0.0f, 0.5f, 0.0f}));
+    for (LightmapTexel& texel : lightmaps.light) {
+        // v = φ / 2.
+        EXPECT_EQ(float_from_half(texel.vector[2][1]), 4.0f);
+    }
+    const glm::vec3 lit = sample_lightmap(lightmaps.view(), 0, {0.3f, 0.7f},
+                                          {{0.0f, 1.0f, 0.0f}, {0.8f, 0.6f, 0.0f}});
+    EXPECT_LT(glm::distance(lit, 0.25f * 1.6f * glm::vec3(2.0f, 4.0f, 8.0f)), 1e-3f);
+}
+
+TEST(SampleLightmap, InterpolatesTheLightOfEachChannel) {
+    Lightmaps lightmaps = test::make_black_page(2);
+    const glm::vec3 up(0.0f, 1.0f, 0.0f);
+    const auto bright = test::light_of({4.0f, 0.0f, 8.0f}, up);
+    const auto dark = test::light_of({8.0f, 4.0f, 0.0f}, 0.5f * up);
+    lightmaps.light = {bright, dark, bright, dark};
     // A quarter of the way between the centers at u = 0.25 and 0.75.
-    const auto lit = [&](const glm::vec3& normal) {
-        return sample_lightmap(lightmaps.view(), 0, {0.375f, 0.5f}, normal);
-    };
-    EXPECT_EQ(lit(x), glm::vec3(3.0f, 0.0f, 6.0f));
-    EXPECT_EQ(lit(z), glm::vec3(2.0f, 1.0f, 0.0f));
+    const glm::vec3 lit = sample_lightmap(lightmaps.view(), 0, {0.375f, 0.5f}, {up, up});
+    EXPECT_LT(glm::distance(lit, glm::vec3(4.0f, 0.5f, 6.0f)), 1e-5f);
 }
 
 TEST(SampleLightmap, WithoutLightIsTheIrradiance) {
     const Lightmaps ramp = make_ramp();
-    EXPECT_EQ(sample_lightmap(ramp.view(), 0, {0.4f, 0.6f}, {0.0f, 1.0f, 0.0f}),
+    EXPECT_EQ(sample_lightmap(ramp.view(), 0, {0.4f, 0.6f}, {{0, 1, 0}, {0, 1, 0}}),
               sample_irradiance(ramp.view(), 0, {0.4f, 0.6f}));
 }
 
 TEST(SampleLightmap, IsBlackWhereTexelsAreMissing) {
     Lightmaps lightmaps = test::make_full_lightmaps();
     lightmaps.light.resize(31);  // the second page is not whole
-    EXPECT_EQ(sample_lightmap(lightmaps.view(), 1, {0.5f, 0.5f}, {0.0f, 1.0f, 0.0f}),
-              glm::vec3(0.0f));
-    EXPECT_NE(sample_lightmap(lightmaps.view(), 0, {0.5f, 0.5f}, {0.0f, 1.0f, 0.0f}),
-              glm::vec3(0.0f));
+    const MappedNormals up{{0.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+    EXPECT_EQ(sample_lightmap(lightmaps.view(), 1, {0.5f, 0.5f}, up), glm::vec3(0.0f));
+    EXPECT_NE(sample_lightmap(lightmaps.view(), 0, {0.5f, 0.5f}, up), glm::vec3(0.0f));
 }
 
 TEST(SampleShadowMask, InterpolatesTheBytesOfEachChannel) {

@@ -31,6 +31,7 @@ const std::vector<Use>& uses() {
          R"(TetralightPackedSh sh = TetralightPackedSh(v, v, v, v, v, v, v);
             sh = tetralight_add_layer(sh, sh, v.xyz);
             vec3 normal = tetralight_instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
+            normal = tetralight_mapped_normal(normal, v, v.xy, v.z);
             float lit = tetralight_mix_occlusion(v.x, tetralight_probe_occlusion(v, 2), 0.5);
             return lit * (tetralight_sample_sh9(sh, normal) +
                           tetralight_sample_sh4(tetralight_first_bands(sh), normal));)",
@@ -39,6 +40,7 @@ const std::vector<Use>& uses() {
             sh.shb_r = v; sh.shb_g = v; sh.shb_b = v; sh.shc = v;
             sh = tetralight_add_layer(sh, sh, v.xyz);
             float3 normal = tetralight_instance_normal(v.xyz, v.yzx, v.zxy, v.xyz);
+            normal = tetralight_mapped_normal(normal, v, v.xy, v.z);
             float lit = tetralight_mix_occlusion(v.x, tetralight_probe_occlusion(v, 2), 0.5);
             return lit * (tetralight_sample_sh9(sh, normal) +
                           tetralight_sample_sh4(tetralight_first_bands(sh), normal));)"},
@@ -87,14 +89,17 @@ const std::vector<Use>& uses() {
          R"(vec2 uv = tetralight_page_uv(v, v.xy);
             vec4 mask = tetralight_lightmap_shadow_mask(pages, uv, v.z);
             float open = tetralight_lightmap_ambient_occlusion(pages, uv, v.z);
-            return tetralight_lightmap_irradiance(pages, uv, v.z, v.w) +
-                   tetralight_lightmap_directional(pages, uv, v.z, v.w, v.xyz) +
+            return tetralight_lightmap_irradiance(pages, uv, v.z, v.w) *
+                   tetralight_mono_ratio(v.xyz, v.yzx, v.zxy) +
+                   tetralight_lightmap_directional(pages, uv, v.z, v.w, v.xyz, v.yzx) +
                    tetralight_subtract_shadow(mask.xyz, v.xyz, open, v.zyx);)",
          R"(float2 uv = tetralight_page_uv(v, v.xy);
             float4 mask = tetralight_lightmap_shadow_mask(pages, pages_sampler, uv, v.z);
             float open = tetralight_lightmap_ambient_occlusion(pages, pages_sampler, uv, v.z);
-            return tetralight_lightmap_irradiance(pages, pages_sampler, uv, v.z, v.w) +
-                   tetralight_lightmap_directional(pages, pages_sampler, uv, v.z, v.w, v.xyz) +
+            return tetralight_lightmap_irradiance(pages, pages_sampler, uv, v.z, v.w) *
+                   tetralight_mono_ratio(v.xyz, v.yzx, v.zxy) +
+                   tetralight_lightmap_directional(pages, pages_sampler, uv, v.z, v.w, v.xyz,
+                                                   v.yzx) +
                    tetralight_subtract_shadow(mask.xyz, v.xyz, open, v.zyx);)",
          "#ifdef VULKAN\nlayout(binding = 7)\n#endif\nuniform sampler2DArray pages;\n",
          "Texture2DArray<float4> pages : register(t7);\n"

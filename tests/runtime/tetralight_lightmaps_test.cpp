@@ -32,6 +32,7 @@ class CApiLightmaps : public testing::Test {
     tetralight_lightmaps* lightmaps = nullptr;
     tetralight_error error{};
     const float uv[2]{0.3f, 0.6f};
+    const float base[3]{0.0f, 1.0f, 0.0f};
     const float normal[3]{0.0f, 0.8f, 0.6f};
     float rgb[3]{-7.0f, -7.0f, -7.0f};
 };
@@ -80,27 +81,34 @@ TEST_F(CApiLightmaps, KnowsThePlacesOfInstances) {
 }
 
 TEST_F(CApiLightmaps, SamplesWhatTheLibrarySamples) {
-    ASSERT_EQ(tetralight_lightmaps_sample(lightmaps, 1, uv, nullptr, rgb, &error), TETRALIGHT_OK);
+    ASSERT_EQ(tetralight_lightmaps_sample(lightmaps, 1, uv, nullptr, nullptr, rgb, &error),
+              TETRALIGHT_OK);
     EXPECT_EQ(glm::vec3(rgb[0], rgb[1], rgb[2]), sample_irradiance(data.view(), 1, {uv[0], uv[1]}));
-    ASSERT_EQ(tetralight_lightmaps_sample(lightmaps, 1, uv, normal, rgb, &error), TETRALIGHT_OK);
-    EXPECT_EQ(glm::vec3(rgb[0], rgb[1], rgb[2]),
-              sample_lightmap(data.view(), 1, {uv[0], uv[1]}, {0.0f, 0.8f, 0.6f}));
+    ASSERT_EQ(tetralight_lightmaps_sample(lightmaps, 1, uv, base, normal, rgb, &error),
+              TETRALIGHT_OK);
+    EXPECT_EQ(
+        glm::vec3(rgb[0], rgb[1], rgb[2]),
+        sample_lightmap(data.view(), 1, {uv[0], uv[1]}, {{0.0f, 1.0f, 0.0f}, {0.0f, 0.8f, 0.6f}}));
 }
 
 TEST_F(CApiLightmaps, WrongArgumentsAreErrorsAndWriteNothing) {
     const float nan[3]{std::nanf(""), 0.0f, 0.0f};
     const auto sample = [&](const float* at, const float* on, uint32_t page) {
-        return tetralight_lightmaps_sample(lightmaps, page, at, on, rgb, &error);
+        return tetralight_lightmaps_sample(lightmaps, page, at, base, on, rgb, &error);
     };
     EXPECT_EQ(sample(nullptr, normal, 0), TETRALIGHT_BAD_POINTER);
     EXPECT_EQ(sample(nan, normal, 0), TETRALIGHT_BAD_VALUE);
     EXPECT_EQ(sample(uv, nan, 0), TETRALIGHT_BAD_VALUE);
     EXPECT_EQ(sample(uv, normal, 2), TETRALIGHT_NOT_THERE);
     EXPECT_EQ(sample(uv, normal, TETRALIGHT_NO_PAGE), TETRALIGHT_NOT_THERE);
-    EXPECT_EQ(tetralight_lightmaps_sample(nullptr, 0, uv, normal, rgb, &error),
+    EXPECT_EQ(tetralight_lightmaps_sample(nullptr, 0, uv, base, normal, rgb, &error),
               TETRALIGHT_BAD_POINTER);
-    EXPECT_EQ(tetralight_lightmaps_sample(lightmaps, 0, uv, normal, nullptr, nullptr),
+    EXPECT_EQ(tetralight_lightmaps_sample(lightmaps, 0, uv, base, normal, nullptr, nullptr),
               TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_sample(lightmaps, 0, uv, nullptr, normal, rgb, &error),
+              TETRALIGHT_BAD_POINTER);
+    EXPECT_EQ(tetralight_lightmaps_sample(lightmaps, 0, uv, nan, normal, rgb, &error),
+              TETRALIGHT_BAD_VALUE);
     EXPECT_EQ(rgb[0], -7.0f);
 }
 

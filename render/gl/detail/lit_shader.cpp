@@ -23,8 +23,10 @@ layout(binding = 3) uniform sampler2DArrayShadow shadow_maps;
 layout(binding = 4) uniform sampler3D proxy_light;
 layout(binding = 5) uniform sampler3D proxy_occlusion;
 layout(binding = 6) uniform sampler2DArray lightmap_pages;
-layout(binding = 7) uniform sampler2DArray lightmap_shadow_masks;
-layout(binding = 8) uniform sampler2DArray lightmap_ambient_occlusion;
+layout(binding = 7) uniform sampler2D normal_map;
+layout(binding = 8) uniform sampler2DArray lightmap_directions;
+layout(binding = 9) uniform sampler2DArray lightmap_shadow_masks;
+layout(binding = 10) uniform sampler2DArray lightmap_ambient_occlusion;
 out vec4 radiance;
 
 const float kPi = 3.14159265;
@@ -169,9 +171,14 @@ TetralightPackedSh probe_light(vec3 flat_normal, out vec4 occlusion) {
 
 // What a diffuse surface of albedo 1 reflects of the lightmap's light, with the shadows of moving
 // objects if they darken it.
-vec3 lightmap_light(ShadingPoint point) {
-    vec3 light = tetralight_lightmap_irradiance(lightmap_pages, lightmap_uv, lightmap_page.x,
-                                                lightmap_page.y) / kPi;
+vec3 lightmap_light(ShadingPoint point, bool has_normal_map, vec3 base_normal) {
+    vec3 irradiance =
+        has_normal_map && lightmap_page.z == 1.0
+            ? tetralight_lightmap_directional(lightmap_directions, lightmap_uv, lightmap_page.x,
+                                              lightmap_page.y, base_normal, point.normal)
+            : tetralight_lightmap_irradiance(lightmap_pages, lightmap_uv, lightmap_page.x,
+                                             lightmap_page.y);
+    vec3 light = irradiance / kPi;
     for (uint i = 0u; i < counts.x; ++i) {
         if (lights[i].reach.x == 0 || lights[i].reach.y != 2 || lights[i].shadow.w < 0) continue;
         Arriving arriving = illuminate(lights[i], position);
@@ -182,6 +189,28 @@ vec3 lightmap_light(ShadingPoint point) {
     }
     return light * tetralight_lightmap_ambient_occlusion(lightmap_ambient_occlusion, lightmap_uv,
                                                          lightmap_page.x);
+}
+
+// The tangent of the triangle, from the UVs of its normal map: `axes_of_uvs` of
+// bake/scene/mapped_normal.cpp.
+vec4 tangent_of_uvs(vec3 front_normal, vec2 s, vec2 t) {
+    vec3 first = dFdx(position), second = dFdy(position);
+    float area = s.x * t.y - s.y * t.x;
+    if (area == 0.0) return vec4(0.0);
+    vec3 along = (t.y * first - s.y * second) * sign(area);
+    vec3 across = (t.x * first - s.x * second) * sign(area);
+    return vec4(along, dot(cross(front_normal, along), across) < 0.0 ? -1.0 : 1.0);
+}
+
+// The normal with its map. Both are on the front of the surface. Derivatives are those of UVs and not
+// of what buffers make of them, which pixels beside the triangle may not read.
+vec3 mapped_normal(uint material, vec3 front_normal) {
+    vec2 s = transformed(material, 3, dFdx(uvs), 0.0), t = transformed(material, 3, dFdy(uvs), 0.0);
+    bool has_tangent = dot(tangent.xyz, tangent.xyz) > 0.0;
+    vec2 texel = textureGrad(normal_map, image_uv(material, 3, uvs), s, t).rg;
+    return tetralight_mapped_normal(front_normal,
+                                    has_tangent ? tangent : tangent_of_uvs(front_normal, s, t),
+                                    texel, materials[material].factors.w);
 }
 
 void main() {
@@ -208,6 +237,12 @@ void main() {
     vec3 unit_normal = dot(normal, normal) > 0.0
                            ? normalize(gl_FrontFacing ? normal : -normal) : flat_normal;
     if (instances[instance].is_round == 1u || any(isnan(flat_normal))) flat_normal = unit_normal;
+    vec3 base_normal = unit_normal;
+    bool has_normal_map = materials[m].alpha_mode.y != 0u;
+    if (has_normal_map) {
+        float side = gl_FrontFacing ? 1.0 : -1.0;
+        unit_normal = side * mapped_normal(m, side * base_normal);
+    }
     // The diffuse part of glTF's model: bake/scene/surface_color.h.
     ShadingPoint point;
     point.normal = unit_normal;
@@ -224,7 +259,9 @@ void main() {
         occlusion = tetralight_lightmap_shadow_mask(lightmap_shadow_masks, lightmap_uv,
                                                     lightmap_page.x);
     }
-    vec3 baked = has_lightmap ? lightmap_light(point) : max(tetralight_sample_sh9(probe_sh, unit_normal), vec3(0.0));
+    vec3 baked = has_lightmap
+                     ? lightmap_light(point, has_normal_map, base_normal)
+                     : max(tetralight_sample_sh9(probe_sh, unit_normal), vec3(0.0));
     baked *= point.albedo;
     if (point.has_specular) {
         vec3 dominant = tetralight_dominant_direction(probe_sh);

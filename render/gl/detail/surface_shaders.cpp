@@ -22,7 +22,7 @@ struct Material {
     vec4 emission;
     vec4 factors;
     uvec4 textures;
-    vec4 uv_rows[6];
+    vec4 uv_rows[8];
     uvec4 alpha_mode;
 };
 layout(std430, binding = 7) readonly buffer Materials { Material materials[]; };
@@ -31,10 +31,16 @@ layout(binding = 0) uniform sampler2D base_color_texture;
 layout(binding = 1) uniform sampler2D factors_texture;
 layout(binding = 2) uniform sampler2D emission_texture;
 
-vec2 image_uv(uint material, int use, vec4 uvs) {
-    vec3 uv = vec3(materials[material].textures[use] == 1u ? uvs.xy : uvs.zw, 1.0);
+// What a texture's transform makes of UVs (w = 1) or of their derivatives (w = 0).
+vec2 transformed(uint material, int use, vec4 uvs, float w) {
+    uint set = use == 3 ? materials[material].alpha_mode.y : materials[material].textures[use];
+    vec3 uv = vec3(set == 1u ? uvs.xy : uvs.zw, w);
     return vec2(dot(materials[material].uv_rows[2 * use].xyz, uv),
                 dot(materials[material].uv_rows[2 * use + 1].xyz, uv));
+}
+
+vec2 image_uv(uint material, int use, vec4 uvs) {
+    return transformed(material, use, uvs, 1.0);
 }
 )";
 
@@ -44,6 +50,7 @@ layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 mesh_uvs;
 layout(location = 3) in vec4 mesh_color;
 layout(location = 4) in vec2 mesh_lightmap_uv;
+layout(location = 5) in vec4 mesh_tangent;
 struct LightmapPlace {
     vec4 rectangle;
     vec4 page;
@@ -57,7 +64,8 @@ out vec3 normal;
 out vec4 uvs;
 out vec4 color;
 out vec2 lightmap_uv;
-flat out vec2 lightmap_page;  // page, scale of its halves
+out vec4 tangent;
+flat out vec3 lightmap_page;  // page, scale of its halves, 1 = light for normal maps
 flat out uint instance;
 
 void main() {
@@ -68,18 +76,22 @@ void main() {
     vec4 place = vec4(mesh_position, 1.0);
     position = vec3(dot(row_x, place), dot(row_y, place), dot(row_z, place));
     gl_Position = clip_from_space * vec4(position, 1.0);
+    vec3 x_axis = vec3(row_x.x, row_y.x, row_z.x);
+    vec3 y_axis = vec3(row_x.y, row_y.y, row_z.y);
+    vec3 z_axis = vec3(row_x.z, row_y.z, row_z.z);
     normal = dot(mesh_normal, mesh_normal) == 0.0
                  ? vec3(0.0)
-                 : tetralight_instance_normal(
-                       vec3(row_x.x, row_y.x, row_z.x), vec3(row_x.y, row_y.y, row_z.y),
-                       vec3(row_x.z, row_y.z, row_z.z), mesh_normal);
+                 : tetralight_instance_normal(x_axis, y_axis, z_axis, mesh_normal);
+    tangent.xyz = mesh_tangent.x * x_axis + mesh_tangent.y * y_axis + mesh_tangent.z * z_axis;
+    bool is_mirrored = dot(x_axis, cross(y_axis, z_axis)) < 0.0;
+    tangent.w = is_mirrored ? -mesh_tangent.w : mesh_tangent.w;
     uvs = mesh_uvs;
     color = mesh_color;
     lightmap_uv = vec2(0.0);
-    lightmap_page = vec2(0.0);
+    lightmap_page = vec3(0.0);
     if (instances[instance].use == 4u) {
         lightmap_uv = tetralight_page_uv(lightmap_places[instance].rectangle, mesh_lightmap_uv);
-        lightmap_page = lightmap_places[instance].page.xy;
+        lightmap_page = lightmap_places[instance].page.xyz;
     }
 }
 )";
@@ -90,7 +102,8 @@ in vec3 normal;
 in vec4 uvs;
 in vec4 color;
 in vec2 lightmap_uv;
-flat in vec2 lightmap_page;
+in vec4 tangent;
+flat in vec3 lightmap_page;
 flat in uint instance;
 )";
 

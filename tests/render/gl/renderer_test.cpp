@@ -19,6 +19,7 @@
 #include <tetralight/render/gl/gl_pictures.h>
 #include <tetralight/render/render_gizmos.h>
 #include <tetralight/render/render_scene.h>
+#include "tests/support/mapped_wall.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/volume_sun.h"
@@ -237,6 +238,66 @@ TEST_F(GlRenderer, AgreesOnShadowsOfLightmaps) {
         }
         EXPECT_LE(difference(scene, volume, kCamera, maps.view()), kShadowEdges) << name_of(mode);
     }
+}
+
+/// A floor with a relief of 8 × 8 texels, a box whose tangents are those of its vertices, and a
+/// mirrored one beside it, whose map is turned by a texture transform.
+Scene mapped_scene() {
+    Scene scene = box_on_floor();
+    for (Material& material : scene.materials) test::set_normal_map(scene, material, {0.3f, -0.5f});
+    Image8& relief = scene.normal_maps[0].image;
+    relief = {8, 8, {}};
+    for (int i = 0; i < 64; ++i) {
+        const auto wave = [](int step) {
+            return 0.4f * std::sin(0.785f * static_cast<float>(step));
+        };
+        relief.pixels.push_back(test::normal_texel(wave(i % 8), wave(i / 8 + 2)));
+    }
+    Mesh& box = scene.meshes[1];
+    for (const glm::vec3& normal : box.normals)
+        box.tangents.emplace_back(glm::vec3(normal.y, normal.z, normal.x), -1.0f);
+    scene.meshes.push_back(box);
+    scene.materials.push_back(scene.materials[1]);
+    scene.materials[2].normal_texture.image_from_mesh =
+        glm::mat3(glm::vec3(0, 1, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1));
+    scene.meshes[2].material = 2;
+    MeshInstance mirrored = scene.instances[1];
+    mirrored.mesh = 2;
+    mirrored.world_from_mesh = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-3, 0, 0)),
+                                          glm::dvec3(-0.5, 0.5, 0.5));
+    scene.instances.push_back(mirrored);
+    Material sheet = scene.materials[1];  // it shows the camera its back
+    sheet.is_double_sided = true;
+    test::add_quad(scene, sheet, {2, 0, -2}, {0, 2, 0}, {2, 0, 0});
+    return scene;
+}
+
+TEST_F(GlRenderer, AgreesOnNormalMapsInTheLightOfProbesAndASun) {
+    Scene scene = mapped_scene();
+    ProbeVolume volume = varied_volume();
+    test::add_sun(volume, {-0.5f, -1.0f, -0.8f});
+    EXPECT_LE(difference(scene, volume), kShadowEdges);
+    const ImageF mapped = draw(scene, volume, kCamera);
+    for (Material& material : scene.materials) material.normal_texture = {};
+    const ImageF flat = draw(scene, volume, kCamera);
+    size_t count = 0;
+    for (size_t i = 0; i < flat.pixels.size(); ++i)
+        count += glm::distance(flat.pixels[i], mapped.pixels[i]) > 0.02f;
+    EXPECT_GT(count, flat.pixels.size() / 4);
+}
+
+TEST_F(GlRenderer, AgreesOnNormalMapsInTheLightOfLightmaps) {
+    const Scene scene = mapped_scene();
+    Lightmaps maps = varied_lightmaps(scene);
+    for (size_t i = 0; i < maps.light.size(); ++i) {
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const auto step = static_cast<float>((i * (channel + 3)) % 7);
+            maps.light[i].flux[channel] = half_from_float(1.0f + 0.2f * step);
+            maps.light[i].vector[channel] = {half_from_float(0.3f), half_from_float(0.6f),
+                                             half_from_float(0.1f * step)};
+        }
+    }
+    EXPECT_LE(difference(scene, varied_volume(), kCamera, maps.view()), kEdges);
 }
 
 TEST_F(GlRenderer, AgreesOnTheSunAndItsShadows) {
