@@ -16,6 +16,8 @@ void bench_scene(const std::string& path, const std::string& name, const Options
     bench_lightmap_texels(*scene, name, options);
     bench_lightmap_cache(*scene, name);
     bench_lightmap_filter(*scene, name);
+    bench_shadow_mask(*scene, name);
+    bench_lightmap_layers(*scene, name);
 }
 
 }  // namespace

@@ -22,6 +22,12 @@ void bench_lightmap_cache(const Scene& scene, const std::string& name);
 /// time_to_5_percent}.NAME`.
 void bench_lightmap_filter(const Scene& scene, const std::string& name);
 
+/// Shadow masks against the occlusion of probes at the same places: `lightmap.shadowmask.NAME`.
+void bench_shadow_mask(const Scene& scene, const std::string& name);
+
+/// Layers against light without layers, both filtered: `lightmap.layers.NAME`.
+void bench_lightmap_layers(const Scene& scene, const std::string& name);
+
 /// `lightmap.dark_room` and `lightmap.sample`.
 void bench_dark_room();
 void bench_lightmap_samples(const Options& options);

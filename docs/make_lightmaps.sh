@@ -31,9 +31,10 @@ maps() { # LIGHTMAPS SCENE ... ($page: size of the pages)
     "$tetralight" lightmap "$work/$2.glb" -o "$work/$1.lightmaps" --page-size "${page:-192}" \
         --target-error 3% --quiet "${@:3}"
 }
-show() { # PICTURE SCENE LIGHTMAPS ... ($exposure)
+show() { # PICTURE SCENE LIGHTMAPS ... ($exposure, $width, $height)
     "$tetralight" render "$work/$2.glb" "$work/$2.probes" --lightmaps "$work/$3.lightmaps" \
-        -o "$out/lightmap_$1.png" --width 400 --height 250 --exposure "${exposure:-1}" --quiet "${@:4}"
+        -o "$out/lightmap_$1.png" --width "${width:-400}" --height "${height:-250}" \
+        --exposure "${exposure:-1}" --quiet "${@:4}"
 }
 preview() { # PICTURE LIGHTMAPS ...
     "$tetralight" export "$work/$2.lightmaps" --as preview -o "$out/lightmap_$1.png" --quiet "${@:3}"
@@ -150,6 +151,51 @@ for roof in none blend:0.3 blend:0.8 cutout; do
     maps roof roof
     show "roof_${roof/:0./_}" roof roof --antialias 8
 done
+
+# Light modes and mixed lighting: each light term counts once.
+cell() { width=280 height=175 show "$@" "${balls[@]}"; }
+for sun in realtime mixed baked; do
+    for mode in indirect shadowmask subtractive; do
+        [[ $sun == mixed || $mode == indirect ]] || continue
+        studio modes "--sun $sun" --mixed-lighting $mode
+        page=512 maps modes modes -t 20 --mixed-lighting $mode
+        cell "mode_${sun}_$mode" modes modes
+        cell "mode_${sun}_${mode}_map" modes modes --show bounce
+        [[ $sun != mixed || $mode != shadowmask ]] || cell mode_mask modes modes --show shadow-mask
+        [[ $mode != subtractive ]] || cell shadow_color modes modes --shadow-color 0.7,0.3,0.1
+    done
+done
+
+# The maps of one page, and layers as channels of one image.
+studio layered "--sun mixed" --mixed-lighting shadowmask
+page=256 maps layered layered --mixed-lighting shadowmask --ambient-occlusion 0.6 --layers sun,sky,emission
+preview map_irradiance layered
+for map in direction mono-sh shadow-mask ambient-occlusion; do preview "map_${map//-/_}" layered --map $map; done
+preview pack layered --pack sun,sky,emission
+for layer in sun sky emission; do preview "pack_$layer" layered --pack "$layer,$layer,$layer"; done
+preview pack_variant layered --pack sky-occlusion,shadow:0,ambient-occlusion
+
+# A lamp that is brightened after the bake.
+"$tetralight" relight "$work/layered.lightmaps" -o "$work/off.lightmaps" --weights emission=0 --quiet
+"$tetralight" relight "$work/layered.lightmaps" -o "$work/bright.lightmaps" --weights emission=4 --quiet
+show layer_off layered off --show bounce "${lamp[@]}"
+show layer_on layered layered --show bounce "${lamp[@]}"
+show layer_bright layered bright --show bounce "${lamp[@]}"
+
+# Ambient occlusion, which is wrong where light comes from near surfaces.
+show ambient_occlusion layered layered --show ambient-occlusion "${lamp[@]}"
+show ambient_occlusion_off layered layered "${lamp[@]}"
+show ambient_occlusion_on layered layered --ambient-occlusion "${lamp[@]}"
+
+# The filter: 64 samples without and with it, and many more samples.
+noise() { # PICTURE [options of the bake] ...
+    "$tetralight" lightmap "$court" -o "$work/noise.lightmaps" --quiet "${@:2}"
+    "$tetralight" render "$court" "$work/court.probes" --lightmaps "$work/noise.lightmaps" --camera camera_interior \
+        -o "$out/lightmap_$1.png" --show bounce --width 400 --height 250 --exposure 1.6 --quiet
+}
+noise raw --samples 64 --no-filter
+noise filtered --samples 64
+noise exact --target-error 2% --exact
 
 if command -v pngquant >/dev/null; then
     for picture in "$out"/lightmap_*.png; do

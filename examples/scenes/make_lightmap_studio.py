@@ -178,7 +178,7 @@ def add_probes(gltf):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", nargs="?", default=Path(__file__).with_name("lightmap_studio.glb"), type=Path)
-    parser.add_argument("--sun", choices=("mixed", "baked", "none"), default="mixed")
+    parser.add_argument("--sun", choices=("realtime", "mixed", "baked", "none"), default="mixed")
     parser.add_argument("--roof", default="none", metavar="none|blend:OPACITY|cutout")
     parser.add_argument("--floor", choices=("stone", "emissive"), default="stone")
     parser.add_argument("--emission", choices=("baked", "none"), default="baked", help="whether bakes see emission")
