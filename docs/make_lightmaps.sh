@@ -44,6 +44,7 @@ box=(--eye 2.3,1.7,1.2 --target 1.5,0.35,-1.4 --fov 30)
 sphere=(--eye=-0.9,1.5,1.2 --target=-1.7,0.5,-1.7 --fov 30)
 lamp=(--eye 1.6,1.3,1.7 --target 2.4,0.2,0.1 --fov 42)
 leaves=(--eye 1.7,0.95,4.2 --target 1.5,0.15,2.3 --fov 34)
+bricks=(--eye 0.9,1.5,0.2 --target 0.6,1.45,-3 --fov 38)
 gold=(--eye=-0.9,1.5,2.9 --target=-2.1,0.25,1.2 --fov 40)
 
 studio mixed
@@ -80,6 +81,15 @@ show pages mixed small --show pages
 show unwrapped_uv mixed mixed --show unwrapped-uv
 show page_uv mixed mixed --show lightmap-uv
 show scale mixed mixed --show texels "${lamp[@]}"
+
+# A normal map, in the light of a sun that is drawn and of one that is baked.
+studio bricks_mixed "--wall bricks"
+studio bricks "--wall bricks --sun baked"
+maps bricks bricks
+"$tetralight" render "$work/bricks_mixed.glb" "$work/bricks_mixed.probes" -o "$out/lightmap_normal_realtime.png" \
+    --width 400 --height 250 --exposure 1.15 --quiet "${bricks[@]}"
+exposure=1.15 show normal_flat bricks bricks --lightmap-light flat "${bricks[@]}"
+exposure=1.15 show normal_directional bricks bricks "${bricks[@]}"
 
 # UVs of the scene that overlap.
 studio overlapping "--uvs overlapping --sun baked"

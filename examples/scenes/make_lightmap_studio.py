@@ -24,6 +24,7 @@ MATERIALS.update({
     "lamp": ((0.3, 0.3, 0.3, 1), {"emission": (1.0, 0.45, 0.1), "strength": 12.0}),
     "glowing_tile": ((0.5, 0.5, 0.5, 1), {"emission": (1.0, 1.0, 1.0), "strength": 2.0}),
     "sign_unlit": ((1.0, 0.15, 0.6, 1), {}),
+    "bricks": ((0.75, 0.75, 0.75, 1), {}),
 })
 
 
@@ -49,11 +50,36 @@ def glow_png(size=64):
     return rgba_png(size, pixel)
 
 
+def bricks_png(size=96, columns=3, rows=6):
+    """A normal map of bricks with round edges: a metre of a wall, which tiles in both directions."""
+    width, height, edge = size / columns, size / rows, 3.0
+
+    def elevation(x, y):
+        row = math.floor(y / height)
+        across = (x + (row % 2) * width / 2) % width - width / 2
+        along = y - (row + 0.5) * height
+        inside = min(width / 2 - abs(across), height / 2 - abs(along))
+        rise = min(max((inside - 0.5) / edge, 0), 1)
+        return 3.5 * rise * rise * (3 - 2 * rise)
+
+    def pixel(x, y):
+        x, y = x + 0.5, y + 0.5
+        slope_x = elevation(x + 0.5, y) - elevation(x - 0.5, y)
+        slope_down = elevation(x, y + 0.5) - elevation(x, y - 0.5)
+        length = math.sqrt(slope_x * slope_x + slope_down * slope_down + 1)
+        # The rows of the image run downwards, y of the normal upwards.
+        return (*(round(127.5 * (c / length + 1)) for c in (-slope_x, slope_down, 1)), 255)
+
+    return rgba_png(size, pixel)
+
+
 class Studio(Gltf):
     def __init__(self, options):
         super().__init__()
         self.options = options
         self.image_views = {"leaf": self.view(leaf_png()), "glow": self.view(glow_png())}
+        if options.wall == "bricks":
+            self.image_views["bricks"] = self.view(bricks_png())
         self.bakes_emission = options.emission == "baked"
 
     def object(self, name, primitive, center, turn=0, **extras):
@@ -77,6 +103,8 @@ class Studio(Gltf):
         materials["gold_rough"]["pbrMetallicRoughness"].update(metallicFactor=1.0,
                                                                roughnessFactor=self.options.metal_roughness)
         materials["glowing_tile"]["emissiveTexture"] = {"index": 2}
+        if self.options.wall == "bricks":
+            materials["bricks"]["normalTexture"] = {"index": 3}
         materials["leaf"]["doubleSided"] = self.options.leaves == "two-sided"
         materials["sign_unlit"]["extensions"] = {"KHR_materials_unlit": {}}
         document["extensionsUsed"].append("KHR_materials_unlit")
@@ -96,6 +124,16 @@ def add_room(gltf):
             ("wall_red", (WALL, HIGH, 2 * HALF), (-HALF - WALL / 2, HIGH / 2, 0), "paint_warm_red"),
             ("wall_teal", (WALL, HIGH, 2 * HALF), (HALF + WALL / 2, HIGH / 2, 0), "teal")):
         gltf.box(name, size, center, material)
+
+
+def add_bricks(gltf):
+    """Bricks of a normal map before the white wall."""
+    if gltf.options.wall != "bricks":
+        return
+    corners = [(-HALF, 0), (HALF, 0), (HALF, HIGH), (-HALF, HIGH)]
+    wall = ([], [], [])
+    add_quad(wall, [(x, y, -HALF + 0.01) for x, y in corners], (0, 0, 1))
+    gltf.object("bricks", gltf.primitive(wall, "bricks", [(x, -y) for x, y in corners]), (0, 0, 0))
 
 
 def add_roof(gltf):
@@ -188,8 +226,10 @@ def main():
                         help="whether the seams of the sphere and the cylinder are stitched")
     parser.add_argument("--uvs", choices=("none", "overlapping"), default="none",
                         help="TEXCOORD_1 of the box: none, or all sides at one place")
+    parser.add_argument("--wall", choices=("plain", "bricks"), default="plain",
+                        help="bricks: a normal map on the wall at the back")
     gltf = Studio(parser.parse_args())
-    for add in (add_room, add_roof, add_objects, add_pair, add_leaves, add_lights_and_cameras, add_probes):
+    for add in (add_room, add_bricks, add_roof, add_objects, add_pair, add_leaves, add_lights_and_cameras, add_probes):
         add(gltf)
     gltf.options.out.write_bytes(gltf.glb())
 
