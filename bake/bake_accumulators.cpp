@@ -82,6 +82,32 @@ bool has_single_values(const LightGroupLayout& layout, uint64_t round, uint32_t 
     return layout.has_single_values() && round == 0 && number == 0;
 }
 
+/// Calls a function every so many seconds or more, so that it takes at most a share of the time.
+class Periodic {
+  public:
+    /// `pause`: time between two calls over the time of a call, at least.
+    Periodic(const std::function<void()>& work, double seconds, int pause)
+        : work_(work),
+          pause_(pause),
+          interval_(
+              std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds))) {
+    }
+
+    void run_if_due() {
+        const auto now = Clock::now();
+        if (!work_ || now - last_ < interval_) return;
+        work_();
+        last_ = Clock::now();
+        interval_ = std::max(interval_, pause_ * (last_ - now));
+    }
+
+  private:
+    const std::function<void()>& work_;
+    int pause_;
+    Clock::duration interval_;
+    Clock::time_point last_ = Clock::now();
+};
+
 class AccumulatorBaker {
   public:
     AccumulatorBaker(const Work& work, const BakeSettings& settings, const BakeHooks& hooks)
@@ -90,13 +116,13 @@ class AccumulatorBaker {
           plan_(settings, work.places.measure()),
           layout_(settings.plan),
           hooks_(hooks),
-          progress_(hooks.progress, work.places.positions.size()) {
+          progress_(hooks.progress, work.places.positions.size(), plan_.has_target()) {
         for (uint32_t i = 0; i < work.accumulators.size(); ++i) {
             const ProbeAccumulator& accumulator = work.accumulators[i];
             const float layer_error = worst_layer_error(i);
             progress_.resume_probe(accumulator.sample_count,
                                    plan_.expected_samples(accumulator, layer_error),
-                                   plan_.is_done(accumulator, layer_error));
+                                   state_of(accumulator, layer_error));
         }
     }
 
@@ -105,15 +131,21 @@ class AccumulatorBaker {
         if (hooks_.begin && !probes.empty()) {
             if (auto status = hooks_.begin(); !status) return status;
         }
+        sampling_start_ = Clock::now();
         for (; !probes.empty(); probes = next_round()) {
             const uint64_t round = work_.accumulators[probes[0]].round_count;
+            if (!has_time_for(round, probes.size())) {
+                if (hooks_.out_of_time) hooks_.out_of_time(plan_.samples_before(round));
+                break;
+            }
             const size_t step = probes_at_once(round);
             for (size_t begin = 0; begin < probes.size(); begin += step) {
                 const size_t count = std::min(step, probes.size() - begin);
                 bake_round(std::span(probes).subspan(begin, count), round);
                 if (progress_.is_cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
-                if (is_over_time_budget(round)) return Ok{};
-                save_if_due();
+                sampled_count_ += count * plan_.samples_in_round(round);
+                save_.run_if_due();
+                preview_.run_if_due();
             }
         }
         progress_.finish();
@@ -153,7 +185,7 @@ class AccumulatorBaker {
         const DirectionSet last(plan_.samples_in_estimate(round, estimates_each - 1));
 
         parallel_for(estimates.size(), settings_.thread_count, [&](size_t item) {
-            if (progress_.is_cancelled() || is_over_time_budget(round)) return;
+            if (progress_.is_cancelled()) return;
             const size_t index = item / estimates_each;
             const auto number = static_cast<uint32_t>(item - index * estimates_each);
             const bool is_first = plan_.samples_in_estimate(round, number) == first.size();
@@ -213,7 +245,7 @@ class AccumulatorBaker {
                              .expected_samples = plan_.expected_samples(accumulator, layer_error),
                              .expected_samples_before = expected_before,
                              .is_first = accumulator.round_count == 1,
-                             .is_done = plan_.is_done(accumulator, layer_error),
+                             .state = state_of(accumulator, layer_error),
                              .sampling_error = accumulator.sampling_error(plan_.measure())});
     }
 
@@ -259,20 +291,25 @@ class AccumulatorBaker {
         return worst;
     }
 
-    /// Always false in the first round, without which a probe would have no light.
-    [[nodiscard]] bool is_over_time_budget(uint64_t round) const {
-        if (settings_.time_budget_seconds == 0.0 || round == 0) return false;
-        return std::chrono::duration<double>(Clock::now() - start_).count() >
-               settings_.time_budget_seconds;
+    [[nodiscard]] ProgressReporter::State state_of(const ProbeAccumulator& accumulator,
+                                                   float layer_error) const {
+        return {plan_.is_done(accumulator, layer_error),
+                plan_.is_at_target(accumulator, layer_error)};
     }
 
-    void save_if_due() {
+    /// True of a round that is expected to end within the time budget, of the first one, without
+    /// which a probe would have no light, and of rounds that an earlier run has begun.
+    [[nodiscard]] bool has_time_for(uint64_t round, size_t probe_count) const {
+        if (settings_.time_budget_seconds == 0.0 || round == 0) return true;
+        const auto has_begun = [&](const auto& sums) { return sums.round_count > round; };
+        if (std::ranges::any_of(work_.accumulators, has_begun)) return true;
         const auto now = Clock::now();
-        if (!hooks_.save || now - last_save_ < save_interval_) return;
-        hooks_.save();
-        last_save_ = Clock::now();
-        // Saving a large volume takes long: spend at most a twentieth of the time on it.
-        save_interval_ = std::max(save_interval_, 20 * (last_save_ - now));
+        const double sampling = std::chrono::duration<double>(now - sampling_start_).count();
+        const double seconds_a_sample =
+            sampled_count_ > 0 ? sampling / static_cast<double>(sampled_count_) : 0.0;
+        const auto samples = static_cast<double>(probe_count * plan_.samples_in_round(round));
+        return std::chrono::duration<double>(now - start_).count() + samples * seconds_a_sample <=
+               settings_.time_budget_seconds;
     }
 
     const Work work_;
@@ -282,9 +319,10 @@ class AccumulatorBaker {
     const BakeHooks& hooks_;
     ProgressReporter progress_;
     const Clock::time_point start_ = Clock::now();
-    Clock::time_point last_save_ = start_;
-    Clock::duration save_interval_ = std::chrono::duration_cast<Clock::duration>(
-        std::chrono::duration<double>(hooks_.save_seconds));
+    Clock::time_point sampling_start_ = start_;
+    uint64_t sampled_count_ = 0;  ///< of this run
+    Periodic save_{hooks_.save, hooks_.save_seconds, 20};
+    Periodic preview_{hooks_.preview, hooks_.preview_seconds, 50};
 };
 
 }  // namespace

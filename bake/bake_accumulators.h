@@ -25,8 +25,14 @@ struct BakeHooks {
     /// that the accumulators can be written to a checkpoint.
     std::function<void()> save{};
     double save_seconds = 30.0;
-    /// Samples of all probes together between two points at which `save` can be called.
+    /// The same for a preview of the light so far. It takes at most a fiftieth of the time.
+    std::function<void()> preview{};
+    double preview_seconds = 5.0;
+    /// Samples of all probes together between two points at which `save` and `preview` can be
+    /// called.
     uint64_t samples_between_saves = 1u << 20;
+    /// Called if the time budget ends the bake: the probes that are not done have so many samples.
+    std::function<void(uint64_t samples)> out_of_time{};
 };
 
 /// Where a bake accumulates its light groups; empty if `LightPlan::has_light_groups` is false and
@@ -61,8 +67,8 @@ struct BakePlaces {
 /// are in progress at a time, which bounds the memory.
 ///
 /// The final state of an accumulator depends only on (scene, its place, settings): its bits are
-/// the same for any number of threads, any other places, and any interruption in between. Only
-/// `time_budget_seconds` breaks this.
+/// the same for any number of threads, any other places, and any interruption in between.
+/// `time_budget_seconds` decides how many rounds there are.
 ///
 /// Returns invalid_argument if a setting is out of range, a position is not finite, or the light of
 /// a place exceeds the range of float; out_of_resources if memory does not suffice; cancelled if

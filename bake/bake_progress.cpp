@@ -5,17 +5,19 @@
 
 namespace tetralight {
 
-void ProgressReporter::resume_probe(uint64_t samples, uint64_t expected_samples, bool is_done) {
+void ProgressReporter::resume_probe(uint64_t samples, uint64_t expected_samples, State state) {
     if (samples == 0) return;
     ++probes_begun_;
-    probes_done_ += is_done;
+    probes_done_ += state.is_done;
+    probes_at_target_ += state.is_at_target;
     samples_ += samples;
     expected_samples_ += expected_samples;
 }
 
 void ProgressReporter::add_round(const Round& round) {
     probes_begun_ += round.is_first;
-    probes_done_ += round.is_done;
+    probes_done_ += round.state.is_done;
+    probes_at_target_ += round.state.is_at_target;
     samples_ += round.samples;
     expected_samples_ +=
         round.expected_samples - (round.is_first ? 0 : round.expected_samples_before);
@@ -47,8 +49,13 @@ BakeProgress ProgressReporter::progress() const {
                             static_cast<double>(probe_count_) / static_cast<double>(begun);
     const double fraction = expected > 0.0 ? static_cast<double>(samples_) / expected : 0.0;
     const bool is_done = probes_done_ == probe_count_;
-    return {probes_done_, probe_count_, ray_count_, is_done ? 1.0 : std::min(fraction, 1.0),
-            worst_error_};
+    return {.probes_done = probes_done_,
+            .probe_count = probe_count_,
+            .probes_at_target = probes_at_target_,
+            .has_target = has_target_,
+            .ray_count = ray_count_,
+            .fraction_done = is_done ? 1.0 : std::min(fraction, 1.0),
+            .worst_error = worst_error_};
 }
 
 }  // namespace tetralight

@@ -14,6 +14,9 @@ struct BakeProgress {
     /// Probes that need no further samples.
     size_t probes_done = 0;
     size_t probe_count = 0;
+    /// Those that have reached the target errors; 0 without a target.
+    size_t probes_at_target = 0;
+    bool has_target = false;
     /// Rays traced by this run.
     uint64_t ray_count = 0;
     /// Samples taken over samples expected for all probes, in [0, 1]. The expectation follows from
@@ -30,11 +33,17 @@ using BakeCallback = std::function<bool(const BakeProgress&)>;
 /// Collects the progress of all threads and passes it to the callback. Thread-safe.
 class ProgressReporter {
   public:
-    ProgressReporter(const BakeCallback& callback, size_t probe_count)
-        : callback_(callback), probe_count_(probe_count) {}
+    ProgressReporter(const BakeCallback& callback, size_t probe_count, bool has_target = false)
+        : callback_(callback), probe_count_(probe_count), has_target_(has_target) {}
+
+    /// How far a probe is after a round.
+    struct State {
+        bool is_done = false;
+        bool is_at_target = false;
+    };
 
     /// Counts a probe that an earlier run left with `samples` of `expected_samples`.
-    void resume_probe(uint64_t samples, uint64_t expected_samples, bool is_done);
+    void resume_probe(uint64_t samples, uint64_t expected_samples, State state);
 
     /// A finished round of one probe.
     struct Round {
@@ -42,7 +51,7 @@ class ProgressReporter {
         uint64_t expected_samples = 0;         ///< expected in total, now
         uint64_t expected_samples_before = 0;  ///< expected in total, before this round
         bool is_first = false;
-        bool is_done = false;
+        State state;
         float sampling_error = 0.0f;
     };
 
@@ -56,7 +65,7 @@ class ProgressReporter {
 
     [[nodiscard]] bool is_cancelled() const { return is_cancelled_; }
 
-    /// Calls the callback a last time, with all probes done.
+    /// Calls the callback a last time.
     void finish();
 
   private:
@@ -64,8 +73,10 @@ class ProgressReporter {
 
     const BakeCallback& callback_;
     size_t probe_count_;
+    bool has_target_;
     std::atomic<size_t> probes_begun_ = 0;
     std::atomic<size_t> probes_done_ = 0;
+    std::atomic<size_t> probes_at_target_ = 0;
     std::atomic<uint64_t> ray_count_ = 0;
     std::atomic<uint64_t> samples_ = 0;
     std::atomic<uint64_t> expected_samples_ = 0;  ///< of the probes that have begun

@@ -10,9 +10,10 @@
 namespace tetralight {
 
 struct BakeSettings {
-    /// Samples per probe in the first round, at least 1. Without a target error and a time budget
-    /// there is no second round. 128 samples or more form eight independent estimates, fewer form
-    /// one estimate per 16 samples; a standard error needs at least two estimates.
+    /// Samples per probe in the first round, at least 1. Without a target error, a time budget and
+    /// a larger `max_sample_count` there is no second round. 128 samples or more form eight
+    /// independent estimates, fewer form one estimate per 16 samples; a standard error needs at
+    /// least two estimates.
     uint32_t sample_count = 1024;
     /// Relative standard error of the irradiance (`ProbeAccumulator::sampling_error`) at which a
     /// probe is done. Each round doubles the samples of the probes that are above it. 0 = no
@@ -21,11 +22,13 @@ struct BakeSettings {
     /// The same for the error of each layer of the plan (`worst_layer_error`), and of the light
     /// that is in no layer. 0 = no target.
     double target_layer_error = 0.0;
-    /// Upper limit of the samples per probe over all rounds; 0 = 64 times `sample_count`.
+    /// Upper limit of the samples per probe over all rounds; 0 = 64 times `sample_count`. Without a
+    /// target error, rounds run up to it.
     uint64_t max_sample_count = 0;
-    /// Seconds after which no further round runs; the first round always completes. Without a
-    /// target error, rounds run until then. 0 = no limit. The only setting that makes the result
-    /// depend on the speed of the machine.
+    /// No round begins that is expected to end after so many seconds; the first round always runs,
+    /// and a round that has begun always ends. Without a target error, rounds run until then. 0 =
+    /// no limit. It decides how many rounds there are, and nothing else: the only setting by which
+    /// the result depends on the speed of the machine.
     double time_budget_seconds = 0.0;
     /// Largest radiance that the reflected light of one path may have (`PathSettings::clamp`),
     /// which trades energy for less noise. 0 = not clamped.

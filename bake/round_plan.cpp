@@ -19,11 +19,10 @@ constexpr uint64_t kMaxRounds = 32;
 
 bool has_rounds(const BakeSettings& settings) {
     return settings.target_error > 0.0 || settings.target_layer_error > 0.0 ||
-           settings.time_budget_seconds > 0.0;
+           settings.time_budget_seconds > 0.0 || settings.max_sample_count > settings.sample_count;
 }
 
-/// A target error or a time budget needs standard errors, so that the first round has samples
-/// enough for them.
+/// Rounds need standard errors, so that the first one has samples enough for them.
 uint64_t first_round_samples(const BakeSettings& settings) {
     return has_rounds(settings) ? std::max<uint64_t>(settings.sample_count, kMinSamplesForError)
                                 : settings.sample_count;
@@ -97,9 +96,14 @@ double RoundPlan::excess(const ProbeAccumulator& accumulator, float layer_error)
     return excess;
 }
 
+bool RoundPlan::is_at_target(const ProbeAccumulator& accumulator,
+                             float layer_error) const noexcept {
+    return has_target() && accumulator.round_count > 0 && excess(accumulator, layer_error) <= 1.0;
+}
+
 bool RoundPlan::is_done(const ProbeAccumulator& accumulator, float layer_error) const noexcept {
     if (accumulator.round_count == 0) return false;
-    if (has_target() && excess(accumulator, layer_error) <= 1.0) return true;
+    if (is_at_target(accumulator, layer_error)) return true;
     return samples_in_round(accumulator.round_count) == 0;
 }
 

@@ -45,6 +45,18 @@ class RoundPlan {
     /// True if the errors of layers count (`BakeSettings::target_layer_error`).
     [[nodiscard]] bool has_layer_target() const noexcept { return target_layer_error_ > 0.0; }
 
+    /// True if there is a target error, of all light or of layers.
+    [[nodiscard]] bool has_target() const noexcept {
+        return target_error_ > 0.0 || target_layer_error_ > 0.0;
+    }
+
+    /// True if there is a target and the probe has reached it. `layer_error`: as of `is_done`.
+    [[nodiscard]] bool is_at_target(const ProbeAccumulator& accumulator,
+                                    float layer_error = 0.0f) const noexcept;
+
+    /// Samples of a probe that has all rounds of the plan.
+    [[nodiscard]] uint64_t max_samples() const noexcept { return max_samples_; }
+
     /// True if the probe needs no further round. `layer_error`: that of its worst layer, if the
     /// plan has a target for layers.
     [[nodiscard]] bool is_done(const ProbeAccumulator& accumulator,
@@ -55,10 +67,6 @@ class RoundPlan {
                                             float layer_error = 0.0f) const noexcept;
 
   private:
-    [[nodiscard]] bool has_target() const noexcept {
-        return target_error_ > 0.0 || target_layer_error_ > 0.0;
-    }
-
     /// The larger of both errors, each divided by its target; at most 1 if the targets are reached.
     [[nodiscard]] double excess(const ProbeAccumulator& accumulator,
                                 float layer_error) const noexcept;

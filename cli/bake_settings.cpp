@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/cli/bake_settings.h>
 
+#include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_members.h>
 
 namespace tetralight::cli {
@@ -8,9 +9,12 @@ namespace tetralight::cli {
 bool takes_default_target(const BakeSettings& settings, const Values& values) {
     const bool has_rounds = settings.target_error > 0.0 || settings.target_layer_error > 0.0 ||
                             settings.time_budget_seconds > 0.0;
-    if (settings.max_sample_count > 0 && !has_rounds) {
+    const bool has_samples =
+        values.is_given("samples") && settings.max_sample_count >= settings.sample_count;
+    if (settings.max_sample_count > 0 && !has_rounds && !has_samples) {
         refuse(values, "max_samples",
-               "needs " + values.shown("target_error") + " or " + values.shown("time_budget"));
+               str_cat("needs ", values.shown("samples"), " of no more, ",
+                       values.shown("target_error"), " or ", values.shown("time_budget")));
     }
     return !has_rounds && !values.is_given("samples");
 }

@@ -9,12 +9,14 @@
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/lightmap_report.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/preview_files.h>
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/scene_options.h>
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
 #include <tetralight/pipeline/lightmap_part.h>
 #include <tetralight/pipeline/lightmap_settings.h>
+#include <tetralight/pipeline/preview_lightmaps.h>
 
 namespace tetralight::cli {
 namespace {
@@ -36,6 +38,7 @@ struct Lightmap {
     std::string output;
     BakeLightmapsSettings settings;
     BakeStoring storing;
+    PreviewFiles preview;
     CommonOptions common;
 
     explicit Lightmap(const Values& values)
@@ -43,35 +46,57 @@ struct Lightmap {
           output(values.text("output")),
           settings(lightmap_settings(values)),
           storing(values),
+          preview(values),
           common(values) {}
 
     Status run() {
         if (auto status = check_output(output, scene_options.inputs()); !status) return status;
         if (auto status = storing.check_progress_file(scene_options.inputs()); !status)
             return status;
+        if (auto status = check_preview(0); !status) return status;
         if (auto status = storing.open(); !status) return status;
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         auto prepared = prepare_lightmaps(*scene, settings);
         if (!prepared) return prepared.error().in(scene_options.path);
+        if (auto status = check_preview(prepared->layout.page_count); !status) return status;
         const auto start = std::chrono::steady_clock::now();
         const auto bake = bake_with_progress(*scene, *prepared);
         if (!bake && bake.error().code == ErrorCode::Cancelled) return storing.interrupted();
         if (!bake) return bake.error();
         storing.warn(bake->stored, common);
+        record_samples(*prepared, *bake);
         prepared->report.bake_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return storing.range ? write_range(*prepared, *bake) : write(std::move(*prepared), *bake);
+    }
+
+    /// `page_count` 0: not known yet.
+    [[nodiscard]] Status check_preview(uint32_t page_count) const {
+        std::vector<std::string> others = scene_options.inputs();
+        others.insert(others.end(), {output, storing.progress_file});
+        return preview.check(others, page_count);
     }
 
     [[nodiscard]] Result<TexelBake> bake_with_progress(const Scene& scene,
                                                        const PreparedLightmaps& prepared) {
         BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds,
                                     storing.progress_file, "texels");
-        return bake_texel_range(
+        LightmapPreview shown;
+        if (!preview.is_empty()) {
+            shown.show = [&](const LightmapsView& maps) {
+                preview.write(maps);
+                display.set_preview(preview.revision());
+            };
+        }
+        const auto bake = bake_texel_range(
             scene, prepared, storing.range_of(prepared.baked.size()), storing.storage(),
-            [&](const BakeProgress& progress) { return display.show(progress); });
+            [&](const BakeProgress& progress) { return display.show(progress); }, shown);
+        // Texels of a range are all that its preview ever has.
+        if (bake && storing.range && !preview.is_empty())
+            preview.write(preview_lightmaps(scene, prepared, *bake, nullptr).view());
+        return bake;
     }
 
     Status write(PreparedLightmaps prepared, const TexelBake& bake) {
@@ -79,6 +104,8 @@ struct Lightmap {
         common.warn(result.report.warnings);
         const LightmapsView maps = result.lightmaps.view();
         if (auto status = write_lightmap_file(output, maps); !status) return status;
+        preview.write(maps);
+        preview.warn(common);
         report_lightmaps(common, output, maps, result.report);
         storing.finish(bake.stored);
         return Ok{};
@@ -87,6 +114,7 @@ struct Lightmap {
     Status write_range(const PreparedLightmaps& prepared, const TexelBake& bake) {
         common.warn(prepared.report.warnings);
         if (auto status = write_lightmap_part(output, prepared, bake); !status) return status;
+        preview.warn(common);
         LightmapReport light = prepared.report;
         report_texels(bake, settings.bake.target_error, light);
         Json json{{"output", output},

@@ -7,7 +7,11 @@
 namespace tetralight::cli {
 
 Json light_json(const LightmapReport& report) {
-    return {{"standard_error", to_json(errors_of(report))},
+    return {{"samples_per_texel",
+             {{"min", report.min_samples},
+              {"median", report.median_samples},
+              {"max", report.max_samples}}},
+            {"standard_error", to_json(errors_of(report))},
             {"over_target", report.over_target_count},
             {"rays", report.ray_count},
             {"seconds",

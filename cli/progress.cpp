@@ -21,6 +21,12 @@ double ray_rate(const BakeProgress& progress, double seconds) {
     return static_cast<double>(progress.ray_count) / std::max(seconds, 1e-9);
 }
 
+/// In [0, 1].
+float share_at_target(const BakeProgress& progress) {
+    return static_cast<float>(progress.probes_at_target) /
+           static_cast<float>(std::max<size_t>(progress.probe_count, 1));
+}
+
 }  // namespace
 
 BakeProgressDisplay::BakeProgressDisplay(bool is_quiet, double time_budget_seconds,
@@ -53,6 +59,9 @@ std::optional<double> BakeProgressDisplay::seconds_left(const BakeProgress& prog
 std::string BakeProgressDisplay::summary(const BakeProgress& progress, double seconds) const {
     std::string line = grouped(progress.probes_done) + "/" + grouped(progress.probe_count) + " " +
                        noun_ + ", " + magnitude(ray_rate(progress, seconds)) + "rays/s";
+    if (progress.has_target)
+        line += ", " + grouped(progress.probes_at_target) + " at the target error (" +
+                percent(share_at_target(progress)) + ")";
     if (progress.worst_error > 0.0f) line += ", worst error " + percent(progress.worst_error);
     const auto left = seconds_left(progress, seconds);
     if (left && *left > 0.0) line += ", " + duration(*left) + " left";
@@ -100,8 +109,15 @@ void BakeProgressDisplay::write_file(const BakeProgress& progress, double second
               {"probe_count", progress.probe_count},
               {"rays", progress.ray_count},
               {"rays_per_second", ray_rate(progress, seconds)},
-              {"seconds_left", nullptr}};
+              {"seconds_left", nullptr},
+              {"at_target", nullptr},
+              {"share_at_target", nullptr}};
     if (left) json["seconds_left"] = *left;
+    if (progress.has_target) {
+        json["at_target"] = progress.probes_at_target;
+        json["share_at_target"] = share_at_target(progress);
+    }
+    if (preview_ > 0) json["preview"] = preview_;
     const std::string beside = file_ + ".new";
     std::ofstream(beside) << dump(json) << '\n';
     std::error_code error;

@@ -25,6 +25,9 @@ class BakeProgressDisplay {
     /// Called by the bake; false after a signal.
     bool show(const BakeProgress& progress);
 
+    /// Names the newest preview of the bake in the file. Not while `show` runs.
+    void set_preview(uint64_t revision) { preview_ = revision; }
+
   private:
     /// The finished fraction of a bake `seconds` after it began.
     [[nodiscard]] double fraction_done(const BakeProgress& progress, double seconds) const;
@@ -42,6 +45,7 @@ class BakeProgressDisplay {
     double time_budget_seconds_;
     std::string file_;
     std::string noun_;
+    uint64_t preview_ = 0;  ///< 0: none
     double next_write_seconds_ = 0.0;
     bool has_told_time_left_ = false;
     double first_fraction_ = -1.0;  ///< finished by earlier runs; negative: unknown

@@ -16,6 +16,7 @@
 #include <tetralight/pipeline/bake_key.h>
 #include <tetralight/pipeline/lightmap_metadata.h>
 #include <tetralight/pipeline/lightmap_scene.h>
+#include <tetralight/pipeline/preview_lightmaps.h>
 #include <tetralight/pipeline/stored_bake.h>
 
 namespace tetralight {
@@ -249,7 +250,7 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
 
 Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& prepared,
                                    PlaceRange range, const BakeStorage& storage,
-                                   const BakeCallback& callback) {
+                                   const BakeCallback& callback, const LightmapPreview& preview) {
     if (auto status = check_range(range, {"texel", prepared.baked.size()}); !status)
         return status.error();
     const BakeSettings& settings = prepared.settings.bake;
@@ -266,11 +267,11 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
     for (const TexelSurfaces::Texel& texel : places.surfaces.texels)
         bake.normals.push_back(texel.normal);
     RadianceCache cache;
-    std::function<Status()> begin;
+    BakeHooks hooks{.progress = callback, .preview_seconds = preview.seconds};
     if (prepared.has_cache()) {
         places.surfaces.cache = &cache;
         places.surfaces.cache_key = cache_key(prepared);
-        begin = [&]() -> Status {
+        hooks.begin = [&]() -> Status {
             const Stopwatch watch;
             auto made = make_radiance_cache(scene, prepared.layout, prepared.maps, prepared.texels,
                                             settings, {}, callback);
@@ -280,9 +281,15 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
             return Ok{};
         };
     }
-    auto stored =
-        bake_with_stores(scene, places, settings, storage,
-                         {bake.accumulators, {bake.rows, occlusion_lights}}, callback, begin);
+    if (preview.show) {
+        hooks.preview = [&] {
+            const bool has_cache = prepared.has_cache();
+            preview.show(
+                preview_lightmaps(scene, prepared, bake, has_cache ? &cache : nullptr).view());
+        };
+    }
+    auto stored = bake_with_stores(scene, places, settings, storage,
+                                   {bake.accumulators, {bake.rows, occlusion_lights}}, std::move(hooks));
     if (!stored) return stored.error();
     bake.stored = std::move(*stored);
     return bake;
@@ -294,6 +301,20 @@ Result<TexelBake> bake_texels(const Scene& scene, const PreparedLightmaps& prepa
     return bake_texel_range(scene, prepared, {0, count}, storage, callback);
 }
 
+void record_samples(PreparedLightmaps& prepared, const TexelBake& bake) {
+    BakeSettings& settings = prepared.settings.bake;
+    if (settings.time_budget_seconds == 0.0) return;
+    const bool has_target = settings.target_error > 0.0 || settings.target_layer_error > 0.0;
+    if (bake.stored.samples_in_time) {
+        settings.max_sample_count = *bake.stored.samples_in_time;
+    } else if (!has_target) {
+        settings.max_sample_count = RoundPlan(settings).max_samples();
+    }
+    settings.time_budget_seconds = 0.0;
+    set_recorded_samples(prepared.lightmaps.metadata, settings.max_sample_count);
+    prepared.key = lightmap_key(prepared);
+}
+
 Result<BakedLightmaps> bake_lightmaps(const Scene& scene, const BakeLightmapsSettings& settings,
                                       const BakeStorage& storage, const BakeCallback& callback) {
     auto prepared = prepare_lightmaps(scene, settings);
@@ -302,6 +323,7 @@ Result<BakedLightmaps> bake_lightmaps(const Scene& scene, const BakeLightmapsSet
     const auto bake = bake_texels(scene, *prepared, storage, callback);
     if (!bake) return bake.error();
     prepared->report.bake_seconds = watch.seconds();
+    record_samples(*prepared, *bake);
     return finish_lightmaps(std::move(*prepared), *bake);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -72,6 +73,10 @@ struct LightmapReport {
     size_t seam_count = 0;
     float seam_difference_baked = 0.0f;
     float seam_difference = 0.0f;
+    /// Samples of a texel.
+    uint64_t min_samples = 0;
+    uint64_t median_samples = 0;
+    uint64_t max_samples = 0;
     /// Texels above the target error after all samples, and errors of lit texels.
     size_t over_target_count = 0;
     float median_error = 0.0f;
@@ -136,6 +141,15 @@ struct TexelBake {
 [[nodiscard]] Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
                                                           const BakeLightmapsSettings& settings);
 
+/// A look at a bake that is under way.
+struct LightmapPreview {
+    /// Called with `preview_lightmaps` on the thread of the bake; empty: no previews. The light of
+    /// the bake does not depend on it.
+    std::function<void(const LightmapsView&)> show{};
+    /// Time between two calls, or more: previews take at most a fiftieth of the time.
+    double seconds = 5.0;
+};
+
 /// Samples the light of a range of the baked texels, after a radiance cache of the light of all
 /// texels of the scene is made (`make_radiance_cache`), if the settings ask for it and any sample
 /// is missing. Texels that a store has, from an earlier bake of the same light at the same place,
@@ -144,12 +158,19 @@ struct TexelBake {
 [[nodiscard]] Result<TexelBake> bake_texel_range(const Scene& scene,
                                                  const PreparedLightmaps& prepared,
                                                  PlaceRange range, const BakeStorage& storage = {},
-                                                 const BakeCallback& callback = {});
+                                                 const BakeCallback& callback = {},
+                                                 const LightmapPreview& preview = {});
 
 /// The same for all baked texels.
 [[nodiscard]] Result<TexelBake> bake_texels(const Scene& scene, const PreparedLightmaps& prepared,
                                             const BakeStorage& storage = {},
                                             const BakeCallback& callback = {});
+
+/// Replaces a time budget in the settings, the metadata and the key by the samples that texels had
+/// when the bake ended, so that they are those of a bake without a time budget that gives the same
+/// light. To be called before lightmaps or parts are written; without a time budget it does
+/// nothing.
+void record_samples(PreparedLightmaps& prepared, const TexelBake& bake);
 
 /// A fraction in [0, 1] as lightmaps store it: times 255.
 [[nodiscard]] uint8_t fraction_byte(float fraction) noexcept;

@@ -55,8 +55,9 @@ Result<RangeBake> bake_range(const Scene& scene, const PreparedBake& prepared, P
     if (!checked) return checked.error();
     const BakeSettings& settings = prepared.settings.bake;
     UnknownProbes probes(prepared, range);
-    const auto stored = bake_with_stores(scene, {probes.positions}, settings, storage,
-                                         {probes.accumulators, probes.split()}, callback);
+    const auto stored =
+        bake_with_stores(scene, {probes.positions}, settings, storage,
+                         {probes.accumulators, probes.split()}, {.progress = callback});
     if (!stored) return stored.error();
     RangeBake bake{{}, *stored};
     bake.partial = probes.in_range(prepared, range);

@@ -305,12 +305,20 @@ uint8_t fraction_byte(float fraction) noexcept {
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
     report.cache_seconds += bake.cache_seconds;
     std::vector<float> errors;
+    std::vector<uint64_t> samples;
     for (const ProbeAccumulator& sums : bake.accumulators) {
         report.ray_count += sums.ray_count;
+        samples.push_back(sums.sample_count);
         const float error = sums.standard_error(ErrorMeasure::OwnNormal);
         if (error > 0.0f) errors.push_back(error);
         const bool is_over = target_error > 0.0 && double{error} > target_error;
         report.over_target_count += is_over;
+    }
+    if (!samples.empty()) {
+        std::ranges::sort(samples);
+        report.min_samples = samples.front();
+        report.median_samples = samples[(samples.size() - 1) / 2];
+        report.max_samples = samples.back();
     }
     if (errors.empty()) return;
     const auto middle = errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2);

@@ -49,4 +49,19 @@ std::string lightmap_metadata(const Scene& scene, const LightingPlan& plan,
     return json.dump();
 }
 
+void set_recorded_samples(std::string& metadata, uint64_t max_samples) {
+    const LightmapJson recorded = LightmapJson::parse(metadata);
+    LightmapJson json;
+    // "max_samples" comes before "time_budget".
+    for (const auto& [name, value] : recorded.items()) {
+        if (name == "max_samples") continue;
+        if (name != "time_budget") {
+            json[name] = value;
+        } else if (max_samples > 0) {
+            json["max_samples"] = max_samples;
+        }
+    }
+    metadata = json.dump();
+}
+
 }  // namespace tetralight

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <tetralight/bake/scene/scene.h>
@@ -13,5 +14,10 @@ namespace tetralight {
 /// shadow mask `shadow_mask`: the name and the channel of each of its lights.
 [[nodiscard]] std::string lightmap_metadata(const Scene& scene, const LightingPlan& plan,
                                             const BakeLightmapsSettings& settings);
+
+/// Replaces the time budget of such metadata, which have one, by a number of samples
+/// ("max_samples"); 0: it becomes none. The result is that of `lightmap_metadata` for settings with
+/// these samples and no time budget.
+void set_recorded_samples(std::string& metadata, uint64_t max_samples);
 
 }  // namespace tetralight

@@ -72,13 +72,13 @@ Status bake_and_save(const Scene& scene, const BakePlaces& places, const BakeSet
 
 Result<StoredBake> bake_with_stores(const Scene& scene, const BakePlaces& places,
                                     const BakeSettings& settings, const BakeStorage& storage,
-                                    const BakeSums& sums, const BakeCallback& callback,
-                                    const std::function<Status()>& begin) {
+                                    const BakeSums& sums, BakeHooks hooks) {
     Keeper keeper(scene, places, settings, storage, sums);
     StoredBake stored;
     stored.earlier_ray_count = ray_count(sums.accumulators);
+    hooks.out_of_time = [&](uint64_t samples) { stored.samples_in_time = samples; };
     const Status status =
-        bake_and_save(scene, places, settings, storage, sums, keeper, {callback, begin});
+        bake_and_save(scene, places, settings, storage, sums, keeper, std::move(hooks));
     if (!status && keeper.failure()) {
         return keeper.failure()->in("interrupted; what is done could not be kept");
     }

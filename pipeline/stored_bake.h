@@ -40,16 +40,17 @@ struct StoredBake {
     bool is_saved = false;
     /// Why the last save failed, if it did.
     std::optional<Error> save_failure;
+    /// Samples of the places that are not done, if the time budget ended the bake.
+    std::optional<uint64_t> samples_in_time;
 };
 
 /// Bakes places to the end: loads what stores know of them, samples the rest, and saves it on the
 /// way. The sums are those of a bake without stores. Returns cancelled if the callback returns
-/// false, else errors of `bake_accumulators`, and that of a save if saving is required. `begin`: as
-/// of `BakeHooks`.
+/// false, else errors of `bake_accumulators`, and that of a save if saving is required. Of the
+/// hooks, `progress`, `begin` and those of previews are called.
 [[nodiscard]] Result<StoredBake> bake_with_stores(const Scene& scene, const BakePlaces& places,
                                                   const BakeSettings& settings,
                                                   const BakeStorage& storage, const BakeSums& sums,
-                                                  const BakeCallback& callback = {},
-                                                  const std::function<Status()>& begin = {});
+                                                  BakeHooks hooks = {});
 
 }  // namespace tetralight

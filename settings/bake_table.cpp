@@ -48,7 +48,8 @@ constexpr Setting kSampling[] = {
      .needs = "layers"},
     {.name = "max_samples",
      .type = Type::Integer,
-     .help = "Most samples per probe with --target-error, --target-layers or --time-budget",
+     .help = "Most samples per probe with --target-error, --target-layers or --time-budget; with "
+             "--samples alone, all probes get as many, in rounds",
      .unit = "samples",
      .range = {1, 0x1p32},
      .without = "64 times --samples"},

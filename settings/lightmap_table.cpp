@@ -53,7 +53,8 @@ constexpr Setting kSampling[] = {
      .needs = "layers"},
     {.name = "max_samples",
      .type = Type::Integer,
-     .help = "Most samples per texel with --target-error, --target-layers or --time-budget",
+     .help = "Most samples per texel with --target-error, --target-layers or --time-budget; with "
+             "--samples alone, all texels get as many, in rounds",
      .unit = "samples",
      .range = {1, 0x1p32},
      .without = "64 times --samples"},
@@ -101,7 +102,15 @@ constexpr Setting kStoring[] = {
     kChunks,
     kStore,
     kStoreLimit,
-    kProgressFile};
+    kProgressFile,
+    {.name = "preview",
+     .type = Type::Path,
+     .help = "While it bakes, write the light so far to this file about every 5 seconds: .png = "
+             "pages for looking at, .exr = irradiance, one file a page; .lightmaps = all pages, "
+             "for `tetralight render` and `export`",
+     .without = "no preview",
+     .is_list = true,
+     .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
                              {"Added light", kAddedLightAlone},

@@ -71,7 +71,9 @@ inline constexpr Setting kBounces{
 inline constexpr Setting kTimeBudget{
     .name = "time_budget",
     .type = Type::Seconds,
-    .help = "Start no further round of samples after this time; the result is not reproducible",
+    .help =
+        "Begin no further round of samples that would end after this time. The time decides "
+        "the number of rounds alone",
     .unit = "seconds",
     .range = {0, 1e9, true},
     .without = "no limit",

@@ -156,6 +156,73 @@ TEST(BakeAccumulators, ATimeBudgetEndsRoundsButNotTheFirst) {
     }
 }
 
+TEST(BakeAccumulators, ATimeBudgetGivesTheBitsOfAsManyRounds) {
+    const auto positions = some_positions(40);
+    for (const double seconds : {1e-9, 0.02, 0.1}) {
+        BakeSettings settings = fixed(128);
+        settings.time_budget_seconds = seconds;
+        settings.max_sample_count = 1 << 24;
+        uint64_t samples = 0;
+        const BakeHooks hooks{.out_of_time = [&](uint64_t count) { samples = count; }};
+        const Tallies in_time = bake(positions, settings, {}, hooks);
+        EXPECT_GE(samples, 128u);
+        settings.time_budget_seconds = 0.0;
+        settings.max_sample_count = samples;
+        EXPECT_EQ(bake(positions, settings), in_time);
+    }
+}
+
+TEST(BakeAccumulators, ARoundThatHasBegunEndsInSpiteOfTheTimeBudget) {
+    const auto positions = some_positions(10);
+    BakeSettings settings = fixed(128);
+    settings.max_sample_count = 512;
+    const Tallies whole = bake(positions, settings);
+    settings.max_sample_count = 256;
+    Tallies begun = bake(positions, settings);
+    settings.max_sample_count = 128;
+    const Tallies before = bake(positions, fixed(128));
+    std::copy(before.begin() + 5, before.end(), begun.begin() + 5);
+    settings.max_sample_count = 512;
+    settings.time_budget_seconds = 1e-9;
+    for (const ProbeAccumulator& accumulator : bake(positions, settings, begun))
+        EXPECT_EQ(accumulator.sample_count, 256u);
+    settings.time_budget_seconds = 0.0;
+    EXPECT_EQ(bake(positions, settings, begun), whole);
+}
+
+TEST(BakeAccumulators, CountsProbesAtTheTarget) {
+    const auto positions = some_positions(30);
+    BakeProgress last;
+    const BakeHooks hooks{.progress = [&](const BakeProgress& progress) {
+        last = progress;
+        return true;
+    }};
+    BakeSettings settings = adaptive();
+    settings.max_sample_count = 256;
+    const Tallies done = bake(positions, settings, {}, hooks);
+    const auto at_target = std::ranges::count_if(done, [&](const ProbeAccumulator& accumulator) {
+        return double{accumulator.sampling_error(ErrorMeasure::AllNormals)} <=
+               settings.target_error;
+    });
+    EXPECT_TRUE(last.has_target);
+    EXPECT_EQ(last.probes_at_target, static_cast<size_t>(at_target));
+    EXPECT_LT(at_target, 30);
+    EXPECT_GT(at_target, 0);
+    last = {};
+    (void)bake(positions, settings, done, hooks);  // nothing is left to do
+    EXPECT_EQ(last.probes_at_target, static_cast<size_t>(at_target));
+    (void)bake(positions, fixed(128), {}, hooks);
+    EXPECT_FALSE(last.has_target);
+}
+
+TEST(BakeAccumulators, PreviewsChangeNoBits) {
+    const auto positions = some_positions(40);
+    size_t count = 0;
+    const BakeHooks hooks{.preview = [&] { ++count; }, .preview_seconds = 0.0};
+    EXPECT_EQ(bake(positions, adaptive(), {}, hooks), bake(positions, adaptive()));
+    EXPECT_GT(count, 0u);
+}
+
 TEST(BakeAccumulators, SavesWhileNoAccumulatorChanges) {
     // Rounds of 2^17 directions are baked 16 probes at a time.
     const auto positions = std::vector<glm::dvec3>(some_positions(40));

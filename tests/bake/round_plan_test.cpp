@@ -109,6 +109,15 @@ TEST(RoundPlan, WithOnlyATimeBudgetRoundsContinueToTheMaximum) {
     EXPECT_FALSE(plan.is_done(with_error(plan, 1e-6)));
 }
 
+TEST(RoundPlan, AMaximumAloneGivesRounds) {
+    const RoundPlan plan(settings(128, 0.0, 512));
+    EXPECT_EQ(plan.samples_before(1), 128u);
+    EXPECT_EQ(plan.samples_before(2), 256u);
+    EXPECT_EQ(plan.samples_before(3), 512u);
+    EXPECT_EQ(plan.samples_in_round(3), 0u);
+    EXPECT_FALSE(plan.is_at_target(with_error(plan, 0.0)));
+}
+
 TEST(RoundPlan, ExpectsErrorsToFallWithTheRootOfTheSamples) {
     const RoundPlan plan(settings(1024, 0.01));
     EXPECT_EQ(plan.expected_samples({}), 1024u);

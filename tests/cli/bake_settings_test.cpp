@@ -48,6 +48,12 @@ TEST(BakeSettings, AMaximumNeedsRounds) {
     EXPECT_THROW((void)cli::bake_settings(values_of({{"max_samples", 5}})), cli::UsageError);
     const Values values = values_of({{"max_samples", 5}, {"target_error", 0.01}});
     EXPECT_EQ(cli::bake_settings(values).bake.max_sample_count, 5u);
+    EXPECT_THROW((void)cli::bake_settings(values_of({{"max_samples", 5}, {"samples", 6}})),
+                 cli::UsageError);
+    const BakeSettings rounds =
+        cli::bake_settings(values_of({{"max_samples", 512}, {"samples", 128}})).bake;
+    EXPECT_EQ(rounds.max_sample_count, 512u);
+    EXPECT_EQ(rounds.target_error, 0.0);
 }
 
 }  // namespace

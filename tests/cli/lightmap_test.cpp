@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "tests/cli/command_fixture.h"
 #include "tests/cli/picture.h"
 
@@ -12,6 +14,13 @@ class Lightmap : public CommandFixture {
         Arguments all{"lightmap", kCourtyard,  "-o", output,        "--texels-per-meter",
                       "1",        "--samples", "32", "--page-size", "256"};
         all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+
+    /// The same in several pages.
+    [[nodiscard]] static Arguments in_pages(const std::string& output, const Arguments& more) {
+        Arguments all = arguments(output, more);
+        *std::ranges::find(all, "256") = "64";
         return all;
     }
 
@@ -158,7 +167,7 @@ TEST_F(Lightmap, RefusesUnknownObjectsAndLayers) {
     EXPECT_TRUE(contains(fail(arguments("c.lightmaps", {"--only", "nothing"})), "\"nothing\""));
     EXPECT_TRUE(contains(fail(arguments("c.lightmaps", {"--layers", "transfer"})), "transfer"));
     EXPECT_TRUE(contains(misuse(arguments("c.probes", {})), ".lightmaps"));
-    misuse(arguments("c.lightmaps", {"--max-samples", "100"}));
+    misuse(arguments("c.lightmaps", {"--max-samples", "16"}));
 }
 
 TEST_F(Lightmap, RenderUsesThemForStaticObjects) {
@@ -176,6 +185,67 @@ TEST_F(Lightmap, RenderUsesThemForStaticObjects) {
     const std::string error =
         fail({"render", "other.gltf", "v.probes", "--lightmaps", "c.lightmaps", "-o", "x.png"});
     EXPECT_TRUE(contains(error, "the lightmaps have")) << error;
+}
+
+TEST_F(Lightmap, ATimeBudgetCanBeRepeatedByItsSamples) {
+    const Json json = run_json(arguments("a.lightmaps", {"--time-budget", "0.5s"}));
+    const Json samples = json["samples_per_texel"];
+    EXPECT_EQ(samples["min"], samples["max"]);
+    EXPECT_GE(samples["max"], 128);
+    const std::string most = std::to_string(samples["max"].get<int>());
+    bake("b.lightmaps", {"--max-samples", most});
+    EXPECT_TRUE(read("a.lightmaps") == read("b.lightmaps"));
+    EXPECT_EQ(run_json({"info", "a.lightmaps"})["made_with"]["max_samples"], samples["max"]);
+}
+
+TEST_F(Lightmap, TheProgressFileCountsTexelsAtTheTarget) {
+    const Json json =
+        run_json(arguments("a.lightmaps", {"--target-error", "2%", "--max-samples", "256",
+                                           "--progress-file", "progress.json"}));
+    const Json progress = Json::parse(read("progress.json"));
+    const int baked = json["baked"], at_target = progress["at_target"];
+    EXPECT_EQ(progress["probe_count"], baked);
+    EXPECT_EQ(at_target, baked - json["over_target"].get<int>());
+    EXPECT_GT(json["over_target"], 0);
+    EXPECT_NEAR(progress["share_at_target"], double(at_target) / baked, 1e-6);
+    bake("b.lightmaps", {"--progress-file", "progress.json"});
+    EXPECT_TRUE(Json::parse(read("progress.json"))["at_target"].is_null());
+}
+
+TEST_F(Lightmap, ThePreviewEndsAsTheFinishedPages) {
+    succeed(in_pages("plain.lightmaps", {}));
+    succeed(in_pages("a.lightmaps", {"--preview", "look.png", "--preview", "light.exr", "--preview",
+                                     "all.lightmaps"}));
+    EXPECT_EQ(read("a.lightmaps"), read("plain.lightmaps"));
+    EXPECT_EQ(read("all.lightmaps"), read("a.lightmaps"));
+    const int pages = run_json({"info", "a.lightmaps"})["pages"];
+    succeed({"export", "a.lightmaps", "--as", "preview", "-o", "x.png"});
+    succeed({"export", "a.lightmaps", "-o", "y.exr"});
+    ASSERT_GT(pages, 1);
+    for (int page = 0; page < pages; ++page) {
+        const std::string number = "_" + std::to_string(page);
+        EXPECT_TRUE(read("look" + number + ".png") == read("x" + number + ".png"));
+        EXPECT_TRUE(read("light" + number + ".exr") == read("y" + number + ".exr"));
+    }
+}
+
+TEST_F(Lightmap, RefusesPreviewsThatCannotBeWritten) {
+    const auto refusal = [&](const Arguments& more) {
+        const std::string message = fail(arguments("a.lightmaps", more));
+        EXPECT_TRUE(file_names().empty());
+        return message;
+    };
+    EXPECT_TRUE(contains(refusal({"--preview", "none/p.png"}), "there is no folder none"));
+    EXPECT_TRUE(contains(refusal({"--preview", "a.lightmaps"}),
+                         "a.lightmaps: is another file of this command"));
+    EXPECT_TRUE(contains(refusal({"--preview", "p.png", "--preview", "p.png"}),
+                         "p.png: is another file of this command"));
+    EXPECT_TRUE(contains(misuse(arguments("a.lightmaps", {"--preview", "p.jpg"})),
+                         "expected a .png, .exr or .lightmaps file"));
+    // Of several pages each has a file.
+    std::filesystem::create_directory(folder() / "p_1.png");
+    EXPECT_TRUE(contains(fail(in_pages("a.lightmaps", {"--preview", "p.png"})),
+                         "p_1.png: cannot write (is a folder)"));
 }
 
 }  // namespace

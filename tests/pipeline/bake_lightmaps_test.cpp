@@ -313,5 +313,35 @@ TEST(BakeLightmaps, RefusesWhatTexelsCannotHave) {
     EXPECT_EQ(error_of(scene, settings_with(64)), "the scene has no object that takes a lightmap");
 }
 
+TEST(BakeLightmaps, ATimeBudgetGivesTheBytesOfItsNumberOfSamples) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, kGrey, 2.0f);
+    test::add_box(scene, kGrey, test::Facing::Outward, {-1, 0.1f, -1}, {1, 1, 1});
+    for (const double target : {0.0, 0.05}) {
+        for (const double seconds : {1e-9, 1e9}) {
+            BakeLightmapsSettings settings = settings_with(128);
+            settings.bake.target_error = target;
+            settings.bake.max_sample_count = 512;
+            settings.bake.time_budget_seconds = seconds;
+            const Lightmaps in_time = bake(scene, settings);
+            settings.bake.time_budget_seconds = 0.0;
+            settings.bake.max_sample_count = seconds < 1.0 ? 128 : 512;
+            EXPECT_TRUE(bake(scene, settings) == in_time) << target << " " << seconds;
+        }
+    }
+}
+
+TEST(BakeLightmaps, RecordsTheSamplesOfATimeBudgetInsteadOfTheTime) {
+    Scene scene;
+    scene.environment.radiance = glm::vec3(1.0f);
+    test::add_floor(scene, kGrey, 1.0f);
+    BakeLightmapsSettings settings = settings_with(128);
+    settings.bake.time_budget_seconds = 1e-9;
+    const std::string metadata = bake(scene, settings).metadata;
+    EXPECT_NE(metadata.find("\"max_samples\":128"), std::string::npos) << metadata;
+    EXPECT_EQ(metadata.find("time_budget"), std::string::npos) << metadata;
+}
+
 }  // namespace
 }  // namespace tetralight
