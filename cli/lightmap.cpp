@@ -7,6 +7,8 @@
 #include <tetralight/cli/bake_storing.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/explain.h>
+#include <tetralight/cli/failure.h>
 #include <tetralight/cli/lightmap_report.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/preview_files.h>
@@ -17,6 +19,7 @@
 #include <tetralight/pipeline/lightmap_part.h>
 #include <tetralight/pipeline/lightmap_settings.h>
 #include <tetralight/pipeline/preview_lightmaps.h>
+#include <tetralight/pipeline/write_lightmap_glb.h>
 
 namespace tetralight::cli {
 namespace {
@@ -39,6 +42,8 @@ struct Lightmap {
     BakeLightmapsSettings settings;
     BakeStoring storing;
     PreviewFiles preview;
+    std::string unwrapped;
+    bool is_explained = false;
     CommonOptions common;
 
     explicit Lightmap(const Values& values)
@@ -47,13 +52,31 @@ struct Lightmap {
           settings(lightmap_settings(values)),
           storing(values),
           preview(values),
-          common(values) {}
+          unwrapped(values.text("unwrapped")),
+          is_explained(values.flag("explain")),
+          common(values) {
+        if (output.empty() && !is_explained) require(values, "output");
+        if (!unwrapped.empty() && !unwrapped.ends_with(".glb"))
+            refuse(values, "unwrapped", "expected a .glb file, not \"" + unwrapped + "\"");
+    }
 
-    Status run() {
+    Status run() { return is_explained ? run_explain() : run_bake(); }
+
+    [[nodiscard]] Status run_explain() const {
+        const auto scene = scene_options.read();
+        if (!scene) return scene.error();
+        common.warn(scene->warnings);
+        if (auto status = check_lightmaps(*scene, settings); !status)
+            return status.error().in(scene_options.path);
+        return explain(*scene, settings.lighting, common);
+    }
+
+    Status run_bake() {
         if (auto status = check_output(output, scene_options.inputs()); !status) return status;
         if (auto status = storing.check_progress_file(scene_options.inputs()); !status)
             return status;
         if (auto status = check_preview(0); !status) return status;
+        if (auto status = check_unwrapped(); !status) return status;
         if (auto status = storing.open(); !status) return status;
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
@@ -61,6 +84,7 @@ struct Lightmap {
         auto prepared = prepare_lightmaps(*scene, settings);
         if (!prepared) return prepared.error().in(scene_options.path);
         if (auto status = check_preview(prepared->layout.page_count); !status) return status;
+        if (auto status = write_unwrapped(*prepared); !status) return status;
         const auto start = std::chrono::steady_clock::now();
         const auto bake = bake_with_progress(*scene, *prepared);
         if (!bake && bake.error().code == ErrorCode::Cancelled) return storing.interrupted();
@@ -72,10 +96,26 @@ struct Lightmap {
         return storing.range ? write_range(*prepared, *bake) : write(std::move(*prepared), *bake);
     }
 
-    /// `page_count` 0: not known yet.
-    [[nodiscard]] Status check_preview(uint32_t page_count) const {
+    [[nodiscard]] std::vector<std::string> other_files() const {
         std::vector<std::string> others = scene_options.inputs();
         others.insert(others.end(), {output, storing.progress_file});
+        return others;
+    }
+
+    [[nodiscard]] Status check_unwrapped() const {
+        if (unwrapped.empty()) return Ok{};
+        return check_side_file(unwrapped, other_files(), "unwrapped");
+    }
+
+    [[nodiscard]] Status write_unwrapped(const PreparedLightmaps& prepared) const {
+        if (unwrapped.empty()) return Ok{};
+        return write_unwrapped_glb(unwrapped, scene_options.path, prepared.layout);
+    }
+
+    /// `page_count` 0: not known yet.
+    [[nodiscard]] Status check_preview(uint32_t page_count) const {
+        std::vector<std::string> others = other_files();
+        others.push_back(unwrapped);
         return preview.check(others, page_count);
     }
 

@@ -204,11 +204,18 @@ bool PreparedLightmaps::has_cache() const {
     return !settings.is_exact && paths.traces_all_light();
 }
 
+Status check_lightmaps(const Scene& scene, const BakeLightmapsSettings& settings) {
+    if (auto status = RoundPlan::check(settings.bake); !status) return status;
+    if (auto status = check_layers(settings.lighting); !status) return status;
+    if (auto status = check_only(scene, settings); !status) return status;
+    const auto takes = [&](const auto& instance) { return takes_lightmap(scene, instance); };
+    if (std::ranges::any_of(scene.instances, takes)) return Ok{};
+    return Error{ErrorCode::InvalidArgument, "the scene has no object that takes a lightmap"};
+}
+
 Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
                                             const BakeLightmapsSettings& settings) {
-    if (auto status = RoundPlan::check(settings.bake); !status) return status.error();
-    if (auto status = check_layers(settings.lighting); !status) return status.error();
-    if (auto status = check_only(scene, settings); !status) return status.error();
+    if (auto status = check_lightmaps(scene, settings); !status) return status.error();
     auto plan = plan_lighting(scene, settings.lighting);
     if (!plan) return plan.error();
     PreparedLightmaps prepared;

@@ -134,6 +134,9 @@ struct TexelBake {
     double cache_seconds = 0.0;  ///< 0 = no cache was made
 };
 
+/// Returns the errors of `prepare_lightmaps` that need no layout.
+[[nodiscard]] Status check_lightmaps(const Scene& scene, const BakeLightmapsSettings& settings);
+
 /// Returns the errors of `make_lightmap_layout`, `make_lightmap_texels`, `plan_lighting` and
 /// `TraceScene::make_static`; not_found (field "only") if no object has a name; unsupported (field
 /// "layers") for the layer "transfer", which texels do not have; invalid_argument if no object of

@@ -21,13 +21,15 @@ int64_t read_priority(Fields& fields) {
     return priority->get<int64_t>();
 }
 
-BakeOrder read_order(Service& service, const Json& json) {
-    check_order(settings::kBake, json, "name priority");
+BakeOrder read_order(Service& service, Kind kind, const Json& json) {
+    const settings::Table& table = bake_table(kind);
+    check_order(table, json, "name priority");
     Fields fields(json);
-    BakeOrder order{.request = json,
+    BakeOrder order{.kind = kind,
+                    .request = json,
                     .name = fields.text("name"),
                     .priority = read_priority(fields),
-                    .inputs = order_files(service.store, settings::kBake, json)};
+                    .inputs = order_files(service.store, table, json)};
     check_name(order.name);
     return order;
 }
@@ -37,15 +39,16 @@ BakeOrder read_order(Service& service, const Json& json) {
 void check(Service& service, const Request& request, const BakeOrder& order) {
     const WorkFolder folder = service.store.make_work_folder();
     for (const auto& [file, name] : order.inputs) service.store.link(file, folder.file(name));
-    Job job{.command = "bake",
-            .settings = job_settings(settings::kBake, order.request),
+    const settings::Table& table = bake_table(order.kind);
+    Job job{.command = std::string(table.command),
+            .settings = job_settings(table, order.request),
             .folder = folder.path()};
     job.settings["explain"] = true;
     (void)run_tool(service, request, order.request, std::move(job));
 }
 
-Response submit(Service& service, const Request& request) {
-    const BakeOrder order = read_order(service, parse_object(request.body));
+Response submit(Service& service, Kind kind, const Request& request) {
+    const BakeOrder order = read_order(service, kind, parse_object(request.body));
     check(service, request, order);
     const Json bake = service.bakes.submit(order);
     Response response = json_response(bake, 202);
@@ -143,7 +146,13 @@ std::vector<Route> bake_routes(Service& service) {
         {.method = "POST",
          .pattern = "/v1/bakes",
          .access = Access::Writes,
-         .handle = [&](Request& r) { return submit(service, r); },
+         .handle = [&](Request& r) { return submit(service, Kind::Volumes, r); },
+         .body_limit = service.settings.max_body_bytes,
+         .run_on = kStorage},
+        {.method = "POST",
+         .pattern = "/v1/lightmap-bakes",
+         .access = Access::Writes,
+         .handle = [&](Request& r) { return submit(service, Kind::Lightmaps, r); },
          .body_limit = service.settings.max_body_bytes,
          .run_on = kStorage},
         {.method = "GET",

@@ -31,6 +31,10 @@ std::string random_id() {
 
 }  // namespace
 
+const settings::Table& bake_table(Kind kind) {
+    return kind == Kind::Lightmaps ? settings::kLightmap : settings::kBake;
+}
+
 bool is_final(const std::string& state) {
     return state == "done" || state == "failed" || state == "cancelled";
 }
@@ -55,7 +59,7 @@ Bakes::~Bakes() {
 void Bakes::load() {
     for (const auto& row : store_.database().run(
              "SELECT number, id, request, name, priority, state, volume, error, report, created, "
-             "ended, probes_done, probe_count FROM bakes")) {
+             "ended, probes_done, probe_count, kind FROM bakes")) {
         Bake bake;
         bake.number = std::get<int64_t>(row[0]);
         bake.id = std::get<std::string>(row[1]);
@@ -63,7 +67,7 @@ void Bakes::load() {
         bake.name = std::get<std::string>(row[3]);
         bake.priority = std::get<int64_t>(row[4]);
         bake.state = std::get<std::string>(row[5]);
-        bake.volume = std::get<std::string>(row[6]);
+        bake.result = std::get<std::string>(row[6]);
         bake.error = std::get<std::string>(row[7]);
         const auto& report = std::get<std::string>(row[8]);
         if (!report.empty()) bake.report = Json::parse(report, nullptr, false);
@@ -71,6 +75,7 @@ void Bakes::load() {
         bake.ended = std::get<double>(row[10]);
         bake.probes_done = static_cast<uint64_t>(std::get<int64_t>(row[11]));
         bake.probe_count = static_cast<uint64_t>(std::get<int64_t>(row[12]));
+        bake.kind = find_kind(std::get<std::string>(row[13])).value_or(Kind::Volumes);
         bakes_[bake.id] = std::move(bake);
     }
 }
@@ -93,19 +98,24 @@ void Bakes::clear_folders() const {
 }
 
 Json Bakes::to_json(const Bake& bake) {
+    const bool has_texels = bake.kind == Kind::Lightmaps;
     Json json{{"id", bake.id},
+              {"kind", name_of(bake.kind)},
               {"state", bake.state},
               {"priority", bake.priority},
               {"name", bake.name},
               {"created", bake.created},
-              {"probes_done", bake.probes_done},
-              {"probe_count", bake.probe_count}};
+              {has_texels ? "texels_done" : "probes_done", bake.probes_done},
+              {has_texels ? "texel_count" : "probe_count", bake.probe_count}};
     if (bake.ended > 0.0) json["ended"] = bake.ended;
     if (!is_final(bake.state)) {
         json["rays_per_second"] = bake.rays_per_second;
         json["seconds_left"] = bake.seconds_left;
+        json["at_target"] = bake.at_target;
+        json["share_at_target"] = bake.share_at_target;
+        if (has_texels) json["preview"] = bake.preview;
     }
-    if (!bake.volume.empty()) json["volume"] = bake.volume;
+    if (!bake.result.empty()) json[noun_of(bake.kind)] = bake.result;
     if (!bake.error.empty()) json["error"] = bake.error;
     if (!bake.report.empty()) json["report"] = bake.report;
     json["request"] = bake.request;
@@ -133,6 +143,7 @@ Json Bakes::submit(const BakeOrder& order) {
     }
     Bake bake;
     bake.id = random_id();
+    bake.kind = order.kind;
     bake.request = order.request;
     bake.name = order.name;
     bake.priority = order.priority;
@@ -146,9 +157,10 @@ Json Bakes::submit(const BakeOrder& order) {
         require_stored(sync_folder(new_folder));
         store_.database().transaction([&] {
             store_.database().run(
-                "INSERT INTO bakes (id, request, name, priority, state, created) "
-                "VALUES (?, ?, ?, ?, 'queued', ?)",
-                {bake.id, dump(bake.request), bake.name, bake.priority, bake.created});
+                "INSERT INTO bakes (id, request, name, priority, state, created, kind) "
+                "VALUES (?, ?, ?, ?, 'queued', ?, ?)",
+                {bake.id, dump(bake.request), bake.name, bake.priority, bake.created,
+                 std::string(name_of(bake.kind))});
             for (const auto& [file, name] : order.inputs) {
                 store_.database().run("INSERT INTO bake_inputs (bake, kind, file) VALUES (?, ?, ?)",
                                       {bake.id, std::string(name_of(file.kind)), file.id});
@@ -178,6 +190,17 @@ bool Bakes::is_over(const std::string& id) const {
     const std::lock_guard lock(mutex_);
     const auto found = bakes_.find(id);
     return found == bakes_.end() || is_final(found->second.state);
+}
+
+std::string Bakes::preview_path(const std::string& id, const std::string& name) const {
+    const std::lock_guard lock(mutex_);
+    const Bake& bake = find_locked(id);
+    if (bake.kind == Kind::Lightmaps && !is_final(bake.state))
+        return str_cat(store_.bake_folder(id), "/", kResults, "/", name);
+    throw Problem{404, "not_found",
+                  bake.kind == Kind::Lightmaps ? "the bake has ended: " + bake.state
+                                               : "bakes of probes have no preview",
+                  "bake", id};
 }
 
 /// Newest first.

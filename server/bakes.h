@@ -17,13 +17,18 @@ namespace tetralight::server {
 
 /// A checked order of a client.
 struct BakeOrder {
+    /// What it makes: volumes or lightmaps.
+    Kind kind = Kind::Volumes;
     /// As the client sent it.
     Json request;
-    /// Name of the volume; empty: none.
+    /// Name of the result; empty: none.
     std::string name;
     int64_t priority = 0;
     std::vector<OrderFile> inputs;
 };
+
+/// The settings of bakes that make volumes or lightmaps.
+[[nodiscard]] const settings::Table& bake_table(Kind kind);
 
 /// True of "done", "failed" and "cancelled".
 [[nodiscard]] bool is_final(const std::string& state);
@@ -67,6 +72,9 @@ class Bakes {
     [[nodiscard]] Json unfinished_and_newer(int64_t& number) const;
 
     [[nodiscard]] bool is_over(const std::string& id) const;
+    /// The path of a file in the results of a bake of lightmaps. Throws 404 if there is no such
+    /// bake, or if it bakes no lightmaps or has ended.
+    [[nodiscard]] std::string preview_path(const std::string& id, const std::string& name) const;
     /// When a bake last ended well, in seconds since 1970; 0 = never.
     [[nodiscard]] double last_done() const;
     /// The number of bakes in a state.
@@ -76,11 +84,12 @@ class Bakes {
     struct Bake {
         int64_t number = 0;
         std::string id;
+        Kind kind = Kind::Volumes;
         Json request;
         std::string name;
         int64_t priority = 0;
         std::string state = "queued";
-        std::string volume;
+        std::string result;  ///< id of the volume or the lightmaps
         std::string error;
         Json report;
         double created = 0.0;
@@ -93,6 +102,9 @@ class Bakes {
         /// Of the current run; null: not known.
         Json rays_per_second;
         Json seconds_left;
+        Json at_target;
+        Json share_at_target;
+        Json preview;
     };
 
     [[nodiscard]] static Json to_json(const Bake& bake);
@@ -104,14 +116,13 @@ class Bakes {
     [[nodiscard]] size_t waiting_locked() const;
     [[nodiscard]] Bake* next_locked();
     void run();
-    [[nodiscard]] std::optional<Problem> try_bake(const std::string& id, const Json& request,
-                                                  const std::string& name);
-    void run_bake(const std::string& id, const Json& request, const std::string& name);
+    [[nodiscard]] std::optional<Problem> try_bake(const Bake& bake);
+    void run_bake(const Bake& bake);
     [[nodiscard]] bool is_cancelled(const std::string& id);
     void update_progress(const std::string& id);
     [[nodiscard]] bool wait_to_retry(const std::string& id, const Problem& problem);
     [[nodiscard]] bool fail(const std::string& id, const std::string& error);
-    void end(const std::string& id, const std::string& state, const std::string& volume,
+    void end(const std::string& id, const std::string& state, const std::string& result,
              const std::string& error, const Json& report);
 
     const Settings settings_;

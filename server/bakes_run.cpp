@@ -18,7 +18,19 @@ namespace fs = std::filesystem;
 // In the folder of a bake.
 constexpr const char* kChunks = "results/chunks";
 constexpr const char* kProgress = "results/progress.json";
-constexpr const char* kResult = "results/result.probes";
+
+std::string result_path(Kind kind) {
+    return str_cat("results/result", extension_of(kind));
+}
+
+/// What the job of a bake gets beside the order.
+Json own_settings(Kind kind) {
+    Json json{{"output", result_path(kind)}, {"chunks", kChunks}, {"progress_file", kProgress}};
+    if (kind != Kind::Lightmaps) return json;
+    json["preview"] = {"results/preview.png", "results/preview.lightmaps"};
+    json["unwrapped"] = "results/scene.glb";
+    return json;
+}
 
 /// The progress file of the running command; an empty object if there is none.
 Json read_pace(const std::string& path) {
@@ -57,28 +69,30 @@ Problem bake_problem(const Error& error) {
 }  // namespace
 
 /// Only the first end of a bake counts.
-void Bakes::end(const std::string& id, const std::string& state, const std::string& volume,
+void Bakes::end(const std::string& id, const std::string& state, const std::string& result,
                 const std::string& error, const Json& report) {
     const std::lock_guard lock(mutex_);
     const auto found = bakes_.find(id);
     if (found == bakes_.end() || is_final(found->second.state)) return;
     Bake bake = found->second;
     bake.state = state;
-    bake.volume = volume;
+    bake.result = result;
     bake.error = error;
     bake.report = report;
     bake.ended = now();
-    if (state == "done") bake.probes_done = bake.probe_count = report.value("probes", 0u);
+    const char* counted = bake.kind == Kind::Lightmaps ? "baked" : "probes";
+    if (state == "done") bake.probes_done = bake.probe_count = report.value(counted, 0u);
     store_.with_reserve([&] {
         store_.database().run(
             "UPDATE bakes SET state = ?, volume = ?, error = ?, report = ?, ended = ?, "
             "probes_done = ?, probe_count = ? WHERE id = ?",
-            {state, volume, error, report.empty() ? "" : dump(report), bake.ended,
+            {state, result, error, report.empty() ? "" : dump(report), bake.ended,
              static_cast<int64_t>(bake.probes_done), static_cast<int64_t>(bake.probe_count), id});
     });
+    const Kind kind = bake.kind;
     found->second = std::move(bake);
     log_.write(Log::Level::Info, "a bake has ended",
-               {{"bake", id}, {"state", state}, {"volume", volume}, {"error", error}});
+               {{"bake", id}, {"state", state}, {noun_of(kind), result}, {"error", error}});
 }
 
 /// Puts a bake back into the queue, and waits, if it lacks a file or resources that may come back.
@@ -135,12 +149,11 @@ void Bakes::run() {
         wake_.wait(lock, [&] { return is_ending_ || (next = next_locked()) != nullptr; });
         if (is_ending_) return;
         next->state = "running";
-        const std::string id = next->id;
-        const Json request = next->request;
-        const std::string name = next->name;
+        const Bake bake = *next;
+        const std::string& id = bake.id;
         lock.unlock();
         log_.write(Log::Level::Info, "a bake begins", {{"bake", id}});
-        if (const auto problem = try_bake(id, request, name)) {
+        if (const auto problem = try_bake(bake)) {
             if (wait_to_retry(id, *problem) || !fail(id, problem->detail)) continue;
         }
         if (is_over(id)) remove_all(store_.bake_folder(id));
@@ -166,13 +179,15 @@ void Bakes::update_progress(const std::string& id) {
     bake.probe_count = pace.value("probe_count", bake.probe_count);
     bake.rays_per_second = pace.value("rays_per_second", Json());
     bake.seconds_left = pace.value("seconds_left", Json());
+    bake.at_target = pace.value("at_target", Json());
+    bake.share_at_target = pace.value("share_at_target", Json());
+    bake.preview = pace.value("preview", Json());
 }
 
 /// Why a bake could not end; nothing if it did.
-std::optional<Problem> Bakes::try_bake(const std::string& id, const Json& request,
-                                       const std::string& name) {
+std::optional<Problem> Bakes::try_bake(const Bake& bake) {
     try {
-        run_bake(id, request, name);
+        run_bake(bake);
         return std::nullopt;
     } catch (const Problem& problem) {
         return problem;
@@ -183,32 +198,34 @@ std::optional<Problem> Bakes::try_bake(const std::string& id, const Json& reques
     }
 }
 
-void Bakes::run_bake(const std::string& id, const Json& request, const std::string& name) {
+void Bakes::run_bake(const Bake& bake) {
     using End = JobResult::End;
-    const std::string folder = store_.bake_folder(id);
+    const std::string folder = store_.bake_folder(bake.id);
     const auto run = [&](Job job) {
         job.folder = folder;
         return run_job(settings_, job);
     };
     rename_old_files(folder);
     remove_all(folder + "/" + kProgress);  // of an earlier run
-    Json order = job_settings(settings::kBake, request);
-    order.update({{"output", kResult}, {"chunks", kChunks}, {"progress_file", kProgress}});
-    update_progress(id);
-    const JobResult bake =
-        run({.command = "bake", .settings = order, .is_background = true, .is_cancelled = [&] {
-                 return is_cancelled(id);
-             }});
+    const settings::Table& table = bake_table(bake.kind);
+    const std::string output = result_path(bake.kind);
+    Json order = job_settings(table, bake.request);
+    order.update(own_settings(bake.kind));
+    update_progress(bake.id);
+    const JobResult baked = run({.command = std::string(table.command),
+                                 .settings = order,
+                                 .is_background = true,
+                                 .is_cancelled = [&] { return is_cancelled(bake.id); }});
     // When the server stops, the bake keeps its state and continues at the next start.
-    if (bake.end == End::Cancelled) return;
-    if (bake.end != End::Done) throw bake_problem(bake.error);
-    const JobResult info = run({.command = "info", .settings = {{"volume", kResult}}});
+    if (baked.end == End::Cancelled) return;
+    if (baked.end != End::Done) throw bake_problem(baked.error);
+    const JobResult info = run({.command = "info", .settings = {{"volume", output}}});
     if (info.end != End::Done) throw bake_problem(info.error);
-    std::string volume;
+    std::string result;
     store_.with_reserve([&] {
-        volume = store_.add(Kind::Volumes, folder + "/" + kResult, name, info.report).file.id;
+        result = store_.add(bake.kind, folder + "/" + output, bake.name, info.report).file.id;
     });
-    end(id, "done", volume, "", bake.report);
+    end(bake.id, "done", result, "", baked.report);
 }
 
 }  // namespace tetralight::server

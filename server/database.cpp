@@ -110,6 +110,10 @@ constexpr std::array kMigrations = {
         INSERT INTO names SELECT kind, name, file FROM old_names;
         DROP TABLE old_names;
     )sql",
+    // The kind of the file that a bake makes, whose id is in `volume`.
+    R"sql(
+        ALTER TABLE bakes ADD COLUMN kind TEXT NOT NULL DEFAULT 'volumes';
+    )sql",
 };
 
 struct Finalize {

@@ -124,6 +124,30 @@ Response relight_lightmaps(Service& service, const Request& request) {
     return make_stored(service, request, {settings::kRelight, order, Kind::Lightmaps});
 }
 
+/// The scene with the lightmaps, or their pages as one texture.
+Response export_lightmaps(Service& service, const Request& request) {
+    Json order = parse_object(request.body);
+    Fields fields(order);
+    const std::string format = fields.text("as", "glb");
+    if (format != "glb" && format != "ktx2") refuse("as", format, "glb or ktx2");
+    if (order.contains("lightmaps") || order.contains("mark")) {
+        const char* member = order.contains("mark") ? "mark" : "lightmaps";
+        throw Problem{400, "unknown_member",
+                      str_cat("\"", member, "\" is not a member of this order"), member,
+                      shown(order[member])};
+    }
+    order["as"] = format;
+    order["lightmaps"] = request.captures[0];
+    check_order(settings::kExport, order);
+    const WorkFolder folder = service.store.make_work_folder();
+    const std::string output = result_name("." + format);
+    Json report = run_order(service, request, {settings::kExport, order}, folder, output);
+    for (const char* member : {"files", "warnings"}) report.erase(member);
+    return {.content_type = format == "glb" ? "model/gltf-binary" : "image/ktx2",
+            .headers = {{"X-Tetralight-Report", dump(report)}},
+            .body = file_body(folder.file(output))};
+}
+
 /// Damage is an answer, not a problem.
 Response validate_file(Service& service, const Request& request, Kind kind) {
     const Json order{{"volume", request.captures[0]}};
@@ -204,6 +228,7 @@ std::vector<Route> tool_routes(Service& service) {
             route("/v1/volumes/{volume}/validate", false, validate),
             route("/v1/lightmaps/{lightmaps}/validate", false, validate_lightmaps),
             route("/v1/lightmaps/{lightmaps}/relight", true, relight_lightmaps),
+            route("/v1/lightmaps/{lightmaps}/export", false, export_lightmaps),
             route("/v1/relight", true, relight),
             route("/v1/lppv", false, lppv),
             route("/v1/render", false, render)};

@@ -6,7 +6,13 @@ namespace {
 
 constexpr Setting kFiles[] = {
     scene_file("glTF 2.0 scene (.glb or .gltf)"),
-    output_file(".lightmaps .part", "Lightmaps to write, or a part of them (- = stdout)"),
+    {.name = "output",
+     .type = Type::Path,
+     .help = "Lightmaps to write, or a part of them (- = stdout)",
+     .extensions = ".lightmaps .part",
+     .without = "none; required except with --explain",
+     .short_name = 'o',
+     .access = Access::Command},
     {.name = "only",
      .type = Type::Text,
      .help = "Bake the texels of the object of this name; all others stay black",
@@ -110,6 +116,17 @@ constexpr Setting kStoring[] = {
              "for `tetralight render` and `export`",
      .without = "no preview",
      .is_list = true,
+     .access = Access::Command},
+    {.name = "unwrapped",
+     .type = Type::Path,
+     .help = "Before it bakes, write the scene with its UVs to this .glb file, as `tetralight "
+             "unwrap` does",
+     .without = "no file",
+     .access = Access::Command},
+    {.name = "explain",
+     .type = Type::Flag,
+     .help = "Bake nothing; check the settings, and print what a bake takes from each light of the "
+             "scene",
      .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},

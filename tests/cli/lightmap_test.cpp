@@ -248,5 +248,24 @@ TEST_F(Lightmap, RefusesPreviewsThatCannotBeWritten) {
                          "p_1.png: cannot write (is a folder)"));
 }
 
+TEST_F(Lightmap, WritesTheUnwrappedSceneThatUnwrapWrites) {
+    bake("a.lightmaps", {"--unwrapped", "during.glb"});
+    succeed(
+        {"unwrap", kCourtyard, "-o", "alone.glb", "--texels-per-meter", "1", "--page-size", "256"});
+    EXPECT_TRUE(read("during.glb") == read("alone.glb"));
+    EXPECT_TRUE(contains(misuse(arguments("a.lightmaps", {"--unwrapped", "a.obj"})), ".glb"));
+    EXPECT_TRUE(contains(fail(arguments("b.lightmaps", {"--unwrapped", "none/a.glb"})),
+                         "there is no folder none"));
+}
+
+TEST_F(Lightmap, ExplainsWithoutBaking) {
+    const Json json = run_json({"lightmap", kCourtyard, "--explain"});
+    EXPECT_EQ(json["sources"], run_json({"bake", kCourtyard, "--explain"})["sources"]);
+    EXPECT_TRUE(file_names().empty());
+    EXPECT_TRUE(
+        contains(fail({"lightmap", kCourtyard, "--explain", "--only", "nothing"}), "\"nothing\""));
+    EXPECT_TRUE(contains(misuse({"lightmap", kCourtyard}), "--output is required"));
+}
+
 }  // namespace
 }  // namespace tetralight::test

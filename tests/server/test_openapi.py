@@ -108,7 +108,9 @@ class OpenApi(ServiceTest):
 
     def test_the_members_of_orders_are_those_that_the_service_accepts(self):
         for path, schema, member in (
-                ("/v1/bakes", "BakeOrder", "samples"), ("/v1/grid", "GridOrder", "spacing"),
+                ("/v1/bakes", "BakeOrder", "samples"),
+                ("/v1/lightmap-bakes", "LightmapBakeOrder", "texels_per_meter"),
+                ("/v1/lightmaps/none/export", "ExportLightmapsOrder", "scene"), ("/v1/grid", "GridOrder", "spacing"),
                 ("/v1/lppv", "LppvOrder", "density"), ("/v1/render", "RenderOrder", "camera"),
                 ("/v1/relight", "RelightOrder", "weights"),
                 ("/v1/lightmaps/none/relight", "RelightLightmapsOrder", "weights"),
@@ -135,7 +137,7 @@ class OpenApi(ServiceTest):
         text = json.dumps(schemas)
         self.assertNotIn("x-settings", text)
         self.assertNotIn("--", text)
-        for order in ("BakeOrder", "GridOrder", "LppvOrder", "RenderOrder", "RelightOrder",
+        for order in ("BakeOrder", "LightmapBakeOrder", "ExportLightmapsOrder", "GridOrder", "LppvOrder", "RenderOrder", "RelightOrder",
                       "RelightLightmapsOrder"):
             for name, setting in schemas[order]["properties"].items():
                 self.assertTrue(setting["description"], name)
