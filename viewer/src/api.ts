@@ -24,15 +24,22 @@ export interface Kept {
 
 export interface Bake {
     id: string;
+    kind: 'volumes' | 'lightmaps';
     state: 'queued' | 'running' | 'done' | 'failed' | 'cancelled' | 'deleted';
     name: string;
     created: number;
     ended?: number;
-    probes_done: number;
-    probe_count: number;
+    probes_done?: number;  // of volumes
+    probe_count?: number;
+    texels_done?: number;  // of lightmaps
+    texel_count?: number;
+    at_target?: number | null;  // null: not known, or no target
+    share_at_target?: number | null;
+    preview?: number | null;  // the number of the newest
     rays_per_second?: number | null;  // null: not known yet
     seconds_left?: number | null;
     volume?: string;
+    lightmaps?: string;
     error?: string;
     report?: Record<string, unknown>;
     request?: Record<string, unknown>;

@@ -45,9 +45,11 @@ export interface BakeSection {
 }
 
 /** Sections that come first and are open. */
-const kOpenSections = ['Samples', 'Light transport'];
+const kOpenSections = ['Samples', 'Light transport', 'Pages'];
 /** The panel has controls of its own for the files of a bake. */
 const kFileSection = 'Files';
+/** Among the files, what is no file: the objects of lightmaps. */
+const kFieldsOfFiles = ['only'];
 
 function kindOf(schema: Schema): FieldKind {
     if (schema.enum !== undefined) return 'choice';
@@ -85,12 +87,13 @@ function fieldOf(key: string, schema: Schema): BakeField {
     };
 }
 
-/** The sections of the form for `POST /v1/bakes`. */
-export function bakeSections(document: OpenApi): BakeSection[] {
+/** The sections of the form for `POST /v1/bakes`, or of another order. */
+export function bakeSections(document: OpenApi, order = 'BakeOrder'): BakeSection[] {
     const sections = new Map<string, BakeField[]>(kOpenSections.map(title => [title, []]));
-    for (const [key, schema] of Object.entries(document.components.schemas.BakeOrder.properties!)) {
+    for (const [key, schema] of Object.entries(document.components.schemas[order].properties!)) {
         const title = schema['x-group'];
-        if (title === undefined || title === kFileSection || schema['x-stored'] !== undefined) continue;
+        const isOfPanel = title === kFileSection && !kFieldsOfFiles.includes(key);
+        if (title === undefined || isOfPanel || schema['x-stored'] !== undefined) continue;
         sections.set(title, [...sections.get(title) ?? [], fieldOf(key, schema)]);
     }
     return [...sections].filter(([, fields]) => fields.length > 0)

@@ -4,13 +4,22 @@ import {Missing} from './alerts';
 import {ApiError, Bake, titleOf} from './api';
 import {BakeField, bakeSections, OpenApi, settingsOf, valueOf} from './bake_fields';
 import {counted, formatCount, formatPercent, formatSeconds} from './colors';
-import {button, element, labelled} from './dom';
+import {button, element, labelled, select} from './dom';
+import {Newest} from './newest';
 import type {Viewer} from './viewer';
 
 const kOnlyChangedHint = 'Probes whose position is unchanged keep the light of the open volume. ' +
     'Empty fields keep the settings of its bake; if any other setting differs, all probes are baked.';
 
 type Control = HTMLInputElement | HTMLSelectElement;
+
+type Result = Bake['kind'];
+
+/** Of a result: where it is ordered, the schema of the order, and the label of its name. */
+const kOrders: Record<Result, {path: string; schema: string; label: string}> = {
+    volumes: {path: '/v1/bakes', schema: 'BakeOrder', label: 'Name of the volume'},
+    lightmaps: {path: '/v1/lightmap-bakes', schema: 'LightmapBakeOrder', label: 'Name of the lightmaps'},
+};
 
 export class BakesPanel {
     readonly element: HTMLElement;
@@ -23,6 +32,13 @@ export class BakesPanel {
     private readonly list = element('ul', {class: 'bakes', 'aria-label': 'Bakes'});
     private reusable = '';
     private offeredName = '';
+    private result: Result = 'volumes';
+    private readonly nameRow = labelled(kOrders.volumes.label, this.name);
+    private readonly ofProbes = element('div');  // what only bakes of probes have
+    private readonly scenes = new Map<string, string>();  // of the bakes in the list
+    private watched = {bake: '', preview: 0};  // whose previews are shown
+    private readonly previews = new Newest<string, void>(
+        bake => this.viewer.showPreview(bake, this.scenes.get(bake)!), () => {}, error => this.missPreview(error));
     private stream: AbortController | null = null;
 
     constructor(private readonly viewer: Viewer, private readonly finished: () => void) {
@@ -31,11 +47,14 @@ export class BakesPanel {
                 event.preventDefault();
                 void viewer.alerts.attempt('bake', () => this.submit());
             }},
-            labelled('Name of the volume', this.name), labelled('Stored groups to add', this.groups),
-            element('label', {class: 'check'}, this.onlyGiven, "Omit the scene's own groups"),
-            element('label', {class: 'check', title: kOnlyChangedHint}, this.onlyChanged, 'Bake only what changed'),
-            this.sections, element('div', {class: 'buttons'},
+            labelled('Bake', select([['volumes', 'Probes'], ['lightmaps', 'Lightmaps']], this.result,
+                                    result => void viewer.alerts.attempt('bake', () => this.choose(result as Result)))),
+            this.nameRow, this.ofProbes, this.sections, element('div', {class: 'buttons'},
                                    element('button', {type: 'submit', class: 'main'}, 'Bake')));
+        this.ofProbes.append(
+            labelled('Stored groups to add', this.groups),
+            element('label', {class: 'check'}, this.onlyGiven, "Omit the scene's own groups"),
+            element('label', {class: 'check', title: kOnlyChangedHint}, this.onlyChanged, 'Bake only what changed'));
         this.element = element('section', {'aria-label': 'Bakes'}, element('h2', {}, 'New bake'), form,
                                element('h2', {}, 'Bakes'), this.list);
         viewer.onChange(() => {
@@ -78,10 +97,21 @@ export class BakesPanel {
         });
     }
 
+    /** Shows the form for probes or lightmaps. */
+    private async choose(result: Result): Promise<void> {
+        this.result = result;
+        this.nameRow.querySelector('label')!.textContent = kOrders[result].label;
+        this.ofProbes.hidden = result !== 'volumes';
+        this.fields.clear();
+        this.sections.replaceChildren();
+        await this.makeFields();
+    }
+
     /** Makes a field of each setting that the service accepts. */
     private async makeFields(): Promise<void> {
-        const sections = bakeSections(await this.viewer.api.get<OpenApi>('/openapi.json'));
-        if (this.fields.size > 0) return;
+        const {result} = this;
+        const sections = bakeSections(await this.viewer.api.get<OpenApi>('/openapi.json'), kOrders[result].schema);
+        if (this.fields.size > 0 || result !== this.result) return;
         this.sections.replaceChildren(...sections.map(({title, isOpen, fields}) => element(
             'details', {open: isOpen}, element('summary', {}, title),
             ...fields.map(field => labelled(field.label, this.control(field),
@@ -98,6 +128,7 @@ export class BakesPanel {
             return option;
         }));
         const {bakes} = await this.viewer.api.get<{bakes: Bake[]}>('/v1/bakes');
+        for (const {id, request} of bakes) this.scenes.set(id, String(request?.scene));
         this.keepFocus(() => this.list.replaceChildren(...bakes.slice(0, 30).map(bake => this.row(bake))));
         if (bakes.length === 0) this.list.append(element('li', {class: 'hint'}, 'None yet.'));
         if (bakes.some(isUnderWay)) void this.watch();
@@ -122,25 +153,27 @@ export class BakesPanel {
         const {viewer} = this;
         if (viewer.sceneFile === null) throw new Missing('Open a scene first: a bake needs one.');
         const order: Record<string, unknown> = {scene: viewer.sceneFile.id};
-        if (this.onlyChanged.checked && this.earlier !== null) {
+        const isOfProbes = this.result === 'volumes';
+        if (isOfProbes && this.onlyChanged.checked && this.earlier !== null) {
             Object.assign(order, settingsOf(this.fields.keys(), this.earlier.request!), {reuse: this.viewer.volume!.file.id});
         }
         if (this.name.value.trim() !== '') order.name = this.name.value.trim();
-        const chosen = [...this.groups.selectedOptions].map(option => option.value);
+        const chosen = isOfProbes ? [...this.groups.selectedOptions].map(option => option.value) : [];
         if (chosen.length > 0) order.groups = chosen;
         if (chosen.length > 0 && this.onlyGiven.checked) order.only_given_groups = true;
         for (const [field, control] of this.fields) {
             const value = this.marked(field, () => valueOf(field, control.value));
             if (value !== undefined) order[field.key] = value;
         }
-        await this.ordered(order);
+        const {id} = await this.ordered(order);
+        if (!isOfProbes) this.watchPreviews(id);
         viewer.say('The bake is accepted.');
         await this.refresh();
     }
 
     private async ordered(order: Record<string, unknown>): Promise<Bake> {
         try {
-            return await this.viewer.api.post<Bake>('/v1/bakes', order);
+            return await this.viewer.api.post<Bake>(kOrders[this.result].path, order);
         } catch (error) {
             const wrong = [...this.fields.keys()].find(({key}) => error instanceof ApiError && error.field === key);
             if (wrong !== undefined) this.mark(wrong);
@@ -190,12 +223,36 @@ export class BakesPanel {
         if (bake.state === 'deleted') old?.remove();
         else if (old?.dataset.state === bake.state && isUnderWay(bake)) this.showProgress(old, bake);
         else if (old !== null) this.keepFocus(() => old.replaceWith(this.row(bake)));
+        this.followPreview(bake);
         if (bake.state === 'done' && old?.dataset.state !== 'done') {
             this.viewer.say(`The bake ${bake.name || bake.id} is done.`);
-            if (old !== null) void this.viewer.alerts.attempt('open', () => this.viewer.openVolume(bake.volume!));
+            if (old !== null) void this.viewer.alerts.attempt('open', () => this.open(bake));
             this.finished();
         }
         if (!isUnderWay(bake)) this.stopIfAllHaveEnded();
+    }
+
+    private open(bake: Bake): Promise<void> {
+        if (bake.kind === 'volumes') return this.viewer.openVolume(bake.volume!);
+        this.previews.forget();
+        return this.viewer.openLightmaps(bake.lightmaps!, this.scenes.get(bake.id)!, bake.id);
+    }
+
+    /** Shows previews of a bake of lightmaps on its scene, from now on. */
+    private watchPreviews(bake: string): void {
+        this.watched = {bake, preview: 0};
+    }
+
+    private followPreview({id, preview, state}: Bake): void {
+        if (id !== this.watched.bake || state !== 'running' || typeof preview !== 'number') return;
+        if (preview === this.watched.preview || !this.scenes.has(id)) return;
+        this.watched.preview = preview;
+        this.previews.ask(id);
+    }
+
+    /** A bake may end while its preview is asked for. */
+    private missPreview(error: unknown): void {
+        if (!(error instanceof ApiError && error.status === 404)) this.viewer.alerts.report('preview', error);
     }
 
     /** Rebuilds rows; the focus stays with its bake. */
@@ -214,10 +271,11 @@ export class BakesPanel {
             button(text, () => void this.viewer.alerts.attempt(text, () => work().then(() => this.refresh())));
         if (isUnderWay(bake)) {
             row.append(element('progress', {'aria-label': 'Progress'}), element('span', {class: 'facts'}),
+                       ...bake.kind === 'volumes' ? [] : [act('Show', async () => this.watchPreviews(bake.id))],
                        act('Cancel', () => this.viewer.api.request('POST', `/v1/bakes/${bake.id}/cancel`)));
             this.showProgress(row, bake);
         } else {
-            if (bake.volume !== undefined) row.append(act('Open', () => this.viewer.openVolume(bake.volume!)));
+            if (bake.state === 'done') row.append(act('Open', () => this.open(bake)));
             row.append(act('Forget', () => this.viewer.api.remove(`/v1/bakes/${bake.id}`)));
         }
         if (bake.error) row.append(element('p', {class: 'error'}, bake.error));
@@ -227,15 +285,20 @@ export class BakesPanel {
 
     private showProgress(row: HTMLElement, bake: Bake): void {
         const bar = row.querySelector('progress')!;
-        bar.max = Math.max(1, bake.probe_count);
-        bar.value = bake.probes_done;
+        const {done, count} = countsOf(bake);
+        bar.max = Math.max(1, count);
+        bar.value = done;
         row.querySelector('.facts')!.textContent = this.progress(bake);
     }
 
-    /** "120 of 255 probes, 1.4 million rays/s, 3 s left". */
+    /** "120 of 255 probes, 100 at the target error (39 %), 1.4 million rays/s, 3 s left". */
     private progress(bake: Bake): string {
-        if (bake.probe_count === 0) return bake.state === 'queued' ? 'queued' : 'preparing';
-        const words = [`${formatCount(bake.probes_done)} of ${formatCount(bake.probe_count)} probes`];
+        const {done, count} = countsOf(bake);
+        if (count === 0) return bake.state === 'queued' ? 'queued' : 'preparing';
+        const words = [`${formatCount(done)} of ${formatCount(count)} ${bake.kind === 'volumes' ? 'probes' : 'texels'}`];
+        if (typeof bake.at_target === 'number') {
+            words.push(`${formatCount(bake.at_target)} at the target error (${formatPercent(bake.share_at_target!)})`);
+        }
         if (typeof bake.rays_per_second === 'number') words.push(formatRate(bake.rays_per_second));
         if (typeof bake.seconds_left === 'number') words.push(`${formatSeconds(bake.seconds_left)} left`);
         return words.join(', ');
@@ -244,6 +307,10 @@ export class BakesPanel {
 
 const isUnderWay = ({state}: Bake) => state === 'queued' || state === 'running';
 
+function countsOf({probes_done, probe_count, texels_done, texel_count}: Bake): {done: number; count: number} {
+    return {done: probes_done ?? texels_done ?? 0, count: probe_count ?? texel_count ?? 0};
+}
+
 function formatRate(raysPerSecond: number): string {
     return `${(raysPerSecond / 1e6).toFixed(1)} million rays/s`;
 }
@@ -251,6 +318,8 @@ function formatRate(raysPerSecond: number): string {
 function reportLine(report: Record<string, unknown>): string {
     const words: string[] = [];
     if (typeof report.probes === 'number') words.push(counted(report.probes, 'probe'));
+    if (typeof report.baked === 'number') words.push(counted(report.baked, 'texel'));
+    if (typeof report.pages === 'number') words.push(counted(report.pages, 'page'));
     if (typeof report.reused === 'number' && report.reused > 0) words.push(`${formatCount(report.reused)} reused`);
     if (typeof report.rays === 'number') words.push(`${formatCount(report.rays)} rays`);
     if (typeof report.rays_per_second === 'number') words.push(formatRate(report.rays_per_second));

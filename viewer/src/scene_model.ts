@@ -3,6 +3,7 @@
 import * as three from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 
+import {placesOf, SceneLightmaps} from './lightmaps';
 import {lightByLppv, LppvUniforms} from './shaders';
 
 const kShadowTexels = 2048;
@@ -18,6 +19,8 @@ export interface SceneModel {
     lights: three.Light[];
     /** Materials whose emission a bake sees. */
     emitters: three.MeshLambertMaterial[];
+    /** Of the meshes that the file gives a place in pages. */
+    lightmaps: SceneLightmaps;
 }
 
 export async function loadScene(bytes: ArrayBuffer, field: LppvUniforms): Promise<SceneModel> {
@@ -36,7 +39,9 @@ export async function loadScene(bytes: ArrayBuffer, field: LppvUniforms): Promis
     const box = new three.Box3().setFromObject(root);
     aimShadows(root, box);
     const sky = (root.userData.sky as {radiance?: number[]} | undefined)?.radiance ?? null;
-    return {root, box, sky, lights, emitters, view: viewOf(gltf.cameras[0], box)};
+    const places = placesOf(gltf).filter(({mesh}) => mesh.material instanceof three.MeshLambertMaterial);
+    const lightmaps = new SceneLightmaps(places, material => lightByLppv(material, field));
+    return {root, box, sky, lights, emitters, lightmaps, view: viewOf(gltf.cameras[0], box)};
 }
 
 function viewOf(camera: three.Camera | undefined, box: three.Box3): SceneModel['view'] {

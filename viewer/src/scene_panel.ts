@@ -6,7 +6,8 @@ import {button, checkbox, element, labelled, numberToSend, select, slider} from 
 import type {Stage} from './stage';
 import type {Part, ProbeColor, Viewer} from './viewer';
 
-const kParts: [Part, string][] = [['scene', 'Scene'], ['probes', 'Probes'], ['cells', 'Cells and hull']];
+const kParts: [Part, string][] = [['scene', 'Scene'], ['probes', 'Probes'], ['cells', 'Cells and hull'],
+                                    ['lightmaps', 'Lightmaps']];
 
 export function scenePanel(viewer: Viewer): HTMLElement {
     const facts = element('p', {class: 'facts'});
@@ -17,7 +18,8 @@ export function scenePanel(viewer: Viewer): HTMLElement {
                          viewer.color, value => viewer.setColor(value as ProbeColor));
 
     const show = () => {
-        parts.replaceChildren(...kParts.map(([part, text]) =>
+        const shown = kParts.filter(([part]) => part !== 'lightmaps' || viewer.hasLightmaps);
+        parts.replaceChildren(...shown.map(([part, text]) =>
             checkbox(text, !viewer.hidden.has(part), isOn => viewer.show(part, isOn))));
         color.value = viewer.color;
         const {volume} = viewer;

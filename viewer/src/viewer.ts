@@ -8,6 +8,7 @@ import {CellLines} from './cell_lines';
 import {badnessColor, errorBadness} from './colors';
 import {Gizmo} from './gizmo';
 import {LightField} from './light_field';
+import {LightmapPages, readPages, sectionsOf} from './lightmaps';
 import {ProbeBalls} from './probe_balls';
 import {disposeScene, loadScene, SceneModel} from './scene_model';
 import type {Stage} from './stage';
@@ -15,7 +16,7 @@ import {edgesOf, Light, readVolume, sumAmbient, sumLayers, Volume} from './volum
 import {dimLights, dropLights, makeLights} from './volume_lights';
 
 export type ProbeColor = 'light' | 'validity' | 'error';
-export type Part = 'scene' | 'probes' | 'cells';
+export type Part = 'scene' | 'probes' | 'cells' | 'lightmaps';
 
 const kManyEdges = 30000;  // probes; drawing all their edges is slow
 
@@ -42,6 +43,7 @@ export class Viewer {
     private readonly lightListeners: (() => void)[] = [];
     private hasEdges = false;
     private isHandedOver = false;
+    private litBy = '';  // the bake or the lightmaps that the UVs of the scene are of
 
     constructor(readonly api: Api, readonly stage: Stage,
                 readonly alerts: Alerts, readonly say: (news: string) => void) {
@@ -103,18 +105,57 @@ export class Viewer {
     async openScene(reference: string): Promise<void> {
         const file = await this.api.get<StoredFile>(`/v1/scenes/${encodeURIComponent(reference)}`);
         if (this.sceneFile?.id !== file.id) {
-            const bytes = await this.api.bytes(`/v1/scenes/${file.id}/file`);
-            const model = await loadScene(bytes, this.field.uniforms);
-            this.dropScene();
-            this.model = model;
-            this.sceneFile = file;
-            this.stage.scene.add(model.root);
-            this.stage.lookAtAll(model.box);
-            if (model.view !== null) this.stage.look(model.view.eye, model.view.target);
-            this.lightScene();
-            await this.placeField();
+            await this.showScene(file, await this.api.bytes(`/v1/scenes/${file.id}/file`));
         }
         this.changed();
+    }
+
+    /** Shows a scene; the camera stays if it is the one that is shown already, with other UVs. */
+    private async showScene(file: StoredFile, bytes: ArrayBuffer): Promise<void> {
+        const model = await loadScene(bytes, this.field.uniforms);
+        const isKnown = this.sceneFile?.id === file.id;
+        this.dropScene();
+        this.model = model;
+        this.sceneFile = file;
+        this.stage.scene.add(model.root);
+        if (!isKnown) this.stage.lookAtAll(model.box);
+        if (!isKnown && model.view !== null) this.stage.look(model.view.eye, model.view.target);
+        this.lightScene();
+        await this.placeField();
+    }
+
+    /** Shows the newest preview of a bake of lightmaps on its scene. */
+    async showPreview(bake: string, scene: string): Promise<void> {
+        const path = `/v1/bakes/${bake}/preview`;
+        const sections = sectionsOf(await this.api.bytes(`${path}/file`));
+        await this.showLightmaps(bake, scene, readPages(sections.get('info')!, sections.get('irradiance')!),
+                                 () => this.api.bytes(`${path}/scene`));
+    }
+
+    /** Shows stored lightmaps on their scene; `bake` made them. */
+    async openLightmaps(id: string, scene: string, bake = id): Promise<void> {
+        const section = (name: string) => this.api.bytes(`/v1/lightmaps/${id}/sections/${name}`);
+        const [info, irradiance] = await Promise.all([section('info'), section('irradiance')]);
+        await this.showLightmaps(bake, scene, readPages(info, irradiance),
+                                 () => this.api.make(`/v1/lightmaps/${id}/export`, {scene}));
+    }
+
+    private async showLightmaps(origin: string, scene: string, pages: LightmapPages,
+                                unwrapped: () => Promise<ArrayBuffer>): Promise<void> {
+        if (this.litBy !== origin) {
+            const [file, bytes] = await Promise.all(
+                [this.api.get<StoredFile>(`/v1/scenes/${encodeURIComponent(scene)}`), unwrapped()]);
+            await this.showScene(file, bytes);
+            this.litBy = origin;
+        }
+        const hadPages = this.hasLightmaps;
+        this.model!.lightmaps.setPages(pages);
+        if (!hadPages) this.changed();
+        this.stage.draw();
+    }
+
+    get hasLightmaps(): boolean {
+        return this.model?.lightmaps.hasPages ?? false;
     }
 
     closeScene(): void {
@@ -125,10 +166,12 @@ export class Viewer {
     private dropScene(): void {
         if (this.model !== null) {
             this.model.root.removeFromParent();
+            this.model.lightmaps.dispose();
             disposeScene(this.model.root);
         }
         this.model = null;
         this.sceneFile = null;
+        this.litBy = '';
     }
 
     /** The box of what is shown. */
@@ -215,6 +258,7 @@ export class Viewer {
     private applyParts(): void {
         const hasScene = this.model !== null && !this.hidden.has('scene');
         if (this.model !== null) this.model.root.visible = hasScene;
+        this.model?.lightmaps.use(!this.hidden.has('lightmaps'));
         this.lights.visible = hasScene;  // without it there is no shadow
         if (this.balls !== null) this.balls.mesh.visible = !this.isHandedOver && !this.hidden.has('probes');
         const hasLines = !this.isHandedOver && !this.hidden.has('cells');
