@@ -6,6 +6,7 @@
 #include <tetralight/bake/occlusion.h>
 #include <tetralight/base/half.h>
 #include <tetralight/bench/lightmap.h>
+#include <tetralight/pipeline/bake_lightmaps.h>
 
 namespace tetralight::bench {
 namespace {

@@ -31,11 +31,13 @@ std::vector<std::string> page_paths(const std::string& path, uint32_t page_count
 
 Status write_preview(const std::string& path, const LightmapsView& maps) {
     if (has_all_pages(path)) return write_lightmap_file(path, maps);
-    if (path.ends_with(".exr")) return write_lightmap_exr(path, maps);
+    const auto irradiance = map_values(maps, LightmapMap::Irradiance);
+    if (!irradiance) return irradiance.error();
+    if (path.ends_with(".exr")) return write_exr_pages(path, *irradiance);
     const std::vector<bool> is_marked(maps.rectangles.size());
     for (uint32_t page = 0; page < maps.info.page_count; ++page) {
         const std::string to = page_path(path, page, maps.info.page_count);
-        if (auto status = write_png(to, page_preview(maps, page, is_marked)); !status)
+        if (auto status = write_png(to, page_preview(maps, *irradiance, page, is_marked)); !status)
             return status;
     }
     return Ok{};

@@ -295,8 +295,9 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
                 preview_lightmaps(scene, prepared, bake, has_cache ? &cache : nullptr).view());
         };
     }
-    auto stored = bake_with_stores(scene, places, settings, storage,
-                                   {bake.accumulators, {bake.rows, occlusion_lights}}, std::move(hooks));
+    auto stored =
+        bake_with_stores(scene, places, settings, storage,
+                         {bake.accumulators, {bake.rows, occlusion_lights}}, std::move(hooks));
     if (!stored) return stored.error();
     bake.stored = std::move(*stored);
     return bake;
