@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
 
 #include "tests/cli/command_fixture.h"
 #include "tests/cli/picture.h"
+#include "tests/cli/piped_command.h"
 
 namespace tetralight::test {
 namespace {
@@ -265,6 +269,28 @@ TEST_F(Lightmap, ExplainsWithoutBaking) {
     EXPECT_TRUE(
         contains(fail({"lightmap", kCourtyard, "--explain", "--only", "nothing"}), "\"nothing\""));
     EXPECT_TRUE(contains(misuse({"lightmap", kCourtyard}), "--output is required"));
+}
+
+/// Bakes until its folder of previews was removed before the bake was over.
+TEST_F(Lightmap, APreviewThatFailsLaterWarnsAndEndsNothing) {
+    for (int samples = 1024;; samples *= 2) {
+        std::filesystem::create_directory(folder() / "look");
+        RunningCommand bake(folder(),
+                            {"lightmap", kCourtyard, "-o", "a.lightmaps", "--texels-per-meter", "1",
+                             "--samples", std::to_string(samples), "--preview", "look/p.png",
+                             "--progress-file", "progress.json"},
+                            "");
+        while (!std::filesystem::exists(path("progress.json")))
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        std::filesystem::remove_all(folder() / "look");
+        const CommandResult result = bake.wait();
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(run_json({"validate", "a.lightmaps"})["is_valid"], true);
+        std::filesystem::remove(path("progress.json"));
+        if (!contains(result.err, "the preview is not up to date: look/p.png: ")) continue;
+        EXPECT_FALSE(std::filesystem::exists(folder() / "look"));
+        return;
+    }
 }
 
 }  // namespace
