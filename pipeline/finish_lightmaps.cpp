@@ -61,9 +61,8 @@ struct TexelVisibility {
 
 class PageWriter {
   public:
-    PageWriter(const PreparedLightmaps& prepared, const TexelBake& bake, const TexelLights& lights)
+    PageWriter(const PreparedLightmaps& prepared, const TexelLights& lights)
         : prepared_(prepared),
-          bake_(bake),
           lights_(lights),
           baked_index_(prepared.texels.validity.size(), kNoIndex),
           layout_(prepared.settings.bake.plan),
@@ -254,8 +253,7 @@ class PageWriter {
         percentile = static_cast<float>(stitcher.relative_percentile(values, 0.99));
     }
 
-    /// Validity and error of the texels that surfaces touch. The error is that of their own
-    /// samples, also where they are filtered.
+    /// Validity and error of the texels that surfaces touch.
     void write_facts(uint32_t instance, const TexelMap& map, const LightmapRectangle& place) {
         for (size_t i = 0; i < map.texels.size(); ++i) {
             const size_t index = page_index(map, place, map.texels[i].index);
@@ -264,8 +262,7 @@ class PageWriter {
             const uint32_t baked = baked_index_[texel];
             if (baked == kNoIndex) continue;
             is_baked_[index] = 1;
-            const float error = bake_.accumulators[baked].standard_error(ErrorMeasure::OwnNormal);
-            maps_.error[index] = half_from_float_saturated(error);
+            maps_.error[index] = half_from_float_saturated(lights_.error(baked));
         }
     }
 
@@ -284,7 +281,6 @@ class PageWriter {
     }
 
     const PreparedLightmaps& prepared_;
-    const TexelBake& bake_;
     const TexelLights& lights_;
     std::vector<uint32_t> baked_index_;  ///< of each texel in `prepared.baked`, or kNoIndex
     uint64_t texel_count_ = 0;
@@ -296,6 +292,34 @@ class PageWriter {
     Lightmaps maps_;
 };
 
+void report_work(const TexelBake& bake, LightmapReport& report) {
+    report.cache_seconds += bake.cache_seconds;
+    std::vector<uint64_t> samples;
+    for (const ProbeAccumulator& sums : bake.accumulators) {
+        report.ray_count += sums.ray_count;
+        samples.push_back(sums.sample_count);
+    }
+    if (samples.empty()) return;
+    std::ranges::sort(samples);
+    report.min_samples = samples.front();
+    report.median_samples = samples[(samples.size() - 1) / 2];
+    report.max_samples = samples.back();
+}
+
+/// `errors`: 0 = unknown.
+void report_errors(std::vector<float> errors, double target_error, LightmapReport& report) {
+    std::erase(errors, 0.0f);
+    if (errors.empty()) return;
+    if (target_error > 0.0) {
+        report.over_target_count += static_cast<size_t>(std::ranges::count_if(
+            errors, [&](float error) { return double{error} > target_error; }));
+    }
+    const auto middle = errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2);
+    std::ranges::nth_element(errors, middle);
+    report.median_error = *middle;
+    report.worst_error = *std::ranges::max_element(errors);
+}
+
 }  // namespace
 
 uint8_t fraction_byte(float fraction) noexcept {
@@ -303,28 +327,11 @@ uint8_t fraction_byte(float fraction) noexcept {
 }
 
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
-    report.cache_seconds += bake.cache_seconds;
     std::vector<float> errors;
-    std::vector<uint64_t> samples;
-    for (const ProbeAccumulator& sums : bake.accumulators) {
-        report.ray_count += sums.ray_count;
-        samples.push_back(sums.sample_count);
-        const float error = sums.standard_error(ErrorMeasure::OwnNormal);
-        if (error > 0.0f) errors.push_back(error);
-        const bool is_over = target_error > 0.0 && double{error} > target_error;
-        report.over_target_count += is_over;
-    }
-    if (!samples.empty()) {
-        std::ranges::sort(samples);
-        report.min_samples = samples.front();
-        report.median_samples = samples[(samples.size() - 1) / 2];
-        report.max_samples = samples.back();
-    }
-    if (errors.empty()) return;
-    const auto middle = errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2);
-    std::ranges::nth_element(errors, middle);
-    report.median_error = *middle;
-    report.worst_error = *std::ranges::max_element(errors);
+    for (const ProbeAccumulator& sums : bake.accumulators)
+        errors.push_back(sums.standard_error(ErrorMeasure::OwnNormal));
+    report_work(bake, report);
+    report_errors(errors, target_error, report);
 }
 
 BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bake) {
@@ -333,9 +340,10 @@ BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bak
     result.report = std::move(prepared.report);
     LightmapReport& report = result.report;
     const TexelLights lights(prepared, bake);
-    result.lightmaps = PageWriter(prepared, bake, lights).run(report);
+    result.lightmaps = PageWriter(prepared, lights).run(report);
     const double target_error = prepared.settings.bake.target_error;
-    report_texels(bake, target_error, report);
+    report_work(bake, report);
+    report_errors(lights.errors(), target_error, report);
     if (report.over_target_count > 0) {
         report.warnings.push_back(str_cat(report.over_target_count, " of ", report.baked_count,
                                           " texels have a standard error above ", target_error,

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <span>
 
-#include <tetralight/bake/lightmap/filter_texels.h>
+#include <tetralight/bake/lightmap/chart_means.h>
 #include <tetralight/bake/parallel.h>
 
 namespace tetralight {
@@ -15,6 +15,9 @@ namespace {
 
 /// Texels that a thread takes at once.
 constexpr size_t kChunk = 1024;
+
+/// Of the squares over which the differences of halves are averaged, in texels.
+constexpr int kErrorRadius = 2;
 
 constexpr size_t kCoefficients = LightGroupLayout::kLayerSize;
 
@@ -60,6 +63,25 @@ void for_each_texel(const TexelBake& bake, uint32_t thread_count, const Work& wo
     });
 }
 
+/// Variance of the mean of both halves of a filtered texel, by the noise of the texels it takes.
+double variance_left(std::span<const NoisyTexel> texels, std::span<const TexelShare> shares) {
+    double variance = 0.0;
+    for (const TexelShare& share : shares) {
+        for (const float weight : share.halves) {
+            const auto half = 0.5 * double{weight};
+            variance += half * half * double{texels[share.texel].variance};
+        }
+    }
+    return variance;
+}
+
+/// Square of the relative error by the limit of bounces.
+double cut_square(const ProbeAccumulator& sums) {
+    const auto all = double{sums.standard_error(ErrorMeasure::OwnNormal)};
+    const auto sampling = double{sums.sampling_error(ErrorMeasure::OwnNormal)};
+    return all > 0.0 ? all * all - sampling * sampling : 0.0;
+}
+
 /// The charts in the pages, with the baked texels.
 PageCharts page_charts(const PreparedLightmaps& prepared) {
     const Lightmaps& maps = prepared.lightmaps;
@@ -87,7 +109,8 @@ PageCharts page_charts(const PreparedLightmaps& prepared) {
 
 TexelLights::TexelLights(const PreparedLightmaps& prepared, const TexelBake& bake)
     : value_count_(1 + prepared.lightmaps.layers.size()),
-      lights_(value_count_ * bake.accumulators.size()) {
+      lights_(value_count_ * bake.accumulators.size()),
+      errors_(bake.accumulators.size()) {
     const bool is_filtered = !prepared.settings.is_unfiltered;
     std::vector<TexelHalves> halves(is_filtered ? lights_.size() : 0);
     const LightGroupLayout layout(prepared.settings.bake.plan);
@@ -96,6 +119,7 @@ TexelLights::TexelLights(const PreparedLightmaps& prepared, const TexelBake& bak
         const glm::vec3 normal = bake.normals[texel];
         const auto sums = sums_of(bake, layout, texel, value_count_);
         const double first_half_count = sums[0].back();
+        errors_[texel] = bake.accumulators[texel].standard_error(ErrorMeasure::OwnNormal);
         for (size_t i = 0; i < value_count_; ++i) {
             const size_t value = index(texel) + i;
             lights_[value] = texel_light(sums[i], count, normal);
@@ -105,8 +129,8 @@ TexelLights::TexelLights(const PreparedLightmaps& prepared, const TexelBake& bak
     if (is_filtered) filter(prepared, bake, halves);
 }
 
-void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bake,
-                         std::span<const TexelHalves> halves) {
+std::vector<NoisyTexel> TexelLights::noisy_texels(const TexelBake& bake,
+                                                  std::span<const TexelHalves> halves) const {
     std::vector<NoisyTexel> noisy;
     for (size_t texel = 0; texel < bake.accumulators.size(); ++texel) {
         const ProbeAccumulator& accumulator = bake.accumulators[texel];
@@ -115,22 +139,56 @@ void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bak
         // A half has half of the samples.
         noisy.push_back({{total[0].irradiance, total[1].irradiance},
                          static_cast<float>(2.0 * accumulator.variance_sum / (count * count)),
+                         static_cast<float>(count),
                          bake.normals[texel]});
     }
-    filter_texels(page_charts(prepared), noisy, {}, prepared.settings.bake.thread_count,
-                  [&](uint32_t texel, std::span<const TexelShare> shares) {
-                      const glm::vec3 normal = bake.normals[texel];
-                      for (size_t i = 0; i < value_count_; ++i) {
-                          TexelLight light;
-                          for (const TexelShare& share : shares) {
-                              const TexelHalves& other = halves[index(share.texel) + i];
-                              light += other[0] * (0.5f * share.halves[0]);
-                              light += other[1] * (0.5f * share.halves[1]);
-                          }
-                          light.irradiance = glm::max(normal * light.vector, 0.0f);
-                          lights_[index(texel) + i] = light;
-                      }
-                  });
+    return noisy;
+}
+
+TexelHalves TexelLights::filtered_halves(std::span<const TexelHalves> halves,
+                                         std::span<const TexelShare> shares, size_t value) const {
+    TexelHalves filtered;
+    for (const TexelShare& share : shares) {
+        const TexelHalves& other = halves[index(share.texel) + value];
+        for (size_t half = 0; half < 2; ++half)
+            filtered[half] += other[half] * (0.5f * share.halves[half]);
+    }
+    return filtered;
+}
+
+void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bake,
+                         std::span<const TexelHalves> halves) {
+    const std::vector<NoisyTexel> noisy = noisy_texels(bake, halves);
+    const PageCharts pages = page_charts(prepared);
+    const uint32_t threads = prepared.settings.bake.thread_count;
+    // Of the total: squares of half the difference of the filtered halves, and the variance that
+    // the weights leave.
+    std::vector<double> differences(noisy.size()), variances(noisy.size());
+    filter_texels(
+        pages, noisy, {}, threads, [&](uint32_t texel, std::span<const TexelShare> shares) {
+            const glm::vec3 normal = bake.normals[texel];
+            for (size_t i = 0; i < value_count_; ++i) {
+                const TexelHalves filtered = filtered_halves(halves, shares, i);
+                TexelLight light = filtered[0];
+                light += filtered[1];
+                light.irradiance = glm::max(normal * light.vector, 0.0f);
+                lights_[index(texel) + i] = light;
+                if (i > 0) continue;
+                const glm::dvec3 difference(normal * (filtered[0].vector - filtered[1].vector));
+                differences[texel] = glm::dot(difference, difference);
+            }
+            variances[texel] = variance_left(noisy, shares);
+        });
+    differences = chart_means(pages, differences, kErrorRadius, threads);
+    for (size_t texel = 0; texel < noisy.size(); ++texel) {
+        const glm::dvec3 light(lights_[index(texel)].irradiance);
+        const double square = glm::dot(light, light);
+        const double variance = std::max(differences[texel], variances[texel]);
+        errors_[texel] = square > 0.0 && variance > 0.0
+                             ? static_cast<float>(std::sqrt(variance / square +
+                                                            cut_square(bake.accumulators[texel])))
+                             : 0.0f;
+    }
 }
 
 }  // namespace tetralight

@@ -6,19 +6,30 @@
 #include <span>
 #include <vector>
 
+#include <tetralight/bake/lightmap/filter_texels.h>
 #include <tetralight/bake/texel_light.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
 
 namespace tetralight {
 
 /// The light of all baked texels, in total and by layer, as pages hold it: that of their own
-/// samples, or filtered (`filter_texels`).
+/// samples, or filtered (`filter_texels`); and its error.
+///
+/// The filtered halves are independent, so that half of their difference has the error of their
+/// mean. The variance of a filtered texel is the mean of its square over 5 × 5 texels, and at least
+/// what the weights leave of the noise of the texels that it takes. It says nothing about blur.
 class TexelLights {
   public:
     /// Precondition: the light is that of all baked texels.
     TexelLights(const PreparedLightmaps& prepared, const TexelBake& bake);
 
     [[nodiscard]] const TexelLight& total(uint32_t baked) const { return lights_[index(baked)]; }
+
+    /// Relative standard error of the irradiance (`ProbeAccumulator::standard_error`). 0 if it is
+    /// unknown or the texel is black.
+    [[nodiscard]] float error(uint32_t baked) const { return errors_[baked]; }
+
+    [[nodiscard]] const std::vector<float>& errors() const { return errors_; }
 
     /// The last layer can be the light of none of the others, "rest".
     [[nodiscard]] const TexelLight& layer(uint32_t baked, size_t layer) const {
@@ -29,12 +40,21 @@ class TexelLights {
     /// Of the total of a texel in `lights_`; its layers follow.
     [[nodiscard]] size_t index(size_t baked) const { return baked * value_count_; }
 
+    [[nodiscard]] std::vector<NoisyTexel> noisy_texels(const TexelBake& bake,
+                                                       std::span<const TexelHalves> halves) const;
+
+    /// Half of the light of both halves of a filtered texel.
+    [[nodiscard]] TexelHalves filtered_halves(std::span<const TexelHalves> halves,
+                                              std::span<const TexelShare> shares,
+                                              size_t value) const;
+
     /// `halves`: as `lights_`.
     void filter(const PreparedLightmaps& prepared, const TexelBake& bake,
                 std::span<const TexelHalves> halves);
 
     size_t value_count_ = 0;  ///< of a texel: the total and the layers
     std::vector<TexelLight> lights_;
+    std::vector<float> errors_;
 };
 
 }  // namespace tetralight

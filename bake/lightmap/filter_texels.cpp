@@ -8,41 +8,55 @@
 #include <glm/trigonometric.hpp>
 #include <vector>
 
+#include <tetralight/bake/lightmap/chart_means.h>
 #include <tetralight/bake/parallel.h>
 
 namespace tetralight {
 namespace {
 
-/// Width of the parts of charts that are filtered at once, in texels.
-constexpr int kTileSize = 32;
-
 /// Smaller weights are 0.
 constexpr float kLeastWeight = 0.05f;
 
-struct Tile {
-    uint32_t chart = 0;
-    glm::ivec2 low{0}, high{0};  ///< in the page
-};
+double median(double a, double b, double c) {
+    return std::max(std::min(a, b), std::min(c, std::max(a, b)));
+}
 
-std::vector<Tile> tiles_of(const PageCharts& pages) {
-    std::vector<Tile> tiles;
-    for (uint32_t i = 0; i < pages.charts().size(); ++i) {
-        const PageCharts::Chart& chart = pages.charts()[i];
-        for (int y = chart.low.y; y < chart.high.y; y += kTileSize) {
-            for (int x = chart.low.x; x < chart.high.x; x += kTileSize) {
-                const glm::ivec2 low(x, y);
-                tiles.push_back({i, low, glm::min(low + kTileSize, chart.high)});
-            }
-        }
+double square_of_light(const NoisyTexel& texel) {
+    const glm::dvec3 light = 0.5 * (glm::dvec3(texel.halves[0]) + glm::dvec3(texel.halves[1]));
+    return glm::dot(light, light);
+}
+
+/// Variances of halves, by the samples of the texels around too.
+std::vector<float> pooled_variances(const PageCharts& pages, std::span<const NoisyTexel> texels,
+                                    int radius, uint32_t thread_count) {
+    // Of one sample, times the samples, so that all samples count alike.
+    std::vector<double> variances, squares, counts;
+    for (const NoisyTexel& texel : texels) {
+        const auto count = double{texel.sample_count};
+        variances.push_back(double{texel.variance} * count * count);
+        squares.push_back(square_of_light(texel) * count);
+        counts.push_back(count);
     }
-    return tiles;
+    variances = chart_means(pages, variances, radius, thread_count);
+    squares = chart_means(pages, squares, radius, thread_count);
+    counts = chart_means(pages, counts, radius, thread_count);
+    std::vector<float> pooled;
+    for (size_t i = 0; i < texels.size(); ++i) {
+        const auto count = double{texels[i].sample_count};
+        const double around = variances[i] / (counts[i] * count);
+        const double relative =
+            squares[i] > 0.0 ? variances[i] / squares[i] * square_of_light(texels[i]) / count : 0.0;
+        pooled.push_back(static_cast<float>(median(double{texels[i].variance}, around, relative)));
+    }
+    return pooled;
 }
 
 /// Filters one tile.
 class TileFilter {
   public:
     TileFilter(const PageCharts& pages, std::span<const NoisyTexel> texels,
-               const TexelFilterSettings& settings, const Tile& tile)
+               std::span<const float> variances, const TexelFilterSettings& settings,
+               const PageCharts::Tile& tile)
         : texels_(texels),
           settings_(settings),
           inner_(tile.high - tile.low),
@@ -55,8 +69,10 @@ class TileFilter {
             for (int x = 0; x < inner_.x; ++x)
                 own_.push_back(pages.texel_of(tile.chart, tile.low + glm::ivec2(x, y)));
         }
-        for (const uint32_t index : indices_)
+        for (const uint32_t index : indices_) {
             noisy_.push_back(index == kNoIndex ? NoisyTexel{} : texels[index]);
+            if (index != kNoIndex) noisy_.back().variance = variances[index];
+        }
     }
 
     void run(const std::function<void(uint32_t, std::span<const TexelShare>)>& use) {
@@ -199,9 +215,12 @@ class TileFilter {
 void filter_texels(const PageCharts& pages, std::span<const NoisyTexel> texels,
                    const TexelFilterSettings& settings, uint32_t thread_count,
                    const std::function<void(uint32_t, std::span<const TexelShare>)>& use) {
-    const std::vector<Tile> tiles = tiles_of(pages);
-    parallel_for(tiles.size(), thread_count,
-                 [&](size_t i) { TileFilter(pages, texels, settings, tiles[i]).run(use); });
+    const std::vector<float> variances =
+        pooled_variances(pages, texels, settings.noise_radius, thread_count);
+    const std::vector<PageCharts::Tile> tiles = pages.tiles();
+    parallel_for(tiles.size(), thread_count, [&](size_t i) {
+        TileFilter(pages, texels, variances, settings, tiles[i]).run(use);
+    });
 }
 
 }  // namespace tetralight

@@ -12,8 +12,9 @@
 namespace tetralight {
 
 struct TexelFilterSettings {
-    int radius = 5;        ///< of the texels that a texel becomes a mean of, in texels
+    int radius = 7;        ///< of the texels that a texel becomes a mean of, in texels
     int patch_radius = 2;  ///< of the patches that are compared
+    int noise_radius = 3;  ///< of the texels that a texel shares its variance with
     /// Differences that count, in standard errors: larger blurs more.
     float strength = 0.45f;
     /// Largest angle between the normals of two texels.
@@ -24,8 +25,10 @@ struct TexelFilterSettings {
 struct NoisyTexel {
     /// Irradiance by both halves of the samples, which are independent.
     std::array<glm::vec3, 2> halves{};
-    /// Variance of one half, sum over the colour channels.
+    /// Variance of one half, sum over the colour channels, by its own samples.
     float variance = 0.0f;
+    /// Number of its samples, or in proportion to it. Above 0.
+    float sample_count = 1.0f;
     glm::vec3 normal{0.0f};
 };
 
@@ -38,6 +41,12 @@ struct TexelShare {
 /// Finds what each texel becomes a mean of, by dual-buffer non-local means (Rousselle, Knaus and
 /// Zwicker 2012, "Adaptive Rendering with Non-Local Means Filtering"): texels around it in its
 /// chart, and across seams, whose surroundings differ from its own by no more than noise explains.
+///
+/// The few estimates of a texel tell little about rare bright samples: where it missed them its
+/// variance is too small. So the noise is the median of three variances: that of its own samples,
+/// the mean of the texels around it, and its own light times their relative variance. The second
+/// alone would blur dark texels beside bright ones, and the third is wrong where light without
+/// noise ends.
 ///
 /// The mean of a half has no bias by its own noise, as its weights depend on the other half. All
 /// values of a texel are filtered by the same weights, so that what adds up before does so after

@@ -89,6 +89,21 @@ void PageCharts::add_seams(std::span<const Seam> seams) {
     }
 }
 
+std::vector<PageCharts::Tile> PageCharts::tiles() const {
+    constexpr int kSize = 32;
+    std::vector<Tile> tiles;
+    for (uint32_t i = 0; i < charts_.size(); ++i) {
+        const Chart& chart = charts_[i];
+        for (int y = chart.low.y; y < chart.high.y; y += kSize) {
+            for (int x = chart.low.x; x < chart.high.x; x += kSize) {
+                const glm::ivec2 low(x, y);
+                tiles.push_back({i, low, glm::min(low + kSize, chart.high)});
+            }
+        }
+    }
+    return tiles;
+}
+
 uint32_t PageCharts::texel_of(uint32_t chart, glm::ivec2 place) const {
     const size_t index = index_of(charts_[chart].page, place);
     return chart_of_texel_[index] == chart ? texels_[index] : kNoIndex;

@@ -23,6 +23,12 @@ class PageCharts {
         glm::ivec2 low{0}, high{0};
     };
 
+    /// A part of a chart: `low` ≤ texel < `high` in its page.
+    struct Tile {
+        uint32_t chart = 0;
+        glm::ivec2 low{0}, high{0};
+    };
+
     PageCharts(uint32_t page_size, uint32_t page_count);
 
     /// Adds the charts of an instance. `charts`: as `TexelMap::charts`, rows of `width` texels, for
@@ -37,6 +43,9 @@ class PageCharts {
     void add_seams(std::span<const Seam> seams);
 
     [[nodiscard]] const std::vector<Chart>& charts() const { return charts_; }
+
+    /// Parts of all charts, of at most 32 × 32 texels.
+    [[nodiscard]] std::vector<Tile> tiles() const;
 
     /// The texel at a place of a chart, or kNoIndex.
     [[nodiscard]] uint32_t texel_of(uint32_t chart, glm::ivec2 place) const;
