@@ -26,6 +26,7 @@ void bench_lightmap(const Options& options) {
     bench_scene(TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb", "courtyard", options);
     if (options.scene) bench_scene(*options.scene, "scene", options);
     if (options.only) return;
+    bench_contact_shadow();
     bench_dark_room();
     bench_lightmap_samples(options);
 }

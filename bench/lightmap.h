@@ -19,7 +19,7 @@ void bench_lightmap_texels(const Scene& scene, const std::string& name, const Op
 void bench_lightmap_cache(const Scene& scene, const std::string& name);
 
 /// What the filter makes of noise, and the time to an error of 5 %: `lightmap.{filter,filter_bias,
-/// time_to_5_percent}.NAME`.
+/// filter_error_bar,time_to_5_percent}.NAME`.
 void bench_lightmap_filter(const Scene& scene, const std::string& name);
 
 /// Shadow masks against the occlusion of probes at the same places: `lightmap.shadowmask.NAME`.
@@ -27,6 +27,9 @@ void bench_shadow_mask(const Scene& scene, const std::string& name);
 
 /// Layers against light without layers, both filtered: `lightmap.layers.NAME`.
 void bench_lightmap_layers(const Scene& scene, const std::string& name);
+
+/// What the filter changes at the edge of a contact shadow: `lightmap.filter_edge`.
+void bench_contact_shadow();
 
 /// `lightmap.dark_room` and `lightmap.sample`.
 void bench_dark_room();

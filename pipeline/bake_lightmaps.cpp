@@ -18,6 +18,7 @@
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/pipeline/preview_lightmaps.h>
 #include <tetralight/pipeline/stored_bake.h>
+#include <tetralight/pipeline/texel_lights.h>
 
 namespace tetralight {
 namespace {
@@ -164,7 +165,8 @@ void warn_of_dark_objects(const Scene& scene, const std::vector<bool>& is_lit,
 }
 
 /// Returns out_of_resources if the pages do not fit into the free memory.
-Status check_memory(const LightmapLayout& layout, size_t layer_count, bool has_cache) {
+Status check_memory(const LightmapLayout& layout, size_t layer_count, bool has_cache,
+                    bool is_filtered) {
     constexpr uint64_t kLayerBytes = sizeof(LayerTexel) + sizeof(LightmapTexel);
     // Validity and error; what stitching needs; and the bytes of the file.
     // With what can be there of occlusion.
@@ -175,7 +177,8 @@ Status check_memory(const LightmapLayout& layout, size_t layer_count, bool has_c
     constexpr uint64_t kCacheBytes = sizeof(RadianceCache::Irradiance) + sizeof(glm::vec3);
     const uint64_t cache_bytes =
         has_cache ? kCacheBytes * (1 + layer_count) + 2 * sizeof(uint32_t) : 0;
-    const uint64_t bytes = texels * (kTexelBytes + 2 * kLayerBytes * layer_count + cache_bytes);
+    const uint64_t bytes = texels * (kTexelBytes + 2 * kLayerBytes * layer_count + cache_bytes +
+                                     TexelLights::texel_bytes(layer_count, is_filtered));
     const uint64_t free = free_memory();
     if (bytes <= free) return Ok{};
     return Error{ErrorCode::OutOfResources, "page_size", str_cat(layout.page_size),
@@ -228,7 +231,8 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     if (layout->page_count == 0) {
         return Error{ErrorCode::InvalidArgument, "the scene has no object that takes a lightmap"};
     }
-    if (auto status = check_memory(*layout, plan->layer_names.size(), prepared.has_cache());
+    if (auto status = check_memory(*layout, plan->layer_names.size(), prepared.has_cache(),
+                                   !settings.is_unfiltered);
         !status)
         return status.error();
     prepared.layout = std::move(*layout);

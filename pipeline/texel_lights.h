@@ -23,6 +23,15 @@ class TexelLights {
     /// Precondition: the light is that of all baked texels.
     TexelLights(const PreparedLightmaps& prepared, const TexelBake& bake);
 
+    /// Bytes of memory that a texel takes here, at most.
+    [[nodiscard]] static constexpr uint64_t texel_bytes(size_t layer_count, bool is_filtered) {
+        // Places and charts in the pages, what the filter compares, variances and differences.
+        constexpr uint64_t kFilterBytes =
+            2 * sizeof(uint32_t) + sizeof(NoisyTexel) + 6 * sizeof(double);
+        return (1 + layer_count) * (sizeof(TexelLight) + (is_filtered ? sizeof(TexelHalves) : 0)) +
+               sizeof(float) + (is_filtered ? kFilterBytes : 0);
+    }
+
     [[nodiscard]] const TexelLight& total(uint32_t baked) const { return lights_[index(baked)]; }
 
     /// Relative standard error of the irradiance (`ProbeAccumulator::standard_error`). 0 if it is

@@ -320,6 +320,32 @@ TEST(LightmapScenes, BlendedQuadsPassLightByTheirOpacity) {
     }
 }
 
+TEST(LightmapScenes, ErrorBarsAreThoseOfFilteredLight) {
+    // Light of a panel varies over the floor.
+    Scene scene;
+    test::add_floor(scene, kBlack, 3.0f);
+    const glm::dvec3 low(-1.0, 2.0, -1.0), high(1.0, 2.0, 1.0);
+    test::add_ceiling(scene, test::diffuse(glm::vec3(0.0f), glm::vec3(10.0f)), 1.0f, 2.0f);
+    scene.instances[1].lightmap.scale = 0.0f;
+    const BakedScene baked(scene, test::lightmap_settings(128));
+    double told = 0.0, own = 0.0, error = 0.0;
+    for (const SampledTexel& texel : baked.texels(0)) {
+        double light = 0.0;
+        for (const glm::dvec3& place : texel.places) {
+            light += 10.0 *
+                     test::polygon_irradiance(place, {0, 1, 0},
+                                              {low, {low.x, 2, high.z}, high, {high.x, 2, low.z}}) /
+                     static_cast<double>(texel.places.size());
+        }
+        told += texel.error * texel.error;
+        own += texel.own_error * texel.own_error;
+        error += std::pow(texel.irradiance - light, 2);
+    }
+    EXPECT_LT(error, own / 2.0);
+    EXPECT_LT(told, 1.5 * 1.5 * error);
+    EXPECT_GT(told, error / (1.5 * 1.5));
+}
+
 TEST(LightmapScenes, MirroredInstancesHaveMirroredLight) {
     Scene scene = under_white_sky();
     Mesh corner;  // a floor and a wall, as seen from x > 0

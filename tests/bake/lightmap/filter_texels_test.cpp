@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <random>
@@ -127,6 +128,47 @@ TEST_F(NoisyChart, RareBrightSamplesAreSharedNotLost) {
         texel.variance = std::max(texel.variance, 1e-4f);
     }
     EXPECT_NEAR(mean(filtered(texels)), raw_mean(texels), 0.01 * raw_mean(texels));
+}
+
+TEST_F(NoisyChart, TexelsThatMissedRareSamplesAreFilteredToo) {
+    // Each of eight estimates of a texel is 1, or 9 with a probability of 5 %: two texels of three
+    // have no idea of their variance.
+    constexpr float kRare = 0.05f, kSpot = 8.0f;
+    std::mt19937 engine(7);
+    std::vector<NoisyTexel> texels(size_t{kSize} * kSize);
+    double raw = 0.0;
+    const auto even = [](int, int) { return 1.0f + kRare * kSpot; };
+    for (NoisyTexel& texel : texels) {
+        texel.normal = {0, 1, 0};
+        std::array<float, 8> estimates{};
+        for (float& estimate : estimates)
+            estimate = 1.0f + (std::bernoulli_distribution(double{kRare})(engine) ? kSpot : 0.0f);
+        for (size_t i = 0; i < 8; ++i) texel.halves[i / 4] += glm::vec3(0.25f * estimates[i]);
+        const float mean = 0.5f * (texel.halves[0].x + texel.halves[1].x);
+        // Three channels, and the mean of four of the eight.
+        for (const float estimate : estimates)
+            texel.variance += 3.0f * std::pow(estimate - mean, 2.0f) / 7.0f / 4.0f;
+        raw += std::pow(double{mean - even(0, 0)}, 2) / (kSize * kSize);
+    }
+    const auto result = filtered(texels);
+    EXPECT_LT(error_of(result, even), std::sqrt(raw) / 4.0);  // sixteen times the samples
+    EXPECT_NEAR(mean(result), raw_mean(texels), 0.005 * raw_mean(texels));
+}
+
+TEST_F(NoisyChart, DarkTexelsBesideBrightOnesStayDark) {
+    // A line of a single texel, which takes no part in the noise around it.
+    const auto line = [](int x, int) { return x == kSize / 2 ? 0.3f : 2.0f; };
+    auto texels = noisy(line, 0.4f);
+    for (int y = 0; y < kSize; ++y) {
+        NoisyTexel& texel = texels[static_cast<size_t>(y * kSize + kSize / 2)];
+        const float sign = y % 2 == 0 ? 1.0f : -1.0f;
+        texel.halves = {glm::vec3(0.3f + 0.01f * sign), glm::vec3(0.3f - 0.01f * sign)};
+        texel.variance = 3.0f * 2.0f * 0.01f * 0.01f;
+    }
+    const auto result = filtered(texels);
+    double sum = 0.0;
+    for (int y = 0; y < kSize; ++y) sum += result[static_cast<size_t>(y * kSize + kSize / 2)];
+    EXPECT_NEAR(sum / kSize, 0.3, 0.03 * 0.3);
 }
 
 TEST_F(NoisyChart, LightWithoutNoiseStaysAsItIs) {
