@@ -115,7 +115,9 @@ class TileFilter {
     void add_offset(glm::ivec2 offset) {
         if (offset == glm::ivec2(0)) {
             for_each_own([&](glm::ivec2 place, std::vector<TexelShare>& shares) {
-                shares.push_back({indices_[index_of(place)], {1.0f, 1.0f}});
+                const uint32_t own = indices_[index_of(place)];
+                const float count = texels_[own].sample_count;
+                shares.push_back({own, {count, count}});
             });
             return;
         }
@@ -131,7 +133,8 @@ class TileFilter {
             // Each half takes the weight of the other.
             for (size_t half = 0; half < 2; ++half) {
                 const float weight = std::exp(-std::max(0.0f, mean[half]));
-                share.halves[1 - half] = weight < kLeastWeight ? 0.0f : weight;
+                share.halves[1 - half] =
+                    weight < kLeastWeight ? 0.0f : weight * texels_[other].sample_count;
             }
             if (share.halves[0] > 0.0f || share.halves[1] > 0.0f) shares.push_back(share);
         });

@@ -48,6 +48,9 @@ struct TexelShare {
 /// alone would blur dark texels beside bright ones, and the third is wrong where light without
 /// noise ends.
 ///
+/// Weights are in proportion to the samples of texels, so that all samples count alike. Texels that
+/// end at a target error because they missed what others found are then no darker than those.
+///
 /// The mean of a half has no bias by its own noise, as its weights depend on the other half. All
 /// values of a texel are filtered by the same weights, so that what adds up before does so after
 /// it. A function of the arguments alone.

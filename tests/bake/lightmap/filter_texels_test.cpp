@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <random>
@@ -92,6 +91,46 @@ double raw_mean(const std::vector<NoisyTexel>& texels) {
     return sum / static_cast<double>(texels.size());
 }
 
+/// Estimates are 1, or 9 where they hit a small bright spot.
+struct RareSpots {
+    double probability = 0.05;
+    float brightness = 8.0f;
+
+    [[nodiscard]] float light() const {
+        return 1.0f + static_cast<float>(probability) * brightness;
+    }
+
+    [[nodiscard]] NoisyTexel texel(int count, std::mt19937& engine) const {
+        int hits[2] = {};
+        std::bernoulli_distribution hit(probability);
+        for (int i = 0; i < count; ++i) hits[i % 2] += hit(engine);
+        NoisyTexel texel;
+        for (size_t half = 0; half < 2; ++half) {
+            const float mean = static_cast<float>(hits[half]) / (0.5f * static_cast<float>(count));
+            texel.halves[half] = glm::vec3(1.0f + brightness * mean);
+        }
+        const float all = static_cast<float>(hits[0] + hits[1]) / static_cast<float>(count);
+        // Three channels, and half of the estimates.
+        texel.variance = 3.0f * brightness * brightness * all * (1.0f - all) /
+                         static_cast<float>(count - 1) * 2.0f;
+        texel.sample_count = static_cast<float>(count);
+        texel.normal = {0, 1, 0};
+        return texel;
+    }
+
+    /// With `more` estimates after those of `first`.
+    [[nodiscard]] NoisyTexel texel(const NoisyTexel& first, int more, std::mt19937& engine) const {
+        NoisyTexel all = texel(more, engine);
+        const float before = first.sample_count, after = all.sample_count, sum = before + after;
+        for (size_t half = 0; half < 2; ++half)
+            all.halves[half] = (first.halves[half] * before + all.halves[half] * after) / sum;
+        all.variance =
+            (first.variance * before * before + all.variance * after * after) / (sum * sum);
+        all.sample_count = sum;
+        return all;
+    }
+};
+
 TEST_F(NoisyChart, EvenLightLosesItsNoiseAndKeepsItsMean) {
     const auto even = [](int, int) { return 1.0f; };
     const auto texels = noisy(even, 0.1f);
@@ -131,28 +170,33 @@ TEST_F(NoisyChart, RareBrightSamplesAreSharedNotLost) {
 }
 
 TEST_F(NoisyChart, TexelsThatMissedRareSamplesAreFilteredToo) {
-    // Each of eight estimates of a texel is 1, or 9 with a probability of 5 %: two texels of three
-    // have no idea of their variance.
-    constexpr float kRare = 0.05f, kSpot = 8.0f;
+    const RareSpots spots;
     std::mt19937 engine(7);
-    std::vector<NoisyTexel> texels(size_t{kSize} * kSize);
+    std::vector<NoisyTexel> texels;
     double raw = 0.0;
-    const auto even = [](int, int) { return 1.0f + kRare * kSpot; };
-    for (NoisyTexel& texel : texels) {
-        texel.normal = {0, 1, 0};
-        std::array<float, 8> estimates{};
-        for (float& estimate : estimates)
-            estimate = 1.0f + (std::bernoulli_distribution(double{kRare})(engine) ? kSpot : 0.0f);
-        for (size_t i = 0; i < 8; ++i) texel.halves[i / 4] += glm::vec3(0.25f * estimates[i]);
-        const float mean = 0.5f * (texel.halves[0].x + texel.halves[1].x);
-        // Three channels, and the mean of four of the eight.
-        for (const float estimate : estimates)
-            texel.variance += 3.0f * std::pow(estimate - mean, 2.0f) / 7.0f / 4.0f;
-        raw += std::pow(double{mean - even(0, 0)}, 2) / (kSize * kSize);
+    const auto even = [&](int, int) { return spots.light(); };
+    for (int i = 0; i < kSize * kSize; ++i) {
+        // Two texels of three miss all spots: they do not know their variance.
+        texels.push_back(spots.texel(8, engine));
+        const auto mean = 0.5 * double{texels.back().halves[0].x + texels.back().halves[1].x};
+        raw += std::pow(mean - double{spots.light()}, 2) / (kSize * kSize);
     }
     const auto result = filtered(texels);
     EXPECT_LT(error_of(result, even), std::sqrt(raw) / 4.0);  // sixteen times the samples
     EXPECT_NEAR(mean(result), raw_mean(texels), 0.005 * raw_mean(texels));
+}
+
+TEST_F(NoisyChart, TexelsThatEndEarlyDoNotDarkenOthers) {
+    // As a target error does: texels that miss all spots look exact and end.
+    const RareSpots spots;
+    std::mt19937 engine(8);
+    std::vector<NoisyTexel> texels;
+    for (int i = 0; i < kSize * kSize; ++i) {
+        const NoisyTexel first = spots.texel(8, engine);
+        texels.push_back(first.variance > 0.0f ? spots.texel(first, 64, engine) : first);
+    }
+    EXPECT_LT(raw_mean(texels), 0.95 * double{spots.light()});
+    EXPECT_NEAR(mean(filtered(texels)), double{spots.light()}, 0.015 * double{spots.light()});
 }
 
 TEST_F(NoisyChart, DarkTexelsBesideBrightOnesStayDark) {
