@@ -31,6 +31,10 @@ void bench_lightmap_layers(const Scene& scene, const std::string& name);
 /// What the filter changes at the edge of a contact shadow: `lightmap.filter_edge`.
 void bench_contact_shadow();
 
+/// Light on mapped normals against traced light: `lightmap.directional*.NAME`, with lights as the
+/// scene has them and all baked (`NAME_baked_sun`).
+void bench_lightmap_directional(const Scene& scene, const std::string& name);
+
 /// `lightmap.dark_room` and `lightmap.sample`.
 void bench_dark_room();
 void bench_lightmap_samples(const Options& options);

@@ -78,7 +78,8 @@ struct Lightmap {
         if (auto status = check_preview(0); !status) return status;
         if (auto status = check_unwrapped(); !status) return status;
         if (auto status = storing.open(); !status) return status;
-        const auto scene = scene_options.read();
+        const auto scene =
+            scene_options.read(settings.has_normal_maps ? NormalMaps::Read : NormalMaps::Skip);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         auto prepared = prepare_lightmaps(*scene, settings);

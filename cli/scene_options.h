@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/result.h>
 #include <tetralight/cli/sky_options.h>
@@ -24,7 +25,7 @@ struct SceneOptions {
     explicit SceneOptions(const Values& values);
 
     /// Reads the scene and adds the light and the adjustment volumes.
-    [[nodiscard]] Result<Scene> read() const;
+    [[nodiscard]] Result<Scene> read(NormalMaps normal_maps = NormalMaps::Skip) const;
 
     /// The files that are read.
     [[nodiscard]] std::vector<std::string> inputs() const { return {path, adjustments, sky.path}; }

@@ -262,6 +262,7 @@ uint64_t lightmap_key(const PreparedLightmaps& prepared) {
     hash.add(prepared.baked);
     hash.add(prepared.positions);
     hash.add(prepared.surfaces);
+    if (!prepared.mapped_normals.empty()) hash.add(prepared.mapped_normals);
     for (const Seam& seam : prepared.seams) {
         hash.add(seam.first);
         hash.add(seam.second);

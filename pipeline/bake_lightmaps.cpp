@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include <tetralight/bake/lightmap/make_radiance_cache.h>
+#include <tetralight/bake/lightmap/mapped_texels.h>
 #include <tetralight/bake/occlusion_channels.h>
 #include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/rays/trace_scene.h>
@@ -248,6 +250,10 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     if (!texels) return texels.error();
     prepared.texels = std::move(*texels);
     select_texels(scene, prepared);
+    if (settings.has_normal_maps) {
+        prepared.mapped_normals = make_mapped_normals(scene, prepared.layout, prepared.maps,
+                                                      prepared.texels, prepared.baked);
+    }
     describe(scene, *plan, prepared);
     store_occlusion_lights(*plan, prepared);
     const std::vector<bool> is_lit = lit_instances(prepared);
@@ -277,6 +283,12 @@ Result<TexelBake> bake_texel_range(const Scene& scene, const PreparedLightmaps& 
     bake.rows.resize(range.count() * LightGroupLayout(settings.plan).size());
     for (const TexelSurfaces::Texel& texel : places.surfaces.texels)
         bake.normals.push_back(texel.normal);
+    if (!prepared.mapped_normals.empty()) {
+        const auto mapped =
+            std::span(prepared.mapped_normals)
+                .subspan(kMappedNormals * range.begin, kMappedNormals * range.count());
+        bake.mapped_normals.assign(mapped.begin(), mapped.end());
+    }
     RadianceCache cache;
     BakeHooks hooks{.progress = callback, .preview_seconds = preview.seconds};
     if (prepared.has_cache()) {

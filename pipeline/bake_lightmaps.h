@@ -47,6 +47,10 @@ struct BakeLightmapsSettings {
     bool is_exact = false;
     /// Texels have the light of their own samples only. Else they are filtered (`TexelLights`).
     bool is_unfiltered = false;
+    /// `irradiance` is the mean over places of a texel on the normals of their normal maps
+    /// (`make_mapped_normals`), for textures without directions. The scene has to be read with
+    /// `NormalMaps::Read`.
+    bool has_normal_maps = false;
     LightingSettings lighting{};
     /// Bakes `Lightmaps::ambient_occlusion` of surfaces nearer than this, metres. 0: no.
     float ambient_occlusion_distance = 0.0f;
@@ -101,6 +105,8 @@ struct PreparedLightmaps {
     std::vector<TexelSurfaces::Texel> surfaces;
     /// The lights of the channels of each baked texel's shadow mask; empty without one.
     std::vector<OcclusionLights> occlusion_lights;
+    /// `kMappedNormals` of each texel, or none.
+    std::vector<glm::vec3> mapped_normals;
     /// Complete but for texels: rectangles, UVs, layers and metadata.
     Lightmaps lightmaps;
     /// Between instances that have baked texels.
@@ -130,6 +136,7 @@ struct TexelBake {
     std::vector<ProbeAccumulator> accumulators;
     std::vector<double> rows;  ///< of `LightGroupLayout(settings.bake.plan)`
     std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> mapped_normals;  ///< of the range, as in `PreparedLightmaps`
     StoredBake stored;
     double cache_seconds = 0.0;  ///< 0 = no cache was made
 };

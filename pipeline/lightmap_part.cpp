@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include <tetralight/bake/lightmap/mapped_texels.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/part_sections.h>
@@ -244,6 +245,20 @@ class PartReader {
             if (!is_finite(bake.normals[i]))
                 return element_error("texel_normals", i, "is not finite");
         }
+        return read_mapped_normals(bake);
+    }
+
+    [[nodiscard]] Status read_mapped_normals(TexelBake& bake) const {
+        bake.mapped_normals = sections_.read<glm::vec3>("mapped_normals");
+        const size_t count = bake.mapped_normals.size();
+        if (count != 0 && count != kMappedNormals * bake.range.count()) {
+            return section_error("mapped_normals",
+                                 str_cat(count, " elements for ", bake.range.count(), " texels"));
+        }
+        for (size_t i = 0; i < count; ++i) {
+            if (!is_finite(bake.mapped_normals[i]))
+                return element_error("mapped_normals", i, "is not finite");
+        }
         return Ok{};
     }
 
@@ -281,7 +296,8 @@ Status write_lightmap_part(const std::string& path, const PreparedLightmaps& pre
                                              section_of("seams", arrays.seams),
                                              section_of("tallies", partial.accumulators),
                                              section_of("split_rows", partial.rows),
-                                             section_of("texel_normals", partial.normals)};
+                                             section_of("texel_normals", partial.normals),
+                                             section_of("mapped_normals", partial.mapped_normals)};
     LightmapsView view = maps.view();
     view.info.page_count = 0;
     view.rectangles = {};

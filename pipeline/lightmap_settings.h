@@ -10,8 +10,8 @@ namespace tetralight {
 /// lightmap` (settings/lightmap_table.cpp) sets, as `for_each_bake_member` does it for `bake`.
 template <class Settings, class Use>
 void for_each_lightmap_setting(Settings& settings, Use use) {
-    auto& [layout, texels, bake, is_exact, is_unfiltered, lighting, ambient_occlusion_distance,
-           only] = settings;
+    auto& [layout, texels, bake, is_exact, is_unfiltered, has_normal_maps, lighting,
+           ambient_occlusion_distance, only] = settings;
     use("texels_per_meter", layout.texels_per_meter, Recorded::Always);
     use("page_size", layout.page_size, Recorded::Always);
     use("uvs", layout.uvs, Recorded::WhenChanged);
@@ -25,6 +25,7 @@ void for_each_lightmap_setting(Settings& settings, Use use) {
     use("exact", is_exact, Recorded::WhenChanged);
     use("no_filter", is_unfiltered, Recorded::WhenChanged);
     use("mixed_lighting", lighting.mixed_lighting, Recorded::WhenChanged);
+    use("normal_maps", has_normal_maps, Recorded::WhenChanged);
     use("layers", lighting.layers, Recorded::Never);
     use("ambient_occlusion", ambient_occlusion_distance, Recorded::WhenChanged);
     use("only", only, Recorded::Never);

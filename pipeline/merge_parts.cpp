@@ -124,6 +124,7 @@ Result<BakedLightmaps> merge_lightmap_parts(const std::vector<std::string>& path
         append(bake.accumulators, partial.accumulators);
         append(bake.rows, partial.rows);
         append(bake.normals, partial.normals);
+        append(bake.mapped_normals, partial.mapped_normals);
     }
     prepared.settings.bake.thread_count = thread_count;
     return finish_lightmaps(std::move(prepared), bake);

@@ -8,7 +8,10 @@
 #include <span>
 
 #include <tetralight/bake/lightmap/chart_means.h>
+#include <tetralight/bake/lightmap/filter_texels.h>
+#include <tetralight/bake/lightmap/mapped_texels.h>
 #include <tetralight/bake/parallel.h>
+#include <tetralight/lightmap/directional_light.h>
 
 namespace tetralight {
 namespace {
@@ -82,6 +85,19 @@ double cut_square(const ProbeAccumulator& sums) {
     return all > 0.0 ? all * all - sampling * sampling : 0.0;
 }
 
+/// The mean irradiance on normals near that of the texel.
+void set_mapped_irradiance(TexelLight& light, const glm::vec3& base,
+                           std::span<const glm::vec3> normals) {
+    light.irradiance = glm::vec3(0.0f);
+    for (const glm::vec3& normal : normals) {
+        for (int c = 0; c < 3; ++c) {
+            light.irradiance[c] +=
+                directional_irradiance(light.flux[c], light.vector[c], base, normal) /
+                static_cast<float>(normals.size());
+        }
+    }
+}
+
 /// The charts in the pages, with the baked texels.
 PageCharts page_charts(const PreparedLightmaps& prepared) {
     const Lightmaps& maps = prepared.lightmaps;
@@ -127,6 +143,21 @@ TexelLights::TexelLights(const PreparedLightmaps& prepared, const TexelBake& bak
         }
     });
     if (is_filtered) filter(prepared, bake, halves);
+    if (!bake.mapped_normals.empty()) map_normals(bake, prepared.settings.bake.thread_count);
+}
+
+void TexelLights::map_normals(const TexelBake& bake, uint32_t thread_count) {
+    for_each_texel(bake, thread_count, [&](size_t texel) {
+        const auto normals =
+            std::span(bake.mapped_normals).subspan(kMappedNormals * texel, kMappedNormals);
+        const glm::vec3& base = bake.normals[texel];
+        if (std::ranges::all_of(normals, [&](const glm::vec3& n) { return n == base; })) return;
+        const auto values = std::span(lights_).subspan(index(texel), value_count_);
+        for (TexelLight& light : values) set_mapped_irradiance(light, base, normals);
+        if (value_count_ == 1) return;
+        values[0].irradiance = glm::vec3(0.0f);
+        for (const TexelLight& layer : values.subspan(1)) values[0].irradiance += layer.irradiance;
+    });
 }
 
 std::vector<NoisyTexel> TexelLights::noisy_texels(const TexelBake& bake,

@@ -46,6 +46,9 @@ class TexelLights {
     }
 
   private:
+    /// Irradiance on the normals of normal maps. The total is the sum of the layers.
+    void map_normals(const TexelBake& bake, uint32_t thread_count);
+
     /// Of the total of a texel in `lights_`; its layers follow.
     [[nodiscard]] size_t index(size_t baked) const { return baked * value_count_; }
 

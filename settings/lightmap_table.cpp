@@ -65,6 +65,10 @@ constexpr Setting kSampling[] = {
      .range = {1, 0x1p32},
      .without = "64 times --samples"},
     kTimeBudget,
+    {.name = "normal_maps",
+     .type = Type::Flag,
+     .help = "Bake normal maps into the irradiance, for engines that read no directions: texels "
+             "have to be as fine as the relief"},
     {.name = "no_filter",
      .type = Type::Flag,
      .help = "Keep the noise of each texel. Without it, texels become means of texels around them "

@@ -13,6 +13,7 @@
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/pipeline/bake_store.h>
+#include "tests/support/mapped_wall.h"
 #include "tests/support/scenes.h"
 #include "tests/support/temp_folder.h"
 
@@ -83,6 +84,52 @@ TEST(BakeLightmaps, AFloorUnderAWhiteSkyReceivesPi) {
     // The part of the sky that both normals see.
     EXPECT_NEAR(double{sample_lightmap(maps.view(), 0, uv, {up, tilted}).y},
                 kPi * 0.5 * (1.0 + double{tilted.y}), 0.04);
+}
+
+/// A floor with a normal map that is tilted everywhere, and the angle of the tilt's cosine.
+struct MappedFloor {
+    Scene scene;
+    glm::vec3 normal;
+    BakeLightmapsSettings settings = settings_with(256);
+
+    MappedFloor() {
+        Material material = kGrey;
+        test::set_normal_map(scene, material, {0.6f, 0.0f});
+        test::add_floor(scene, material, 2.0f);
+        // u of the floor runs along +Z.
+        const glm::vec3 stored = test::stored_normal({0.6f, 0.0f});
+        normal = {-stored.y, stored.z, stored.x};
+        settings.has_normal_maps = true;
+    }
+};
+
+TEST(BakeLightmaps, NormalMapsSeeTheirPartOfTheSky) {
+    MappedFloor floor;
+    floor.scene.environment.radiance = glm::vec3(1.0f);
+    const double expected = kPi * 0.5 * (1.0 + double{floor.normal.y});
+    const Lightmaps maps = bake(floor.scene, floor.settings);
+    for (const float value : irradiance_of(maps, 0)) EXPECT_NEAR(double{value}, expected, 0.03);
+    EXPECT_NE(maps.metadata.find("normal_maps"), std::string::npos);
+    floor.settings.has_normal_maps = false;
+    for (const float value : irradiance_of(bake(floor.scene, floor.settings), 0))
+        EXPECT_NEAR(double{value}, kPi, 0.03);
+}
+
+TEST(BakeLightmaps, NormalMapsFaceTheSunAndKeepItsLayer) {
+    MappedFloor floor;
+    floor.scene.environment.radiance = glm::vec3(1.0f);
+    const glm::vec3 down = glm::normalize(glm::vec3(0, -1, -1));
+    add_sun(floor.scene, down, LightMode::Baked);
+    floor.settings.lighting.layers = {"sun"};
+    const Lightmaps maps = bake(floor.scene, floor.settings);
+    const double sun = -3.0 * double{glm::dot(down, floor.normal)};
+    const double sky = kPi * 0.5 * (1.0 + double{floor.normal.y});
+    for (const float value : irradiance_of(maps, 0)) EXPECT_NEAR(double{value}, sun + sky, 0.05);
+    for (size_t i = 0; i < maps.irradiance.size(); ++i) {
+        if (maps.irradiance[i].rgb[1] == 0) continue;
+        const float layer = float_from_half(maps.layer_irradiance[i].rgb[1]) * maps.layers[0].scale;
+        EXPECT_NEAR(double{layer}, sun, 0.02);
+    }
 }
 
 TEST(BakeLightmaps, BakedSunFallsByItsCosineAndMixedSunDoesNotFall) {

@@ -73,6 +73,10 @@ TEST_F(LightmapPart, RefusesTalliesThatNoRoundsLeave) {
               "section \"texel_normals\": element 2: is not finite");
     EXPECT_EQ(refusal([](auto&, auto& b) { b.normals.pop_back(); }),
               "section \"texel_normals\": 5 elements for 6 texels");
+    EXPECT_EQ(refusal([](auto&, auto& b) { b.mapped_normals.resize(23); }),
+              "section \"mapped_normals\": 23 elements for 6 texels");
+    EXPECT_EQ(refusal([](auto&, auto& b) { b.mapped_normals.resize(24, glm::vec3(NAN)); }),
+              "section \"mapped_normals\": element 0: is not finite");
 }
 
 TEST_F(LightmapPart, RefusesRangesThatAreNone) {

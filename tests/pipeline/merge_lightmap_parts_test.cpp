@@ -8,6 +8,7 @@
 #include <tetralight/pipeline/partial_bake.h>
 
 #include "tests/pipeline/lightmap_part_fixture.h"
+#include "tests/support/mapped_wall.h"
 
 namespace tetralight {
 namespace {
@@ -48,6 +49,14 @@ TEST_F(MergeLightmapParts, OfAdaptiveBakesToo) {
 
 TEST_F(MergeLightmapParts, OfUnfilteredBakesToo) {
     settings.is_unfiltered = true;
+    expect_whole_of_two();
+}
+
+TEST_F(MergeLightmapParts, OfNormalMapsToo) {
+    test::set_normal_map(scene, scene.materials[0], {0.5f, 0.2f});
+    const auto flat = whole();
+    settings.has_normal_maps = true;
+    EXPECT_FALSE(whole() == flat);
     expect_whole_of_two();
 }
 
