@@ -61,8 +61,9 @@ struct TexelVisibility {
 
 class PageWriter {
   public:
-    PageWriter(const PreparedLightmaps& prepared, const TexelLights& lights)
+    PageWriter(const PreparedLightmaps& prepared, const TexelBake& bake, const TexelLights& lights)
         : prepared_(prepared),
+          bake_(bake),
           lights_(lights),
           baked_index_(prepared.texels.validity.size(), kNoIndex),
           layout_(prepared.settings.bake.plan),
@@ -281,6 +282,7 @@ class PageWriter {
     }
 
     const PreparedLightmaps& prepared_;
+    const TexelBake& bake_;
     const TexelLights& lights_;
     std::vector<uint32_t> baked_index_;  ///< of each texel in `prepared.baked`, or kNoIndex
     uint64_t texel_count_ = 0;
@@ -340,7 +342,7 @@ BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bak
     result.report = std::move(prepared.report);
     LightmapReport& report = result.report;
     const TexelLights lights(prepared, bake);
-    result.lightmaps = PageWriter(prepared, lights).run(report);
+    result.lightmaps = PageWriter(prepared, bake, lights).run(report);
     const double target_error = prepared.settings.bake.target_error;
     report_work(bake, report);
     report_errors(lights.errors(), target_error, report);
