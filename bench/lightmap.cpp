@@ -9,18 +9,20 @@ namespace {
 
 void bench_scene(const std::string& path, const std::string& name, const Options& options) {
     if (!is_selected(options, name)) return;
-    const bool is_directional = !options.figure || *options.figure == "directional";
     auto scene = read_gltf(path);
     require(bool(scene), "the scene " + path);
     light_if_dark(*scene);
-    if (is_directional) bench_lightmap_directional(*scene, name);
+    const auto is_asked = [&](const char* figure) {
+        return !options.figure || *options.figure == figure;
+    };
+    if (is_asked("directional")) bench_lightmap_directional(*scene, name);
+    if (is_asked("shadowmask")) bench_shadow_mask(*scene, name);
+    if (is_asked("layers")) bench_lightmap_layers(*scene, name);
     if (options.figure) return;
     bench_lightmap_layout(*scene, name, options);
     bench_lightmap_texels(*scene, name, options);
     bench_lightmap_cache(*scene, name);
     bench_lightmap_filter(*scene, name);
-    bench_shadow_mask(*scene, name);
-    bench_lightmap_layers(*scene, name);
 }
 
 }  // namespace

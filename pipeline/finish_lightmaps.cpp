@@ -20,6 +20,8 @@ namespace {
 
 /// The values of a `TexelLight` one by one: irradiance, flux, vector.
 constexpr size_t kValueCount = 15;
+/// Of these the first ones are not negative: irradiance and flux.
+constexpr size_t kPositiveCount = 6;
 
 float& value_of(TexelLight& light, size_t i) {
     if (i < 3) return light.irradiance[static_cast<int>(i)];
@@ -83,11 +85,20 @@ class PageWriter {
         write_light(std::nullopt);
         report_seams(stitcher, report.seam_difference_baked);
         hold_zeros(stitcher);
-        stitch(stitcher, std::nullopt);
+        stitch(stitcher);
+        store_seams(stitcher, std::nullopt);
         report_seams(stitcher, report.seam_difference);
+        const std::vector<TexelLight> total = seam_light_;
+        std::vector<std::vector<TexelLight>> layers;
         for (size_t layer = 0; layer < layer_count(); ++layer) {
             write_light(layer);
-            stitch(stitcher, layer);
+            stitch(stitcher);
+            layers.push_back(seam_light_);
+        }
+        add_up(total, layers);
+        for (size_t layer = 0; layer < layer_count(); ++layer) {
+            seam_light_ = layers[layer];
+            store_seams(stitcher, layer);
         }
         return std::move(maps_);
     }
@@ -232,19 +243,37 @@ class PageWriter {
     }
 
     /// Makes both sides of seams agree.
-    void stitch(const SeamStitcher& stitcher, std::optional<size_t> layer) {
+    void stitch(const SeamStitcher& stitcher) {
         parallel_for(kValueCount, prepared_.settings.bake.thread_count, [&](size_t value) {
             std::vector<double> values;
             for (TexelLight& light : seam_light_) values.push_back(double{value_of(light, value)});
-            const bool is_positive = value < 6;
+            const bool is_positive = value < kPositiveCount;
             const std::vector<double> stitched = stitcher.stitched(values);
             for (size_t i = 0; i < stitched.size(); ++i) {
                 const auto number = static_cast<float>(stitched[i]);
                 value_of(seam_light_[i], value) = is_positive ? std::max(0.0f, number) : number;
             }
         });
+    }
+
+    void store_seams(const SeamStitcher& stitcher, std::optional<size_t> layer) {
         for (size_t i = 0; i < seam_light_.size(); ++i)
             store(stitcher.texels()[i], seam_light_[i], layer);
+    }
+
+    /// Layers that would have become negative are 0, which leaves the others with more than the
+    /// total: they get their parts of it.
+    static void add_up(const std::vector<TexelLight>& total,
+                       std::vector<std::vector<TexelLight>>& layers) {
+        for (size_t i = 0; i < total.size(); ++i) {
+            for (size_t value = 0; value < kPositiveCount; ++value) {
+                TexelLight whole = total[i];
+                float sum = 0.0f;
+                for (auto& layer : layers) sum += value_of(layer[i], value);
+                const float factor = sum > 0.0f ? value_of(whole, value) / sum : 0.0f;
+                for (auto& layer : layers) value_of(layer[i], value) *= factor;
+            }
+        }
     }
 
     /// The 99th percentile of relative differences of green irradiance.

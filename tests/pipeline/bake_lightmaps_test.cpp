@@ -162,7 +162,9 @@ TEST(BakeLightmaps, ASealedRoomUnderASunIsBlack) {
 TEST(BakeLightmaps, LayersAddUpToTheLight) {
     Scene scene;
     scene.environment.radiance = glm::vec3(0.4f);
-    test::add_floor(scene, kGrey, 2.0f);
+    // Two tiles, whose seam crosses the shadow of the box.
+    test::add_quad(scene, kGrey, {-2, 0, -2}, {0, 0, 4}, {2, 0, 0});
+    test::add_quad(scene, kGrey, {0, 0, -2}, {0, 0, 4}, {2, 0, 0});
     test::add_box(scene, test::diffuse(glm::vec3(0.2f), glm::vec3(5.0f)), test::Facing::Outward,
                   {-0.3f, 0.2f, -0.3f}, {0.3f, 0.8f, 0.3f});
     add_sun(scene, {0.5f, -1, 0}, LightMode::Baked);
