@@ -41,9 +41,9 @@ int main(int argc, char** argv) {
                    "interior or scene. relight: courtyard, scene or emitters");
     app.add_option("--figure", options.figure,
                    "The figures that `bake` measures alone: time, rays, noise, layers, bounces, "
-                   "dering or threads; and `lightmap`: directional")
-        ->check(CLI::IsMember(
-            {"time", "rays", "noise", "layers", "bounces", "dering", "threads", "directional"}));
+                   "dering or threads; and `lightmap`: directional, shadowmask or layers")
+        ->check(CLI::IsMember({"time", "rays", "noise", "layers", "bounces", "dering", "threads",
+                               "directional", "shadowmask"}));
     CLI11_PARSE(app, argc, argv);
     for (const auto& [name, bench] : benches) {
         if (names.empty() || std::ranges::find(names, name) != names.end()) bench(options);
