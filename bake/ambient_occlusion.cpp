@@ -7,7 +7,7 @@
 
 namespace tetralight {
 
-float ambient_occlusion(const PathTracer& tracer, glm::vec3 position, const TexelSurface& surface,
+float ambient_occlusion(const TraceScene& scene, glm::vec3 position, const TexelSurface& surface,
                         float distance, uint64_t key) {
     // Other random numbers than those of the texel's light.
     const uint64_t own_key = detail::mix(~key);
@@ -18,7 +18,7 @@ float ambient_occlusion(const PathTracer& tracer, glm::vec3 position, const Texe
         const glm::vec3 direction =
             sample_cosine_hemisphere(surface.normal, owen_sobol2(i, own_key));
         const glm::vec3 origin = position + surface.origins[place];
-        open += !tracer.trace_scene().occluded({origin, direction, distance});
+        open += !scene.occluded({origin, direction, distance});
     }
     return static_cast<float>(open) / static_cast<float>(kAmbientOcclusionRayCount);
 }

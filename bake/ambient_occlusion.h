@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include <tetralight/bake/path_tracer.h>
+#include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/texel_surface.h>
 
 namespace tetralight {
@@ -16,7 +16,7 @@ inline constexpr uint32_t kAmbientOcclusionRayCount = 256;
 /// to its normal, in which no surface is nearer than `distance`, metres. 1 = open, 0 = enclosed.
 /// Surfaces block by their alpha, from both sides. The mean over the places of the texel.
 /// `position`: in render space. A pure function.
-[[nodiscard]] float ambient_occlusion(const PathTracer& tracer, glm::vec3 position,
+[[nodiscard]] float ambient_occlusion(const TraceScene& scene, glm::vec3 position,
                                       const TexelSurface& surface, float distance, uint64_t key);
 
 }  // namespace tetralight

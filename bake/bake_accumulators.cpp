@@ -82,7 +82,8 @@ bool has_single_values(const LightGroupLayout& layout, uint64_t round, uint32_t 
     return layout.has_single_values() && round == 0 && number == 0;
 }
 
-/// Calls a function every so many seconds or more, so that it takes at most a share of the time.
+/// Calls a function at regular intervals, which grow so that the calls take at most a share of the
+/// time.
 class Periodic {
   public:
     /// `pause`: time between two calls over the time of a call, at least.
@@ -228,7 +229,8 @@ class AccumulatorBaker {
             for (int i = 0; i < 4; ++i) values.push_back(occlusion[i]);
         }
         if (layout_.has_ambient_occlusion) {
-            values.push_back(ambient_occlusion(work_.tracer, origin, work_.places.surfaces[probe],
+            values.push_back(ambient_occlusion(work_.trace_scene, origin,
+                                               work_.places.surfaces[probe],
                                                settings_.plan.ambient_occlusion_distance, key));
         }
     }

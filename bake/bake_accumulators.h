@@ -36,7 +36,7 @@ struct BakeHooks {
 };
 
 /// Where a bake accumulates its light groups; empty if `LightPlan::has_light_groups` is false and
-/// the plan has no occlusion.
+/// the plan has no occlusion of either kind.
 struct LightGroupRows {
     /// One row per position, as `LightGroupLayout(settings.plan)` describes it: Σ samples · value
     /// over all estimates for layers and transfer; the value itself for both kinds of occlusion;

@@ -123,24 +123,20 @@ void bench_errors(const Scene& scene, const PreparedLightmaps& prepared, const s
 void bench_flat_normals(const Scene& scene, PreparedLightmaps prepared, const std::string& name) {
     const auto bake = bake_texels(scene, prepared);
     require(bool(bake), "bake");
-    const std::vector<uint32_t> baked = prepared.baked, first = prepared.texels.first_texel;
-    const std::vector<TexelMap> maps = prepared.maps;
+    const std::vector<size_t> indices = prepared.page_texels();
     const BakedLightmaps result = finish_lightmaps(std::move(prepared), *bake);
     const LightmapsView view = result.lightmaps.view();
-    const auto size = static_cast<float>(view.info.page_size);
+    const size_t size = view.info.page_size;
     double sum = 0.0, squares = 0.0;
-    size_t count = 0, instance = 0;
-    for (size_t i = 0; i < baked.size(); ++i) {
-        while (baked[i] >= first[instance + 1]) ++instance;
-        const LightmapRectangle& place = view.rectangles[instance];
-        const TexelMap& map = maps[place.mesh];
-        const uint32_t texel = map.texels[baked[i] - first[instance]].index;
-        const glm::vec2 uv((static_cast<float>(place.x + texel % map.width) + 0.5f) / size,
-                           (static_cast<float>(place.y + texel / map.width) + 0.5f) / size);
-        const float flat = sample_irradiance(view, place.page, uv).y;
+    size_t count = 0;
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const glm::vec2 texel(indices[i] % size, indices[i] / size % size);
+        const glm::vec2 uv = (texel + 0.5f) / static_cast<float>(size);
+        const auto page = static_cast<uint32_t>(indices[i] / (size * size));
+        const float flat = sample_irradiance(view, page, uv).y;
         if (!(flat > 0.0f)) continue;
         const glm::vec3& normal = bake->normals[i];
-        const glm::vec3 lit = sample_lightmap(view, place.page, uv, {normal, normal});
+        const glm::vec3 lit = sample_lightmap(view, page, uv, {normal, normal});
         const double difference = double{lit.y / flat} - 1.0;
         sum += difference;
         squares += difference * difference;

@@ -30,22 +30,6 @@ Scene with_mixed_sun(Scene scene) {
     return scene;
 }
 
-/// Calls `visit(index of the texel in the pages, its number)` for each baked texel.
-template <class Visit>
-void for_each_baked(const PreparedLightmaps& prepared, const Visit& visit) {
-    const auto& first = prepared.texels.first_texel;
-    for (const uint32_t texel : prepared.baked) {
-        const auto after = std::ranges::upper_bound(first, texel);
-        const auto instance = static_cast<size_t>(after - first.begin() - 1);
-        const LightmapRectangle& place = prepared.lightmaps.rectangles[instance];
-        const TexelMap& map = prepared.maps[place.mesh];
-        const uint32_t index = map.texels[texel - first[instance]].index;
-        const size_t size = prepared.lightmaps.info.page_size;
-        const size_t x = place.x + index % map.width, y = place.y + index / map.width;
-        visit((place.page * size + y) * size + x, texel);
-    }
-}
-
 float value_of(uint16_t half, float scale) {
     return float_from_half(half) * scale;
 }
@@ -66,10 +50,12 @@ void bench_shadow_mask(const Scene& scene, const std::string& name) {
     std::vector<Light> lights;
     for (const Light& light : mixed.lights) lights.push_back(traced->render_from_world(light));
     double worst = 0.0;
-    size_t penumbra = 0, number = 0;
-    for_each_baked(*prepared, [&](size_t index, uint32_t texel) {
-        const OcclusionLights& channels = prepared->occlusion_lights[number++];
-        if (channels[0] == kNoIndex) return;
+    size_t penumbra = 0;
+    const std::vector<size_t> indices = prepared->page_texels();
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const uint32_t texel = prepared->baked[i];
+        const OcclusionLights& channels = prepared->occlusion_lights[i];
+        if (channels[0] == kNoIndex) continue;
         const TexelSurface surface = prepared->texels.view()[texel];
         const glm::vec3 position = traced->render_from_world(prepared->texels.positions[texel]);
         double probes = 0.0, variance = 0.0;
@@ -83,10 +69,10 @@ void bench_shadow_mask(const Scene& scene, const std::string& name) {
         probes /= places;
         // Texels share the rays of one probe among their places.
         const double sigma = std::sqrt(variance / places * (1.0 + 1.0 / places));
-        const double mask = baked->lightmaps.shadow_mask[index][0] / 255.0;
+        const double mask = baked->lightmaps.shadow_mask[indices[i]][0] / 255.0;
         worst = std::max(worst, std::abs(mask - probes) / std::max(4.0 * sigma, 1.0 / 255.0));
         penumbra += mask > 0.02 && mask < 0.98;
-    });
+    }
     report("lightmap.shadowmask." + name, worst,
            "largest difference to probes at the same places / max(4 sigma, 1/255)");
     report("lightmap.shadowmask_penumbra." + name, static_cast<double>(penumbra),

@@ -11,8 +11,8 @@
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/pipeline/exported_texels.h>
 #include <tetralight/pipeline/lightmap_images.h>
-#include <tetralight/pipeline/texel_values.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
 #include <tetralight/render/page_preview.h>
 
@@ -116,7 +116,8 @@ struct Export {
         return Ok{};
     }
 
-    [[nodiscard]] Status write_preview(const LightmapsView& maps, const TexelValues& values) const {
+    [[nodiscard]] Status write_preview(const LightmapsView& maps,
+                                       const ExportedTexels& values) const {
         for (const std::string& name : marked) {
             if (std::ranges::count(instances_named(maps, {name}), true) > 0) continue;
             return Error{ErrorCode::NotFound, "mark", name,

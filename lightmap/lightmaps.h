@@ -48,6 +48,11 @@ struct LightmapInfo {
     /// 0. Readers of this version reject other values.
     std::array<uint32_t, 10> reserved{};
 
+    /// The index of a texel in sections that have one element a texel.
+    [[nodiscard]] uint64_t texel_index(uint32_t page, uint32_t x, uint32_t y) const noexcept {
+        return (uint64_t{page} * page_size + y) * page_size + x;
+    }
+
     bool operator==(const LightmapInfo&) const = default;
 };
 

@@ -204,6 +204,20 @@ void count_texels(PreparedLightmaps& prepared) {
 
 }  // namespace
 
+std::vector<size_t> PreparedLightmaps::page_texels() const {
+    std::vector<size_t> indices;
+    size_t instance = 0;
+    for (const uint32_t texel : baked) {
+        while (texel >= texels.first_texel[instance + 1]) ++instance;
+        const LightmapRectangle& place = lightmaps.rectangles[instance];
+        const TexelMap& map = maps[place.mesh];
+        const uint32_t index = map.texels[texel - texels.first_texel[instance]].index;
+        indices.push_back(lightmaps.info.texel_index(place.page, place.x + index % map.width,
+                                                     place.y + index / map.width));
+    }
+    return indices;
+}
+
 bool PreparedLightmaps::has_cache() const {
     const PathSettings paths{settings.bake.bounces, settings.bake.clamp};
     return !settings.is_exact && paths.traces_all_light();

@@ -118,6 +118,9 @@ struct PreparedLightmaps {
 
     [[nodiscard]] BakePlaces places() const { return {positions, {surfaces, texels.origins}}; }
 
+    /// The index in the pages of each baked texel (`LightmapInfo::texel_index`).
+    [[nodiscard]] std::vector<size_t> page_texels() const;
+
     /// True if paths end at a radiance cache.
     [[nodiscard]] bool has_cache() const;
 
@@ -181,9 +184,6 @@ struct LightmapPreview {
 /// light. To be called before lightmaps or parts are written; without a time budget it does
 /// nothing.
 void record_samples(PreparedLightmaps& prepared, const TexelBake& bake);
-
-/// A fraction in [0, 1] as lightmaps store it: times 255.
-[[nodiscard]] uint8_t fraction_byte(float fraction) noexcept;
 
 struct BakedLightmaps {
     Lightmaps lightmaps;

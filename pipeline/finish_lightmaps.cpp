@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include <tetralight/bake/image/fraction_byte.h>
 #include <tetralight/bake/lightmap/fill_texels.h>
 #include <tetralight/bake/lightmap/stitch_seams.h>
 #include <tetralight/bake/parallel.h>
@@ -196,9 +197,8 @@ class PageWriter {
 
     [[nodiscard]] size_t page_index(const TexelMap& map, const LightmapRectangle& place,
                                     uint32_t texel) const {
-        const size_t size = maps_.info.page_size;
-        const size_t x = place.x + texel % map.width, y = place.y + texel / map.width;
-        return (place.page * size + y) * size + x;
+        return maps_.info.texel_index(place.page, place.x + texel % map.width,
+                                      place.y + texel / map.width);
     }
 
     /// Writes the total light or that of a layer into the pages, and keeps that of seams.
@@ -266,8 +266,8 @@ class PageWriter {
     static void add_up(const std::vector<TexelLight>& total,
                        std::vector<std::vector<TexelLight>>& layers) {
         for (size_t i = 0; i < total.size(); ++i) {
+            TexelLight whole = total[i];
             for (size_t value = 0; value < kPositiveCount; ++value) {
-                TexelLight whole = total[i];
                 float sum = 0.0f;
                 for (auto& layer : layers) sum += value_of(layer[i], value);
                 const float factor = sum > 0.0f ? value_of(whole, value) / sum : 0.0f;
@@ -352,10 +352,6 @@ void report_errors(std::vector<float> errors, double target_error, LightmapRepor
 }
 
 }  // namespace
-
-uint8_t fraction_byte(float fraction) noexcept {
-    return static_cast<uint8_t>(std::lround(255.0f * std::clamp(fraction, 0.0f, 1.0f)));
-}
 
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
     std::vector<float> errors;

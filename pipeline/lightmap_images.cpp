@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include <tetralight/bake/image/fraction_byte.h>
 #include <tetralight/bake/image/srgb.h>
 #include <tetralight/bake/image/texture_3d.h>
 #include <tetralight/bake/image/write_image.h>
@@ -46,7 +47,7 @@ std::array<uint8_t, 4> rgbm_pixel(glm::vec3 share, RgbmCurve curve) {
     return pixel;
 }
 
-Image8 fractions(const TexelValues& values, uint32_t page) {
+Image8 fractions(const ExportedTexels& values, uint32_t page) {
     const size_t count = values.page_texel_count();
     Image8 image{values.page_size, values.page_size, {}};
     image.pixels.reserve(count);
@@ -54,17 +55,15 @@ Image8 fractions(const TexelValues& values, uint32_t page) {
         glm::vec4 value = values.at(page * count + i);
         if (values.channel_count == 3) value.w = 1.0f;
         auto& pixel = image.pixels.emplace_back();
-        for (int channel = 0; channel < 4; ++channel) {
-            const float byte = std::round(255.0f * std::clamp(value[channel], 0.0f, 1.0f));
-            pixel[static_cast<size_t>(channel)] = static_cast<uint8_t>(byte);
-        }
+        for (int channel = 0; channel < 4; ++channel)
+            pixel[static_cast<size_t>(channel)] = fraction_byte(value[channel]);
     }
     return image;
 }
 
 }  // namespace
 
-float largest_value(const TexelValues& values) {
+float largest_value(const ExportedTexels& values) {
     float largest = 0.0f;
     for (size_t texel = 0; texel < values.page_texel_count() * values.page_count; ++texel) {
         const glm::vec4 value = values.at(texel);
@@ -106,7 +105,7 @@ std::string page_path(const std::string& path, uint32_t page, uint32_t page_coun
     return str_cat(path.substr(0, dot), "_", page, path.substr(dot));
 }
 
-ImageF page_colors(const TexelValues& values, uint32_t page) {
+ImageF page_colors(const ExportedTexels& values, uint32_t page) {
     const size_t count = values.page_texel_count();
     ImageF image{values.page_size, values.page_size, {}};
     image.pixels.reserve(count);
@@ -114,7 +113,7 @@ ImageF page_colors(const TexelValues& values, uint32_t page) {
     return image;
 }
 
-Status write_exr_pages(const std::string& path, const TexelValues& values) {
+Status write_exr_pages(const std::string& path, const ExportedTexels& values) {
     constexpr const char* kNames[] = {"R", "G", "B", "A"};
     const size_t count = values.page_texel_count();
     std::vector<glm::vec4> pixels(count);
@@ -131,7 +130,7 @@ Status write_exr_pages(const std::string& path, const TexelValues& values) {
     return Ok{};
 }
 
-Result<float> write_png_pages(const std::string& path, const TexelValues& values) {
+Result<float> write_png_pages(const std::string& path, const ExportedTexels& values) {
     if (!values.is_fraction && values.channel_count == 4) {
         return Error{ErrorCode::InvalidArgument, "pack", "",
                      "a PNG holds no light in four channels; write .exr or .ktx2"};
@@ -154,7 +153,7 @@ Result<float> write_png_pages(const std::string& path, const TexelValues& values
     return range;
 }
 
-Result<float> write_ktx2_pages(const std::string& path, const TexelValues& values) {
+Result<float> write_ktx2_pages(const std::string& path, const ExportedTexels& values) {
     const float largest = largest_value(values);
     const float scale = largest <= kLargestHalf ? 1.0f : lightmap_scale(largest);
     std::vector<std::array<uint16_t, 4>> texels(values.page_texel_count() * values.page_count);

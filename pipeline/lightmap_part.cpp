@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include <tetralight/bake/image/fraction_byte.h>
 #include <tetralight/bake/lightmap/mapped_texels.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/str_cat.h>

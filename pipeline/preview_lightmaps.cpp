@@ -104,9 +104,8 @@ class PreviewWriter {
     }
 
     void store(const LightmapRectangle& place, uint32_t x, uint32_t y, glm::vec3 value) {
-        const size_t size = maps_.info.page_size;
         IrradianceTexel& texel =
-            maps_.irradiance[(place.page * size + place.y + y) * size + place.x + x];
+            maps_.irradiance[maps_.info.texel_index(place.page, place.x + x, place.y + y)];
         for (int i = 0; i < 3; ++i)
             texel.rgb[static_cast<size_t>(i)] =
                 half_from_float_saturated(value[i] / maps_.info.scale);

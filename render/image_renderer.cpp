@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include <tetralight/bake/image/fraction_byte.h>
 #include <tetralight/bake/image/srgb.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/runtime/tone_map.h>
@@ -117,11 +118,9 @@ float automatic_exposure(const ImageF& radiance) {
 Image8 quantized(const ImageF& colors) {
     Image8 image{colors.width, colors.height, {}};
     image.pixels.reserve(colors.pixels.size());
-    const auto byte = [](float value) {
-        return static_cast<uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
-    };
     for (const glm::vec3& pixel : colors.pixels)
-        image.pixels.push_back({byte(pixel.x), byte(pixel.y), byte(pixel.z), 255});
+        image.pixels.push_back(
+            {fraction_byte(pixel.x), fraction_byte(pixel.y), fraction_byte(pixel.z), 255});
     return image;
 }
 

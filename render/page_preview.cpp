@@ -51,7 +51,7 @@ std::vector<bool> instances_named(const LightmapsView& lightmaps,
     return result;
 }
 
-Image8 page_preview(const LightmapsView& lightmaps, const TexelValues& values, uint32_t page,
+Image8 page_preview(const LightmapsView& lightmaps, const ExportedTexels& values, uint32_t page,
                     const std::vector<bool>& is_marked) {
     const ImageF colors = page_colors(values, page);
     Image8 image = values.is_fraction ? quantized(colors) : develop(colors, 0.0f);

@@ -7,7 +7,7 @@
 
 #include <tetralight/bake/image/image.h>
 #include <tetralight/lightmap/lightmaps.h>
-#include <tetralight/pipeline/texel_values.h>
+#include <tetralight/pipeline/exported_texels.h>
 
 namespace tetralight {
 
@@ -20,7 +20,7 @@ namespace tetralight {
 /// texel, those of marked instances
 /// (`is_marked`, one a rectangle) an orange one of three; all others are then dimmed.
 /// Precondition: the page exists; the values are those of the lightmaps.
-[[nodiscard]] Image8 page_preview(const LightmapsView& lightmaps, const TexelValues& values,
+[[nodiscard]] Image8 page_preview(const LightmapsView& lightmaps, const ExportedTexels& values,
                                   uint32_t page, const std::vector<bool>& is_marked);
 
 }  // namespace tetralight

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <tetralight/bake/lightmap/seams.h>
+#include <tetralight/lightmap/directional_light.h>
 #include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/pipeline/lightmap_scene.h>
 
@@ -27,7 +28,7 @@ struct Sides {
 float luminance_at(const LightmapsView& lightmaps, const PageEdge& edge, float t) {
     const auto size = static_cast<float>(lightmaps.info.page_size);
     const glm::vec2 uv = glm::mix(edge.begin, edge.end, t) / size;
-    return glm::dot(sample_irradiance(lightmaps, edge.page, uv), {0.2126f, 0.7152f, 0.0722f});
+    return glm::dot(sample_irradiance(lightmaps, edge.page, uv), kLuminanceWeights);
 }
 
 /// Two places a texel of the longer side.

@@ -46,8 +46,7 @@ glm::vec3 lightmap_color(SurfaceView view, const LightmapsView& lightmaps, uint3
         case SurfaceView::Pages:
             return hue_of(rectangle.page);
         case SurfaceView::Validity: {
-            const uint64_t size = lightmaps.info.page_size;
-            const uint64_t index = (rectangle.page * size + texel.y) * size + texel.x;
+            const uint64_t index = lightmaps.info.texel_index(rectangle.page, texel.x, texel.y);
             if (index >= lightmaps.validity.size()) break;
             return validity_color(static_cast<float>(lightmaps.validity[index]) / 255.0f);
         }

@@ -16,10 +16,9 @@ namespace {
 float openness(const Scene& scene, float distance, const std::vector<float>& places,
                uint64_t key = 1) {
     const TraceScene traced = *TraceScene::make_static(scene);
-    const PathTracer tracer(scene, traced, {});
     std::vector<glm::vec3> origins;
     for (const float x : places) origins.emplace_back(x, 1e-4f, 0.0f);
-    return ambient_occlusion(tracer, traced.render_from_world(glm::dvec3(0.0)),
+    return ambient_occlusion(traced, traced.render_from_world(glm::dvec3(0.0)),
                              {{0, 1, 0}, origins}, distance, key);
 }
 

@@ -104,10 +104,10 @@ class BakedScene {
         for (size_t i = 0; i < map.texels.size(); ++i) {
             const size_t texel = all.first_texel[instance] + i;
             if (!all.is_valid(texel)) continue;
-            const size_t size = maps().info.page_size, index = map.texels[i].index;
+            const uint32_t index = map.texels[i].index;
             const size_t at =
-                (place.corner.page * size + place.corner.y + index / map.width) * size +
-                place.corner.x + index % map.width;
+                maps().info.texel_index(place.corner.page, place.corner.x + index % map.width,
+                                        place.corner.y + index / map.width);
             SampledTexel sampled;
             sampled.position = all.positions[texel];
             for (const glm::vec3& offset : all.view()[texel].origins)

@@ -25,7 +25,7 @@ Lightmaps pages_of(const std::vector<float>& red, float scale = 1.0f) {
     return maps;
 }
 
-TexelValues irradiance_of(const Lightmaps& maps) {
+ExportedTexels irradiance_of(const Lightmaps& maps) {
     return *map_values(maps.view(), LightmapMap::Irradiance);
 }
 
@@ -99,8 +99,8 @@ TEST(LightmapImages, Ktx2HasAScaleOnlyForLightThatHalvesCannotHold) {
 }
 
 /// Two pages of one texel with four fractions.
-TexelValues fractions() {
-    TexelValues values;
+ExportedTexels fractions() {
+    ExportedTexels values;
     values.page_size = 1;
     values.page_count = 2;
     values.channel_count = 4;
@@ -136,7 +136,7 @@ TEST(LightmapImages, ExrAndKtx2HaveFourChannels) {
 
 TEST(LightmapImages, PngHoldsNoLightInFourChannels) {
     const TempFolder folder;
-    TexelValues values = fractions();
+    ExportedTexels values = fractions();
     values.is_fraction = false;
     EXPECT_FALSE(write_png_pages(folder.path("a.png"), values));
     EXPECT_FALSE(read_file(folder.path("a_0.png")));

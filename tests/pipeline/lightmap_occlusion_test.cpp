@@ -50,20 +50,11 @@ Scene half_roofed_floor(float sun_angle = 0.0f) {
     return scene;
 }
 
-/// Calls `visit(index in the page, world position)` for each baked texel.
+/// Calls `visit(index in the pages, texel)` for each baked texel.
 template <class Visit>
 void for_each_texel(const PreparedLightmaps& prepared, const Visit& visit) {
-    const auto& first = prepared.texels.first_texel;
-    for (const uint32_t texel : prepared.baked) {
-        const auto instance =
-            static_cast<size_t>(std::ranges::upper_bound(first, texel) - first.begin() - 1);
-        const LightmapRectangle& place = prepared.lightmaps.rectangles[instance];
-        const TexelMap& map = prepared.maps[place.mesh];
-        const uint32_t index = map.texels[texel - first[instance]].index;
-        const size_t size = prepared.lightmaps.info.page_size;
-        const size_t x = place.x + index % map.width, y = place.y + index / map.width;
-        visit((place.page * size + y) * size + x, texel);
-    }
+    const std::vector<size_t> indices = prepared.page_texels();
+    for (size_t i = 0; i < indices.size(); ++i) visit(indices[i], prepared.baked[i]);
 }
 
 TEST(LightmapOcclusion, AMaskHoldsTheShadowsOfStaticObjects) {

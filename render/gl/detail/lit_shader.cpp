@@ -202,8 +202,9 @@ vec4 tangent_of_uvs(vec3 front_normal, vec2 s, vec2 t) {
     return vec4(along, dot(cross(front_normal, along), across) < 0.0 ? -1.0 : 1.0);
 }
 
-// The normal with its map. Both are on the front of the surface. Derivatives are those of UVs and not
-// of what buffers make of them, which pixels beside the triangle may not read.
+// The normal with its map. Both are on the front of the surface. Derivatives are
+// taken of the UVs before they are transformed: helper pixels outside of the triangle may not read the
+// buffers that hold the transform.
 vec3 mapped_normal(uint material, vec3 front_normal) {
     vec2 s = transformed(material, 3, dFdx(uvs), 0.0), t = transformed(material, 3, dFdy(uvs), 0.0);
     bool has_tangent = dot(tangent.xyz, tangent.xyz) > 0.0;

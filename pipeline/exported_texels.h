@@ -16,7 +16,7 @@
 namespace tetralight {
 
 /// Up to four numbers a texel.
-struct TexelValues {
+struct ExportedTexels {
     uint32_t page_size = 0;
     uint32_t page_count = 0;
     /// 3: RGB; 4: RGBA.
@@ -48,7 +48,7 @@ enum class LightmapMap : uint8_t {
 
 /// The values of a map. They keep the spans of the view. Returns invalid_argument (field "map") if
 /// the lightmaps do not have it; the message says how to bake it.
-[[nodiscard]] Result<TexelValues> map_values(const LightmapsView& lightmaps, LightmapMap map);
+[[nodiscard]] Result<ExportedTexels> map_values(const LightmapsView& lightmaps, LightmapMap map);
 
 /// One channel for each of up to four words, the others 0:
 /// - the name of a layer: the luminance of its irradiance at weight 1;
@@ -58,7 +58,7 @@ enum class LightmapMap : uint8_t {
 /// - "ambient-occlusion";
 /// each with an exponent after it, if there is one: "sun^0.5".
 /// Returns invalid_argument (field "pack") for other words and what the lightmaps do not have.
-[[nodiscard]] Result<TexelValues> packed_values(const LightmapsView& lightmaps,
-                                                const std::vector<std::string>& words);
+[[nodiscard]] Result<ExportedTexels> packed_values(const LightmapsView& lightmaps,
+                                                   const std::vector<std::string>& words);
 
 }  // namespace tetralight

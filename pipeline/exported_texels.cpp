@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/pipeline/texel_values.h>
+#include <tetralight/pipeline/exported_texels.h>
 
 #include <algorithm>
 #include <array>
@@ -32,8 +32,8 @@ float fraction_of(uint8_t byte) {
     return static_cast<float>(byte) / 255.0f;
 }
 
-TexelValues values_of(const LightmapsView& maps) {
-    TexelValues values;
+ExportedTexels values_of(const LightmapsView& maps) {
+    ExportedTexels values;
     values.page_size = maps.info.page_size;
     values.page_count = maps.info.page_count;
     return values;
@@ -173,8 +173,8 @@ class ChannelFinder {
 
 }  // namespace
 
-Result<TexelValues> map_values(const LightmapsView& maps, LightmapMap map) {
-    TexelValues values = values_of(maps);
+Result<ExportedTexels> map_values(const LightmapsView& maps, LightmapMap map) {
+    ExportedTexels values = values_of(maps);
     values.is_fraction = map != LightmapMap::Irradiance;
     switch (map) {
         case LightmapMap::Irradiance:
@@ -214,8 +214,8 @@ Result<TexelValues> map_values(const LightmapsView& maps, LightmapMap map) {
     return values;
 }
 
-Result<TexelValues> packed_values(const LightmapsView& maps,
-                                  const std::vector<std::string>& words) {
+Result<ExportedTexels> packed_values(const LightmapsView& maps,
+                                     const std::vector<std::string>& words) {
     if (words.empty() || words.size() > 4) {
         return Error{ErrorCode::InvalidArgument, "pack", str_cat(words.size()),
                      str_cat(words.size(), " channels are not 1 to 4")};
@@ -227,7 +227,7 @@ Result<TexelValues> packed_values(const LightmapsView& maps,
         if (!channel) return channel.error();
         channels.push_back(std::move(*channel));
     }
-    TexelValues values = values_of(maps);
+    ExportedTexels values = values_of(maps);
     values.channel_count = channels.size() == 4 ? 4 : 3;
     values.is_fraction = std::ranges::all_of(channels, &Channel::is_fraction);
     values.at = [channels](size_t texel) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/pipeline/texel_values.h>
+#include <tetralight/pipeline/exported_texels.h>
 
 #include <gtest/gtest.h>
 
