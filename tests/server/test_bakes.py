@@ -19,9 +19,9 @@ QUICK = {"samples": 16, "bounces": 1}
 
 
 class BakeTest(ServiceTest):
-    def begin(self, server, **members):
+    def begin(self, server, orders="/v1/bakes", **members):
         members.setdefault("scene", self.scene)
-        answer = server.post("/v1/bakes", members)
+        answer = server.post(orders, members)
         self.assertEqual(answer.status, 202, answer.body)
         self.assertEqual(answer.headers["Location"], "/v1/bakes/" + answer.json()["id"])
         return answer.json()["id"]

@@ -21,11 +21,7 @@ ENDLESS = {"texels_per_meter": 1, "page_size": 64, "target_error": 0.0001, "max_
 
 class LightmapBakeTest(BakeTest):
     def begin_maps(self, server, **members):
-        members.setdefault("scene", self.scene)
-        answer = server.post("/v1/lightmap-bakes", members)
-        self.assertEqual(answer.status, 202, answer.body)
-        self.assertEqual(answer.headers["Location"], "/v1/bakes/" + answer.json()["id"])
-        return answer.json()["id"]
+        return self.begin(server, "/v1/lightmap-bakes", **members)
 
     def maps_by_command(self, *options):
         path = os.path.join(self.folder, "expected.lightmaps")
