@@ -218,6 +218,14 @@ std::vector<size_t> PreparedLightmaps::page_texels() const {
     return indices;
 }
 
+std::span<const glm::vec3> TexelBake::mapped_normals_of(size_t texel) const {
+    if (mapped_normals.empty()) return {};
+    const auto mapped = std::span(mapped_normals).subspan(kMappedNormals * texel, kMappedNormals);
+    const glm::vec3& own = normals[texel];
+    const bool is_flat = std::ranges::all_of(mapped, [&](const glm::vec3& n) { return n == own; });
+    return is_flat ? std::span<const glm::vec3>{} : mapped;
+}
+
 bool PreparedLightmaps::has_cache() const {
     const PathSettings paths{settings.bake.bounces, settings.bake.clamp};
     return !settings.is_exact && paths.traces_all_light();

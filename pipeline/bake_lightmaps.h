@@ -142,6 +142,9 @@ struct TexelBake {
     std::vector<glm::vec3> mapped_normals;  ///< of the range, as in `PreparedLightmaps`
     StoredBake stored;
     double cache_seconds = 0.0;  ///< 0 = no cache was made
+
+    /// The normals that the irradiance of a texel is for. Empty: its own normal alone.
+    [[nodiscard]] std::span<const glm::vec3> mapped_normals_of(size_t texel) const;
 };
 
 /// Returns the errors of `prepare_lightmaps` that need no layout.

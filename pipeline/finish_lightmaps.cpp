@@ -8,6 +8,7 @@
 
 #include <tetralight/bake/image/fraction_byte.h>
 #include <tetralight/bake/lightmap/fill_texels.h>
+#include <tetralight/bake/lightmap/stitch_light.h>
 #include <tetralight/bake/lightmap/stitch_seams.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/base/contract.h>
@@ -18,18 +19,6 @@
 
 namespace tetralight {
 namespace {
-
-/// The values of a `TexelLight` one by one: irradiance, flux, vector.
-constexpr size_t kValueCount = 15;
-/// Of these the first ones are not negative: irradiance and flux.
-constexpr size_t kPositiveCount = 6;
-
-float& value_of(TexelLight& light, size_t i) {
-    if (i < 3) return light.irradiance[static_cast<int>(i)];
-    if (i < 6) return light.flux[static_cast<int>(i) - 3];
-    const auto k = static_cast<int>(i) - 6;
-    return light.vector[k / 3][k % 3];
-}
 
 /// How much a texel resists a change at a seam, in squares of differences at places. Texels that
 /// were filled have no light of their own.
@@ -81,26 +70,9 @@ class PageWriter {
         SeamStitcher stitcher(prepared_.seams, maps_.info.page_size, [&](uint64_t texel) {
             return is_baked_[texel] != 0 ? kBakedWeight : kFilledWeight;
         });
-        seam_light_.resize(stitcher.texels().size());
-        for (uint32_t i = 0; i < seam_light_.size(); ++i) seam_index_[stitcher.texels()[i]] = i;
-        write_light(std::nullopt);
-        report_seams(stitcher, report.seam_difference_baked);
-        hold_zeros(stitcher);
-        stitch(stitcher);
-        store_seams(stitcher, std::nullopt);
-        report_seams(stitcher, report.seam_difference);
-        const std::vector<TexelLight> total = seam_light_;
-        std::vector<std::vector<TexelLight>> layers;
-        for (size_t layer = 0; layer < layer_count(); ++layer) {
-            write_light(layer);
-            stitch(stitcher);
-            layers.push_back(seam_light_);
-        }
-        add_up(total, layers);
-        for (size_t layer = 0; layer < layer_count(); ++layer) {
-            seam_light_ = layers[layer];
-            store_seams(stitcher, layer);
-        }
+        for (uint32_t i = 0; i < stitcher.texels().size(); ++i)
+            seam_index_[stitcher.texels()[i]] = i;
+        write_lights(stitcher, report);
         return std::move(maps_);
     }
 
@@ -156,7 +128,7 @@ class PageWriter {
         fills_[instance] = make_texel_fill(map, has_light);
         write_facts(instance, map, place);
         write_coverage(map, place, fills_[instance]);
-        if (layout_.has_single_values()) write_visibility(instance, map, place);
+        if (layout_.has_single_values()) write_visibility(instance);
     }
 
     [[nodiscard]] TexelVisibility visibility_of(uint32_t baked) const {
@@ -173,22 +145,39 @@ class PageWriter {
     }
 
     /// Shadow mask and ambient occlusion.
-    void write_visibility(uint32_t instance, const TexelMap& map, const LightmapRectangle& place) {
-        std::vector<TexelVisibility> values(map.charts.size() + 1);
-        for (size_t i = 0; i < map.texels.size(); ++i) {
-            const uint32_t baked = baked_at(instance, i);
-            if (baked != kNoIndex) values[map.texels[i].index] = visibility_of(baked);
-        }
-        fills_[instance].apply(values);
-        for (uint32_t texel = 0; texel < map.charts.size(); ++texel) {
-            const size_t index = page_index(map, place, texel);
+    void write_visibility(uint32_t instance) {
+        const auto values =
+            filled<TexelVisibility>(instance, [&](uint32_t baked) { return visibility_of(baked); });
+        for_each_texel(instance, [&](uint32_t texel, size_t index) {
             for (size_t i = 0; layout_.has_occlusion && i < 4; ++i) {
                 maps_.shadow_mask[index][i] =
                     fraction_byte(values[texel].lights[static_cast<int>(i)]);
             }
             if (layout_.has_ambient_occlusion)
                 maps_.ambient_occlusion[index] = fraction_byte(values[texel].surroundings);
+        });
+    }
+
+    /// The values of all texels of an instance: of baked ones as given, of others filled.
+    template <class Value, class ValueOf>
+    std::vector<Value> filled(uint32_t instance, const ValueOf& value_of_baked) const {
+        const TexelMap& map = prepared_.maps[maps_.rectangles[instance].mesh];
+        std::vector<Value> values(map.charts.size() + 1, Value{});
+        for (size_t i = 0; i < map.texels.size(); ++i) {
+            const uint32_t baked = baked_at(instance, i);
+            if (baked != kNoIndex) values[map.texels[i].index] = value_of_baked(baked);
         }
+        fills_[instance].apply(values);
+        return values;
+    }
+
+    /// Visits the texels of an instance by their indices in its rectangle and in the pages.
+    template <class Visit>
+    void for_each_texel(uint32_t instance, const Visit& visit) const {
+        const LightmapRectangle& place = maps_.rectangles[instance];
+        const TexelMap& map = prepared_.maps[place.mesh];
+        for (uint32_t texel = 0; texel < map.charts.size(); ++texel)
+            visit(texel, page_index(map, place, texel));
     }
 
     [[nodiscard]] uint32_t baked_at(uint32_t instance, size_t texel) const {
@@ -201,25 +190,51 @@ class PageWriter {
                                       place.y + texel / map.width);
     }
 
-    /// Writes the total light or that of a layer into the pages, and keeps that of seams.
-    void write_light(std::optional<size_t> layer) {
+    /// Writes the light into the pages, stitched at seams.
+    void write_lights(SeamStitcher& stitcher, LightmapReport& report) {
+        std::vector<TexelLight> total = write_light(std::nullopt, stitcher.texels().size());
+        std::vector<std::vector<TexelLight>> layers;
+        for (size_t layer = 0; layer < layer_count(); ++layer)
+            layers.push_back(write_light(layer, stitcher.texels().size()));
+        report.seam_difference_baked = seam_difference(stitcher, total);
+        stitch_light(stitcher, seam_normals(stitcher.texels().size()), total, layers,
+                     prepared_.settings.bake.thread_count);
+        report.seam_difference = seam_difference(stitcher, total);
+        for (size_t i = 0; i < total.size(); ++i) {
+            store(stitcher.texels()[i], total[i], std::nullopt);
+            for (size_t layer = 0; layer < layer_count(); ++layer)
+                store(stitcher.texels()[i], layers[layer][i], layer);
+        }
+    }
+
+    /// Writes the total light or that of a layer into the pages. Returns that of texels at seams.
+    std::vector<TexelLight> write_light(std::optional<size_t> layer, size_t seam_texel_count) {
+        std::vector<TexelLight> at_seams(seam_texel_count);
         for_each_instance([&](uint32_t instance) {
-            const LightmapRectangle& place = maps_.rectangles[instance];
-            const TexelMap& map = prepared_.maps[place.mesh];
-            std::vector<TexelLight> values(map.charts.size() + 1);
-            for (size_t i = 0; i < map.texels.size(); ++i) {
-                const uint32_t baked = baked_at(instance, i);
-                if (baked == kNoIndex) continue;
-                values[map.texels[i].index] =
-                    layer ? lights_.layer(baked, *layer) : lights_.total(baked);
-            }
-            fills_[instance].apply(values);
-            for (uint32_t texel = 0; texel < map.charts.size(); ++texel) {
-                const size_t index = page_index(map, place, texel);
+            const auto values = filled<TexelLight>(instance, [&](uint32_t baked) {
+                return layer ? lights_.layer(baked, *layer) : lights_.total(baked);
+            });
+            for_each_texel(instance, [&](uint32_t texel, size_t index) {
                 store(index, values[texel], layer);
-                if (seam_index_[index] != kNoIndex) seam_light_[seam_index_[index]] = values[texel];
-            }
+                if (seam_index_[index] != kNoIndex) at_seams[seam_index_[index]] = values[texel];
+            });
         });
+        return at_seams;
+    }
+
+    /// Normals of texels at seams that their irradiance is for: 0 where it is for normal maps.
+    std::vector<glm::vec3> seam_normals(size_t seam_texel_count) {
+        std::vector<glm::vec3> at_seams(seam_texel_count);
+        for_each_instance([&](uint32_t instance) {
+            const auto normals = filled<glm::vec3>(instance, [&](uint32_t baked) {
+                return bake_.mapped_normals_of(baked).empty() ? bake_.normals[baked]
+                                                              : glm::vec3(0.0f);
+            });
+            for_each_texel(instance, [&](uint32_t texel, size_t index) {
+                if (seam_index_[index] != kNoIndex) at_seams[seam_index_[index]] = normals[texel];
+            });
+        });
+        return at_seams;
     }
 
     void store(size_t index, const TexelLight& value, std::optional<size_t> layer) {
@@ -233,54 +248,11 @@ class PageWriter {
         maps_.layer_light[*layer * texel_count_ + index] = packed(value, scale);
     }
 
-    /// Of the total, for all channels and layers.
-    void hold_zeros(SeamStitcher& stitcher) const {
-        std::vector<double> brightness;
-        for (const TexelLight& light : seam_light_)
-            brightness.push_back(
-                double{light.irradiance.x + light.irradiance.y + light.irradiance.z});
-        stitcher.hold_zeros(brightness);
-    }
-
-    /// Makes both sides of seams agree.
-    void stitch(const SeamStitcher& stitcher) {
-        parallel_for(kValueCount, prepared_.settings.bake.thread_count, [&](size_t value) {
-            std::vector<double> values;
-            for (TexelLight& light : seam_light_) values.push_back(double{value_of(light, value)});
-            const bool is_positive = value < kPositiveCount;
-            const std::vector<double> stitched = stitcher.stitched(values);
-            for (size_t i = 0; i < stitched.size(); ++i) {
-                const auto number = static_cast<float>(stitched[i]);
-                value_of(seam_light_[i], value) = is_positive ? std::max(0.0f, number) : number;
-            }
-        });
-    }
-
-    void store_seams(const SeamStitcher& stitcher, std::optional<size_t> layer) {
-        for (size_t i = 0; i < seam_light_.size(); ++i)
-            store(stitcher.texels()[i], seam_light_[i], layer);
-    }
-
-    /// Layers that would have become negative are 0, which leaves the others with more than the
-    /// total: they get their parts of it.
-    static void add_up(const std::vector<TexelLight>& total,
-                       std::vector<std::vector<TexelLight>>& layers) {
-        for (size_t i = 0; i < total.size(); ++i) {
-            TexelLight whole = total[i];
-            for (size_t value = 0; value < kPositiveCount; ++value) {
-                float sum = 0.0f;
-                for (auto& layer : layers) sum += value_of(layer[i], value);
-                const float factor = sum > 0.0f ? value_of(whole, value) / sum : 0.0f;
-                for (auto& layer : layers) value_of(layer[i], value) *= factor;
-            }
-        }
-    }
-
     /// The 99th percentile of relative differences of green irradiance.
-    void report_seams(const SeamStitcher& stitcher, float& percentile) {
+    static float seam_difference(const SeamStitcher& stitcher, std::span<const TexelLight> lights) {
         std::vector<double> values;
-        for (TexelLight& light : seam_light_) values.push_back(double{light.irradiance.y});
-        percentile = static_cast<float>(stitcher.relative_percentile(values, 0.99));
+        for (const TexelLight& light : lights) values.push_back(double{light.irradiance.y});
+        return static_cast<float>(stitcher.relative_percentile(values, 0.99));
     }
 
     /// Validity and error of the texels that surfaces touch.
@@ -317,8 +289,7 @@ class PageWriter {
     uint64_t texel_count_ = 0;
     std::vector<TexelFill> fills_;      ///< one an instance
     std::vector<uint8_t> is_baked_;     ///< one a texel of the pages
-    std::vector<uint32_t> seam_index_;  ///< of each texel in `seam_light_`, or kNoIndex
-    std::vector<TexelLight> seam_light_;
+    std::vector<uint32_t> seam_index_;  ///< of each texel among those at seams, or kNoIndex
     LightGroupLayout layout_;
     Lightmaps maps_;
 };

@@ -9,7 +9,6 @@
 
 #include <tetralight/bake/lightmap/chart_means.h>
 #include <tetralight/bake/lightmap/filter_texels.h>
-#include <tetralight/bake/lightmap/mapped_texels.h>
 #include <tetralight/bake/parallel.h>
 #include <tetralight/lightmap/directional_light.h>
 
@@ -148,12 +147,10 @@ TexelLights::TexelLights(const PreparedLightmaps& prepared, const TexelBake& bak
 
 void TexelLights::map_normals(const TexelBake& bake, uint32_t thread_count) {
     for_each_texel(bake, thread_count, [&](size_t texel) {
-        const auto normals =
-            std::span(bake.mapped_normals).subspan(kMappedNormals * texel, kMappedNormals);
-        const glm::vec3& base = bake.normals[texel];
-        if (std::ranges::all_of(normals, [&](const glm::vec3& n) { return n == base; })) return;
+        const std::span<const glm::vec3> normals = bake.mapped_normals_of(texel);
+        if (normals.empty()) return;
         const auto values = std::span(lights_).subspan(index(texel), value_count_);
-        for (TexelLight& light : values) set_mapped_irradiance(light, base, normals);
+        for (TexelLight& light : values) set_mapped_irradiance(light, bake.normals[texel], normals);
         if (value_count_ == 1) return;
         values[0].irradiance = glm::vec3(0.0f);
         for (const TexelLight& layer : values.subspan(1)) values[0].irradiance += layer.irradiance;
