@@ -10,6 +10,7 @@
 #include <tetralight/bake/lightmap/chart_means.h>
 #include <tetralight/bake/lightmap/filter_texels.h>
 #include <tetralight/bake/parallel.h>
+#include <tetralight/base/median.h>
 #include <tetralight/lightmap/directional_light.h>
 
 namespace tetralight {
@@ -189,9 +190,9 @@ void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bak
     const std::vector<NoisyTexel> noisy = noisy_texels(bake, halves);
     const PageCharts pages = page_charts(prepared);
     const uint32_t threads = prepared.settings.bake.thread_count;
-    // Of the total: squares of half the difference of the filtered halves, and the variance that
-    // the weights leave.
-    std::vector<double> differences(noisy.size()), variances(noisy.size());
+    // Of the total: squares of half the difference of the filtered halves, the variance that the
+    // weights leave, and the square of the light.
+    std::vector<double> differences(noisy.size()), variances(noisy.size()), squares(noisy.size());
     filter_texels(
         pages, noisy, {}, threads, [&](uint32_t texel, std::span<const TexelShare> shares) {
             const glm::vec3 normal = bake.normals[texel];
@@ -204,18 +205,23 @@ void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bak
                 if (i > 0) continue;
                 const glm::dvec3 difference(normal * (filtered[0].vector - filtered[1].vector));
                 differences[texel] = glm::dot(difference, difference);
+                const glm::dvec3 own(light.irradiance);
+                squares[texel] = glm::dot(own, own);
             }
             variances[texel] = variance_left(noisy, shares);
         });
-    differences = chart_means(pages, differences, kErrorRadius, threads);
+    const auto around = chart_means(pages, differences, kErrorRadius, threads);
+    const auto squares_around = chart_means(pages, squares, kErrorRadius, threads);
     for (size_t texel = 0; texel < noisy.size(); ++texel) {
-        const glm::dvec3 light(lights_[index(texel)].irradiance);
-        const double square = glm::dot(light, light);
-        const double variance = std::max(differences[texel], variances[texel]);
-        errors_[texel] = square > 0.0 && variance > 0.0
-                             ? static_cast<float>(std::sqrt(variance / square +
-                                                            cut_square(bake.accumulators[texel])))
-                             : 0.0f;
+        const double square = squares[texel];
+        const double relative = square > 0.0 ? around[texel] / squares_around[texel] * square : 0.0;
+        const double variance =
+            std::max(median(differences[texel], around[texel], relative), variances[texel]);
+        errors_[texel] = 0.0f;
+        if (!(square > 0.0 && variance > 0.0)) continue;
+        const double sampling = std::min(1.0, variance / square);
+        errors_[texel] =
+            static_cast<float>(std::sqrt(sampling + cut_square(bake.accumulators[texel])));
     }
 }
 

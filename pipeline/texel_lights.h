@@ -16,8 +16,11 @@ namespace tetralight {
 /// samples, or filtered (`filter_texels`); and its error.
 ///
 /// The filtered halves are independent, so that half of their difference has the error of their
-/// mean. The variance of a filtered texel is the mean of its square over 5 × 5 texels, and at least
-/// what the weights leave of the noise of the texels that it takes. It says nothing about blur.
+/// mean. The variance of a filtered texel is the median of three: the square of its own half
+/// difference, the mean of these over 5 × 5 texels, and its light times their relative mean; and at
+/// least what the weights leave of the noise of the texels that it takes. The second alone would
+/// give dark texels the error of bright ones beside them. Errors are at most 1, as those of own
+/// samples are: of a texel that is almost black nothing else is known. They say nothing about blur.
 class TexelLights {
   public:
     /// Precondition: the light is that of all baked texels.
@@ -27,7 +30,7 @@ class TexelLights {
     [[nodiscard]] static constexpr uint64_t texel_bytes(size_t layer_count, bool is_filtered) {
         // Places and charts in the pages, what the filter compares, variances and differences.
         constexpr uint64_t kFilterBytes =
-            2 * sizeof(uint32_t) + sizeof(NoisyTexel) + 6 * sizeof(double);
+            2 * sizeof(uint32_t) + sizeof(NoisyTexel) + 7 * sizeof(double);
         return (1 + layer_count) * (sizeof(TexelLight) + (is_filtered ? sizeof(TexelHalves) : 0)) +
                sizeof(float) + (is_filtered ? kFilterBytes : 0);
     }

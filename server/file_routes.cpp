@@ -87,6 +87,9 @@ Json find_facts(Service& service, Kind kind, const Request& request, const WorkF
     Job job = reading_job(kind, folder);
     job.folder = folder.path();
     Json facts = run_tool(service, request, nullptr, std::move(job));
+    if (facts.contains("part")) {
+        throw Problem{422, "bad_data", "is a part of a bake; merge its parts first", "body"};
+    }
     if (kind == Kind::Skies) return {{"warnings", facts.value("warnings", Json::array())}};
     if (kind == Kind::Groups) facts.erase("backend");
     if (kind == Kind::Scenes &&

@@ -27,7 +27,8 @@ constexpr Setting kFiles[] = {
 constexpr Setting kSampling[] = {
     {.name = "samples",
      .type = Type::Integer,
-     .help = "Samples per probe; without --target-error and --time-budget exactly this many",
+     .help = "Samples per probe: exactly this many, or with --target-error or --time-budget at "
+             "least 128",
      .unit = "samples",
      .range = {1, 1 << 24},
      .without = "1024 in the first round",

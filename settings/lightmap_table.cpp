@@ -38,7 +38,8 @@ constexpr Setting kTexels[] = {
 constexpr Setting kSampling[] = {
     {.name = "samples",
      .type = Type::Integer,
-     .help = "Samples per texel; without --target-error and --time-budget exactly this many",
+     .help = "Samples per texel: exactly this many, or with --target-error or --time-budget at "
+             "least 128",
      .unit = "samples",
      .range = {1, 1 << 24},
      .without = "128 in the first round",

@@ -10,16 +10,13 @@
 
 #include <tetralight/bake/lightmap/chart_means.h>
 #include <tetralight/bake/parallel.h>
+#include <tetralight/base/median.h>
 
 namespace tetralight {
 namespace {
 
 /// Smaller weights are 0.
 constexpr float kLeastWeight = 0.05f;
-
-double median(double a, double b, double c) {
-    return std::max(std::min(a, b), std::min(c, std::max(a, b)));
-}
 
 double square_of_light(const NoisyTexel& texel) {
     const glm::dvec3 light = 0.5 * (glm::dvec3(texel.halves[0]) + glm::dvec3(texel.halves[1]));

@@ -193,7 +193,8 @@ TEST(Occlusion, SurfacesBehindTheLightDoNotOccludeIt) {
 
 TEST(Occlusion, OfATexelIsTheMeanOverItsPlaces) {
     // The roof begins at x = 0: three of four places see the sun.
-    const Occlusion scene(half_roof());
+    const Scene roof = half_roof();
+    const Occlusion scene(roof);
     const std::vector<glm::vec3> places{{-0.3f, 0, 0}, {-0.2f, 0, 0}, {-0.1f, 0, 0}, {0.1f, 0, 0}};
     const OcclusionLights owners{0, kNoIndex, kNoIndex, kNoIndex};
     const std::vector<Light> hard{sun(0.0f)};

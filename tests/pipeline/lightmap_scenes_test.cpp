@@ -346,6 +346,22 @@ TEST(LightmapScenes, ErrorBarsAreThoseOfFilteredLight) {
     EXPECT_GT(told, error / (1.5 * 1.5));
 }
 
+TEST(LightmapScenes, ErrorBarsOfDarkTexelsAreAtMostOne) {
+    // The lamp lights a spot of the ceiling that few of the paths hit.
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 3.0f);
+    test::add_ceiling(scene, test::diffuse(glm::vec3(0.5f)), 3.0f, 1.0f);
+    test::add_point_light(scene, LightMode::Mixed, glm::vec3(10.0f), {0, 0.9, 0}).range = 0.15f;
+    const BakedScene baked(scene, test::lightmap_settings(64));
+    size_t noisy = 0;
+    for (const SampledTexel& texel : baked.texels(0)) {
+        if (!(texel.irradiance > 0.0)) continue;
+        EXPECT_LE(texel.error, texel.irradiance * 1.001);
+        noisy += texel.error > 0.5 * texel.irradiance;
+    }
+    EXPECT_GT(noisy, 0u);
+}
+
 TEST(LightmapScenes, MirroredInstancesHaveMirroredLight) {
     Scene scene = under_white_sky();
     Mesh corner;  // a floor and a wall, as seen from x > 0

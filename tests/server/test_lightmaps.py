@@ -8,7 +8,7 @@ import struct
 import tarfile
 import unittest
 
-from service import BINARY, COURTYARD, read
+from service import BINARY, COURTYARD, lattice, read, write_groups
 from test_backup import DataFolder
 
 
@@ -105,6 +105,17 @@ class Upload(LightmapTest):
         for other in (read(self.volume_file(2)), read(COURTYARD), b"#?RADIANCE\n"):
             self.assertIn("is not a lightmap file", self.refuse(server, "lightmaps", other))
         self.assertIn("/v1/lightmaps", self.refuse(server, "volumes", read(self.lightmap_file())))
+
+    def test_parts_of_bakes_are_refused(self):
+        server = self.start()
+        self.lightmap_file()
+        settings = ("--texels-per-meter", "2", "--page-size", "32", "--samples", "16", "--sky", "1")
+        part = self.written("some.part", "lightmap", "triangle.glb", *settings, "--texels", "0..1")
+        self.assertIn("merge its parts first", self.refuse(server, "lightmaps", part))
+        write_groups(os.path.join(self.folder, "groups.json"), lattice(2))
+        part = self.written("few.part", "bake", "triangle.glb", "--groups", "groups.json",
+                            "--samples", "16", "--probes", "0..1")
+        self.assertIn("merge its parts first", self.refuse(server, "volumes", part))
 
 
 class Download(LightmapTest):
