@@ -99,7 +99,7 @@ class ChannelFinder {
 
   private:
     [[nodiscard]] static Error refused(const std::string& word, const std::string& message) {
-        return Error{ErrorCode::InvalidArgument, "pack", word, message};
+        return Error{ErrorCode::InvalidArgument, "pack", word, "pack: " + message};
     }
 
     [[nodiscard]] Error unknown(const std::string& word) const {
@@ -218,7 +218,7 @@ Result<ExportedTexels> packed_values(const LightmapsView& maps,
                                      const std::vector<std::string>& words) {
     if (words.empty() || words.size() > 4) {
         return Error{ErrorCode::InvalidArgument, "pack", str_cat(words.size()),
-                     str_cat(words.size(), " channels are not 1 to 4")};
+                     str_cat("pack: ", words.size(), " channels are not 1 to 4")};
     }
     const ChannelFinder finder(maps);
     std::vector<Channel> channels;

@@ -322,6 +322,16 @@ void report_errors(std::vector<float> errors, double target_error, LightmapRepor
     report.worst_error = *std::ranges::max_element(errors);
 }
 
+void warn_without_light(const TexelLights& lights, size_t texel_count, LightmapReport& report) {
+    for (uint32_t i = 0; i < texel_count; ++i) {
+        if (lights.total(i).largest() > 0.0f) return;
+    }
+    if (texel_count == 0) return;
+    report.warnings.emplace_back(
+        "no texel receives any light: the scene has no sky, no emission and no light that is "
+        "baked, or none that reaches them");
+}
+
 }  // namespace
 
 void report_texels(const TexelBake& bake, double target_error, LightmapReport& report) {
@@ -342,6 +352,7 @@ BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bak
     const double target_error = prepared.settings.bake.target_error;
     report_work(bake, report);
     report_errors(lights.errors(), target_error, report);
+    warn_without_light(lights, prepared.baked.size(), report);
     if (report.over_target_count > 0) {
         report.warnings.push_back(str_cat(report.over_target_count, " of ", report.baked_count,
                                           " texels have a standard error above ", target_error,

@@ -208,6 +208,16 @@ TEST(LightmapLimits, UvsAtAMillionAreRepaired) {
     }
 }
 
+TEST(LightmapLimits, ABakeWithoutLightWarns) {
+    Scene scene;
+    test::add_floor(scene, kGrey, 1.0f);
+    const BakedScene dark(scene, test::lightmap_settings(16));
+    ASSERT_EQ(dark.report().warnings.size(), 1u);
+    EXPECT_TRUE(dark.report().warnings[0].starts_with("no texel receives any light: "));
+    scene.environment.radiance = glm::vec3(1e-6f);
+    EXPECT_TRUE(BakedScene(scene, test::lightmap_settings(16)).report().warnings.empty());
+}
+
 TEST(LightmapLimits, APageThatIsTooSmallIsAnErrorWithTheSizeOfTheChart) {
     Scene scene = under_white_sky();
     test::add_floor(scene, kGrey, 1.0f).name = "small";
