@@ -109,7 +109,7 @@ class ChannelFinder {
         if (!maps_.shadow_mask.empty()) known += "shadow:0 to shadow:3, ";
         if (!maps_.ambient_occlusion.empty()) known += "ambient-occlusion, ";
         return refused(
-            word, str_cat("\"", word, "\" is none of what the lightmaps have: ", known, "light"));
+            word, str_cat("unknown channel \"", word, "\"; the lightmaps have ", known, "light"));
     }
 
     [[nodiscard]] std::optional<size_t> find_layer(std::string_view name) const {

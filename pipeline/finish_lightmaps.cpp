@@ -15,6 +15,7 @@
 #include <tetralight/base/half.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
+#include <tetralight/pipeline/probe_warnings.h>
 #include <tetralight/pipeline/texel_lights.h>
 
 namespace tetralight {
@@ -322,14 +323,11 @@ void report_errors(std::vector<float> errors, double target_error, LightmapRepor
     report.worst_error = *std::ranges::max_element(errors);
 }
 
-void warn_without_light(const TexelLights& lights, size_t texel_count, LightmapReport& report) {
+bool is_black(const TexelLights& lights, size_t texel_count) {
     for (uint32_t i = 0; i < texel_count; ++i) {
-        if (lights.total(i).largest() > 0.0f) return;
+        if (lights.total(i).largest() > 0.0f) return false;
     }
-    if (texel_count == 0) return;
-    report.warnings.emplace_back(
-        "no texel receives any light: the scene has no sky, no emission and no light that is "
-        "baked, or none that reaches them");
+    return true;
 }
 
 }  // namespace
@@ -352,7 +350,8 @@ BakedLightmaps finish_lightmaps(PreparedLightmaps prepared, const TexelBake& bak
     const double target_error = prepared.settings.bake.target_error;
     report_work(bake, report);
     report_errors(lights.errors(), target_error, report);
-    warn_without_light(lights, prepared.baked.size(), report);
+    const size_t count = prepared.baked.size();
+    if (count > 0 && is_black(lights, count)) report.warnings.push_back(no_light_warning("texel"));
     if (report.over_target_count > 0) {
         report.warnings.push_back(str_cat(report.over_target_count, " of ", report.baked_count,
                                           " texels have a standard error above ", target_error,

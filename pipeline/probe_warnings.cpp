@@ -16,13 +16,17 @@ bool is_dark(const IrradianceSh& irradiance) {
 
 }  // namespace
 
+std::string no_light_warning(const char* place) {
+    return str_cat("no ", place,
+                   " receives any light: the scene has no sky, no emission and no light that is "
+                   "baked, or none that reaches them");
+}
+
 void add_dark_warnings(const MergedProbes& merged, std::span<const IrradianceSh> irradiance,
                        uint32_t sample_count, std::vector<std::string>& warnings) {
     if (sample_count < kEnoughSamples || irradiance.empty()) return;
     if (std::ranges::all_of(irradiance, is_dark)) {
-        warnings.emplace_back(
-            "no probe receives any light: the scene has no sky, no emission and no light that is "
-            "baked, or none that reaches them");
+        warnings.push_back(no_light_warning("probe"));
         return;
     }
     std::vector<size_t> dark(merged.group_names.size(), 0);

@@ -10,6 +10,9 @@
 
 namespace tetralight {
 
+/// The warning of a bake without any light. `place`: what it bakes, "probe" or "texel".
+[[nodiscard]] std::string no_light_warning(const char* place);
+
 /// Adds a line for each group with probes that no light reaches, as inside hollow walls, or one
 /// line if no probe of the volume has light. Adds nothing below 64 samples a probe, which may miss
 /// an opening. Precondition: one irradiance a probe.

@@ -9,8 +9,8 @@
 
 #include <tetralight/bake/lightmap/chart_means.h>
 #include <tetralight/bake/lightmap/filter_texels.h>
+#include <tetralight/bake/lightmap/pooled_variance.h>
 #include <tetralight/bake/parallel.h>
-#include <tetralight/base/median.h>
 #include <tetralight/lightmap/directional_light.h>
 
 namespace tetralight {
@@ -214,14 +214,14 @@ void TexelLights::filter(const PreparedLightmaps& prepared, const TexelBake& bak
     const auto squares_around = chart_means(pages, squares, kErrorRadius, threads);
     for (size_t texel = 0; texel < noisy.size(); ++texel) {
         const double square = squares[texel];
-        const double relative = square > 0.0 ? around[texel] / squares_around[texel] * square : 0.0;
-        const double variance =
-            std::max(median(differences[texel], around[texel], relative), variances[texel]);
+        const double sampled =
+            pooled_variance(differences[texel], around[texel], square, squares_around[texel]);
+        const double variance = std::max(sampled, variances[texel]);
         errors_[texel] = 0.0f;
         if (!(square > 0.0 && variance > 0.0)) continue;
-        const double sampling = std::min(1.0, variance / square);
+        const double relative = std::min(1.0, variance / square);
         errors_[texel] =
-            static_cast<float>(std::sqrt(sampling + cut_square(bake.accumulators[texel])));
+            static_cast<float>(std::sqrt(relative + cut_square(bake.accumulators[texel])));
     }
 }
 

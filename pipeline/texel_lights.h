@@ -16,10 +16,9 @@ namespace tetralight {
 /// samples, or filtered (`filter_texels`); and its error.
 ///
 /// The filtered halves are independent, so that half of their difference has the error of their
-/// mean. The variance of a filtered texel is the median of three: the square of its own half
-/// difference, the mean of these over 5 × 5 texels, and its light times their relative mean; and at
-/// least what the weights leave of the noise of the texels that it takes. The second alone would
-/// give dark texels the error of bright ones beside them. Errors are at most 1, as those of own
+/// mean. The variance of a filtered texel is its square, pooled over 5 × 5 texels
+/// (`pooled_variance`), and at least what the weights leave of the noise of the texels that it
+/// takes. Errors are at most 1, as those of own
 /// samples are: of a texel that is almost black nothing else is known. They say nothing about blur.
 class TexelLights {
   public:

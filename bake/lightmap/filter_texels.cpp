@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <tetralight/bake/lightmap/chart_means.h>
+#include <tetralight/bake/lightmap/pooled_variance.h>
 #include <tetralight/bake/parallel.h>
-#include <tetralight/base/median.h>
 
 namespace tetralight {
 namespace {
@@ -41,9 +41,9 @@ std::vector<float> pooled_variances(const PageCharts& pages, std::span<const Noi
     for (size_t i = 0; i < texels.size(); ++i) {
         const auto count = double{texels[i].sample_count};
         const double around = variances[i] / (counts[i] * count);
-        const double relative =
-            squares[i] > 0.0 ? variances[i] / squares[i] * square_of_light(texels[i]) / count : 0.0;
-        pooled.push_back(static_cast<float>(median(double{texels[i].variance}, around, relative)));
+        pooled.push_back(static_cast<float>(pooled_variance(double{texels[i].variance}, around,
+                                                            square_of_light(texels[i]),
+                                                            squares[i] / counts[i])));
     }
     return pooled;
 }

@@ -43,10 +43,7 @@ struct TexelShare {
 /// chart, and across seams, whose surroundings differ from its own by no more than noise explains.
 ///
 /// The few estimates of a texel tell little about rare bright samples: where it missed them its
-/// variance is too small. So the noise is the median of three variances: that of its own samples,
-/// the mean of the texels around it, and its own light times their relative variance. The second
-/// alone would blur dark texels beside bright ones, and the third is wrong where light without
-/// noise ends.
+/// variance is too small. So the noise is that of the texels around it too (`pooled_variance`).
 ///
 /// Weights are in proportion to the samples of texels, so that all samples count alike. Texels that
 /// end at a target error because they missed what others found are then no darker than those.

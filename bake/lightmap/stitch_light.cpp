@@ -2,6 +2,8 @@
 #include <tetralight/bake/lightmap/stitch_light.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <glm/geometric.hpp>
 
 #include <tetralight/bake/parallel.h>
 #include <tetralight/base/contract.h>
@@ -21,7 +23,7 @@ float& value_of(TexelLight& light, size_t i) {
     return light.vector[k / 3][k % 3];
 }
 
-/// For all channels and layers.
+/// Of the total, for all channels and layers.
 void hold_zeros(SeamStitcher& stitcher, std::span<const TexelLight> total) {
     std::vector<double> brightness;
     for (const TexelLight& light : total)
@@ -45,12 +47,13 @@ void stitch_values(const SeamStitcher& stitcher, std::vector<TexelLight>& lights
 
 /// Layers that would have become negative are 0, which leaves the others with more than the total:
 /// they get their parts of it.
-void add_up(std::vector<TexelLight>& total, std::vector<std::vector<TexelLight>>& layers) {
+void add_up(const std::vector<TexelLight>& total, std::vector<std::vector<TexelLight>>& layers) {
     for (size_t i = 0; i < total.size(); ++i) {
+        TexelLight whole = total[i];
         for (size_t value = 0; value < kPositiveCount; ++value) {
             float sum = 0.0f;
             for (auto& layer : layers) sum += value_of(layer[i], value);
-            const float factor = sum > 0.0f ? value_of(total[i], value) / sum : 0.0f;
+            const float factor = sum > 0.0f ? value_of(whole, value) / sum : 0.0f;
             for (auto& layer : layers) value_of(layer[i], value) *= factor;
         }
     }

@@ -147,7 +147,7 @@ TEST(PackedValues, RefusesWhatIsNotThere) {
         EXPECT_FALSE(values);
         return values ? "" : error_text(values.error());
     };
-    EXPECT_NE(error_of({"sun"}).find("\"sun\" is none of what the lightmaps have: sky, light:lamp"),
+    EXPECT_NE(error_of({"sun"}).find("unknown channel \"sun\"; the lightmaps have sky, light:lamp"),
               std::string::npos);
     EXPECT_NE(error_of({"shadow:4"}).find("shadow:0 to shadow:3"), std::string::npos);
     for (const char* word : {"sky^", "sky^x", "sky^-1", "sky^0", "sky^1e9", "sky^nan", "sky^2x"})
