@@ -48,7 +48,7 @@ struct ReflectionProbe {
     float validity = 1.0f;
     /// Irradiance of the cube's light, by its level 0.
     IrradianceSh irradiance{};
-    std::array<uint32_t, 2> reserved{};
+    std::array<uint32_t, 3> reserved{};
 
     [[nodiscard]] bool is_everywhere() const noexcept {
         return half_size.x == std::numeric_limits<float>::infinity();
