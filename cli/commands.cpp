@@ -9,8 +9,9 @@ namespace {
 constexpr Command kCommands[] = {
     {&settings::kGrid, run_grid},         {&settings::kBake, run_bake},
     {&settings::kLightmap, run_lightmap}, {&settings::kUnwrap, run_unwrap},
-    {&settings::kExport, run_export},     {&settings::kMerge, run_merge},
-    {&settings::kPrune, run_prune},       {&settings::kTetrahedralize, run_tetrahedralize},
+    {&settings::kReflect, run_reflect},   {&settings::kExport, run_export},
+    {&settings::kMerge, run_merge},       {&settings::kPrune, run_prune},
+    {&settings::kTetrahedralize, run_tetrahedralize},
     {&settings::kQuery, run_query},       {&settings::kRelight, run_relight},
     {&settings::kLppv, run_lppv},         {&settings::kRender, run_render},
     {&settings::kMeshball, run_meshball}, {&settings::kInfo, run_info},

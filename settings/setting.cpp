@@ -10,7 +10,7 @@
 namespace tetralight::settings {
 namespace {
 
-constexpr const Table* kTables[] = {&kGrid,       &kBake,   &kLightmap,       &kUnwrap, &kExport,
+constexpr const Table* kTables[] = {&kGrid,       &kBake,   &kLightmap,       &kUnwrap, &kReflect, &kExport,
                                     &kMerge,      &kPrune,  &kTetrahedralize, &kQuery,  &kRelight,
                                     &kLppv,       &kRender, &kMeshball,       &kInfo,   &kValidate,
                                     &kCheckLeaks, &kServe,  &kFsck,           &kBackup, &kRestore};

@@ -116,7 +116,7 @@ struct Table {
 };
 
 extern const Table kBackup, kBake, kCheckLeaks, kExport, kFsck, kGrid, kInfo, kLightmap, kLppv,
-    kMerge, kMeshball, kPrune, kQuery, kRelight, kRender, kRestore, kServe, kTetrahedralize,
+    kMerge, kMeshball, kPrune, kQuery, kReflect, kRelight, kRender, kRestore, kServe, kTetrahedralize,
     kUnwrap, kValidate;
 
 /// All of them, in the order in which a user meets them.
