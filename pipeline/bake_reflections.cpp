@@ -81,7 +81,6 @@ class ReflectionBaker {
     ReflectionBaker(const Scene& scene, const BakeReflectionsSettings& settings)
         : scene_(scene), settings_(settings) {
         baked_.reflections.size = settings.cube_size;
-        baked_.reflections.levels.resize(reflection_level_count(settings.cube_size));
         baked_.reflections.metadata = metadata(scene, settings);
     }
 
@@ -151,19 +150,10 @@ class ReflectionBaker {
                 str_cat("reflection probe \"", facts.name, "\": ", 100.0 * facts.clamped_share,
                         " % of its light is brighter than a half can be, and was clamped"));
         }
-        const auto levels = prefilter_levels(std::move(cube), settings_.bake.thread_count);
-        for (size_t level = 0; level < levels.size(); ++level) {
-            for (const glm::vec3& light : levels[level].texels)
-                all.levels[level].push_back(texel_of(light));
-        }
+        add_cube(all, std::move(cube), settings_.bake.thread_count);
         all.probes.push_back(probe);
         all.names.push_back(facts.name);
         baked_.facts.push_back(std::move(facts));
-    }
-
-    static RadianceTexel texel_of(glm::vec3 light) {
-        return {half_from_float_saturated(light.r), half_from_float_saturated(light.g),
-                half_from_float_saturated(light.b), half_from_float(1.0f)};
     }
 
     static double clamped_share(const CubeImage& cube) {
@@ -185,7 +175,21 @@ class ReflectionBaker {
     BakedReflections baked_;
 };
 
+RadianceTexel texel_of(glm::vec3 light) {
+    return {half_from_float_saturated(light.r), half_from_float_saturated(light.g),
+            half_from_float_saturated(light.b), half_from_float(1.0f)};
+}
+
 }  // namespace
+
+void add_cube(Reflections& reflections, CubeImage cube, uint32_t thread_count) {
+    const auto levels = prefilter_levels(std::move(cube), thread_count);
+    reflections.levels.resize(levels.size());
+    for (size_t level = 0; level < levels.size(); ++level) {
+        for (const glm::vec3& light : levels[level].texels)
+            reflections.levels[level].push_back(texel_of(light));
+    }
+}
 
 CubeImage bake_sky_cube(const Environment& environment, uint32_t size, uint32_t samples_per_texel,
                         uint32_t thread_count) {

@@ -61,6 +61,10 @@ struct BakedReflections {
                                                         const BakeReflectionsSettings& settings,
                                                         const BakeCallback& callback = {});
 
+/// Appends the levels of one cube, as halves. Values above the largest half become that one.
+/// Precondition: a cube of the size of the others.
+void add_cube(Reflections& reflections, CubeImage cube, uint32_t thread_count);
+
 /// The light of an environment alone: the mean of `samples_per_texel` points of each texel.
 [[nodiscard]] CubeImage bake_sky_cube(const Environment& environment, uint32_t size,
                                       uint32_t samples_per_texel, uint32_t thread_count = 0);
