@@ -51,6 +51,11 @@ struct ReflectionBlend {
                                            const ReflectionBlend& blend, const glm::dvec3& position,
                                            glm::vec3 direction, float roughness) noexcept;
 
+/// The same without boxes: as if the light of the cubes came from far away.
+[[nodiscard]] glm::vec3 sample_far_reflections(const ReflectionsView& reflections,
+                                               const ReflectionBlend& blend, glm::vec3 direction,
+                                               float roughness) noexcept;
+
 /// Irradiance of the blended cubes, on a unit normal.
 [[nodiscard]] glm::vec3 reflection_irradiance(const ReflectionsView& reflections,
                                               const ReflectionBlend& blend,
