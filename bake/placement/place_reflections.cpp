@@ -2,7 +2,9 @@
 #include <tetralight/bake/placement/place_reflections.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
@@ -21,6 +23,9 @@ constexpr int kRoomImportance = 2, kOutdoorImportance = 1;
 constexpr double kBlendFraction = 0.1;  // of the smallest side
 /// Sides of a room, of six, that must be walls.
 constexpr int kLeastWalls = 4;
+constexpr double kLeastSide = 0.8;  // of a room, metres
+/// A room whose box is open to the sky in a larger part is split.
+constexpr double kOpenFraction = 0.15;
 /// Of a room's points: inside the box of a larger room, it has no probe.
 constexpr double kSharedFraction = 0.8;
 /// Distance of probes from surfaces, metres, where the room is wide enough.
@@ -69,20 +74,53 @@ class ReflectionPlacer {
 
   private:
     void place_rooms() {
+        std::vector<uint32_t> outdoors;
         for (const std::vector<uint32_t>& room : map_.rooms) {
             const RoomBox fitted = fit_room_box(traced_, map_, room, rule_.clearance);
             if (fitted.wall_count < kLeastWalls) {
                 // A bridge, a tree: the space below it is outdoors.
-                map_.open_points.insert(map_.open_points.end(), room.begin(), room.end());
-                continue;
+                outdoors.insert(outdoors.end(), room.begin(), room.end());
+            } else if (is_filled(room)) {
+                place_room(room, fitted.box, 0);
             }
-            if (!is_filled(room) || is_in_larger_room(room)) continue;
-            boxes_.push_back(fitted.box);
-            const auto position = position_in(room, fitted.box.center());
-            if (!position) continue;
-            places_.push_back(make_place(*position, fitted.box, kRoomImportance));
-            places_.back().name = str_cat("room ", places_.size());
         }
+        map_.open_points.insert(map_.open_points.end(), outdoors.begin(), outdoors.end());
+        std::ranges::sort(map_.open_points);
+    }
+
+    /// One probe, or several in an arcade around a court, which no box is to hold.
+    void place_room(const std::vector<uint32_t>& room, const WorldBox& box, int depth) {
+        constexpr int kMostSplits = 3;
+        if (depth < kMostSplits && open_fraction(box) > kOpenFraction) {
+            const glm::dvec3 size = box.size();
+            const int axis = size.x >= size.z ? 0 : 2;
+            std::array<std::vector<uint32_t>, 2> halves;
+            for (const uint32_t point : room) {
+                halves[map_.lattice.at(point)[axis] < box.center()[axis] ? 0 : 1].push_back(point);
+            }
+            for (const auto& half : halves) {
+                if (half.empty()) continue;
+                const RoomBox fitted = fit_room_box(traced_, map_, half, rule_.clearance);
+                place_room(half, fitted.box, depth + 1);
+            }
+            return;
+        }
+        const glm::dvec3 size = box.size();
+        if (std::min({size.x, size.y, size.z}) < kLeastSide || is_in_larger_room(room)) return;
+        boxes_.push_back(box);
+        const auto position = position_in(room, box.center());
+        if (!position) return;
+        places_.push_back(make_place(*position, box, kRoomImportance));
+        places_.back().name = str_cat("room ", places_.size());
+    }
+
+    /// The fraction of a box that is open to the sky.
+    [[nodiscard]] double open_fraction(const WorldBox& box) const {
+        const auto open = std::ranges::count_if(map_.open_points, [&](uint32_t point) {
+            return contains(box, map_.lattice.at(point));
+        });
+        const glm::dvec3 size = box.size();
+        return static_cast<double>(open) * map_.point_volume() / (size.x * size.y * size.z);
     }
 
     /// True if most of a room is outside of geometry and to be filled.
@@ -164,7 +202,6 @@ class ReflectionPlacer {
 
     /// The squares with open ground outside of the rooms, row by row.
     [[nodiscard]] std::map<std::pair<int, int>, Square> squares() {
-        std::ranges::sort(map_.open_points);
         std::map<std::pair<int, int>, Square> squares;
         for (const uint32_t point : map_.open_points) {
             const glm::dvec3 position = map_.lattice.at(point);
@@ -209,17 +246,18 @@ class ReflectionPlacer {
         }
     }
 
-    /// The height of most of the ground that is not roofs.
-    [[nodiscard]] static double ground_of(const Square& square) {
+    /// The height above which this fraction of the ground is.
+    [[nodiscard]] static double ground_of(const Square& square, double fraction) {
         std::vector<double> heights;
         for (const auto& [number, column] : square.columns) heights.push_back(column.ground);
-        std::ranges::sort(heights);
-        return heights[heights.size() / 4];
+        std::ranges::sort(heights, std::greater{});
+        return heights[static_cast<size_t>(fraction * static_cast<double>(heights.size() - 1))];
     }
 
     /// Above the ground nearest to the middle of a square where there is room.
     [[nodiscard]] std::optional<glm::dvec3> position_in(const Square& square) const {
-        const glm::dvec3 middle(square.center.x, ground_of(square), square.center.y);
+        // Most of what is higher are roofs.
+        const glm::dvec3 middle(square.center.x, ground_of(square, 0.75), square.center.y);
         std::vector<std::pair<double, const Column*>> columns;
         for (const auto& [number, column] : square.columns) {
             glm::dvec3 place = map_.lattice.at(column.points.front());
@@ -244,14 +282,11 @@ class ReflectionPlacer {
         }));
     }
 
-    /// From the lowest ground to the top of the bounds.
+    /// From the lowest ground, except for holes, to the top of the bounds.
     [[nodiscard]] WorldBox box_of(const Square& square, const glm::dvec3& position) const {
         WorldBox box;
-        box.min.y = position.y;
-        for (const auto& [number, column] : square.columns) {
-            box.min.y = std::min(box.min.y, column.ground);
-        }
-        box.max.y = std::max(rule_.bounds.max.y, 2.0 * position.y - box.min.y);
+        box.min.y = ground_of(square, 0.95);
+        box.max.y = std::max(rule_.bounds.max.y, position.y + kOutdoorHeight);
         // Wider by the blend distance, a tenth of the box, than the square.
         const glm::dvec2 half = 0.5 * glm::dvec2(square_side(0), square_side(2));
         const double smallest =

@@ -32,7 +32,8 @@ struct ReflectionRule {
 /// sides, with its box at the walls, and importance 2; and outdoors one in each square of at most
 /// `spacing`, 2 m above the ground, with importance 1 and boxes that overlap by the blend distance.
 /// Each is at the free position that is nearest to the middle of its box. The blend distance is a
-/// tenth of the box's smallest side. A room inside the box of a larger one has no probe.
+/// tenth of the box's smallest side. A room inside the box of a larger one has no probe, and
+/// neither has one that is less than 0.8 m wide; an arcade around an open court has up to eight.
 /// Deterministic.
 [[nodiscard]] std::vector<ReflectionPlace> place_reflections(const TraceScene& traced,
                                                              const ReflectionRule& rule);

@@ -367,14 +367,17 @@ class GridMaker {
         if (!settings_.reflection_spacing) return;
         // A wider body leaves no points in corridors.
         constexpr double kNarrowest = 0.2, kWidest = 0.4;
-        const ReflectionRule rule{rule_.bounds,
-                                  *settings_.reflection_spacing,
-                                  std::clamp(agent_radius_, kNarrowest, kWidest),
-                                  scene_.probe_adjustments,
-                                  [this](const glm::dvec3& position) {
-                                      return filled_.contains(map_.space_of(position));
-                                  },
-                                  rule_.thread_count};
+        const ReflectionRule rule{
+            rule_.bounds,
+            *settings_.reflection_spacing,
+            std::clamp(agent_radius_, kNarrowest, kWidest),
+            scene_.probe_adjustments,
+            [this](const glm::dvec3& position) {
+                const bool is_walkable_below =
+                    rule_.walkable == nullptr || rule_.walkable->height_above(position);
+                return is_walkable_below && filled_.contains(map_.space_of(position));
+            },
+            rule_.thread_count};
         grid_.reflection_places = place_reflections(traced_, rule);
     }
 

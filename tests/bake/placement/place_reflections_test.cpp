@@ -158,6 +158,41 @@ TEST(PlaceReflections, AHouseInAGardenHasBothKinds) {
     }
 }
 
+TEST(PlaceReflections, NoBoxOfAnArcadeHoldsItsCourt) {
+    Scene scene;  // 3 m wide and 3 m high, around a court of 10 m × 10 m
+    test::add_solid(scene, {-8.2f, -0.2f, -8.2f}, {8.2f, 0, 8.2f});
+    test::add_solid(scene, {-8.2f, 3, -8.2f}, {8.2f, 3.2f, -5});
+    test::add_solid(scene, {-8.2f, 3, 5}, {8.2f, 3.2f, 8.2f});
+    test::add_solid(scene, {-8.2f, 3, -5}, {-5, 3.2f, 5});
+    test::add_solid(scene, {5, 3, -5}, {8.2f, 3.2f, 5});
+    for (const float side : {-8.2f, 8.0f}) {
+        test::add_solid(scene, {side, 0, -8.2f}, {side + 0.2f, 3, 8.2f});
+        test::add_solid(scene, {-8.2f, 0, side}, {8.2f, 3, side + 0.2f});
+    }
+    const WorldBox court{{-5, 0, -5}, {5, 6, 5}};
+    const auto places = places_of(scene, {{-8.2, -0.2, -8.2}, {8.2, 6, 8.2}});
+    int rooms = 0;
+    for (const ReflectionPlace& place : places) {
+        if (place.importance != 2) continue;
+        ++rooms;
+        EXPECT_FALSE(contains(court, place.position)) << place.name;
+        const glm::dvec3 shared = intersection_of(court, box_of(place)).size();
+        const glm::dvec3 all = box_of(place).size();
+        EXPECT_LT(shared.x * shared.z, 0.25 * all.x * all.z) << place.name;
+    }
+    EXPECT_GE(rooms, 4);
+    EXPECT_LE(rooms, 8);
+    EXPECT_TRUE(std::ranges::any_of(places, [&](const ReflectionPlace& place) {
+        return place.importance == 1 && contains(court, place.position);
+    }));
+}
+
+TEST(PlaceReflections, ANarrowShaftHasNone) {
+    Scene scene;
+    test::add_room(scene, {0, 0, 0}, {0.7f, 4, 4});
+    EXPECT_TRUE(places_of(scene, {{0, 0, 0}, {0.7, 4, 4}}).empty());
+}
+
 TEST(PlaceReflections, ABridgeIsNoRoom) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 20.0f);
