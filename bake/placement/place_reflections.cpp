@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -73,10 +74,43 @@ class ReflectionPlacer {
     }
 
   private:
+    /// The points of a room, and its box.
+    struct FittedRoom {
+        std::vector<uint32_t> points;
+        RoomBox fitted;
+    };
+
+    [[nodiscard]] FittedRoom fit(std::vector<uint32_t> points) const {
+        const RoomBox fitted = fit_room_box(traced_, map_, points, rule_.clearance);
+        return {std::move(points), fitted};
+    }
+
+    /// The rooms, of which furniture parts none, the largest first.
+    [[nodiscard]] std::vector<FittedRoom> fit_rooms() {
+        const double gap = 2.0 * map_.lattice.axes[0].spacing;
+        std::vector<FittedRoom> rooms;
+        for (std::vector<uint32_t>& points : map_.rooms) {
+            FittedRoom room = fit(std::move(points));
+            const auto is_part = [&](const FittedRoom& other) {
+                return are_parts_of_one_room(room.fitted, other.fitted, gap);
+            };
+            for (auto part = std::ranges::find_if(rooms, is_part); part != rooms.end();
+                 part = std::ranges::find_if(rooms, is_part)) {
+                std::vector<uint32_t> all;
+                std::ranges::merge(room.points, part->points, std::back_inserter(all));
+                rooms.erase(part);
+                room = fit(std::move(all));
+            }
+            rooms.push_back(std::move(room));
+        }
+        std::ranges::stable_sort(rooms, std::greater{},
+                                 [](const FittedRoom& room) { return room.points.size(); });
+        return rooms;
+    }
+
     void place_rooms() {
         std::vector<uint32_t> outdoors;
-        for (const std::vector<uint32_t>& room : map_.rooms) {
-            const RoomBox fitted = fit_room_box(traced_, map_, room, rule_.clearance);
+        for (const auto& [room, fitted] : fit_rooms()) {
             if (fitted.wall_count < kLeastWalls) {
                 // A bridge, a tree: the space below it is outdoors.
                 outdoors.insert(outdoors.end(), room.begin(), room.end());
@@ -100,8 +134,7 @@ class ReflectionPlacer {
             }
             for (const auto& half : halves) {
                 if (half.empty()) continue;
-                const RoomBox fitted = fit_room_box(traced_, map_, half, rule_.clearance);
-                place_room(half, fitted.box, depth + 1);
+                place_room(half, fit(half).fitted.box, depth + 1);
             }
             return;
         }

@@ -2,6 +2,7 @@
 #include <tetralight/bake/placement/room_box.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -89,7 +90,27 @@ double open_end(const RoomMap& map, const std::vector<uint32_t>& points, const S
            0.5 * map.lattice.axes[side.axis].spacing;
 }
 
+/// The length that two boxes have in common along an axis, relative to the longer one.
+double shared_fraction(const WorldBox& a, const WorldBox& b, int axis) {
+    const double shared = std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
+    return shared / std::max(a.size()[axis], b.size()[axis]);
+}
+
 }  // namespace
+
+bool are_parts_of_one_room(const RoomBox& a, const RoomBox& b, double gap) {
+    constexpr double kSameSide = 0.8;
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool is_a_below = a.is_max_open[axis] && b.is_min_open[axis] &&
+                                std::abs(a.box.max[axis] - b.box.min[axis]) <= gap;
+        const bool is_b_below = b.is_max_open[axis] && a.is_min_open[axis] &&
+                                std::abs(b.box.max[axis] - a.box.min[axis]) <= gap;
+        const double same = shared_fraction(a.box, b.box, (axis + 1) % 3) *
+                            shared_fraction(a.box, b.box, (axis + 2) % 3);
+        if ((is_a_below || is_b_below) && same >= kSameSide) return true;
+    }
+    return false;
+}
 
 RoomBox fit_room_box(const TraceScene& traced, const RoomMap& map,
                      const std::vector<uint32_t>& room, double clearance) {
@@ -100,12 +121,13 @@ RoomBox fit_room_box(const TraceScene& traced, const RoomMap& map,
             const std::vector<uint32_t> points = last_points(map, room, side);
             const std::vector<double> hits = wall_hits(traced, map, points, side, clearance);
             fitted.wall_count += hits.size() > fraction_of(points.size(), kClosedFraction);
-            std::optional<double> end;
-            if (hits.size() > fraction_of(points.size(), kWallFraction)) {
-                // A dome or a sloped roof has no place that many rays hit.
-                end = outermost_wall(hits).value_or(hits[fraction_of(hits.size(), kWallFraction)]);
-            }
-            const double outward = end ? *end : open_end(map, points, side);
+            const bool is_open = hits.size() <= fraction_of(points.size(), kWallFraction);
+            (sign < 0 ? fitted.is_min_open : fitted.is_max_open)[axis] = is_open;
+            // A dome or a sloped roof has no place that many rays hit.
+            const double outward =
+                is_open
+                    ? open_end(map, points, side)
+                    : outermost_wall(hits).value_or(hits[fraction_of(hits.size(), kWallFraction)]);
             (sign < 0 ? fitted.box.min : fitted.box.max)[axis] = sign * outward;
         }
     }

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <tetralight/bake/placement/free_space.h>
+#include <tetralight/bake/placement/rooms.h>
 #include "tests/bake/placement/grid_support.h"
 #include "tests/bake/placement/room_scenes.h"
 
@@ -107,6 +108,17 @@ TEST(PlaceReflections, FurnitureMovesItAndDoesNotShrinkItsBox) {
     const double away = glm::distance(places[0].position, kRoom.center());
     EXPECT_GE(away, 0.8 - 1e-3);
     EXPECT_LE(away, 0.8 + 0.22);
+}
+
+TEST(PlaceReflections, APillarDoesNotPartARoom) {
+    Scene scene;  // the ways beside it are half as wide as the room
+    test::add_room(scene, {0, 0, 0}, {3, 3, 8});
+    test::add_solid(scene, {1.35f, 0, 3.85f}, {1.65f, 3, 4.15f});
+    const WorldBox room{{0, 0, 0}, {3, 3, 8}};
+    EXPECT_EQ(find_rooms(test::traced(scene), {room, 0.2}).rooms.size(), 2u);
+    const auto places = places_of(scene, room);
+    ASSERT_EQ(places.size(), 1u);
+    expect_box(places[0], room);
 }
 
 TEST(PlaceReflections, OutdoorsTheyAreASpacingApart) {
