@@ -84,5 +84,20 @@ TEST(RoomBox, ASlopedRoofIsMetAboveItsMiddle) {
     EXPECT_NEAR(found.box.min.x, 0.0, 1e-4);
 }
 
+TEST(RoomBox, PartsOfOneRoomShareAnOpenSide) {
+    RoomBox left, right;
+    left.box = {{0, 0, 0}, {2, 3, 4}};
+    right.box = {{2.1, 0, 0}, {5, 3, 4}};
+    left.is_max_open.x = right.is_min_open.x = true;
+    EXPECT_TRUE(are_parts_of_one_room(left, right, 0.25));
+    EXPECT_TRUE(are_parts_of_one_room(right, left, 0.25));
+    EXPECT_FALSE(are_parts_of_one_room(left, right, 0.05));
+    right.box.max.z = 3;  // three quarters of the side
+    EXPECT_FALSE(are_parts_of_one_room(left, right, 0.25));
+    right.box.max.z = 4;
+    right.is_min_open.x = false;  // a wall
+    EXPECT_FALSE(are_parts_of_one_room(left, right, 0.25));
+}
+
 }  // namespace
 }  // namespace tetralight
