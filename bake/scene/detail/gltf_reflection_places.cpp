@@ -19,9 +19,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kKey = "reflection_probe";
-constexpr const char* kMember = ".extras.reflection_probe";
-constexpr const char* kName = "extras.reflection_probe";
+constexpr const char* kProbeKey = "reflection_probe";
+constexpr const char* kProbeMember = ".extras.reflection_probe";
+constexpr const char* kProbeName = "extras.reflection_probe";
 
 std::string shown(const glm::dvec3& v) {
     return str_cat("[", v.x, ", ", v.y, ", ", v.z, "]");
@@ -29,7 +29,7 @@ std::string shown(const glm::dvec3& v) {
 
 /// Returns invalid_argument: `extras.reflection_probe: REASON`.
 Error node_error(std::string value, const std::string& reason) {
-    return {ErrorCode::InvalidArgument, "", std::move(value), str_cat(kName, ": ", reason)};
+    return {ErrorCode::InvalidArgument, "", std::move(value), str_cat(kProbeName, ": ", reason)};
 }
 
 glm::dvec3 vec3_in(const json& object, const char* key, const glm::dvec3& otherwise) {
@@ -44,7 +44,7 @@ struct Frame {
 };
 
 Result<Frame> frame_of(const glm::dmat3& world_from_node) {
-    constexpr const char* kAxes[] = {"X", "Y", "Z"};
+    constexpr const char* kAxisNames[] = {"X", "Y", "Z"};
     // Of the product of two axes: six digits of a matrix in a file are enough.
     constexpr double kSheared = 1e-4;
     Frame frame;
@@ -61,8 +61,8 @@ Result<Frame> frame_of(const glm::dmat3& world_from_node) {
         const double degrees = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
         const std::string angle = str_cat(static_cast<float>(degrees));
         return node_error(
-            angle, str_cat("the node is sheared: its axes ", kAxes[std::min(i, next)], " and ",
-                           kAxes[std::max(i, next)], " are ", angle, " degrees apart"));
+            angle, str_cat("the node is sheared: its axes ", kAxisNames[std::min(i, next)], " and ",
+                           kAxisNames[std::max(i, next)], " are ", angle, " degrees apart"));
     }
     // Right-handed and exactly at right angles: a mirrored box is the same box.
     frame.axes[1] =
@@ -76,7 +76,7 @@ Status check_size(const glm::dvec3& size, const glm::dvec3& world_size) {
     const std::string value = shown(size);
     const auto error = [&](const std::string& reason) {
         return Error{ErrorCode::InvalidArgument, ".size", value,
-                     str_cat(kName, ".size ", value, reason)};
+                     str_cat(kProbeName, ".size ", value, reason)};
     };
     for (int i = 0; i < 3; ++i) {
         if (!(size[i] > 0.0)) return error(" is not three lengths above 0");
@@ -109,9 +109,10 @@ Result<ReflectionPlace> converted(const GltfReflectionProbe& extras,
 }  // namespace
 
 std::optional<GltfReflectionProbe> reflection_probe_from(const std::string& extras) {
-    if (extras.find(kKey) == std::string::npos) return std::nullopt;
+    if (extras.find(kProbeKey) == std::string::npos) return std::nullopt;
     const json object = json::parse(extras);
-    const json* probe = object.is_object() && object.contains(kKey) ? &object[kKey] : nullptr;
+    const json* probe =
+        object.is_object() && object.contains(kProbeKey) ? &object[kProbeKey] : nullptr;
     if (probe == nullptr || *probe == false) return std::nullopt;
     GltfReflectionProbe result;
     if (*probe == true) return result;
@@ -135,11 +136,11 @@ Result<std::vector<ReflectionPlace>> read_gltf_reflection_places(
         if (place) {
             place->name = node.name.empty() ? str_cat("node ", placed.node) : node.name;
             if (auto status = check_reflection_place(*place); !status) {
-                place = status.error().in(kName);
+                place = status.error().in(kProbeName);
             }
         }
         if (!place) {
-            const Error error = in_member(place.error(), kMember);
+            const Error error = in_member(place.error(), kProbeMember);
             return in_element(error, "nodes", placed.node, node.name);
         }
         places.push_back(std::move(*place));

@@ -86,6 +86,22 @@ TEST(PlaceReflections, EachOfTwoRoomsWithADoorHasOne) {
     expect_box(places[is_first_left ? 1 : 0], {{4.2, 0, 0}, {8.2, 2.5, 4}});
 }
 
+TEST(PlaceReflections, EachRoomOfAHouseHasOne) {
+    const Scene house = test::house();
+    auto places = places_of(house, {{-3, -0.2, -3}, {15, 7, 11}});
+    std::erase_if(places, [](const ReflectionPlace& place) { return place.importance == 1; });
+    ASSERT_EQ(places.size(), 12u);
+    for (int i = 0; i < 12; ++i) {
+        const int x = i % 3, z = i / 3 % 2, y = i / 6;
+        const WorldBox room{{4.0 * x + 0.1, 3.0 * y, 4.0 * z + 0.1},
+                            {4.0 * x + 3.9, y == 0 ? 2.8 : 6.0, 4.0 * z + 3.9}};
+        const auto found = std::ranges::find_if(
+            places, [&](const ReflectionPlace& place) { return contains(room, place.position); });
+        ASSERT_NE(found, places.end()) << i;
+        expect_box(*found, room);
+    }
+}
+
 TEST(PlaceReflections, AnLShapedRoomHasOneInsideIt) {
     Scene scene;
     test::add_room(scene, {0, 0, 0}, {6, 2.5f, 6});
