@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -40,8 +41,6 @@ class OutdoorPlacer {
 
     [[nodiscard]] std::vector<ReflectionPlace> run() const {
         std::vector<ReflectionPlace> places;
-        // A scene without surfaces has nothing to reflect.
-        if (traced_.geometry_count() == 0) return places;
         for (const auto& [number, square] : squares()) {
             const auto position = position_in(square);
             if (!position) continue;
@@ -78,8 +77,8 @@ class OutdoorPlacer {
             const glm::ivec3 layers = layers_of(map_.lattice, point);
             square.columns[{layers.z, layers.x}].points.push_back(point);
         }
-        std::erase_if(squares, [this](const auto& item) { return !has_ground(item.second); });
         for (auto& [number, square] : squares) find_ground(square);
+        std::erase_if(squares, [this](const auto& item) { return !has_ground(item.second); });
         return squares;
     }
 
@@ -100,13 +99,14 @@ class OutdoorPlacer {
                kLeastGround * square_side(0) * square_side(2);
     }
 
-    /// The height below the lowest point of each column; where nothing is below, of the bounds.
+    /// The height below the lowest point of each column. Removes those with nothing below.
     void find_ground(Square& square) const {
-        for (auto& [number, column] : square.columns) {
-            const glm::dvec3 lowest = map_.lattice.at(column.points.front());
+        for (auto column = square.columns.begin(); column != square.columns.end();) {
+            const glm::dvec3 lowest = map_.lattice.at(column->second.points.front());
             const auto floor =
                 traced_.nearest_crossing({traced_.render_from_world(lowest), glm::vec3(0, -1, 0)});
-            column.ground = floor ? lowest.y - floor->distance : rule_.bounds.min.y;
+            if (floor) column->second.ground = lowest.y - floor->distance;
+            column = floor ? std::next(column) : square.columns.erase(column);
         }
     }
 

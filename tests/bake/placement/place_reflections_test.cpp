@@ -158,6 +158,16 @@ TEST(PlaceReflections, OutdoorsTheyAreASpacingApart) {
     EXPECT_EQ(places.back().name, "outdoors 16");
 }
 
+TEST(PlaceReflections, WhereThereIsNoGroundThereAreNone) {
+    Scene scene;
+    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 10.0f);
+    const auto places = places_of(scene, kGarden);
+    ASSERT_EQ(places.size(), 4u);
+    for (const ReflectionPlace& place : places) {
+        EXPECT_LT(std::max(std::abs(place.position.x), std::abs(place.position.z)), 10.0);
+    }
+}
+
 TEST(PlaceReflections, OutdoorsTheyStandAboveTheGroundBesideATower) {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 20.0f, 1.0f);
