@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string>
+
+#include <tetralight/base/result.h>
 
 namespace tetralight {
 
@@ -27,5 +30,13 @@ struct ReflectionPlace {
 
     bool operator==(const ReflectionPlace&) const = default;
 };
+
+/// Returns invalid_argument if a number is not finite or out of range, or if the axes are not unit
+/// vectors at right angles. The field is a member as JSON has it: `.blend_distance`.
+[[nodiscard]] Status check_reflection_place(const ReflectionPlace& place);
+
+/// Checks the places of one file, whose names are to be unique. Returns invalid_argument with the
+/// member as the field: `reflection_probes[1].name`.
+[[nodiscard]] Status check_reflection_places(std::span<const ReflectionPlace> places);
 
 }  // namespace tetralight
