@@ -62,13 +62,13 @@ struct LargestWeights {
     }
 };
 
-Candidate candidate_of(const ReflectionsView& reflections, uint32_t i,
-                       const glm::dvec3& position) noexcept {
+/// Of the box, without the influence.
+Candidate candidate_of(const ReflectionsView& reflections, uint32_t i) noexcept {
     const ReflectionProbe& probe = reflections.probes[i];
     const glm::dvec3 half(probe.half_size);
     const double product = half.x * half.y * half.z;
     const double volume = product >= 0.0 ? product : std::numeric_limits<double>::infinity();
-    return {probe.importance, volume, i, reflection_influence(probe, position)};
+    return {probe.importance, volume, i, 0.0f};
 }
 
 /// The candidates that come after one of them; the first ones without.
@@ -77,9 +77,11 @@ Candidates candidates_after(const ReflectionsView& reflections, const glm::dvec3
     Candidates found;
     const auto count = static_cast<uint32_t>(reflections.probes.size());
     for (uint32_t i = 0; i < count; ++i) {
-        const Candidate candidate = candidate_of(reflections, i, position);
-        if (!(candidate.influence > 0.0f) || (last && !last->is_before(candidate))) continue;
-        found.insert(candidate);
+        const float influence = reflection_influence(reflections.probes[i], position);
+        if (!(influence > 0.0f)) continue;
+        Candidate candidate = candidate_of(reflections, i);
+        candidate.influence = influence;
+        if (!last || last->is_before(candidate)) found.insert(candidate);
     }
     return found;
 }
@@ -153,6 +155,17 @@ ReflectionBlend blend_reflections(const ReflectionsView& reflections,
         }
     }
     return blend;
+}
+
+std::vector<uint32_t> reflection_order(const ReflectionsView& reflections) {
+    std::vector<Candidate> candidates;
+    const auto count = static_cast<uint32_t>(reflections.probes.size());
+    for (uint32_t i = 0; i < count; ++i) candidates.push_back(candidate_of(reflections, i));
+    std::ranges::sort(candidates,
+                      [](const Candidate& a, const Candidate& b) { return a.is_before(b); });
+    std::vector<uint32_t> order;
+    for (const Candidate& candidate : candidates) order.push_back(candidate.probe);
+    return order;
 }
 
 }  // namespace tetralight

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include <tetralight/reflection/reflections.h>
 
 // Light that shiny surfaces reflect, from reflection probes. All functions are thread-safe, do not
-// allocate and test each index where they use it. GPU twin: runtime/shaders/reflection.glsl.
+// allocate (but for reflection_order) and test each index where they use it. GPU twin:
+// runtime/shaders/reflection.glsl.
 
 namespace tetralight {
 
@@ -37,6 +39,10 @@ struct ReflectionBlend {
 /// is), and without a sky on the outer sides of the boxes. Cost: O(n).
 [[nodiscard]] ReflectionBlend blend_reflections(const ReflectionsView& reflections,
                                                 const glm::dvec3& position) noexcept;
+
+/// All probes in the order in which they cover each other, for shaders that blend at each pixel
+/// (tetralight_add_reflection in runtime/shaders/reflection.glsl).
+[[nodiscard]] std::vector<uint32_t> reflection_order(const ReflectionsView& reflections);
 
 /// The direction from a probe to where a ray from `position` hits the side of its box (Lagarde &
 /// Zanuttini 2012, "Local Image-based Lighting With Parallax-corrected Cubemaps"). The direction

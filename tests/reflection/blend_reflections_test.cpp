@@ -89,6 +89,14 @@ TEST(BlendReflections, OfEqualProbesTheFirstCovers) {
     EXPECT_EQ(weights_of(probes, {0, 0, 0}), (std::vector<double>{1, 0}));
 }
 
+TEST(ReflectionOrder, IsThatOfImportanceThenVolumeThenPlaceInTheFile) {
+    std::vector probes{ReflectionProbe{}, box_probe({0, 0, 0}, {2, 2, 2}),
+                       box_probe({0, 0, 0}, {9, 9, 9}, 0.0f, 2), box_probe({1, 0, 0}, {2, 2, 2}),
+                       box_probe({0, 0, 0}, {1, 1, 1})};
+    EXPECT_EQ(reflection_order(view_of(probes)), (std::vector<uint32_t>{2, 4, 1, 3, 0}));
+    EXPECT_TRUE(reflection_order({}).empty());
+}
+
 TEST(BlendReflections, WithoutASkyBoxesShareTheRest) {
     const std::vector probes{box_probe({0, 0, 0}, {2, 2, 2}, 2.0f),
                              box_probe({3, 0, 0}, {2, 2, 2}, 2.0f)};
