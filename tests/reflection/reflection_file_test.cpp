@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -186,6 +188,21 @@ TEST_F(ReflectionFileTest, HasItsKeysInOrder) {
     EXPECT_EQ(pairs[4].second, "hall \"A\"\nsky\\dome é\n");
     ASSERT_EQ(pairs[5].second.size(), 2 * sizeof(ReflectionProbe));
     EXPECT_EQ(std::memcmp(pairs[5].second.data(), reflections.probes.data(), 432), 0);
+}
+
+/// ktx-parse, the reader of JavaScript engines, where `./run test` could install it.
+TEST_F(ReflectionFileTest, ReadsBackByKtxParse) {
+    const std::string modules = TETRALIGHT_NODE_MODULES;
+    if (!std::filesystem::exists(modules + "/ktx-parse/package.json")) {
+        GTEST_SKIP() << "npm has not installed ktx-parse";
+    }
+    std::string command = "node " TETRALIGHT_SOURCE_DIR "/tests/reflection/read_reflections.mjs " +
+                          modules + " " + folder.write("a.ktx2", bytes);
+    for (size_t i = 0; i < 2; ++i) {
+        command +=
+            " " + folder.write(std::to_string(i), std::as_bytes(std::span(reflections.levels[i])));
+    }
+    EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
 TEST_F(ReflectionFileTest, RefusesAFileCutAtAnyLength) {
