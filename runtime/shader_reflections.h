@@ -5,7 +5,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <type_traits>
-#include <vector>
 
 #include <tetralight/reflection/sample_reflections.h>
 
