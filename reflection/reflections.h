@@ -13,9 +13,9 @@
 
 #include <tetralight/probes/sh.h>
 
-// Reflection probes: cube maps of the light at a few places, for what shines. Level 0 is a mirror's;
-// the light of further levels is blurred for rougher surfaces. Each probe has a box, in which it is
-// used and on whose sides its light is thought to lie.
+// Reflection probes: cube maps of the light at a few places, for what shines. Level 0 is a
+// mirror's; the light of further levels is blurred for rougher surfaces. Each probe has a box, in
+// which it is used and on whose sides its light is thought to lie.
 //
 //     auto file = open_reflection_file("level.ktx2");
 //     if (!file) return file.error();

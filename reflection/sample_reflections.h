@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include <tetralight/reflection/reflections.h>
 
 // Light that shiny surfaces reflect, from reflection probes. All functions are thread-safe, do not
-// allocate and test each index where they use it. GPU twin: runtime/shaders/reflection.glsl.
+// allocate (but for reflection_order) and test each index where they use it. GPU twin:
+// runtime/shaders/reflection.glsl.
 
 namespace tetralight {
 
@@ -28,12 +30,19 @@ struct ReflectionBlend {
                                          const glm::dvec3& position) noexcept;
 
 /// The three most important probes at a position. Probes of higher importance, and of smaller boxes
-/// among equals, cover the others by their influence. Continuous in the position: the weights are
-/// reduced by the fourth largest.
-/// Where all boxes end, the rest belongs to the probes that are everywhere (the sky), or if there
-/// are none, to the probes by their weights.
+/// among equals, cover the others by their influence. What they leave uncovered belongs to the
+/// probes that are everywhere (the sky), or if there are none, to the probes by their weights;
+/// outside all boxes to the nearest box.
+///
+/// Inside boxes with blend distances the weights are continuous in the position, because they are
+/// reduced by the fourth largest. They are not where the four largest are equal (no choice of three
+/// is), and without a sky on the outer sides of the boxes. Cost: O(n).
 [[nodiscard]] ReflectionBlend blend_reflections(const ReflectionsView& reflections,
                                                 const glm::dvec3& position) noexcept;
+
+/// All probes in the order in which they cover each other, for shaders that blend at each pixel
+/// (tetralight_add_reflection in runtime/shaders/reflection.glsl).
+[[nodiscard]] std::vector<uint32_t> reflection_order(const ReflectionsView& reflections);
 
 /// The direction from a probe to where a ray from `position` hits the side of its box (Lagarde &
 /// Zanuttini 2012, "Local Image-based Lighting With Parallax-corrected Cubemaps"). The direction
@@ -63,7 +72,6 @@ struct ReflectionBlend {
 
 /// What reflections are multiplied with, so that dark corners do not shine: the luminance of the
 /// irradiance at the place over that at the probe, both on the surface's normal, in [0, 1].
-[[nodiscard]] float reflection_occlusion(glm::vec3 irradiance,
-                                         glm::vec3 probe_irradiance) noexcept;
+[[nodiscard]] float reflection_occlusion(glm::vec3 irradiance, glm::vec3 probe_irradiance) noexcept;
 
 }  // namespace tetralight
