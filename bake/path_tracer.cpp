@@ -63,8 +63,15 @@ float start_pdf(glm::vec3 normal, glm::vec3 direction) noexcept {
 }
 
 glm::vec3 sample_start(glm::vec3 normal, glm::vec2 u) noexcept {
-    if (u.x < kCosineShare) return sample_cosine_hemisphere(normal, {u.x / kCosineShare, u.y});
-    return sample_cone(normal, 0.0f, {(u.x - kCosineShare) / (1.0f - kCosineShare), u.y});
+    const glm::vec3 direction =
+        u.x < kCosineShare
+            ? sample_cosine_hemisphere(normal, {u.x / kCosineShare, u.y})
+            : sample_cone(normal, 0.0f, {(u.x - kCosineShare) / (1.0f - kCosineShare), u.y});
+    const float cosine = glm::dot(normal, direction);
+    if (cosine > 0.0f) return direction;
+    // Rounded below the horizon, where the density is 0: one sample in 10^8.
+    constexpr float kAboveHorizon = 1e-6f;
+    return glm::normalize(direction + (kAboveHorizon - cosine) * normal);
 }
 
 PathTracer::PathTracer(const Scene& scene, const TraceScene& trace_scene,

@@ -71,7 +71,8 @@ struct PathStart {
 [[nodiscard]] float start_pdf(glm::vec3 normal, glm::vec3 direction) noexcept;
 
 /// A direction in the hemisphere of a unit normal, with density (3 cos θ / π + 1 / 2π) / 4: close
-/// to the cosine, for the irradiance of a surface, and never near 0, for ∫ L dω and ∫ L ω dω.
+/// to the cosine, for the irradiance of a surface, and never near 0, for ∫ L dω and ∫ L ω dω. Its
+/// `start_pdf` is above 0.
 [[nodiscard]] glm::vec3 sample_start(glm::vec3 normal, glm::vec2 u) noexcept;
 
 /// The radiance that one path found.

@@ -22,12 +22,6 @@ bool has_rounds(const BakeSettings& settings) {
            settings.time_budget_seconds > 0.0 || settings.max_sample_count > settings.sample_count;
 }
 
-/// Rounds need standard errors, so that the first one has samples enough for them.
-uint64_t first_round_samples(const BakeSettings& settings) {
-    return has_rounds(settings) ? std::max<uint64_t>(settings.sample_count, kMinSamplesForError)
-                                : settings.sample_count;
-}
-
 }  // namespace
 
 RoundPlan::RoundPlan(const BakeSettings& settings, ErrorMeasure measure) noexcept
@@ -40,6 +34,11 @@ RoundPlan::RoundPlan(const BakeSettings& settings, ErrorMeasure measure) noexcep
     const uint64_t wanted = settings.max_sample_count > 0 ? settings.max_sample_count
                                                           : kDefaultGrowth * first_round_samples_;
     max_samples_ = std::min(wanted, kMaxSamples);
+}
+
+uint64_t RoundPlan::first_round_samples(const BakeSettings& settings) noexcept {
+    return has_rounds(settings) ? std::max<uint64_t>(settings.sample_count, kMinSamplesForError)
+                                : settings.sample_count;
 }
 
 Status RoundPlan::check(const BakeSettings& settings) {

@@ -27,6 +27,9 @@ class RoundPlan {
     /// maximum is below the samples of the first round, or if a number is negative or not finite.
     [[nodiscard]] static Status check(const BakeSettings& settings);
 
+    /// Samples of the first round, which with rounds are enough for a standard error.
+    [[nodiscard]] static uint64_t first_round_samples(const BakeSettings& settings) noexcept;
+
     /// Samples that a probe has before a round: each round doubles them, up to the maximum.
     [[nodiscard]] uint64_t samples_before(uint64_t round) const noexcept;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/cli/bake_settings.h>
 
+#include <tetralight/bake/round_plan.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/pipeline/bake_members.h>
 
@@ -15,6 +16,12 @@ bool takes_default_target(const BakeSettings& settings, const Values& values) {
         refuse(values, "max_samples",
                str_cat("needs ", values.shown("samples"), " of no more, ",
                        values.shown("target_error"), " or ", values.shown("time_budget")));
+    }
+    const uint64_t first = RoundPlan::first_round_samples(settings);
+    if (has_rounds && settings.max_sample_count > 0 && settings.max_sample_count < first) {
+        refuse(values, "max_samples",
+               str_cat(settings.max_sample_count, " is less than the ", first,
+                       " samples of the first round"));
     }
     return !has_rounds && !values.is_given("samples");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,7 @@ namespace {
 /// In the order of the choices of `as`.
 enum class ExportFormat : uint8_t { Exr, Ktx2, Png, Glb, Preview };
 
-ExportFormat format_of(const Values& values) {
-    if (values.is_given("as")) return choice<ExportFormat>(values, "as");
-    const std::string output = values.text("output");
+std::optional<ExportFormat> format_of(const std::string& output) {
     const std::pair<const char*, ExportFormat> extensions[] = {{".exr", ExportFormat::Exr},
                                                                {".ktx2", ExportFormat::Ktx2},
                                                                {".png", ExportFormat::Png},
@@ -32,7 +31,21 @@ ExportFormat format_of(const Values& values) {
     for (const auto& [extension, format] : extensions) {
         if (output.ends_with(extension)) return format;
     }
-    require(values, "as");
+    return std::nullopt;
+}
+
+ExportFormat chosen_format(const Values& values) {
+    const std::string output = values.text("output");
+    const auto named = format_of(output);
+    if (!named && !values.is_given("as")) require(values, "as");
+    if (!values.is_given("as")) return *named;
+    const auto chosen = choice<ExportFormat>(values, "as");
+    const auto written = chosen == ExportFormat::Preview ? ExportFormat::Png : chosen;
+    if (named && *named != written) {
+        refuse(values, "as",
+               str_cat(values.text("as"), " does not fit the name of the output, ", output));
+    }
+    return chosen;
 }
 
 struct Export {
@@ -49,7 +62,7 @@ struct Export {
         : lightmaps_path(values.text("lightmaps")),
           output(values.text("output")),
           scene_path(values.text("scene")),
-          format(format_of(values)),
+          format(chosen_format(values)),
           map(choice<LightmapMap>(values, "map")),
           packed(values.texts("pack")),
           marked(values.texts("mark")),

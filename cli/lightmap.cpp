@@ -89,6 +89,7 @@ struct Lightmap {
         const auto start = std::chrono::steady_clock::now();
         const auto bake = bake_with_progress(*scene, *prepared);
         if (!bake && bake.error().code == ErrorCode::Cancelled) return storing.interrupted();
+        if (!bake && bake.error().field == "texels") return bake.error().in(scene_options.path);
         if (!bake) return bake.error();
         storing.warn(bake->stored, common);
         record_samples(*prepared, *bake);

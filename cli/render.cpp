@@ -75,9 +75,15 @@ struct Render {
                                       const ReflectionsView& reflections,
                                       const Camera& camera) const {
         auto light = make_scene_light(scene, volume, probes, lightmaps);
+        if (!light && light.error().field == "lightmaps")
+            return light.error().in(shown_path(lightmap_path));
         if (!light) return light.error().in(scene_path);
         light->has_ambient_occlusion = has_ambient_occlusion;
         if (shadow_color) light->shadow_color = *shadow_color;
+        if (shadow_color && lightmaps.info.mixed_lighting != MixedLighting::Subtractive) {
+            common.warn({str_cat("the shadow color changes nothing: ", shown_path(lightmap_path),
+                                 " is not subtractive")});
+        }
         light->lightmap_light = lightmap_light;
         light->reflections = reflections;
         light->has_box_projection = has_box_projection;

@@ -133,7 +133,7 @@ Status write_exr_pages(const std::string& path, const ExportedTexels& values) {
 Result<float> write_png_pages(const std::string& path, const ExportedTexels& values) {
     if (!values.is_fraction && values.channel_count == 4) {
         return Error{ErrorCode::InvalidArgument, "pack", "",
-                     "a PNG holds no light in four channels; write .exr or .ktx2"};
+                     str_cat(path, ": a PNG holds no light in four channels; write .exr or .ktx2")};
     }
     const float largest = largest_value(values);
     const float range = values.is_fraction || largest == 0.0f ? 1.0f : largest;

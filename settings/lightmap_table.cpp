@@ -80,8 +80,8 @@ constexpr Setting kTransport[] = {
     {.name = "exact",
      .type = Type::Flag,
      .help = "Trace each path of light to its end. Without it, a path ends where it meets a texel "
-             "whose light was baked before: many times faster, and as fine as the texels. "
-             "--bounces and --clamp always trace to the end"},
+             "whose light was baked before: faster above about a hundred samples, and as fine as the "
+             "texels. --bounces and --clamp always trace to the end"},
     kBounces,
     kClamp,
     kAlbedoBoost,

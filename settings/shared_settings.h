@@ -247,7 +247,7 @@ inline constexpr Setting kAddedLight[] = {
      .needs = "sun_direction"},
     {.name = "sun_mode",
      .type = Type::Choice,
-     .help = "What probes hold of the added sun: its bounces (mixed), or its direct light too "
+     .help = "What is baked of the added sun: its bounces (mixed), or its direct light too "
              "(baked)",
      .choices = "mixed baked",
      .default_text = "mixed",

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include <tetralight/bake/sampling/sampling.h>
+
 #include "tests/support/scenes.h"
 
 namespace tetralight {
@@ -27,6 +29,20 @@ Scene floor_scene() {
     Scene scene;
     test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 1000.0f);
     return scene;
+}
+
+TEST(SampleStart, DirectionsAtTheHorizonHaveADensity) {
+    constexpr float kBelowOne = 1.0f - 0x1p-24f;
+    for (uint64_t i = 0; i < 100'000; ++i) {
+        RandomStream random(i, 0);
+        const glm::vec3 normal = sample_rotation(random)[2];
+        for (const float u : {0.1f, 0.9f}) {
+            const glm::vec3 direction = sample_start(normal, {u, kBelowOne});
+            ASSERT_GT(start_pdf(normal, direction), 0.0f) << i;
+            ASSERT_NEAR(glm::dot(normal, direction), 0.0f, 1e-3f);
+            ASSERT_NEAR(glm::length(direction), 1.0f, 1e-6f);
+        }
+    }
 }
 
 TEST(PathTracer, WithoutBouncesOnlySkyAndEmissionAreSeen) {

@@ -387,9 +387,9 @@ TEST_F(Bake, SaysHowAmountsAreWritten) {
 }
 
 TEST_F(Bake, RefusesAMaximumBelowTheFirstRound) {
-    EXPECT_TRUE(contains(fail({"bake", kCourtyard, "-o", "v.probes", "--target-error", "1%",
-                               "--max-samples", "1000"}),
-                         "max_samples: 1000 is less than the 1024 samples of the first round"));
+    EXPECT_TRUE(contains(misuse({"bake", kCourtyard, "-o", "v.probes", "--target-error", "1%",
+                                 "--max-samples", "1000"}),
+                         "--max-samples: 1000 is less than the 1024 samples of the first round"));
 }
 
 }  // namespace

@@ -42,6 +42,13 @@ TEST_F(Export, ExrAndPngHaveOneFileAPage) {
     EXPECT_EQ(page->mended_pixel_count, 0u);
 }
 
+TEST_F(Export, TheFormatFitsTheNameOfTheOutput) {
+    EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "--as", "png", "-o", "c.exr"}),
+                         "--as: png does not fit the name of the output, c.exr"));
+    EXPECT_TRUE(contains(misuse({"export", "c.lightmaps", "--as", "preview", "-o", "c.ktx2"}),
+                         "--as: preview does not fit the name of the output, c.ktx2"));
+}
+
 TEST_F(Export, Ktx2HasAllPagesAsLayers) {
     const Json json = run_json({"export", "c.lightmaps", "--as", "ktx2", "-o", "c.ktx2"});
     EXPECT_EQ(json["files"].size(), 1u);
