@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/bake/scene/reflection_places_json.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
@@ -53,7 +55,7 @@ std::vector<ReflectionPlace> place_of_box(const Values& values) {
     return {place};
 }
 
-Json to_json(const Reflections& reflections, const std::vector<ReflectionFacts>& facts) {
+Json probes_json(const Reflections& reflections, const std::vector<ReflectionFacts>& facts) {
     Json probes = Json::array();
     for (size_t i = 0; i < facts.size(); ++i) {
         const ReflectionProbe& probe = reflections.probes[i];
@@ -70,7 +72,7 @@ Json to_json(const Reflections& reflections, const std::vector<ReflectionFacts>&
     return probes;
 }
 
-std::string to_text(const glm::dvec3& v) {
+std::string coordinates(const glm::dvec3& v) {
     return str_cat(v.x, ", ", v.y, ", ", v.z);
 }
 
@@ -80,8 +82,8 @@ std::string table_of(const Reflections& reflections, const std::vector<Reflectio
     for (size_t i = 0; i < facts.size(); ++i) {
         const ReflectionProbe& probe = reflections.probes[i];
         const bool is_everywhere = probe.is_everywhere();
-        rows.push_back({printable(facts[i].name), is_everywhere ? "-" : to_text(probe.position),
-                        is_everywhere ? "everywhere" : to_text(2.0f * probe.half_size),
+        rows.push_back({printable(facts[i].name), is_everywhere ? "-" : coordinates(probe.position),
+                        is_everywhere ? "everywhere" : coordinates(2.0f * probe.half_size),
                         percent(facts[i].validity)});
     }
     std::string lines = aligned(rows, "lllr");
@@ -94,6 +96,7 @@ struct Reflect {
     std::string output;
     BakeReflectionsSettings settings;
     std::vector<std::string> names;
+    std::string places_path;
     std::vector<ReflectionPlace> given_places;
     std::string progress_file;
     CommonOptions common;
@@ -103,14 +106,16 @@ struct Reflect {
           output(values.text("output")),
           settings(reflection_settings(values)),
           names(values.texts("probe")),
+          places_path(values.text("places")),
           given_places(place_of_box(values)),
           progress_file(values.text("progress_file")),
           common(values) {}
 
     [[nodiscard]] Status run() const {
-        if (auto status = check_output(output, scene_options.inputs()); !status) return status;
+        std::vector<std::string> others = scene_options.inputs();
+        others.push_back(places_path);
+        if (auto status = check_output(output, others); !status) return status;
         if (!progress_file.empty()) {
-            std::vector<std::string> others = scene_options.inputs();
             others.push_back(output);
             auto status = check_side_file(progress_file, others, "progress_file");
             if (!status) return status;
@@ -140,19 +145,27 @@ struct Reflect {
 
     [[nodiscard]] Result<std::vector<ReflectionPlace>> places_of(const Scene& scene) const {
         if (!given_places.empty()) return given_places;
-        if (names.empty()) return scene.reflection_places;
+        const std::string& path = places_path.empty() ? scene_options.path : places_path;
+        const auto all = places_path.empty() ? Result(scene.reflection_places) : read_places();
+        if (!all || names.empty()) return all;
         std::vector<ReflectionPlace> places;
         for (const std::string& name : names) {
-            const auto place =
-                std::ranges::find(scene.reflection_places, name, &ReflectionPlace::name);
-            if (place == scene.reflection_places.end()) {
-                return Error{ErrorCode::NotFound, "probe", name,
-                             str_cat(shown_path(scene_options.path), ": no reflection probe \"",
-                                     name, "\" is there")};
+            const auto place = std::ranges::find(*all, name, &ReflectionPlace::name);
+            if (place == all->end()) {
+                return Error{
+                    ErrorCode::NotFound, "probe", name,
+                    str_cat(shown_path(path), ": no reflection probe \"", name, "\" is there")};
             }
             places.push_back(*place);
         }
         return places;
+    }
+
+    [[nodiscard]] Result<std::vector<ReflectionPlace>> read_places() const {
+        if (places_path.ends_with(".json")) return read_reflection_places_json(places_path);
+        auto scene = read_gltf(places_path);
+        if (!scene) return scene.error();
+        return std::move(scene->reflection_places);
     }
 
     void report(const BakedReflections& baked) const {
@@ -161,7 +174,7 @@ struct Reflect {
                       {{"output", output},
                        {"cube_size", all.size},
                        {"levels", all.levels.size()},
-                       {"probes", to_json(all, baked.facts)},
+                       {"probes", probes_json(all, baked.facts)},
                        {"rays", baked.ray_count},
                        {"seconds",
                         {{"bake", baked.bake_seconds}, {"prefilter", baked.prefilter_seconds}}}},

@@ -23,7 +23,11 @@ struct BakeReflectionsSettings {
     /// Texels along a side of a face of level 0: a power of two, 8 to `kLargestCubeSize`.
     uint32_t cube_size = 128;
     /// `sample_count`: paths per texel. Targets and budgets are ignored.
-    BakeSettings bake{.sample_count = 256};
+    BakeSettings bake = [] {
+        BakeSettings paths;
+        paths.sample_count = 256;
+        return paths;
+    }();
     /// Places inside geometry (`ProbeVisibility::is_inside`) are moved out of it.
     float min_validity = 0.75f;
     /// Add the sky as a probe that is everywhere, if it shines.

@@ -95,6 +95,19 @@ double distance_to_side(const glm::dvec3& half_size, const glm::dvec3& place,
     return distance;
 }
 
+/// The sum of `light(probe)` by the weights of a blend.
+template <class Light>
+glm::vec3 blended(const ReflectionsView& reflections, const ReflectionBlend& blend,
+                  const Light& light) noexcept {
+    glm::vec3 sum(0.0f);
+    for (size_t i = 0; i < ReflectionBlend::kMaxProbes; ++i) {
+        const uint32_t probe = blend.probes[i];
+        if (!(blend.weights[i] > 0.0f) || probe >= reflections.probes.size()) continue;
+        sum += blend.weights[i] * light(probe);
+    }
+    return sum;
+}
+
 }  // namespace
 
 glm::vec3 project_on_box(const ReflectionProbe& probe, const glm::dvec3& position,
@@ -126,26 +139,24 @@ glm::vec3 sample_cube(const ReflectionsView& reflections, uint32_t probe, glm::v
 glm::vec3 sample_reflections(const ReflectionsView& reflections, const ReflectionBlend& blend,
                              const glm::dvec3& position, glm::vec3 direction,
                              float roughness) noexcept {
-    glm::vec3 radiance(0.0f);
-    for (size_t i = 0; i < ReflectionBlend::kMaxProbes; ++i) {
-        const uint32_t probe = blend.probes[i];
-        if (!(blend.weights[i] > 0.0f) || probe >= reflections.probes.size()) continue;
+    return blended(reflections, blend, [&](uint32_t probe) {
         const glm::vec3 along = project_on_box(reflections.probes[probe], position, direction);
-        radiance += blend.weights[i] * sample_cube(reflections, probe, along, roughness);
-    }
-    return radiance;
+        return sample_cube(reflections, probe, along, roughness);
+    });
+}
+
+glm::vec3 sample_far_reflections(const ReflectionsView& reflections, const ReflectionBlend& blend,
+                                 glm::vec3 direction, float roughness) noexcept {
+    return blended(reflections, blend, [&](uint32_t probe) {
+        return sample_cube(reflections, probe, direction, roughness);
+    });
 }
 
 glm::vec3 reflection_irradiance(const ReflectionsView& reflections, const ReflectionBlend& blend,
                                 glm::vec3 normal) noexcept {
-    glm::vec3 irradiance(0.0f);
-    for (size_t i = 0; i < ReflectionBlend::kMaxProbes; ++i) {
-        const uint32_t probe = blend.probes[i];
-        if (!(blend.weights[i] > 0.0f) || probe >= reflections.probes.size()) continue;
-        irradiance +=
-            blend.weights[i] * evaluate_irradiance(reflections.probes[probe].irradiance, normal);
-    }
-    return irradiance;
+    return blended(reflections, blend, [&](uint32_t probe) {
+        return evaluate_irradiance(reflections.probes[probe].irradiance, normal);
+    });
 }
 
 float reflection_occlusion(glm::vec3 irradiance, glm::vec3 probe_irradiance) noexcept {

@@ -14,6 +14,12 @@ constexpr Setting kFiles[] = {
      .value_name = "NODE",
      .is_list = true,
      .excludes = "box"},
+    {.name = "places",
+     .type = Type::Path,
+     .help = "Bake the reflection probes of this file instead: .json or .glb, as `tetralight grid "
+             "--reflections` writes them",
+     .without = "the reflection probes of the scene",
+     .excludes = "box"},
     {.name = "box",
      .type = Type::Numbers,
      .help = "Bake one reflection probe for this world box instead: minimum x,y,z, maximum x,y,z",

@@ -80,7 +80,7 @@ class CubeBaker {
             rays += found.ray_count;
             back_faces += found.hit_back_face;
         }
-        return glm::vec3(sum / double{sampling_.samples_per_texel});
+        return glm::vec3(sum / static_cast<double>(sampling_.samples_per_texel));
     }
 
     const CubePosition& position_;

@@ -24,8 +24,9 @@ constexpr float kLargestShare = 0.2f;
 struct Node {
     glm::vec3 direction{0.0f};  ///< to its center, unit
     float solid_angle = 0.0f;
-    glm::vec3 light{0.0f};  ///< radiance times solid angle
-    float radius = 0.0f;    ///< angle from the center to the farthest corner
+    glm::vec3 light{0.0f};            ///< radiance times solid angle
+    float radius = 0.0f;              ///< angle from the center to the farthest corner
+    glm::vec3 light_direction{0.0f};  ///< to the center of its light, unit
 };
 
 /// The quadtrees of the six faces: level 0 has the texels, the last one a node a face.
@@ -70,7 +71,7 @@ class CubeTree {
                 static_cast<float>(cube_solid_angle(texel.x, texel.y, cube.size));
             const glm::vec3 center = cube_direction(texel, cube.size);
             nodes[i] = {center, solid_angle, cube.texels[i] * solid_angle,
-                        radius(texel, cube.size, center)};
+                        radius(texel, cube.size, center), center};
         }
         return nodes;
     }
@@ -90,15 +91,18 @@ class CubeTree {
 
     static Node parent(const std::vector<Node>& children, const CubeTexel& place, uint32_t size) {
         Node node;
-        glm::vec3 sum(0.0f);
+        glm::vec3 sum(0.0f), light_sum(0.0f);
         for (uint32_t i = 0; i < 4; ++i) {
             const Node& child = children[index(
                 {place.face, 2 * place.x + i % 2, 2 * place.y + i / 2}, 2 * size)];
             node.solid_angle += child.solid_angle;
             node.light += child.light;
             sum += child.solid_angle * child.direction;
+            light_sum += (child.light.r + child.light.g + child.light.b) * child.light_direction;
         }
         node.direction = glm::normalize(sum);
+        const bool is_dark = !(glm::dot(light_sum, light_sum) > 0.0f);
+        node.light_direction = is_dark ? node.direction : glm::normalize(light_sum);
         node.radius = radius(place, size, node.direction);
         return node;
     }
@@ -135,15 +139,14 @@ class Blur {
             }
             return;
         }
-        if (cosine <= 0.0f) return;
-        const float weight = lobe(cosine);
-        sum.light += glm::dvec3(weight * node.light);
-        sum.weight += static_cast<double>(weight * node.solid_angle);
+        sum.light += glm::dvec3(lobe(glm::dot(direction, node.light_direction)) * node.light);
+        sum.weight += static_cast<double>(lobe(cosine) * node.solid_angle);
     }
 
     /// With c = cos θ, the half angle has tan² = (1 - c) / (1 + c), and the lobe is
     /// cos θ / (sin²(θ/2) + α² cos²(θ/2))², but for a factor.
     [[nodiscard]] float lobe(float cosine) const {
+        if (cosine <= 0.0f) return 0.0f;
         const float base = 0.5f * (1.0f - cosine + alpha_squared_ * (1.0f + cosine));
         return cosine / (base * base);
     }

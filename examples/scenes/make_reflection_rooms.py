@@ -19,8 +19,8 @@ BALLS = 6
 MATERIALS.update({
     "checker": ((1, 1, 1, 1), {"texture": 1}),
     "paint_cool": ((0.25, 0.42, 0.62, 1), {}),
-    "lamp_warm": ((0.3, 0.3, 0.3, 1), {"emission": (1.0, 0.62, 0.3), "strength": 9.0}),
-    "lamp_cool": ((0.3, 0.3, 0.3, 1), {"emission": (0.55, 0.8, 1.0), "strength": 9.0}),
+    "lamp_warm": ((0.3, 0.3, 0.3, 1), {"emission": (1.0, 0.62, 0.3), "strength": 22.0}),
+    "lamp_cool": ((0.3, 0.3, 0.3, 1), {"emission": (0.55, 0.8, 1.0), "strength": 22.0}),
     **{f"metal_{i}": ((0.92, 0.9, 0.86, 1), {}) for i in range(BALLS)},
 })
 
@@ -82,13 +82,13 @@ def add_doorway(gltf):
 
 
 def add_balls(gltf, ball_x):
-    ball = sphere(0.36)
+    ball = sphere(0.3)
     for i in range(BALLS):
         mesh = gltf.mesh(f"ball_{i}", [gltf.primitive(ball, f"metal_{i}")])
-        gltf.node(f"ball_{i}", None, (-5.4 + 0.95 * i, 0.36, 0.3), mesh=mesh, extras={"contribute_gi": False})
+        gltf.node(f"ball_{i}", None, (-5.25 + 0.85 * i, 0.3, -0.7), mesh=mesh, extras={"contribute_gi": False})
     if ball_x is not None:
         mesh = gltf.mesh("roller", [gltf.primitive(ball, "metal_0")])
-        gltf.node("roller", None, (ball_x, 0.36, 0.0), mesh=mesh, extras={"contribute_gi": False})
+        gltf.node("roller", None, (ball_x, 0.3, -0.2), mesh=mesh, extras={"contribute_gi": False})
 
 
 def main():
@@ -101,8 +101,8 @@ def main():
     add_room(gltf, "cool", LONG / 2 + WALL / 2, "paint_cool")
     add_doorway(gltf)
     add_balls(gltf, options.ball)
-    add_camera(gltf, "camera", (-3.1, 1.5, 1.9), (-3.1, 0.75, -0.6), 62)
-    add_camera(gltf, "camera_door", (0.0, 1.4, 1.9), (0.0, 0.6, -0.6), 62)
+    add_camera(gltf, "camera", (-3.1, 1.35, 1.9), (-3.1, 0.75, -0.7), 58)
+    add_camera(gltf, "camera_door", (-2.6, 1.3, 1.7), (0.4, 0.5, -0.3), 52)
     options.out.write_bytes(gltf.glb())
 
 

@@ -56,13 +56,12 @@ TEST(BakeCubes, EachFaceShowsItsSide) {
         Scene scene;
         test::add_box(scene, test::diffuse(glm::vec3(0.0f), glm::vec3(5.0f)),
                       test::Facing::Outward, glm::vec3(center - 0.5), glm::vec3(center + 0.5));
-        const BakedCube cube = bake(scene, {}, 3, samples(1));
+        const BakedCube cube = bake(scene, {}, 3, samples(64));
         for (uint32_t other = 0; other < kCubeFaceCount; ++other) {
-            // The lamp's near side covers a fifth of the face around its center: the middle texel
-            // of three is a third wide.
-            const glm::vec3 seen = cube.image.texels[cube.image.index({other, 1, 1})];
-            EXPECT_EQ(seen.x > 0.0f || face != other, true);
-            if (face != other) EXPECT_EQ(seen, glm::vec3(0.0f));
+            // The near side of the lamp has a fifth of the width of its face, the middle texel of
+            // three a third, so that 9/25 of its samples hit the lamp.
+            const float seen = cube.image.texels[cube.image.index({other, 1, 1})].x;
+            EXPECT_EQ(seen > 0.0f, face == other) << face << other;
         }
     }
 }
@@ -85,7 +84,7 @@ TEST(BakeCubes, AnImageOfTheWallsIsAsLarge) {
 TEST(BakeCubes, SurfacesShowReflectedLightOfAMixedSunAndNotTheSun) {
     // A floor of albedo 0.5 under a sun of irradiance π at its zenith has radiance 0.5.
     Scene scene;
-    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 100.0f, 1.0f);
+    test::add_floor(scene, test::diffuse(glm::vec3(0.5f)), 100.0f, -1.0f);
     Light sun;
     sun.mode = LightMode::Mixed;
     sun.direction = {0, -1, 0};
@@ -113,6 +112,7 @@ TEST(BakeCubes, NearerSurfacesThanTheNearDistanceAreNotSeen) {
 
 TEST(BakeCubes, ObjectsThatAreNotInReflectionsStillGiveLight) {
     Scene scene = lamp_room();
+    scene.materials[0] = test::diffuse(glm::vec3(0.1f));
     scene.instances[1].is_in_reflections = false;
     const BakedCube cube = bake(scene, {}, 8, samples(16));
     float brightest = 0.0f, darkest = std::numeric_limits<float>::infinity();
@@ -120,7 +120,8 @@ TEST(BakeCubes, ObjectsThatAreNotInReflectionsStillGiveLight) {
         brightest = std::max(brightest, texel.x);
         darkest = std::min(darkest, texel.x);
     }
-    EXPECT_LT(brightest, 20.0f);
+    // The ceiling right above the lamp has up to a tenth of its radiance.
+    EXPECT_LT(brightest, 3.0f);
     EXPECT_GT(darkest, 0.0f);
 }
 
