@@ -197,8 +197,8 @@ class PathTracer {
 
     [[nodiscard]] std::optional<Surface> next_surface(const Ray& ray, float spread,
                                                       uint32_t& ray_count) const;
-    /// The surface that the first ray of a path hits. Adds to `ray_count`, and moves the origin of the ray past
-    /// hidden instances.
+    /// The surface that the first ray of a path hits. Adds to `ray_count`, and moves the origin of
+    /// the ray past hidden instances.
     [[nodiscard]] std::optional<Surface> first_surface(const PathStart& start, Ray& ray,
                                                        uint32_t& ray_count) const;
     /// Direct light of all kinds that a surface reflects, divided by its albedo. `weight`: of all

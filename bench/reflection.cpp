@@ -87,8 +87,7 @@ glm::dvec3 sampled(const CubeImage& source, glm::vec3 direction, float roughness
             cube_place(frame * glm::vec3(sine * std::cos(angle), sine * std::sin(angle), cosine));
         const auto x = std::min(source.size - 1, static_cast<uint32_t>(place.uv.x * source.size));
         const auto y = std::min(source.size - 1, static_cast<uint32_t>(place.uv.y * source.size));
-        light += double{cosine} *
-                 glm::dvec3(source.texels[source.index({place.face, x, y})]);
+        light += double{cosine} * glm::dvec3(source.texels[source.index({place.face, x, y})]);
         sum += double{cosine};
     }
     return light / sum;
@@ -246,7 +245,8 @@ void bench_box() {
     report("reflection.box", 100.0 * error.rms(), "%");
 }
 
-/// The largest step of what a ball reflects that moves by 1 mm from one box into another, black one.
+/// The largest step of what a ball reflects that moves by 1 mm from one box into another, black
+/// one.
 void bench_blend() {
     Reflections two;
     two.size = 8;

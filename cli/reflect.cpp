@@ -59,15 +59,14 @@ Json probes_json(const Reflections& reflections, const std::vector<ReflectionFac
     Json probes = Json::array();
     for (size_t i = 0; i < facts.size(); ++i) {
         const ReflectionProbe& probe = reflections.probes[i];
-        probes.push_back({{"name", facts[i].name},
-                          {"position", to_json(probe.position)},
-                          {"half_size", probe.is_everywhere()
-                                            ? Json()
-                                            : to_json(glm::dvec3(probe.half_size))},
-                          {"importance", probe.importance},
-                          {"validity", facts[i].validity},
-                          {"virtual_offset", facts[i].virtual_offset},
-                          {"clamped_share", facts[i].clamped_share}});
+        probes.push_back(
+            {{"name", facts[i].name},
+             {"position", to_json(probe.position)},
+             {"half_size", probe.is_everywhere() ? Json() : to_json(glm::dvec3(probe.half_size))},
+             {"importance", probe.importance},
+             {"validity", facts[i].validity},
+             {"virtual_offset", facts[i].virtual_offset},
+             {"clamped_share", facts[i].clamped_share}});
     }
     return probes;
 }
@@ -127,13 +126,11 @@ struct Reflect {
         if (!places) return places.error();
         BakeProgressDisplay display(common.is_quiet, 0.0, progress_file, "rows of texels");
         const auto baked =
-            bake_reflections(*scene, *places, settings, [&](const BakeProgress& progress) {
-                return display.show(progress);
-            });
+            bake_reflections(*scene, *places, settings,
+                             [&](const BakeProgress& progress) { return display.show(progress); });
         if (!baked) return in_scene(baked.error());
         common.warn(baked->warnings);
-        if (auto status = write_reflection_file(output, baked->reflections); !status)
-            return status;
+        if (auto status = write_reflection_file(output, baked->reflections); !status) return status;
         report(*baked);
         return Ok{};
     }
@@ -170,20 +167,18 @@ struct Reflect {
 
     void report(const BakedReflections& baked) const {
         const Reflections& all = baked.reflections;
-        common.report(output,
-                      {{"output", output},
-                       {"cube_size", all.size},
-                       {"levels", all.levels.size()},
-                       {"probes", probes_json(all, baked.facts)},
-                       {"rays", baked.ray_count},
-                       {"seconds",
-                        {{"bake", baked.bake_seconds}, {"prefilter", baked.prefilter_seconds}}}},
-                      str_cat(output, ": ", counted(all.probes.size(), "reflection probe"), " of ",
-                              all.size, " x ", all.size, ", ",
-                              counted(all.levels.size(), "level"), "; bake ",
-                              duration(baked.bake_seconds), ", prefilter ",
-                              duration(baked.prefilter_seconds), "\n",
-                              table_of(all, baked.facts)));
+        common.report(
+            output,
+            {{"output", output},
+             {"cube_size", all.size},
+             {"levels", all.levels.size()},
+             {"probes", probes_json(all, baked.facts)},
+             {"rays", baked.ray_count},
+             {"seconds", {{"bake", baked.bake_seconds}, {"prefilter", baked.prefilter_seconds}}}},
+            str_cat(output, ": ", counted(all.probes.size(), "reflection probe"), " of ", all.size,
+                    " x ", all.size, ", ", counted(all.levels.size(), "level"), "; bake ",
+                    duration(baked.bake_seconds), ", prefilter ", duration(baked.prefilter_seconds),
+                    "\n", table_of(all, baked.facts)));
     }
 };
 

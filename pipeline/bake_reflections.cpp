@@ -38,9 +38,9 @@ constexpr uint32_t kSkySamples = 64;
 Status check_settings(const BakeReflectionsSettings& settings) {
     const uint32_t size = settings.cube_size;
     if (!std::has_single_bit(size) || size < 8 || size > kLargestCubeSize) {
-        return Error{ErrorCode::InvalidArgument, "cube_size", str_cat(size),
-                     str_cat("cube_size: ", size, " is not a power of two from 8 to ",
-                             kLargestCubeSize)};
+        return Error{
+            ErrorCode::InvalidArgument, "cube_size", str_cat(size),
+            str_cat("cube_size: ", size, " is not a power of two from 8 to ", kLargestCubeSize)};
     }
     if (settings.bake.sample_count > 0) return Ok{};
     return Error{ErrorCode::InvalidArgument, "samples", "0", "samples: must be at least 1"};
@@ -51,15 +51,16 @@ std::string metadata(const Scene& scene, const BakeReflectionsSettings& settings
     json["generator"] = "tetralight " TETRALIGHT_VERSION;
     json["scene"] = hex(scene_key(scene));
     const BakeReflectionsSettings defaults;
-    for_each_reflection_setting(settings, [&](const char* name, const auto& member,
-                                              Recorded record) {
-        if (record != Recorded::Never) json[name] = value_record(member);
-    });
-    for_each_reflection_setting(defaults, [&](const char* name, const auto& member,
-                                              Recorded record) {
-        if (record == Recorded::WhenChanged && json[name] == value_record(member))
-            json.erase(name);
-    });
+    for_each_reflection_setting(settings,
+                                [&](const char* name, const auto& member, Recorded record) {
+                                    if (record != Recorded::Never)
+                                        json[name] = value_record(member);
+                                });
+    for_each_reflection_setting(
+        defaults, [&](const char* name, const auto& member, Recorded record) {
+            if (record == Recorded::WhenChanged && json[name] == value_record(member))
+                json.erase(name);
+        });
     return json.dump();
 }
 
@@ -197,8 +198,8 @@ CubeImage bake_sky_cube(const Environment& environment, uint32_t size, uint32_t 
         return CubeSample{environment_radiance(environment, direction)};
     };
     const CubePosition position;
-    auto cubes = bake_cubes(std::span(&position, 1), {size, samples_per_texel, 0, thread_count},
-                            sample);
+    auto cubes =
+        bake_cubes(std::span(&position, 1), {size, samples_per_texel, 0, thread_count}, sample);
     return std::move(cubes->front().image);
 }
 

@@ -198,10 +198,10 @@ glm::vec3 SceneShader::shiny_light(const Surface& surface, const glm::vec3& base
         light_.has_box_projection
             ? sample_reflections(reflections, blend, world, mirrored, shiny.roughness)
             : sample_far_reflections(reflections, blend, mirrored, shiny.roughness);
-    const float occlusion = reflection_occlusion(
-        baked * std::numbers::pi_v<float>, reflection_irradiance(reflections, blend, normal));
-    const glm::vec2 terms = sample_split_sum(
-        split_sum_, std::max(0.0f, glm::dot(-direction, normal)), shiny.roughness);
+    const float occlusion = reflection_occlusion(baked * std::numbers::pi_v<float>,
+                                                 reflection_irradiance(reflections, blend, normal));
+    const glm::vec2 terms =
+        sample_split_sum(split_sum_, std::max(0.0f, glm::dot(-direction, normal)), shiny.roughness);
     return shiny.diffuse * (baked + direct_term(surface)) +
            occlusion * seen * (shiny.f0 * terms.x + terms.y);
 }

@@ -75,12 +75,9 @@ constexpr Setting kTransport[] = {kBounces, kClamp, kAlbedoBoost, kMaxAlbedo};
 
 constexpr Setting kStoring[] = {kProgressFile};
 
-constexpr Group kGroups[] = {{"Files", kFiles},
-                             {"Added light", kAddedLightAlone},
-                             {"Cubes", kCubes},
-                             {"Light transport", kTransport},
-                             {"Progress", kStoring},
-                             {"Common options", kCommonSettings}};
+constexpr Group kGroups[] = {{"Files", kFiles},      {"Added light", kAddedLightAlone},
+                             {"Cubes", kCubes},      {"Light transport", kTransport},
+                             {"Progress", kStoring}, {"Common options", kCommonSettings}};
 
 }  // namespace
 

@@ -72,7 +72,8 @@ constexpr Setting kShown[] = {
      .without = "no reflections"},
     {.name = "no_box_projection",
      .type = Type::Flag,
-     .help = "Reflect cubes as if their light came from far away, not from the sides of their boxes",
+     .help =
+         "Reflect cubes as if their light came from far away, not from the sides of their boxes",
      .needs = "reflections"},
     kWalls,
     kRenderer};

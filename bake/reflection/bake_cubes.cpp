@@ -73,8 +73,8 @@ class CubeBaker {
             Sampler sampler(key, i);
             const glm::vec2 place = glm::vec2(texel.x, texel.y) + sampler.next2();
             const glm::vec3 direction = cube_direction(CubePlace{texel.face, place / size});
-            const glm::dvec3 start = position_.position + double{position_.near_distance} *
-                                                              glm::dvec3(direction);
+            const glm::dvec3 start =
+                position_.position + double{position_.near_distance} * glm::dvec3(direction);
             const CubeSample found = sample_(start, direction, spread, sampler);
             sum += found.radiance;
             rays += found.ray_count;

@@ -18,8 +18,8 @@ namespace tetralight {
 
 /// Where a cube is baked.
 struct CubePosition {
-    glm::dvec3 position{0.0};     ///< world
-    float near_distance = 0.0f;   ///< surfaces nearer than this are not seen, metres
+    glm::dvec3 position{0.0};    ///< world
+    float near_distance = 0.0f;  ///< surfaces nearer than this are not seen, metres
 };
 
 /// A baked cube.
@@ -44,7 +44,7 @@ using SampleCube = std::function<CubeSample(const glm::dvec3& position, glm::vec
 
 /// The samples of a cube.
 struct CubeSampling {
-    uint32_t size = 128;             ///< texels along a side of a face, at least 1
+    uint32_t size = 128;              ///< texels along a side of a face, at least 1
     uint32_t samples_per_texel = 64;  ///< at least 1
     uint64_t seed = 0;
     uint32_t thread_count = 0;  ///< 0 = all
@@ -70,8 +70,7 @@ struct CubeSampling {
 /// Returns also the errors of `TraceScene::make_static`.
 [[nodiscard]] Result<std::vector<BakedCube>> bake_cubes(const Scene& scene,
                                                         std::span<const CubePosition> positions,
-                                                        uint32_t size,
-                                                        const BakeSettings& settings,
+                                                        uint32_t size, const BakeSettings& settings,
                                                         const BakeCallback& callback = {});
 
 }  // namespace tetralight

@@ -54,10 +54,9 @@ class CubeTree {
 
     static float radius(const CubeTexel& place, uint32_t size, const glm::vec3& center) {
         float least = 1.0f;
-        for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1),
-                                       glm::vec2(1, 1)}) {
-            const glm::vec2 uv =
-                (glm::vec2(place.x, place.y) + corner) / static_cast<float>(size);
+        for (const glm::vec2 corner :
+             {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(1, 1)}) {
+            const glm::vec2 uv = (glm::vec2(place.x, place.y) + corner) / static_cast<float>(size);
             least = std::min(least, glm::dot(center, cube_direction(CubePlace{place.face, uv})));
         }
         return std::acos(std::clamp(least, -1.0f, 1.0f));
@@ -93,8 +92,8 @@ class CubeTree {
         Node node;
         glm::vec3 sum(0.0f), light_sum(0.0f);
         for (uint32_t i = 0; i < 4; ++i) {
-            const Node& child = children[index(
-                {place.face, 2 * place.x + i % 2, 2 * place.y + i / 2}, 2 * size)];
+            const Node& child =
+                children[index({place.face, 2 * place.x + i % 2, 2 * place.y + i / 2}, 2 * size)];
             node.solid_angle += child.solid_angle;
             node.light += child.light;
             sum += child.solid_angle * child.direction;
@@ -169,8 +168,7 @@ class Blur {
 /// The mean of the texels that a texel of a smaller cube covers.
 CubeImage smaller_cube(const CubeTree& tree, uint32_t size) {
     CubeImage cube{size, std::vector<glm::vec3>(cube_texel_count(size))};
-    const auto level =
-        tree.level_count() - static_cast<uint32_t>(std::bit_width(size));
+    const auto level = tree.level_count() - static_cast<uint32_t>(std::bit_width(size));
     for (size_t i = 0; i < cube.texels.size(); ++i) {
         const Node& node = tree.node(level, cube.texel(i));
         cube.texels[i] = node.light / node.solid_angle;
@@ -202,9 +200,9 @@ double ggx_lobe(double cos_theta, double roughness) noexcept {
 
 CubeImage prefilter_cube(const CubeImage& source, uint32_t size, float roughness,
                          uint32_t thread_count) {
-    TETRALIGHT_ASSERT(std::has_single_bit(source.size) && std::has_single_bit(size) &&
-                          size <= source.size,
-                      "sizes of cubes are powers of two");
+    TETRALIGHT_ASSERT(
+        std::has_single_bit(source.size) && std::has_single_bit(size) && size <= source.size,
+        "sizes of cubes are powers of two");
     return blurred_cube(CubeTree(source), size, roughness, thread_count);
 }
 
@@ -215,8 +213,8 @@ std::vector<CubeImage> prefilter_levels(CubeImage cube, uint32_t thread_count) {
     std::vector<CubeImage> levels;
     levels.push_back(std::move(cube));
     for (uint32_t level = 1; level < count; ++level) {
-        levels.push_back(blurred_cube(tree, size >> level, roughness_of_level(level, count),
-                                      thread_count));
+        levels.push_back(
+            blurred_cube(tree, size >> level, roughness_of_level(level, count), thread_count));
     }
     return levels;
 }

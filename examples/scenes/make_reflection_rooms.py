@@ -57,10 +57,10 @@ class Rooms(Gltf):
 
 def add_room(gltf, name, center_x, material):
     """Floor, ceiling, three walls, a lamp below the ceiling, and the reflection probe."""
-    floor = horizontal_quad(LONG, DEEP)
+    floor = horizontal_quad(LONG + WALL, DEEP)
     gltf.node(f"{name}_floor", None, (center_x, 0, 0), mesh=gltf.mesh("floor", [
         gltf.primitive(floor, "checker", [(x + LONG / 2, z + DEEP / 2) for x, _, z in floor[0]])]))
-    gltf.box(f"{name}_ceiling", (LONG, WALL, DEEP), (center_x, HIGH + WALL / 2, 0), "white")
+    gltf.box(f"{name}_ceiling", (LONG + WALL, WALL, DEEP), (center_x, HIGH + WALL / 2, 0), "white")
     gltf.box(f"{name}_back", (LONG, HIGH, WALL), (center_x, HIGH / 2, -DEEP / 2 - WALL / 2), material)
     gltf.box(f"{name}_front", (LONG, HIGH, WALL), (center_x, HIGH / 2, DEEP / 2 + WALL / 2), "white")
     side = -1 if center_x < 0 else 1

@@ -54,8 +54,8 @@ TEST(BakeCubes, EachFaceShowsItsSide) {
         glm::dvec3 center(0.0);
         center[static_cast<int>(face / 2)] = face % 2 == 0 ? 3.0 : -3.0;
         Scene scene;
-        test::add_box(scene, test::diffuse(glm::vec3(0.0f), glm::vec3(5.0f)),
-                      test::Facing::Outward, glm::vec3(center - 0.5), glm::vec3(center + 0.5));
+        test::add_box(scene, test::diffuse(glm::vec3(0.0f), glm::vec3(5.0f)), test::Facing::Outward,
+                      glm::vec3(center - 0.5), glm::vec3(center + 0.5));
         const BakedCube cube = bake(scene, {}, 3, samples(64));
         for (uint32_t other = 0; other < kCubeFaceCount; ++other) {
             // The near side of the lamp has a fifth of the width of its face, the middle texel of
@@ -75,8 +75,8 @@ TEST(BakeCubes, AnImageOfTheWallsIsAsLarge) {
     const BakedCube cube = bake(scene, {}, kSize, samples(4));
     for (size_t i = 0; i < cube.image.texels.size(); ++i) {
         const CubeTexel texel = cube.image.texel(i);
-        const bool is_lit = texel.face == 0 && texel.x >= 2 && texel.x < 6 && texel.y >= 2 &&
-                            texel.y < 6;
+        const bool is_lit =
+            texel.face == 0 && texel.x >= 2 && texel.x < 6 && texel.y >= 2 && texel.y < 6;
         EXPECT_EQ(cube.image.texels[i], glm::vec3(is_lit ? 2.0f : 0.0f)) << i;
     }
 }

@@ -33,8 +33,8 @@ glm::dvec3 brute_force(const CubeImage& source, glm::vec3 direction, double roug
     double sum = 0.0;
     for (size_t i = 0; i < source.texels.size(); ++i) {
         const CubeTexel texel = source.texel(i);
-        const double cosine = glm::dot(glm::dvec3(direction),
-                                       glm::dvec3(cube_direction(texel, source.size)));
+        const double cosine =
+            glm::dot(glm::dvec3(direction), glm::dvec3(cube_direction(texel, source.size)));
         const double weight = ggx_lobe(std::min(1.0, cosine), roughness) *
                               cube_solid_angle(texel.x, texel.y, source.size);
         light += weight * glm::dvec3(source.texels[i]);
