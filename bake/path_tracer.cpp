@@ -117,9 +117,9 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
         const auto arrival =
             bounce == 0 ? PathLightGroups::Arrival::Direct : PathLightGroups::Arrival::Reflected;
         glm::vec3& sum = bounce == 0 ? sample.radiance : reflected;
-        ++path.ray_count;
         const std::optional<Surface> surface =
-            trace_scene_.intersect(ray, TraceScene::Detail::LightOnly, TraceScene::kDiffuseSpread);
+            bounce == 0 ? first_surface(start, ray, path.ray_count)
+                        : next_surface(ray, TraceScene::kDiffuseSpread, path.ray_count);
         if (!surface) {
             const glm::vec3 light = throughput *
                                     environment_radiance(scene_.environment, ray.direction) *
@@ -192,6 +192,22 @@ PathSample PathTracer::trace(const PathStart& start, Sampler sampler,
     sample.radiance += reflected;
     sample.ray_count = path.ray_count;
     return sample;
+}
+
+std::optional<Surface> PathTracer::next_surface(const Ray& ray, float spread,
+                                                uint32_t& ray_count) const {
+    ++ray_count;
+    return trace_scene_.intersect(ray, TraceScene::Detail::LightOnly, spread);
+}
+
+std::optional<Surface> PathTracer::first_surface(const PathStart& start, Ray& ray,
+                                                 uint32_t& ray_count) const {
+    auto surface = next_surface(ray, start.spread, ray_count);
+    while (surface && start.is_hidden != nullptr && (*start.is_hidden)[surface->instance]) {
+        ray.origin = TraceScene::ray_origin(*surface, -surface->geometric_normal);
+        surface = next_surface(ray, start.spread, ray_count);
+    }
+    return surface;
 }
 
 bool PathTracer::can_sample_emission() const {

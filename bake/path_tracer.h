@@ -59,6 +59,11 @@ struct PathStart {
     /// The weights at the origin, where `PathTracer::draw_from_openings` is called once for each
     /// path; null = it is not.
     const Openings::Weights* opening_weights = nullptr;
+    /// Of the first ray, radians (`TraceScene::intersect`).
+    float spread = TraceScene::kDiffuseSpread;
+    /// One an instance of the scene: the first ray passes those that are hidden. Null = it hits
+    /// all.
+    const std::vector<bool>* is_hidden = nullptr;
 };
 
 /// Density per steradian of the directions in which paths start. Normal zero: uniform on the
@@ -190,6 +195,12 @@ class PathTracer {
         bool sees_sky = true;
     };
 
+    [[nodiscard]] std::optional<Surface> next_surface(const Ray& ray, float spread,
+                                                      uint32_t& ray_count) const;
+    /// The surface that the first ray of a path hits. Adds to `ray_count`, and moves the origin of
+    /// the ray past hidden instances.
+    [[nodiscard]] std::optional<Surface> first_surface(const PathStart& start, Ray& ray,
+                                                       uint32_t& ray_count) const;
     /// Direct light of all kinds that a surface reflects, divided by its albedo. `weight`: of all
     /// light but that of spots. Draws at the start of the segment that ends at the surface, and at
     /// the surface.

@@ -86,6 +86,8 @@ void bench_lightmap(const Options& options);
 /// Proxy volumes: filling, refreshing, accuracy, files.
 void bench_lppv(const Options& options);
 void bench_query(const Options& options);
+/// Reflection probes: blurred levels, box projection, blending.
+void bench_reflection(const Options& options);
 void bench_relight(const Options& options);
 void bench_runtime(const Options& options);
 void bench_tetrahedralize(const Options& options);

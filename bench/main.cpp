@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
     const std::map<std::string, void (*)(const Options&)> benches{
         {"bake", bench_bake},
         {"query", bench_query},
+        {"reflection", bench_reflection},
         {"relight", bench_relight},
         {"grid", bench_grid},
         {"leaks", bench_leaks},

@@ -7,17 +7,28 @@ namespace tetralight::cli {
 namespace {
 
 constexpr Command kCommands[] = {
-    {&settings::kGrid, run_grid},         {&settings::kBake, run_bake},
-    {&settings::kLightmap, run_lightmap}, {&settings::kUnwrap, run_unwrap},
-    {&settings::kExport, run_export},     {&settings::kMerge, run_merge},
-    {&settings::kPrune, run_prune},       {&settings::kTetrahedralize, run_tetrahedralize},
-    {&settings::kQuery, run_query},       {&settings::kRelight, run_relight},
-    {&settings::kLppv, run_lppv},         {&settings::kRender, run_render},
-    {&settings::kMeshball, run_meshball}, {&settings::kInfo, run_info},
-    {&settings::kValidate, run_validate}, {&settings::kCheckLeaks, run_check_leaks},
+    {&settings::kGrid, run_grid},
+    {&settings::kBake, run_bake},
+    {&settings::kLightmap, run_lightmap},
+    {&settings::kUnwrap, run_unwrap},
+    {&settings::kReflect, run_reflect},
+    {&settings::kExport, run_export},
+    {&settings::kMerge, run_merge},
+    {&settings::kPrune, run_prune},
+    {&settings::kTetrahedralize, run_tetrahedralize},
+    {&settings::kQuery, run_query},
+    {&settings::kRelight, run_relight},
+    {&settings::kLppv, run_lppv},
+    {&settings::kRender, run_render},
+    {&settings::kMeshball, run_meshball},
+    {&settings::kInfo, run_info},
+    {&settings::kValidate, run_validate},
+    {&settings::kCheckLeaks, run_check_leaks},
 #ifdef TETRALIGHT_HAS_SERVER
-    {&settings::kServe, run_serve},       {&settings::kFsck, run_fsck},
-    {&settings::kBackup, run_backup},     {&settings::kRestore, run_restore},
+    {&settings::kServe, run_serve},
+    {&settings::kFsck, run_fsck},
+    {&settings::kBackup, run_backup},
+    {&settings::kRestore, run_restore},
 #endif
 };
 

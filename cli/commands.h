@@ -23,6 +23,7 @@ Status run_merge(const Values& values);
 Status run_meshball(const Values& values);
 Status run_prune(const Values& values);
 Status run_query(const Values& values);
+Status run_reflect(const Values& values);
 Status run_relight(const Values& values);
 Status run_render(const Values& values);
 Status run_restore(const Values& values);  // only with TETRALIGHT_BUILD_SERVER

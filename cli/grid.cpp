@@ -5,6 +5,8 @@
 #include <tetralight/bake/placement/walkable.h>
 #include <tetralight/bake/scene/probe_groups_gltf.h>
 #include <tetralight/bake/scene/probe_groups_json.h>
+#include <tetralight/bake/scene/reflection_places_gltf.h>
+#include <tetralight/bake/scene/reflection_places_json.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/failure.h>
@@ -14,16 +16,23 @@
 #include <tetralight/cli/grid_report.h>
 #include <tetralight/cli/grid_settings.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/reflection_places_report.h>
 #include <tetralight/cli/scene_options.h>
 
 namespace tetralight::cli {
 namespace {
 
+bool is_glb(const std::string& path) {
+    return std::filesystem::path(path).extension() == ".glb";
+}
+
 Status write_groups(const std::string& path, std::span<const ProbeGroup> groups) {
-    if (std::filesystem::path(path).extension() == ".glb") {
-        return write_probe_groups_glb(path, groups);
-    }
-    return write_probe_groups(path, groups);
+    return is_glb(path) ? write_probe_groups_glb(path, groups) : write_probe_groups(path, groups);
+}
+
+Status write_reflections(const std::string& path, std::span<const ReflectionPlace> places) {
+    return is_glb(path) ? write_reflection_places_glb(path, places)
+                        : write_reflection_places_json(path, places);
 }
 
 /// Where the result of a run that was cut short goes: not over a whole one.
@@ -46,6 +55,7 @@ struct Grid {
     SceneOptions scene_options;
     std::string navmesh;
     std::string output;
+    std::string reflections;
     GridPreview preview;
     ProbeGridSettings settings;
     /// What is wrong if there is no walkable surface.
@@ -56,6 +66,7 @@ struct Grid {
         : scene_options(values),
           navmesh(values.text("navmesh")),
           output(values.text("output")),
+          reflections(values.text("reflections")),
           preview(values),
           settings(grid_settings(values)),
           without_walkable(check_without_walkable(values)),
@@ -63,6 +74,7 @@ struct Grid {
         if (output == "-" && preview.path == "-") {
             refuse(values, "preview", "stdout takes the probes already");
         }
+        if (reflections == "-") refuse(values, "reflections", "is written to a file only");
     }
 
     [[nodiscard]] std::vector<std::string> inputs() const {
@@ -73,14 +85,22 @@ struct Grid {
 
     [[nodiscard]] Status check_files() const {
         if (auto status = check_output(output, inputs()); !status) return status;
-        if (preview.path.empty()) return Ok{};
         std::vector<std::string> others = inputs();
         others.push_back(output);
-        if (output != "-" && is_same_file(output, preview.path)) {
-            return Error{ErrorCode::InvalidArgument, "preview", preview.path,
-                         preview.path + ": is the output of this command, too"};
+        if (auto status = check_other(reflections, "reflections", others); !status) return status;
+        others.push_back(reflections);
+        return check_other(preview.path, "preview", others);
+    }
+
+    /// Of a file beside the output, if there is one.
+    [[nodiscard]] Status check_other(const std::string& path, const std::string& setting,
+                                     const std::vector<std::string>& others) const {
+        if (path.empty()) return Ok{};
+        if (output != "-" && is_same_file(output, path)) {
+            return Error{ErrorCode::InvalidArgument, setting, path,
+                         path + ": is the output of this command, too"};
         }
-        return check_output(preview.path, others);
+        return check_output(path, others, setting);
     }
 
     Status run() {
@@ -95,6 +115,10 @@ struct Grid {
         common.warn(grid_warnings(*grid, settings));
         if (grid->adaptive && grid->adaptive->end == AdaptiveEnd::Interrupted) return keep(*grid);
         if (auto status = write_groups(output, grid->groups); !status) return status;
+        if (!reflections.empty()) {
+            auto status = write_reflections(reflections, grid->reflection_places);
+            if (!status) return status;
+        }
         if (!preview.path.empty()) {
             const GridInterrupt interrupt(
                 "interrupted; " + output + " is written, " + preview.path + " is as it was",
@@ -102,8 +126,19 @@ struct Grid {
             auto status = preview.write(*scene, *grid, common.thread_count);
             if (!status) return status;
         }
-        common.report(output, grid_json(output, *grid), grid_text(output, *grid));
+        report(*grid);
         return Ok{};
+    }
+
+    void report(const ProbeGrid& grid) const {
+        Json json = grid_json(output, grid);
+        std::string text = grid_text(output, grid);
+        if (!reflections.empty()) {
+            json["reflections"] = reflections;
+            json["reflection_probes"] = reflection_places_json(grid.reflection_places);
+            text += reflection_places_text(reflections, grid.reflection_places);
+        }
+        common.report(output, json, text);
     }
 
     /// Where things move, from the file or else from the scene.

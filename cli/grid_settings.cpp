@@ -77,6 +77,9 @@ ProbeGridSettings grid_settings(const Values& values) {
     }
     settings.agent_height = values.number("agent_height");
     if (values.is_given("max_probes")) settings.max_probes = values.integer("max_probes");
+    if (values.is_given("reflections")) {
+        settings.reflection_spacing = values.number("reflection_spacing");
+    }
     settings.adaptive = adaptive_settings(values);
     settings.thread_count = values.integer32("threads");
     return settings;

@@ -17,6 +17,7 @@
 #include <tetralight/cli/show_settings.h>
 #include <tetralight/cli/view_options.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/reflection/reflection_file.h>
 #include <tetralight/render/opening_lines.h>
 #include <tetralight/render/render_gizmos.h>
 #include <tetralight/render/seam_lines.h>
@@ -37,9 +38,11 @@ struct Render {
     std::string scene_path;
     std::string volume_path;
     std::string lightmap_path;
+    std::string reflection_path;
     std::string output;
     ShowSettings shown;
     bool has_ambient_occlusion = false;
+    bool has_box_projection = true;
     std::optional<glm::vec3> shadow_color;
     ProbeLight probes = ProbeLight::AsTheScene;
     LightmapLight lightmap_light = LightmapLight::Directional;
@@ -52,9 +55,11 @@ struct Render {
         : scene_path(values.text("scene")),
           volume_path(values.text("volume")),
           lightmap_path(values.text("lightmaps")),
+          reflection_path(values.text("reflections")),
           output(values.text("output")),
           shown(show_settings(values)),
           has_ambient_occlusion(values.flag("ambient_occlusion")),
+          has_box_projection(!values.flag("no_box_projection")),
           probes(choice<ProbeLight>(values, "probes")),
           lightmap_light(choice<LightmapLight>(values, "lightmap_light")),
           walls(choice<Walls>(values, "walls")),
@@ -66,7 +71,9 @@ struct Render {
 
     /// By OpenGL if it was asked for and is available, else by rays.
     [[nodiscard]] Result<Image8> draw(const Scene& scene, const ProbeVolumeView& volume,
-                                      const LightmapsView& lightmaps, const Camera& camera) const {
+                                      const LightmapsView& lightmaps,
+                                      const ReflectionsView& reflections,
+                                      const Camera& camera) const {
         auto light = make_scene_light(scene, volume, probes, lightmaps);
         if (!light && light.error().field == "lightmaps")
             return light.error().in(shown_path(lightmap_path));
@@ -78,6 +85,8 @@ struct Render {
                                  " is not subtractive")});
         }
         light->lightmap_light = lightmap_light;
+        light->reflections = reflections;
+        light->has_box_projection = has_box_projection;
         Gizmos gizmos = make_gizmos(volume, light->proxy_volumes, shown.gizmos);
         if (shown.gizmos.has_seams)
             std::ranges::move(make_seam_lines(scene, lightmaps), std::back_inserter(gizmos.lines));
@@ -95,6 +104,8 @@ struct Render {
         };
         if (renderer == RendererKind::Gl && shown.view != SurfaceView::Shaded) {
             common.warn({"OpenGL draws no views of surfaces; rendering on the CPU"});
+        } else if (renderer == RendererKind::Gl && !reflections.probes.empty()) {
+            common.warn({"OpenGL draws no reflections; rendering on the CPU"});
         } else if (renderer == RendererKind::Gl) {
 #ifdef TETRALIGHT_HAS_GL
             if (auto context = open_gl(view.settings, common)) {
@@ -127,8 +138,16 @@ struct Render {
         return Ok{};
     }
 
+    [[nodiscard]] Result<std::optional<ReflectionFile>> open_reflections() const {
+        if (reflection_path.empty()) return std::optional<ReflectionFile>();
+        auto file = open_reflection_file(reflection_path);
+        if (!file) return file.error();
+        return std::optional(std::move(*file));
+    }
+
     Status run() {
-        const std::vector<std::string> inputs{scene_path, volume_path, lightmap_path};
+        const std::vector<std::string> inputs{scene_path, volume_path, lightmap_path,
+                                              reflection_path};
         if (auto status = check_output(output, inputs); !status) return status;
         const auto scene = read_gltf(scene_path, NormalMaps::Read);
         if (!scene) return scene.error();
@@ -145,8 +164,11 @@ struct Render {
         if (*lightmaps) {
             if (auto status = check_sections((*lightmaps)->view()); !status) return status;
         }
+        const auto reflections = open_reflections();
+        if (!reflections) return reflections.error();
         const auto image = draw(*scene, with_walls(file->view(), walls),
-                                *lightmaps ? (*lightmaps)->view() : LightmapsView{}, *chosen);
+                                *lightmaps ? (*lightmaps)->view() : LightmapsView{},
+                                *reflections ? (*reflections)->view() : ReflectionsView{}, *chosen);
         if (!image) return image.error();
         auto status = write_png(output, *image);
         if (!status) return status;

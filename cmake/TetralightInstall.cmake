@@ -3,7 +3,7 @@
 # find them) and the command. CPack makes a Debian package of the ship set (docs/embed.md).
 include(CMakePackageConfigHelpers)
 
-set(ship_modules base probes lppv lightmap runtime)
+set(ship_modules base probes lppv lightmap reflection runtime)
 set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/tetralight)
 set(shader_folder ${CMAKE_INSTALL_DATADIR}/tetralight/shaders)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tetralight)

@@ -93,8 +93,8 @@ void add(Hash& hash, const Mesh& mesh) {
 
 template <class Hash>
 void add(Hash& hash, const MeshInstance& instance) {
-    const auto& [mesh, world_from_mesh, name, contributes_gi, node, is_walkable, lightmap] =
-        instance;
+    const auto& [mesh, world_from_mesh, name, contributes_gi, node, is_walkable, is_in_reflections,
+                 lightmap] = instance;
     hash.add(mesh);
     hash.add(world_from_mesh);
     hash.add(contributes_gi);
@@ -139,7 +139,8 @@ void add_each(Hash& hash, const std::vector<T>& elements) {
 template <class Hash>
 void add(Hash& hash, const Scene& scene) {
     const auto& [textures, normal_maps, materials, meshes, instances, nodes, lights, light_names,
-                 environment, cameras, probe_groups, probe_adjustments, portals, warnings] = scene;
+                 environment, cameras, probe_groups, probe_adjustments, portals, reflection_places,
+                 warnings] = scene;
     add_each(hash, textures);
     add_each(hash, materials);
     add_each(hash, meshes);

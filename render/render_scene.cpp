@@ -8,10 +8,13 @@
 
 #include <tetralight/bake/image/srgb.h>
 #include <tetralight/bake/scene/mapped_normal.h>
+#include <tetralight/bake/scene/surface_color.h>
 #include <tetralight/lightmap/sample_lightmap.h>
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/locate.h>
+#include <tetralight/reflection/sample_reflections.h>
+#include <tetralight/reflection/split_sum.h>
 #include <tetralight/runtime/shade.h>
 
 namespace tetralight {
@@ -44,6 +47,7 @@ SceneShader::SceneShader(const Scene& scene, const ProbeVolumeView& volume, Scen
     for (RuntimeLight& runtime : light_.lights) {
         runtime.light = traced_.render_from_world(runtime.light);
     }
+    if (!light_.reflections.probes.empty()) split_sum_ = make_split_sum_table();
 }
 
 Result<SceneShader> SceneShader::make(const Scene& scene, const ProbeVolumeView& volume,
@@ -179,10 +183,35 @@ glm::vec3 SceneShader::emitted(const Surface& surface) const {
     return surface.emission * light_.emission_weights[material];
 }
 
+glm::vec3 SceneShader::shiny_light(const Surface& surface, const glm::vec3& base_normal,
+                                   glm::vec3 direction) const {
+    const Mesh& mesh = scene_->meshes[scene_->instances[surface.instance].mesh];
+    const ShinySurface shiny =
+        shiny_surface(*scene_, mesh_point(mesh, surface.primitive, surface.barycentric));
+    const ReflectionsView& reflections = light_.reflections;
+    const glm::vec3 normal = surface.shading_normal;
+    const glm::dvec3 world = traced_.world_from_render(surface.position);
+    const glm::vec3 baked = baked_light(surface, base_normal);
+    const ReflectionBlend blend = blend_reflections(reflections, world);
+    const glm::vec3 mirrored = glm::reflect(direction, normal);
+    const glm::vec3 seen =
+        light_.has_box_projection
+            ? sample_reflections(reflections, blend, world, mirrored, shiny.roughness)
+            : sample_far_reflections(reflections, blend, mirrored, shiny.roughness);
+    const float occlusion = reflection_occlusion(baked * std::numbers::pi_v<float>,
+                                                 reflection_irradiance(reflections, blend, normal));
+    const glm::vec2 terms =
+        sample_split_sum(split_sum_, std::max(0.0f, glm::dot(-direction, normal)), shiny.roughness);
+    return shiny.diffuse * (baked + direct_term(surface)) +
+           occlusion * seen * (shiny.f0 * terms.x + terms.y);
+}
+
 glm::vec3 SceneShader::show(const Surface& surface, const glm::vec3& base_normal,
-                            SurfaceView view) const {
+                            glm::vec3 direction, SurfaceView view) const {
     switch (view) {
         case SurfaceView::Shaded:
+            if (!light_.reflections.probes.empty())
+                return emitted(surface) + shiny_light(surface, base_normal, direction);
             return emitted(surface) +
                    surface.albedo * (baked_light(surface, base_normal) + direct_term(surface));
         case SurfaceView::Received:
@@ -213,7 +242,7 @@ std::optional<SceneShader::Shaded> SceneShader::shade(const glm::dvec3& origin, 
     const float distance = glm::distance(render_origin, surface->position);
     const glm::vec3 base_normal = surface->shading_normal;
     surface->shading_normal = normal_with_map(*surface);
-    return Shaded{show(*surface, base_normal, view), distance};
+    return Shaded{show(*surface, base_normal, glm::normalize(direction), view), distance};
 }
 
 std::optional<float> SceneShader::distance(const glm::dvec3& origin, glm::vec3 direction) const {

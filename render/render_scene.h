@@ -27,6 +27,7 @@ namespace tetralight {
 ///   store the occlusion of a light, it replaces the shadows that static objects cast on moving
 ///   ones, and shadow rays test moving objects only. The shadow mask of lightmaps does the same for
 ///   static surfaces. Subtractive lightmaps hold the light, and moving objects subtract it.
+/// - With reflection probes, surfaces also mirror their cubes, as rough as they are.
 /// - Lights and baked emission are scaled by the weights of the volume's layers.
 class SceneShader {
   public:
@@ -86,14 +87,18 @@ class SceneShader {
                                            const glm::vec3& base_normal) const;
     [[nodiscard]] glm::vec3 direct_term(const Surface& surface) const;
     [[nodiscard]] glm::vec3 emitted(const Surface& surface) const;
+    /// Light from a surface that shines, towards the origin of a ray in this direction.
+    [[nodiscard]] glm::vec3 shiny_light(const Surface& surface, const glm::vec3& base_normal,
+                                        glm::vec3 direction) const;
     [[nodiscard]] glm::vec3 show(const Surface& surface, const glm::vec3& base_normal,
-                                 SurfaceView view) const;
+                                 glm::vec3 direction, SurfaceView view) const;
 
     const Scene* scene_;
     ProbeVolumeView volume_;
     SceneLight light_;  // lights in render space
     TraceScene traced_;
     TraceScene moving_;
+    std::vector<glm::vec2> split_sum_;  ///< `make_split_sum_table`
 };
 
 /// Radiance of the sky in a direction, from the volume's ambient probe.

@@ -11,6 +11,7 @@
 #include <tetralight/lppv/lppv.h>
 #include <tetralight/probes/packed_sh.h>
 #include <tetralight/probes/probe_volume.h>
+#include <tetralight/reflection/reflections.h>
 #include <tetralight/runtime/runtime_lights.h>
 
 // How a volume lights a scene, as values. All renderers of the tree shade by it, so that their
@@ -74,6 +75,10 @@ struct SceneLight {
     /// least: radiance.
     glm::vec3 shadow_color{0.0f};
     LightmapLight lightmap_light = LightmapLight::Directional;
+    /// What shiny surfaces reflect; without probes, nothing. Its owner outlives the light.
+    ReflectionsView reflections{};
+    /// False: the light of each cube comes from far away.
+    bool has_box_projection = true;
     /// One for each material: the weight of the volume's layer that holds its emission; 1 if the
     /// emission was not baked.
     std::vector<float> emission_weights;

@@ -14,6 +14,7 @@ bool is_part_of(std::string_view file, ShaderPart part) {
     if (file == "begin.glsl" || file == "sh.glsl" || file == "end.glsl") return true;
     if (part == ShaderPart::Lppv) return file == "lppv.glsl";
     if (part == ShaderPart::Lightmap) return file == "lightmap.glsl";
+    if (part == ShaderPart::Reflection) return file == "reflection.glsl";
     return part == ShaderPart::Query && file.starts_with("query");
 }
 

@@ -36,8 +36,10 @@ enum class ShaderPart {
     Sh,     ///< tetralight_sample_sh9, _sample_sh4, _probe_occlusion, _add_layer, _instance_normal
     Lppv,   ///< tetralight_sample_lppv_4, _sample_lppv_7, their atlas forms and occlusion
     Query,  ///< tetralight_locate, tetralight_interpolate, tetralight_blend
-    Lightmap,  ///< tetralight_page_uv, tetralight_lightmap_irradiance, _lightmap_directional,
-               ///< _lightmap_shadow_mask, _lightmap_ambient_occlusion, _subtract_shadow
+    Lightmap,    ///< tetralight_page_uv, tetralight_lightmap_irradiance, _lightmap_directional,
+                 ///< _lightmap_shadow_mask, _lightmap_ambient_occlusion, _subtract_shadow
+    Reflection,  ///< tetralight_sample_reflections, _project_on_box, _reflection_influence,
+                 ///< _split_sum, _reflection_occlusion
 };
 
 /// A composed shader.

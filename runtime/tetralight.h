@@ -70,7 +70,7 @@ typedef enum tetralight_status {
     TETRALIGHT_SHORT_BUFFER = 3,
     /** There is no such file, or the path does not lead to a regular file. */
     TETRALIGHT_BAD_FILE = 4,
-    /** The volume or the lightmaps do not contain the requested item. */
+    /** The volume, the lightmaps or the reflection probes do not contain the requested item. */
     TETRALIGHT_NOT_THERE = 5,
     /** The system refuses the number of bytes that the message gives. */
     TETRALIGHT_OUT_OF_MEMORY = 6,
@@ -457,6 +457,94 @@ TETRALIGHT_API tetralight_status tetralight_lightmaps_shadow_mask(
 TETRALIGHT_API tetralight_status tetralight_lightmaps_ambient_occlusion(
     const tetralight_lightmaps* lightmaps, uint32_t page, const float* uv_page, float* open,
     tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Open reflection probes (reflection/reflections.h). */
+typedef struct tetralight_reflections tetralight_reflections;
+
+/** The contents of reflection probes. */
+typedef struct tetralight_reflections_info {
+    /** Texels along each side of a face of level 0; half as many in each further level. */
+    uint32_t size;
+    /** Level i is blurred for the roughness i / (level_count - 1). */
+    uint32_t level_count;
+    /** Also the number of cubes. */
+    uint32_t probe_count;
+} tetralight_reflections_info;
+
+/** Where a cube was captured, and where it is used. */
+typedef struct tetralight_reflection_probe {
+    double position[3];
+    /** The center of the box relative to the position, metres. */
+    float box_center[3];
+    /** Half of the box along its axes, metres. Infinite: the probe is used everywhere. */
+    float half_size[3];
+    /** Unit vectors in world axes, one after the other. */
+    float axes[9];
+    /** Inside the box, within this distance of its sides, the probe fades out, metres. */
+    float blend_distance;
+    /** Probes of higher importance hide those of lower importance. */
+    int32_t importance;
+    /** Fraction of the rays of the cube that hit no back face. */
+    float validity;
+} tetralight_reflection_probe;
+
+/** The probes that light a position, and their weights, which sum to 1. */
+typedef struct tetralight_reflection_blend {
+    uint32_t probes[3];
+    float weights[3];
+} tetralight_reflection_blend;
+
+/** Opens a file and verifies all of it. Close `*reflections` after use. All other calls may run on
+ * one `reflections` at the same time, but for close. */
+TETRALIGHT_API tetralight_status
+tetralight_reflections_open(const char* path, tetralight_reflections** reflections,
+                            tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Closes reflection probes; does nothing if they are NULL. */
+TETRALIGHT_API void tetralight_reflections_close(tetralight_reflections* reflections)
+    TETRALIGHT_NOEXCEPT;
+
+TETRALIGHT_API tetralight_status tetralight_reflections_get_info(
+    const tetralight_reflections* reflections, tetralight_reflections_info* info,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Returns TETRALIGHT_NOT_THERE if there is no such probe. */
+TETRALIGHT_API tetralight_status tetralight_reflections_get_probe(
+    const tetralight_reflections* reflections, uint32_t index, tetralight_reflection_probe* probe,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The texels of a level as an array of cubes is uploaded: four halves each, probe after probe,
+ * face after face (+X, -X, +Y, -Y, +Z, -Z), row after row. Valid until close. Returns
+ * TETRALIGHT_NOT_THERE if there is no such level. */
+TETRALIGHT_API tetralight_status tetralight_reflections_texels(
+    const tetralight_reflections* reflections, uint32_t level, tetralight_const_array* texels,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The three most important probes at a position (three doubles). */
+TETRALIGHT_API tetralight_status tetralight_reflections_blend(
+    const tetralight_reflections* reflections, const double* position,
+    tetralight_reflection_blend* blend, tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** The radiance (three floats) that a surface of a roughness sees at a position (three doubles) in
+ * a direction (three floats): the view mirrored at its normal. */
+TETRALIGHT_API tetralight_status tetralight_reflections_sample(
+    const tetralight_reflections* reflections, const tetralight_reflection_blend* blend,
+    const double* position, const float* direction, float roughness, float* radiance,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** What reflections are multiplied with, so that dark corners do not shine, 0 to 1 (one float): the
+ * luminance of `irradiance` (three floats, not divided by pi), that of light probes or a lightmap
+ * on a unit normal, over that of the cubes on the same normal. */
+TETRALIGHT_API tetralight_status tetralight_reflections_occlusion(
+    const tetralight_reflections* reflections, const tetralight_reflection_blend* blend,
+    const float* normal, const float* irradiance, float* occlusion,
+    tetralight_error* error) TETRALIGHT_NOEXCEPT;
+
+/** Scale and bias of F0 (two floats) in the reflectance of a surface, for a table over n . v and
+ * roughness, both 0 to 1. `sample_count` > 0; 256 is a good one. */
+TETRALIGHT_API tetralight_status tetralight_split_sum(float n_dot_v, float roughness,
+                                                      uint32_t sample_count, float* scale_and_bias,
+                                                      tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 #ifdef __cplusplus
 }

@@ -135,6 +135,23 @@ constexpr Setting kOutput[] = {{.name = "name",
                                 .range = {0, 1e9},
                                 .default_text = "0"}};
 
+constexpr Setting kReflections[] = {
+    {.name = "reflections",
+     .type = Type::Path,
+     .help = "File of reflection probes to write: one in each room, with its box at the walls, and "
+             "others outdoors",
+     .extensions = ".json .glb",
+     .without = "no reflection probes",
+     .access = Access::Command},
+    {.name = "reflection_spacing",
+     .type = Type::Number,
+     .help = "Largest distance between reflection probes outdoors",
+     .unit = "metres",
+     .range = {0.1, 1e9},
+     .default_text = "10",
+     .needs = "reflections",
+     .access = Access::Command}};
+
 constexpr Setting kPreviewFile[] = {
     {.name = "preview",
      .type = Type::Path,
@@ -156,6 +173,7 @@ constexpr Group kGroups[] = {{"Files", kFiles},
                              {"Placement", kPlacement},
                              {"With --mode adaptive", kAdaptive},
                              {"Groups", kOutput},
+                             {"Reflection probes", kReflections},
                              {"Added light", kAddedLight},
                              {"Preview", kPreviewFile},
                              {"Camera of the preview", kPreviewView.rows},

@@ -79,9 +79,10 @@ constexpr Setting kSampling[] = {
 constexpr Setting kTransport[] = {
     {.name = "exact",
      .type = Type::Flag,
-     .help = "Trace each path of light to its end. Without it, a path ends where it meets a texel "
-             "whose light was baked before: faster above about a hundred samples, and as fine as the "
-             "texels. --bounces and --clamp always trace to the end"},
+     .help =
+         "Trace each path of light to its end. Without it, a path ends where it meets a texel "
+         "whose light was baked before: faster above about a hundred samples, and as fine as the "
+         "texels. --bounces and --clamp always trace to the end"},
     kBounces,
     kClamp,
     kAlbedoBoost,

@@ -66,6 +66,15 @@ constexpr Setting kShown[] = {
      .choices = "directional flat",
      .default_text = "directional",
      .needs = "lightmaps"},
+    {.name = "reflections",
+     .type = Type::Path,
+     .help = "Reflection probes (.ktx2, from `tetralight reflect`), which shiny surfaces mirror",
+     .without = "no reflections"},
+    {.name = "no_box_projection",
+     .type = Type::Flag,
+     .help =
+         "Reflect cubes as if their light came from far away, not from the sides of their boxes",
+     .needs = "reflections"},
     kWalls,
     kRenderer};
 

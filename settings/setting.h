@@ -116,8 +116,8 @@ struct Table {
 };
 
 extern const Table kBackup, kBake, kCheckLeaks, kExport, kFsck, kGrid, kInfo, kLightmap, kLppv,
-    kMerge, kMeshball, kPrune, kQuery, kRelight, kRender, kRestore, kServe, kTetrahedralize,
-    kUnwrap, kValidate;
+    kMerge, kMeshball, kPrune, kQuery, kReflect, kRelight, kRender, kRestore, kServe,
+    kTetrahedralize, kUnwrap, kValidate;
 
 /// All of them, in the order in which a user meets them.
 [[nodiscard]] std::span<const Table* const> all_tables();

@@ -58,27 +58,6 @@ double diagonal_of(const Lattice& lattice) {
         glm::dvec3(lattice.axes[0].spacing, lattice.axes[1].spacing, lattice.axes[2].spacing));
 }
 
-/// Where a point lies in the order of the lattice, by its layers.
-uint64_t index_at(const Lattice& lattice, const glm::ivec3& layer) {
-    return (static_cast<uint64_t>(layer.y) * lattice.axes[2].count + layer.z) *
-               lattice.axes[0].count +
-           layer.x;
-}
-
-bool is_in(const Lattice& lattice, const glm::ivec3& layer) {
-    for (int axis = 0; axis < 3; ++axis) {
-        if (layer[axis] < 0 || layer[axis] >= static_cast<int64_t>(lattice.axes[axis].count)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-glm::ivec3 layers_of(const Lattice& lattice, uint64_t i) {
-    const uint64_t row = i / lattice.axes[0].count;
-    return {i % lattice.axes[0].count, row / lattice.axes[2].count, row % lattice.axes[2].count};
-}
-
 }  // namespace
 
 FreeSpaceMap::FreeSpaceMap(const TraceScene& traced, const Rule& rule)

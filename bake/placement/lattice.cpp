@@ -93,6 +93,26 @@ std::vector<glm::dvec3> Lattice::positions() const {
     return positions;
 }
 
+uint64_t index_at(const Lattice& lattice, const glm::ivec3& layers) {
+    return (static_cast<uint64_t>(layers.y) * lattice.axes[2].count + layers.z) *
+               lattice.axes[0].count +
+           layers.x;
+}
+
+bool is_in(const Lattice& lattice, const glm::ivec3& layers) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (layers[axis] < 0 || layers[axis] >= static_cast<int64_t>(lattice.axes[axis].count)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+glm::ivec3 layers_of(const Lattice& lattice, uint64_t i) {
+    const uint64_t row = i / lattice.axes[0].count;
+    return {i % lattice.axes[0].count, row / lattice.axes[2].count, row % lattice.axes[2].count};
+}
+
 Result<double> lattice_count(const WorldBox& bounds, const glm::dvec3& spacing) {
     if (auto status = check_lattice(bounds, spacing); !status) return status.error();
     double count = 1.0;

@@ -38,6 +38,12 @@ struct Lattice {
     bool operator==(const Lattice&) const = default;
 };
 
+/// The layers of position number i, and the number of the position in these layers.
+[[nodiscard]] glm::ivec3 layers_of(const Lattice& lattice, uint64_t i);
+[[nodiscard]] uint64_t index_at(const Lattice& lattice, const glm::ivec3& layers);
+
+[[nodiscard]] bool is_in(const Lattice& lattice, const glm::ivec3& layers);
+
 /// The number of positions of `make_lattice`, which may exceed every integer type. Returns
 /// invalid_argument, with the field `spacing` or `bounds`, if the spacing is not positive, or the
 /// bounds are empty or not finite.

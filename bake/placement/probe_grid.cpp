@@ -16,6 +16,7 @@
 #include <tetralight/bake/placement/free_space_map.h>
 #include <tetralight/bake/placement/grid_bounds.h>
 #include <tetralight/bake/placement/group_by_region.h>
+#include <tetralight/bake/placement/place_reflections.h>
 #include <tetralight/bake/placement/reach_walls.h>
 #include <tetralight/bake/placement/sensors.h>
 #include <tetralight/base/str_cat.h>
@@ -65,6 +66,13 @@ std::vector<double> heights_apart(const std::vector<double>& heights, double cle
     return apart;
 }
 
+Status check_reflection_spacing(const ProbeGridSettings& settings) {
+    const double spacing = settings.reflection_spacing.value_or(1.0);
+    if (spacing > 0.0 && std::isfinite(spacing)) return Ok{};
+    return Error{ErrorCode::InvalidArgument, "reflection_spacing", str_cat(spacing),
+                 str_cat("reflection_spacing ", spacing, " is not a positive length")};
+}
+
 /// The stages of one grid.
 class GridMaker {
   public:
@@ -74,6 +82,7 @@ class GridMaker {
           traced_(traced),
           settings_(settings),
           rule_(rule),
+          agent_radius_(agent_radius),
           map_(traced, {rule.bounds, rule.spacing, agent_radius, rule.thread_count}),
           places_(traced, rule.bounds, place_clearance(),
                   [this](const glm::dvec3& position) { return is_to_cover(position); }) {}
@@ -354,6 +363,24 @@ class GridMaker {
         }
     }
 
+    void place_reflection_probes() {
+        if (!settings_.reflection_spacing) return;
+        // A wider body leaves no points in corridors.
+        constexpr double kNarrowest = 0.2, kWidest = 0.4;
+        const ReflectionRule rule{
+            rule_.bounds,
+            *settings_.reflection_spacing,
+            std::clamp(agent_radius_, kNarrowest, kWidest),
+            scene_.probe_adjustments,
+            [this](const glm::dvec3& position) {
+                const bool is_walkable_below =
+                    rule_.walkable == nullptr || rule_.walkable->height_above(position);
+                return is_walkable_below && filled_.contains(map_.space_of(position));
+            },
+            rule_.thread_count};
+        grid_.reflection_places = place_reflections(traced_, rule);
+    }
+
     Result<ProbeGrid> make_groups() {
         grid_.candidate_count = probes_.size();
         std::vector<float> distances;
@@ -375,6 +402,7 @@ class GridMaker {
             grid_.spaces[i].probe_count = static_cast<uint64_t>(std::ranges::count(spaces, number));
         }
         measure_coverage(positions);
+        place_reflection_probes();
         RegionGroups regions =
             group_by_region(positions, spaces, {settings_.name, settings_.region_size});
         grid_.groups = std::move(regions.groups);
@@ -386,6 +414,7 @@ class GridMaker {
     const TraceScene& traced_;
     const ProbeGridSettings& settings_;
     CandidateRule rule_;
+    double agent_radius_;
     FreeSpaceMap map_;
     SensorSequence places_;
     std::vector<PlacedProbe> probes_;
@@ -407,6 +436,7 @@ Result<ProbeGrid> make_probe_grid(const Scene& scene, const ProbeGridSettings& s
     if (!clearance) return clearance.error();
     const auto agent_radius = checked_agent_radius(*spacing, settings);
     if (!agent_radius) return agent_radius.error();
+    if (auto status = check_reflection_spacing(settings); !status) return status.error();
     for (const ProbeAdjustment& adjustment : scene.probe_adjustments) {
         if (auto status = check_adjustment(adjustment); !status) return status.error();
     }

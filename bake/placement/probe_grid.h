@@ -12,6 +12,7 @@
 #include <tetralight/bake/placement/coverage.h>
 #include <tetralight/bake/placement/free_space.h>
 #include <tetralight/bake/placement/spaces.h>
+#include <tetralight/bake/scene/reflection_place.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/bake/scene/scene_bounds.h>
 #include <tetralight/base/result.h>
@@ -68,6 +69,8 @@ struct ProbeGridSettings {
     std::vector<std::array<glm::dvec3, 3>> walkable;
     /// Metres above the walkable triangles up to which probes stand.
     double agent_height = 2.0;
+    /// Metres between reflection probes outdoors, above 0. Without it, none are placed.
+    std::optional<double> reflection_spacing;
     /// 0 = all.
     uint32_t thread_count = 0;
 };
@@ -98,6 +101,8 @@ struct ProbeGrid {
     /// The scene's adjustment volumes that do not reach into the bounds, by name.
     std::vector<std::string> adjustments_outside;
     std::optional<AdaptiveReport> adaptive;
+    /// Reflection probes in the filled spaces (`place_reflections`).
+    std::vector<ReflectionPlace> reflection_places;
 
     [[nodiscard]] uint64_t count(Fate fate) const { return fate_counts[static_cast<size_t>(fate)]; }
 
@@ -109,7 +114,7 @@ struct ProbeGrid {
 /// time budget, and the same for every order of the scene's meshes. `callback` is for the adaptive
 /// mode.
 ///
-/// Returns invalid_argument, with the setting as the field, if the spacing is not positive, the
+/// Returns invalid_argument, with the setting as the field, if a spacing is not positive, the
 /// bounds are empty or not finite, there is no geometry to take bounds from, there are more
 /// candidates than `max_probes`, a seed is inside geometry or outside of the bounds, there is no
 /// floor, or no probe is left; not_found if no node has a name of `bounds_of`; out_of_resources if

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/probe_adjustments_json.h>
 
-#include <algorithm>
-#include <exception>
 #include <glm/gtc/matrix_transform.hpp>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string_view>
 
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/base/file.h>
-#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -20,29 +15,11 @@ namespace {
 
 using detail::check_keys;
 using detail::in_member;
+using detail::read_number;
+using detail::read_vec3;
 using detail::shown_json;
 using detail::wrong_type;
 using nlohmann::json;
-
-/// Reads the number of a key; leaves `number` unchanged if the key is absent.
-template <class Number>
-Status read_number(const json& object, const char* key, std::optional<Number>& number) {
-    const auto value = object.find(key);
-    if (value == object.end()) return Ok{};
-    if (!value->is_number()) return wrong_type(*value, key, "a number");
-    number = value->get<Number>();
-    return Ok{};
-}
-
-Status read_vec3(const json& object, const char* key, glm::dvec3& v) {
-    const auto value = object.find(key);
-    if (value == object.end()) return Ok{};
-    const bool is_vec3 = value->is_array() && value->size() == 3 &&
-                         std::ranges::all_of(*value, [](const json& n) { return n.is_number(); });
-    if (!is_vec3) return wrong_type(*value, key, "three numbers");
-    for (int i = 0; i < 3; ++i) v[i] = (*value)[static_cast<size_t>(i)].get<double>();
-    return Ok{};
-}
 
 /// An error of `check_adjustment`, whose field names a key of the volume.
 Error relative(Error error) {
@@ -138,28 +115,14 @@ Result<std::vector<ProbeAdjustment>> read_adjustments(const json& document) {
     return adjustments;
 }
 
-Result<std::vector<ProbeAdjustment>> parse(std::span<const std::byte> bytes) {
-    const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (auto status = check_json_shape(characters); !status) return status.error();
-    try {
-        if (const auto key = find_duplicate_key(characters)) {
-            return Error{ErrorCode::Corrupt, *key, "",
-                         str_cat("\"", *key, "\" is given twice in one object")};
-        }
-        return read_adjustments(json::parse(characters));
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& exception) {
-        return Error{ErrorCode::Corrupt, json_error_reason(exception)};
-    }
-}
-
 }  // namespace
 
 Result<std::vector<ProbeAdjustment>> read_probe_adjustments(const std::string& path) {
     const auto file = MappedFile::open(path);
     if (!file) return file.error();
-    auto adjustments = parse(file->bytes());
+    const auto document = detail::parse_json(file->bytes());
+    if (!document) return in_member(document.error().in(path), "");
+    auto adjustments = read_adjustments(*document);
     if (!adjustments) return in_member(adjustments.error().in(path), "");
     return adjustments;
 }

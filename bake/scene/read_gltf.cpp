@@ -13,6 +13,7 @@
 #include <tetralight/bake/scene/detail/gltf_portals.h>
 #include <tetralight/bake/scene/detail/gltf_probe_adjustments.h>
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
+#include <tetralight/bake/scene/detail/gltf_reflection_places.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -61,6 +62,8 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     if (!adjustments) return adjustments.error();
     auto portals = detail::read_gltf_portals(document, *nodes);
     if (!portals) return portals.error();
+    auto places = detail::read_gltf_reflection_places(document, *nodes);
+    if (!places) return places.error();
     auto instances = detail::read_instances(document, *nodes, probe_groups->is_probe, meshes);
     if (!instances) return instances.error();
     scene.lights = std::move(lights->lights);
@@ -68,6 +71,7 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     scene.probe_groups = std::move(probe_groups->groups);
     scene.probe_adjustments = std::move(*adjustments);
     scene.portals = std::move(*portals);
+    scene.reflection_places = std::move(*places);
     scene.instances = std::move(*instances);
     auto scene_nodes = detail::scene_nodes(document, *nodes);
     if (!scene_nodes) return scene_nodes.error();

@@ -12,6 +12,7 @@
 
 #include <tetralight/bake/image/image.h>
 #include <tetralight/bake/scene/probe_adjustment.h>
+#include <tetralight/bake/scene/reflection_place.h>
 #include <tetralight/probes/light.h>
 #include <tetralight/probes/no_index.h>
 #include <tetralight/probes/probe_group.h>
@@ -138,6 +139,9 @@ struct MeshInstance {
     uint32_t node = kNoIndex;
     /// True if things move on it (`extras.walkable: true`). Its other roles do not change.
     bool is_walkable = false;
+    /// False: the cubes of reflection probes do not show it (`extras.in_reflections: false`). It
+    /// still lights what they show.
+    bool is_in_reflections = true;
     LightmapUse lightmap{};
 
     bool operator==(const MeshInstance&) const = default;
@@ -192,6 +196,7 @@ struct Scene {
     std::vector<ProbeGroup> probe_groups;
     std::vector<ProbeAdjustment> probe_adjustments;
     std::vector<Portal> portals;
+    std::vector<ReflectionPlace> reflection_places;
     /// Warnings for the user, one line each: parts that were skipped or replaced.
     std::vector<std::string> warnings;
 

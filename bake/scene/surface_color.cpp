@@ -64,6 +64,16 @@ glm::vec3 diffuse_reflectivity(const Scene& scene, const MeshPoint& point) {
                                 material.roughness * factors.g);
 }
 
+ShinySurface shiny_surface(const Scene& scene, const MeshPoint& point) {
+    const Material& material = material_of(scene, point);
+    if (material.is_unlit) return {};
+    const glm::vec4 factors = sample_data(scene, material.metallic_roughness_texture, point);
+    const glm::vec3 color(base_color(scene, point));
+    const float metallic = material.metallic * factors.b;
+    return {color * ((1.0f - metallic) * (1.0f - kDielectricF0)),
+            glm::mix(glm::vec3(kDielectricF0), color, metallic), material.roughness * factors.g};
+}
+
 glm::vec3 adjusted_albedo(glm::vec3 albedo, const SurfaceSettings& settings) {
     if (settings.albedo_boost != 1.0f) {
         albedo = glm::pow(albedo, glm::vec3(1.0f / settings.albedo_boost));

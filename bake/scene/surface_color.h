@@ -52,6 +52,17 @@ struct MeshPoint {
 /// The same at a point, with textures; 0 if the material is unlit.
 [[nodiscard]] glm::vec3 diffuse_reflectivity(const Scene& scene, const MeshPoint& point);
 
+/// How a surface reflects in pictures with reflections (glTF 2.0, appendix B): diffusely, and as a
+/// GGX surface of this reflectance at normal incidence.
+struct ShinySurface {
+    glm::vec3 diffuse{0.0f};
+    glm::vec3 f0{0.0f};
+    float roughness = 1.0f;
+};
+
+/// At a point, with textures; black if the material is unlit.
+[[nodiscard]] ShinySurface shiny_surface(const Scene& scene, const MeshPoint& point);
+
 /// `diffuse_reflectivity` as a function of the base color: `per_color` · base + `colorless`.
 struct ReflectivityTerms {
     float per_color = 0.0f;

@@ -30,6 +30,14 @@
 #define TETRALIGHT_SAMPLE_3D(name, uvw) name.SampleLevel(name##_sampler, uvw, 0.0f)
 #define TETRALIGHT_TEXTURE_ARRAY(name) Texture2DArray<float4> name, SamplerState name##_sampler
 #define TETRALIGHT_SAMPLE_ARRAY(name, uv, i) name.SampleLevel(name##_sampler, float3(uv, i), 0.0f)
+#define TETRALIGHT_TEXTURE_2D(name) Texture2D<float4> name, SamplerState name##_sampler
+#define TETRALIGHT_SAMPLE_2D(name, uv) name.SampleLevel(name##_sampler, uv, 0.0f)
+#define TETRALIGHT_CUBE(name) TextureCube<float4> name, SamplerState name##_sampler
+#define TETRALIGHT_SAMPLE_CUBE(name, d, level) name.SampleLevel(name##_sampler, d, level)
+#define TETRALIGHT_HAS_CUBE_ARRAYS
+#define TETRALIGHT_CUBES(name) TextureCubeArray<float4> name, SamplerState name##_sampler
+#define TETRALIGHT_PASS_CUBES(name) name, name##_sampler
+#define TETRALIGHT_SAMPLE_CUBES(name, d, i, l) name.SampleLevel(name##_sampler, float4(d, i), l)
 #else
 #define TETRALIGHT_CONST const
 #define TETRALIGHT_MUL(matrix, vector) ((matrix) * (vector))
@@ -38,6 +46,20 @@
 #define TETRALIGHT_SAMPLE_3D(name, uvw) textureLod(name, uvw, 0.0f)
 #define TETRALIGHT_TEXTURE_ARRAY(name) sampler2DArray name
 #define TETRALIGHT_SAMPLE_ARRAY(name, uv, i) textureLod(name, vec3(uv, i), 0.0f)
+#define TETRALIGHT_TEXTURE_2D(name) highp sampler2D name
+#define TETRALIGHT_SAMPLE_2D(name, uv) textureLod(name, uv, 0.0f)
+#define TETRALIGHT_CUBE(name) highp samplerCube name
+#define TETRALIGHT_SAMPLE_CUBE(name, d, level) textureLod(name, d, level)
+#define TETRALIGHT_CUBES(name) highp samplerCubeArray name
+#define TETRALIGHT_PASS_CUBES(name) name
+#define TETRALIGHT_SAMPLE_CUBES(name, d, i, level) textureLod(name, vec4(d, i), level)
+#ifdef GL_ES
+#if __VERSION__ >= 320
+#define TETRALIGHT_HAS_CUBE_ARRAYS
+#endif
+#elif __VERSION__ >= 400
+#define TETRALIGHT_HAS_CUBE_ARRAYS
+#endif
 #ifdef GL_ES
 precision highp float;
 precision highp int;

@@ -126,6 +126,58 @@ TEST_F(Grid, StdoutTakesOneFile) {
     EXPECT_TRUE(contains(message, "--preview: stdout takes the probes already")) << message;
 }
 
+TEST_F(Grid, WritesTheReflectionProbesThatItReports) {
+    const Arguments start{"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--reflections"};
+    const auto with = [&](Arguments more) {
+        more.insert(more.begin(), start.begin(), start.end());
+        return more;
+    };
+    const Json report = run_json(with({"r.json", "--reflection-spacing", "6"}));
+    EXPECT_EQ(report["reflections"], "r.json");
+    const Json places = Json::parse(read("r.json"))["reflection_probes"];
+    ASSERT_GT(places.size(), 1u);
+    ASSERT_EQ(places.size(), report["reflection_probes"].size());
+    for (size_t i = 0; i < places.size(); ++i) {
+        const Json& listed = report["reflection_probes"][i];
+        EXPECT_EQ(places[i]["name"], listed["name"]);
+        for (size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(listed["size"][axis].get<double>(),
+                        2.0 * places[i]["box"]["half_size"][axis].get<double>(), 1e-4);
+        }
+    }
+    const std::string table = succeed(with({"r.glb", "--reflection-spacing", "6"})).out;
+    const std::string first = "r.glb: " + std::to_string(places.size()) + " reflection probes\n";
+    EXPECT_TRUE(contains(table, first)) << table;
+    EXPECT_TRUE(contains(table, places[0]["name"].get<std::string>())) << table;
+    EXPECT_TRUE(contains(read("r.glb"), "\"reflection_probe\":{\"size\":"));
+    EXPECT_GT(run_json(with({"far.json"}))["reflection_probes"].size(), 0u);
+    EXPECT_LT(run_json(with({"far.json"}))["reflection_probes"].size(), places.size());
+}
+
+TEST_F(Grid, SaysThatThereAreNoReflectionProbes) {
+    write("empty.gltf", kEmptyScene);
+    const std::string table =
+        succeed({"grid", "empty.gltf", "-o", "g.json", "--spacing", "1", "--min", "0,0,0", "--max",
+                 "3,3,3", "--sky", "1", "--reflections", "r.json"})
+            .out;
+    EXPECT_TRUE(contains(table, "r.json: no reflection probes; there is no room")) << table;
+    EXPECT_EQ(Json::parse(read("r.json"))["reflection_probes"].size(), 0u);
+}
+
+TEST_F(Grid, RefusesReflectionProbesInTheWrongPlace) {
+    const Arguments start{"grid", kCourtyard, "-o", "g.json", "--spacing", "4"};
+    const auto with = [&](Arguments more) {
+        more.insert(more.begin(), start.begin(), start.end());
+        return more;
+    };
+    EXPECT_TRUE(contains(fail(with({"--reflections", "g.json"})), "is the output of this command"));
+    EXPECT_TRUE(contains(misuse(with({"--reflections", "-"})), "is written to a file only"));
+    EXPECT_TRUE(contains(misuse(with({"--reflections", "r.txt"})), "--reflections"));
+    EXPECT_TRUE(contains(misuse(with({"--reflection-spacing", "4"})), "needs --reflections"));
+    EXPECT_TRUE(contains(misuse(with({"--reflections", "r.json", "--reflection-spacing", "0"})),
+                         "--reflection-spacing"));
+}
+
 TEST_F(Grid, SaysThatProbeGroupsAreNoScene) {
     write("groups.json", kFiveProbes);
     EXPECT_EQ(fail({"grid", "groups.json", "-o", "g.json", "--spacing", "4"}),

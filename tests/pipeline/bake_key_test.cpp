@@ -83,6 +83,8 @@ TEST_F(BakeKey, StaysWithWhatChangesNoByte) {
     expect_the_same_key({
         [](BakeKey& t) { t.settings.thread_count = 1; },
         [](BakeKey& t) { t.scene.instances[0].is_walkable = true; },
+        [](BakeKey& t) { t.scene.instances[0].is_in_reflections = false; },
+        [](BakeKey& t) { t.scene.reflection_places.resize(1); },
         [](BakeKey& t) { std::swap(t.groups[0], t.groups[1]); },
         [](BakeKey& t) { t.scene.materials[0].name = "plaster"; },
         [](BakeKey& t) { t.scene.cameras.resize(1); },

@@ -104,6 +104,41 @@ const std::vector<Use>& uses() {
          "#ifdef VULKAN\nlayout(binding = 7)\n#endif\nuniform sampler2DArray pages;\n",
          "Texture2DArray<float4> pages : register(t7);\n"
          "SamplerState pages_sampler : register(s8);\n"},
+        {"reflection", ShaderPart::Reflection,
+         R"(TetralightReflectionChoice choice = tetralight_no_reflection();
+            float influence = tetralight_reflection_influence(blend.first, v.xyz);
+            choice = tetralight_add_reflection(choice, 0.0, influence);
+            vec3 weights = tetralight_reflection_weights(choice);
+            vec2 scale_and_bias = tetralight_split_sum(table, v.x, v.w);
+            vec3 f0 = tetralight_specular_f0(v.xyz, v.w);
+            vec3 light = tetralight_sample_reflection_cube(cube, blend.first, v.xyz, v.yzx, 0.5);
+            #ifdef TETRALIGHT_HAS_CUBE_ARRAYS
+            light += tetralight_sample_reflections(cubes, blend, v.xyz, v.zxy, v.w);
+            #endif
+            light *= tetralight_reflection_occlusion(v.xyz, v.zxy) * weights.x;
+            return light * (f0 * scale_and_bias.x + scale_and_bias.y);)",
+         R"(TetralightReflectionChoice choice = tetralight_no_reflection();
+            float influence = tetralight_reflection_influence(blend.first, v.xyz);
+            choice = tetralight_add_reflection(choice, 0.0, influence);
+            float3 weights = tetralight_reflection_weights(choice);
+            float2 scale_and_bias = tetralight_split_sum(table, table_sampler, v.x, v.w);
+            float3 f0 = tetralight_specular_f0(v.xyz, v.w);
+            float3 light = tetralight_sample_reflection_cube(cube, cube_sampler, blend.first,
+                                                             v.xyz, v.yzx, 0.5);
+            light += tetralight_sample_reflections(cubes, cubes_sampler, blend, v.xyz, v.zxy, v.w);
+            light *= tetralight_reflection_occlusion(v.xyz, v.zxy) * weights.x;
+            return light * (f0 * scale_and_bias.x + scale_and_bias.y);)",
+         "#ifdef VULKAN\n#define AT(number) layout(binding = number)\n#else\n#define AT(number)\n"
+         "#endif\n#ifdef VULKAN\nlayout(binding = 6, std140)\n#else\nlayout(std140)\n#endif\n"
+         "uniform Blend { TetralightReflectionBlend blend; };\n"
+         "AT(7) uniform sampler2D table;\nAT(8) uniform samplerCube cube;\n"
+         "#ifdef TETRALIGHT_HAS_CUBE_ARRAYS\nAT(9) uniform highp samplerCubeArray cubes;\n"
+         "#endif\n",
+         "cbuffer Blend : register(b6) { TetralightReflectionBlend blend; };\n"
+         "Texture2D<float4> table : register(t7);\nSamplerState table_sampler : register(s7);\n"
+         "TextureCube<float4> cube : register(t8);\nSamplerState cube_sampler : register(s8);\n"
+         "TextureCubeArray<float4> cubes : register(t9);\n"
+         "SamplerState cubes_sampler : register(s9);\n"},
     };
     return all;
 }

@@ -64,6 +64,7 @@ std::string one_line(std::string message) {
 Result<tinygltf::Model> parse_model(Bytes bytes, const std::string& folder) {
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(keep_encoded_image, nullptr);
+    parser.SetStoreOriginalJSONForExtrasAndExtensions(true);  // its values lack empty objects
     std::optional<Error> failure;
     parser.SetFsCallbacks({pretend_file_exists, keep_path, read_buffer_file, nullptr, &failure});
     tinygltf::Model model;

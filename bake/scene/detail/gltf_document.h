@@ -149,6 +149,15 @@ struct GltfAdjustment {
     std::optional<uint32_t> rendering_layers;
 };
 
+/// `extras.reflection_probe` of a node.
+struct GltfReflectionProbe {
+    glm::dvec3 size{10.0};
+    glm::dvec3 center{0.0};
+    double blend_distance = 1.0;
+    int32_t importance = 1;
+    double near_distance = 0.0;
+};
+
 struct GltfNode {
     std::string name;
     glm::dmat4 parent_from_node{1.0};
@@ -162,6 +171,7 @@ struct GltfNode {
     // Extras that Tetralight defines.
     std::optional<bool> contributes_gi;
     std::optional<bool> is_walkable;
+    std::optional<bool> is_in_reflections;
     std::optional<std::string> receive_gi;
     std::optional<double> lightmap_scale;
     std::optional<bool> stitches_seams;
@@ -172,6 +182,7 @@ struct GltfNode {
     bool dering = false;
     std::optional<uint32_t> rendering_layers;
     std::optional<GltfAdjustment> probe_adjustment;
+    std::optional<GltfReflectionProbe> reflection_probe;
     /// Width and height of `extras.portal`.
     std::optional<glm::dvec2> portal;
 };

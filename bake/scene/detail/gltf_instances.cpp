@@ -113,7 +113,8 @@ Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
         for (const glm::dmat4& world_from_mesh : *transforms) {
             for (const uint32_t mesh : meshes.meshes_of[node.mesh]) {
                 instances.push_back({mesh, world_from_mesh, node.name, placed.contributes_gi,
-                                     position, placed.is_walkable, placed.lightmap});
+                                     position, placed.is_walkable, placed.is_in_reflections,
+                                     placed.lightmap});
             }
         }
     }

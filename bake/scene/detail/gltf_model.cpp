@@ -5,6 +5,7 @@
 #include <span>
 
 #include <tetralight/bake/scene/detail/gltf_extensions.h>
+#include <tetralight/bake/scene/detail/gltf_reflection_places.h>
 #include <tetralight/bake/scene/detail/gltf_transform.h>
 
 namespace tetralight::detail {
@@ -146,6 +147,7 @@ GltfNode converted(const tinygltf::Node& node) {
     }
     result.contributes_gi = boolean_extra(node.extras, "contribute_gi");
     result.is_walkable = boolean_extra(node.extras, "walkable");
+    result.is_in_reflections = boolean_extra(node.extras, "in_reflections");
     result.receive_gi = string_extra(node.extras, "receive_gi");
     result.lightmap_scale = number_extra(node.extras, "lightmap_scale");
     result.stitches_seams = boolean_extra(node.extras, "stitch_seams");
@@ -155,6 +157,7 @@ GltfNode converted(const tinygltf::Node& node) {
     result.dering = boolean_extra(node.extras, "dering").value_or(false);
     result.rendering_layers = rendering_layers_extra(node.extras);
     result.probe_adjustment = adjustment_from(node.extras);
+    result.reflection_probe = reflection_probe_from(node.extras_json_string);
     result.portal = vec2_extra(node.extras, "portal");
     return result;
 }

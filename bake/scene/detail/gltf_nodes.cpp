@@ -122,12 +122,14 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
         placed.world_from_node = parent->world_from_node * source.parent_from_node;
         placed.contributes_gi = parent->contributes_gi;
         placed.is_walkable = parent->is_walkable;
+        placed.is_in_reflections = parent->is_in_reflections;
         placed.lightmap = parent->lightmap;
         placed.light_probes = parent->light_probes;
         placed.anchored_by = parent->anchored_by;
     }
     placed.contributes_gi = source.contributes_gi.value_or(placed.contributes_gi);
     placed.is_walkable = source.is_walkable.value_or(placed.is_walkable);
+    placed.is_in_reflections = source.is_in_reflections.value_or(placed.is_in_reflections);
     if (auto status = apply_lightmap_extras(source, placed.lightmap); !status) {
         return in_element(status.error(), "nodes", node, source.name);
     }

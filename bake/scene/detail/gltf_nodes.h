@@ -17,6 +17,7 @@ struct GltfWorldNode {
     glm::dmat4 world_from_node{1.0};
     bool contributes_gi = true;
     bool is_walkable = false;
+    bool is_in_reflections = true;
     LightmapUse lightmap{};
     LightProbeUsage light_probes = LightProbeUsage::Blend;
     /// The node whose `extras.probe_anchor` applies (its own or an ancestor), or kNoIndex.

@@ -73,12 +73,13 @@ class Checker {
         if (parent == nullptr) return Ok{};
         if (!parent->is_object()) {
             if (path.substr(0, slash) == "extras") return Ok{};  // extras may be any JSON
+            if (rule.need == GltfNeed::InObject) return Ok{};
             return checked(false, *parent, path.substr(0, slash), "an object");
         }
         const std::string_view key = is_nested ? path.substr(slash + 1) : path;
         const auto value = parent->find(std::string(key));
         if (value != parent->end()) return check_value(*value, rule, path);
-        if (rule.need == GltfNeed::Optional) return Ok{};
+        if (rule.need != GltfNeed::Required) return Ok{};
         return Error{ErrorCode::Corrupt, "." + member_path(path), "", str_cat(path, " is missing")};
     }
 
@@ -93,6 +94,8 @@ class Checker {
                 return check_indices(value, value.is_object(), rule, name);
             case GltfKind::Size:
                 return check_size(value, name);
+            case GltfKind::Integer:
+                return check_integer(value, name);
             case GltfKind::Numbers:
                 return check_numbers(value, rule, name);
             case GltfKind::Number:
@@ -103,6 +106,9 @@ class Checker {
                 return checked(value.is_string(), value, name, "a string");
             case GltfKind::Object:
                 return checked(value.is_object(), value, name, "an object");
+            case GltfKind::ObjectOrBoolean:
+                return checked(value.is_object() || value.is_boolean(), value, name,
+                               "an object or a boolean");
             case GltfKind::PrimitiveList:
                 return check_primitives(value, name);
             case GltfKind::RenderingLayers:
@@ -171,6 +177,11 @@ class Checker {
         constexpr uint64_t kLargest = std::numeric_limits<uint32_t>::max();
         const bool is_size = value.is_number_unsigned() && value.get<uint64_t>() <= kLargest;
         return checked(is_size, value, name, "an integer from 0 to 4294967295");
+    }
+
+    [[nodiscard]] static Status check_integer(const json& value, std::string_view name) {
+        return checked(read_int32(value).has_value(), value, name,
+                       "an integer from -2147483648 to 2147483647");
     }
 
     [[nodiscard]] static Status check_numbers(const json& value, const GltfRule& rule,

@@ -7,7 +7,7 @@ namespace tetralight::detail {
 namespace {
 
 using enum GltfKind;
-constexpr GltfNeed kRequired = GltfNeed::Required;
+constexpr GltfNeed kRequired = GltfNeed::Required, kInObject = GltfNeed::InObject;
 
 constexpr GltfRule kScenes[] = {
     {"nodes", IndexList, "nodes"},
@@ -28,6 +28,7 @@ constexpr GltfRule kNodes[] = {
     {"extensions/EXT_mesh_gpu_instancing/attributes", IndexMap, "accessors", 0, kRequired},
     {"extras/contribute_gi", Boolean},
     {"extras/walkable", Boolean},
+    {"extras/in_reflections", Boolean},
     {"extras/lightmap_scale", Number},
     {"extras/stitch_seams", Boolean},
     {"extras/light_probe_group", Boolean},
@@ -42,6 +43,12 @@ constexpr GltfRule kNodes[] = {
     {"extras/probe_adjustment/validity", Number},
     {"extras/probe_adjustment/intensity", Number},
     {"extras/probe_adjustment/rendering_layers", RenderingLayers},
+    {"extras/reflection_probe", ObjectOrBoolean},
+    {"extras/reflection_probe/size", Numbers, "", 3, kInObject},
+    {"extras/reflection_probe/center", Numbers, "", 3, kInObject},
+    {"extras/reflection_probe/blend_distance", Number, "", 0, kInObject},
+    {"extras/reflection_probe/importance", Integer, "", 0, kInObject},
+    {"extras/reflection_probe/near", Number, "", 0, kInObject},
 };
 
 constexpr GltfRule kMeshes[] = {{"name", String}, {"primitives", PrimitiveList, "", 0, kRequired}};

@@ -14,16 +14,22 @@ enum class GltfKind {
     IndexList,  ///< array of indices
     IndexMap,   ///< object whose values are indices
     Size,       ///< integer 0 .. 2^32 - 1
+    Integer,    ///< -2^31 .. 2^31 - 1
     Number,
     Numbers,  ///< array of `length` numbers
     Boolean,
     String,
     Object,
+    ObjectOrBoolean,
     PrimitiveList,    ///< a mesh's primitives
     RenderingLayers,  ///< array of integers 0 .. 31, not empty
 };
 
-enum class GltfNeed { Optional, Required };
+enum class GltfNeed {
+    Optional,
+    Required,
+    InObject,  ///< optional, in a value that need not be an object
+};
 
 /// A rule for one property of all elements of a section. `path` separates the keys of nested
 /// objects by '/'.

@@ -3,12 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
 #include <nlohmann/json.hpp>
 
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/rendering_layers.h>
 
 namespace tetralight::detail {
+namespace {
+
+template <class Number>
+Status read_number_as(const nlohmann::json& object, const char* key,
+                      std::optional<Number>& number) {
+    const auto value = object.find(key);
+    if (value == object.end()) return Ok{};
+    if (!value->is_number()) return wrong_type(*value, key, "a number");
+    number = value->get<Number>();
+    return Ok{};
+}
+
+}  // namespace
 
 std::string shown_json(const nlohmann::json& value) {
     constexpr size_t kMaxLength = 40;
@@ -29,6 +46,56 @@ Status check_keys(const nlohmann::json& object, std::initializer_list<std::strin
                      str_cat("unknown key \"", key, "\"")};
     }
     return Ok{};
+}
+
+std::optional<int32_t> read_int32(const nlohmann::json& value) {
+    using Limits = std::numeric_limits<int32_t>;
+    if (!value.is_number()) return std::nullopt;
+    const auto number = value.get<double>();
+    const bool is_int32 =
+        number >= Limits::min() && number <= Limits::max() && number == std::floor(number);
+    return is_int32 ? std::optional(static_cast<int32_t>(number)) : std::nullopt;
+}
+
+Status read_number(const nlohmann::json& object, const char* key, std::optional<double>& number) {
+    return read_number_as(object, key, number);
+}
+
+Status read_number(const nlohmann::json& object, const char* key, std::optional<float>& number) {
+    return read_number_as(object, key, number);
+}
+
+std::optional<glm::dvec3> read_vec3(const nlohmann::json& value) {
+    const auto is_number = [](const nlohmann::json& number) { return number.is_number(); };
+    if (!value.is_array() || value.size() != 3 || !std::ranges::all_of(value, is_number)) {
+        return std::nullopt;
+    }
+    return glm::dvec3(value[0].get<double>(), value[1].get<double>(), value[2].get<double>());
+}
+
+Status read_vec3(const nlohmann::json& object, const char* key, glm::dvec3& v) {
+    const auto value = object.find(key);
+    if (value == object.end()) return Ok{};
+    const auto read = read_vec3(*value);
+    if (!read) return wrong_type(*value, key, "three numbers");
+    v = *read;
+    return Ok{};
+}
+
+Result<nlohmann::json> parse_json(std::span<const std::byte> bytes) {
+    const std::string_view characters(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (auto status = check_json_shape(characters); !status) return status.error();
+    try {
+        if (const auto key = find_duplicate_key(characters)) {
+            return Error{ErrorCode::Corrupt, *key, "",
+                         str_cat("\"", *key, "\" is given twice in one object")};
+        }
+        return nlohmann::json::parse(characters);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& exception) {
+        return Error{ErrorCode::Corrupt, json_error_reason(exception)};
+    }
 }
 
 Result<uint32_t> read_rendering_layers(const nlohmann::json& value, std::string_view name) {

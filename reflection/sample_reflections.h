@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include <tetralight/reflection/reflections.h>
+
+// Light that shiny surfaces reflect, from reflection probes. All functions are thread-safe, do not
+// allocate (but for reflection_order) and test each index where they use it. GPU twin:
+// runtime/shaders/reflection.glsl.
+
+namespace tetralight {
+
+/// The probes that light a position, and their weights, which sum to 1; both are 0 if there is no
+/// probe.
+struct ReflectionBlend {
+    static constexpr uint32_t kMaxProbes = 3;
+
+    std::array<uint32_t, kMaxProbes> probes{};
+    std::array<float, kMaxProbes> weights{};
+};
+
+/// How much a probe counts at a position, in [0, 1]: 0 outside its box, 1 farther inside than the
+/// blend distance, a smooth step between. Continuous if the blend distance is above 0.
+[[nodiscard]] float reflection_influence(const ReflectionProbe& probe,
+                                         const glm::dvec3& position) noexcept;
+
+/// The three most important probes at a position. Probes of higher importance, and of smaller boxes
+/// among equals, cover the others by their influence. What they leave uncovered belongs to the
+/// probes that are everywhere (the sky), or if there are none, to the probes by their weights;
+/// outside all boxes to the nearest box.
+///
+/// Inside boxes with blend distances the weights are continuous in the position, because they are
+/// reduced by the fourth largest. They are not where the four largest are equal (no choice of three
+/// is), and without a sky on the outer sides of the boxes. Cost: O(n).
+[[nodiscard]] ReflectionBlend blend_reflections(const ReflectionsView& reflections,
+                                                const glm::dvec3& position) noexcept;
+
+/// All probes in the order in which they cover each other, for shaders that blend at each pixel
+/// (tetralight_add_reflection in runtime/shaders/reflection.glsl).
+[[nodiscard]] std::vector<uint32_t> reflection_order(const ReflectionsView& reflections);
+
+/// The direction from a probe to where a ray from `position` hits the side of its box (Lagarde &
+/// Zanuttini 2012, "Local Image-based Lighting With Parallax-corrected Cubemaps"). The direction
+/// itself if the probe is everywhere or the position lies outside the box. Unit vector.
+[[nodiscard]] glm::vec3 project_on_box(const ReflectionProbe& probe, const glm::dvec3& position,
+                                       glm::vec3 direction) noexcept;
+
+/// Radiance of one cube from a direction (any length), for a roughness in [0, 1]: bilinear across
+/// the edges of faces, linear between levels.
+[[nodiscard]] glm::vec3 sample_cube(const ReflectionsView& reflections, uint32_t probe,
+                                    glm::vec3 direction, float roughness) noexcept;
+
+/// The radiance that a surface of a roughness sees in a direction: the view mirrored at its normal.
+[[nodiscard]] glm::vec3 sample_reflections(const ReflectionsView& reflections,
+                                           const ReflectionBlend& blend, const glm::dvec3& position,
+                                           glm::vec3 direction, float roughness) noexcept;
+
+/// The same without boxes: as if the light of the cubes came from far away.
+[[nodiscard]] glm::vec3 sample_far_reflections(const ReflectionsView& reflections,
+                                               const ReflectionBlend& blend, glm::vec3 direction,
+                                               float roughness) noexcept;
+
+/// Irradiance of the blended cubes, on a unit normal.
+[[nodiscard]] glm::vec3 reflection_irradiance(const ReflectionsView& reflections,
+                                              const ReflectionBlend& blend,
+                                              glm::vec3 normal) noexcept;
+
+/// What reflections are multiplied with, so that dark corners do not shine: the luminance of the
+/// irradiance at the place over that at the probe, both on the surface's normal, in [0, 1].
+[[nodiscard]] float reflection_occlusion(glm::vec3 irradiance, glm::vec3 probe_irradiance) noexcept;
+
+}  // namespace tetralight
