@@ -85,8 +85,10 @@ glm::dvec3 sampled(const CubeImage& source, glm::vec3 direction, float roughness
         const float sine = std::sqrt(1.0f - cosine * cosine);
         const CubePlace place =
             cube_place(frame * glm::vec3(sine * std::cos(angle), sine * std::sin(angle), cosine));
-        const auto x = std::min(source.size - 1, static_cast<uint32_t>(place.uv.x * source.size));
-        const auto y = std::min(source.size - 1, static_cast<uint32_t>(place.uv.y * source.size));
+        const auto x = std::min(
+            source.size - 1, static_cast<uint32_t>(place.uv.x * static_cast<float>(source.size)));
+        const auto y = std::min(
+            source.size - 1, static_cast<uint32_t>(place.uv.y * static_cast<float>(source.size)));
         light += double{cosine} * glm::dvec3(source.texels[source.index({place.face, x, y})]);
         sum += double{cosine};
     }
@@ -256,7 +258,8 @@ void bench_blend() {
         probe.half_size = {2.0f, 2.0f, 2.0f};
         probe.blend_distance = 1.0f;
         two.probes.push_back(probe);
-        const CubeImage cube{8, std::vector<glm::vec3>(cube_texel_count(8), glm::vec3(1.0f - i))};
+        const CubeImage cube{
+            8, std::vector<glm::vec3>(cube_texel_count(8), glm::vec3(i == 0 ? 1.0f : 0.0f))};
         add_cube(two, cube, 0);
     }
     const ReflectionsView view = two.view();
