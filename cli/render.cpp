@@ -104,8 +104,6 @@ struct Render {
         };
         if (renderer == RendererKind::Gl && shown.view != SurfaceView::Shaded) {
             common.warn({"OpenGL draws no views of surfaces; rendering on the CPU"});
-        } else if (renderer == RendererKind::Gl && !reflections.probes.empty()) {
-            common.warn({"OpenGL draws no reflections; rendering on the CPU"});
         } else if (renderer == RendererKind::Gl) {
 #ifdef TETRALIGHT_HAS_GL
             if (auto context = open_gl(view.settings, common)) {

@@ -186,6 +186,7 @@ glm::vec3 SceneShader::emitted(const Surface& surface) const {
 glm::vec3 SceneShader::shiny_light(const Surface& surface, const glm::vec3& base_normal,
                                    glm::vec3 direction) const {
     const Mesh& mesh = scene_->meshes[scene_->instances[surface.instance].mesh];
+    if (scene_->materials[mesh.material].is_unlit) return glm::vec3(0.0f);
     const ShinySurface shiny =
         shiny_surface(*scene_, mesh_point(mesh, surface.primitive, surface.barycentric));
     const ReflectionsView& reflections = light_.reflections;

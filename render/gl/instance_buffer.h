@@ -27,7 +27,8 @@ struct GlInstance {
     glm::vec4 rows[3]{};
     /// Multiplies the material's base colour and alpha.
     glm::vec4 color{1.0f};
-    /// x multiplies the material's metallic, y its roughness; z: 1 = it has highlights.
+    /// x multiplies the material's metallic, y its roughness; z: 1 = it has highlights; w: 1 = it
+    /// mirrors reflection probes.
     glm::vec4 factors{1.0f, 1.0f, 0.0f, 0.0f};
     ProbeUse use = ProbeUse::Off;
     DirectUse direct = DirectUse::Still;

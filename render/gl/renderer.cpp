@@ -107,6 +107,9 @@ Result<Renderer> Renderer::make(const Scene& scene, const ProbeVolumeView& volum
     auto shaders = make_renderer_shaders();
     if (!shaders) return shaders.error();
     Renderer renderer(scene, volume, light, settings, std::move(*shaders), std::move(messages));
+    auto reflections = ReflectionTextures::make(light.reflections, renderer.origin_);
+    if (!reflections) return reflections.error();
+    renderer.reflections_ = std::move(*reflections);
     if (auto status = renderer.messages_.check(); !status) return status.error();
     return renderer;
 }
@@ -129,6 +132,7 @@ Renderer::Renderer(const Scene& scene, const ProbeVolumeView& volume, const Scen
     near_ = 1e-5f * caster_bounds(scene, settings.sphere_bounds, origin_).w;
     for (const Lppv& lppv : light.proxy_volumes) proxies_.emplace_back(lppv, origin_);
     shadow_color_ = light.shadow_color;
+    has_box_projection_ = light.has_box_projection;
     add_instances(scene, light);
     glNamedBufferStorage(frame_.name(), sizeof(detail::Frame), nullptr, GL_DYNAMIC_STORAGE_BIT);
 }
@@ -156,6 +160,7 @@ void Renderer::add_instances(const Scene& scene, const SceneLight& light) {
         const glm::vec3 center(bounds ? bounds->center() - origin_ : glm::dvec3(0.0));
         GlInstance instance;
         set_transform(instance, space_from_world * source.world_from_mesh);
+        instance.factors.w = 1.0f;
         instance.use = lit.use;
         instance.direct = source.contributes_gi ? DirectUse::Still : DirectUse::Moving;
         instance.material = mesh;

@@ -13,6 +13,7 @@
 #include <tetralight/render/gl/instance_buffer.h>
 #include <tetralight/render/gl/lightmap_textures.h>
 #include <tetralight/render/gl/proxy_textures.h>
+#include <tetralight/render/gl/reflection_textures.h>
 #include <tetralight/render/gl/render_target.h>
 #include <tetralight/render/gl/renderer_shaders.h>
 #include <tetralight/render/gl/scene_meshes.h>
@@ -118,6 +119,8 @@ class Renderer {
     std::vector<Batch> batches_;
     std::vector<ProxyTextures> proxies_;
     LightmapTextures lightmaps_;
+    ReflectionTextures reflections_;
+    bool has_box_projection_ = true;
     glm::vec3 shadow_color_{0.0f};
     InstanceBuffer instances_;
     ShadowMaps shadows_;

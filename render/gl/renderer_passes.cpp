@@ -45,7 +45,8 @@ void Renderer::write_frame(const Camera& camera, const RenderTarget& target) {
     frame.right = glm::vec4(camera.world_from_camera[0] * width);
     frame.up = glm::vec4(camera.world_from_camera[1] * height);
     frame.ahead = glm::vec4(-camera.world_from_camera[2]);
-    frame.counts.x = shadows_.light_count();
+    frame.counts = {shadows_.light_count(), reflections_.probe_count(), has_box_projection_ ? 1 : 0,
+                    std::max(reflections_.level_count(), 1u) - 1};
     frame.shadow_color = glm::vec4(shadow_color_, 0.0f);
     frame.sky = sky_;
     glNamedBufferSubData(frame_.name(), 0, sizeof frame, &frame);
@@ -188,6 +189,7 @@ Status Renderer::draw(const Camera& camera, const RenderTarget& target,
     volume_.bind();
     shadows_.bind(kLightBinding, kLayerBinding, kShadowUnit);
     lightmaps_.bind();
+    reflections_.bind();
     glUseProgram(shaders_.lit.name());
     glUniformMatrix4fv(kClipFromSpace, 1, GL_FALSE, &matrix[0][0]);
     draw_surfaces(spheres);

@@ -39,9 +39,11 @@ Result<RendererShaders> make_renderer_shaders() {
         vertex,
         {"masked_depth.frag", {ShaderPart::Sh}, structs + surface + detail::kMaskedDepthText});
     if (!masked) return masked.error();
-    auto lit = make_program(vertex, {"lit.frag",
-                                     {ShaderPart::Query, ShaderPart::Lppv, ShaderPart::Lightmap},
-                                     structs + surface + frame + detail::kLitText});
+    auto lit = make_program(
+        vertex,
+        {"lit.frag",
+         {ShaderPart::Query, ShaderPart::Lppv, ShaderPart::Lightmap, ShaderPart::Reflection},
+         structs + surface + frame + detail::kReflectionText + detail::kLitText});
     if (!lit) return lit.error();
     auto sky = make_program({"sky.vert", {ShaderPart::Sh}, detail::kSkyVertexText},
                             {"sky.frag", {ShaderPart::Sh}, frame + detail::kSkyText});

@@ -15,6 +15,7 @@ enum RendererBinding : uint32_t {
     kLightBinding = 8,
     kLayerBinding = 9,
     kLightmapPlaceBinding = 10,
+    kReflectionProbeBinding = 11,
     kBaseColorUnit = 0,  // texture units
     kFactorsUnit = 1,
     kEmissionUnit = 2,
@@ -26,6 +27,8 @@ enum RendererBinding : uint32_t {
     kLightmapLightUnit = 8,
     kShadowMaskUnit = 9,
     kAmbientOcclusionUnit = 10,
+    kReflectionUnit = 11,
+    kSplitSumUnit = 12,
 };
 
 /// Locations of uniforms.

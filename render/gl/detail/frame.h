@@ -13,7 +13,8 @@ struct Frame {
     glm::vec4 right;  ///< length: half the width of the picture at distance 1
     glm::vec4 up;     ///< length: half the height of the picture at distance 1
     glm::vec4 ahead;
-    glm::uvec4 counts;       ///< x: number of lights
+    /// Lights; reflection probes; 1 = box projection; levels of the cubes - 1.
+    glm::uvec4 counts;
     glm::vec4 shadow_color;  ///< `SceneLight::shadow_color`
     PackedSh sky;
 };

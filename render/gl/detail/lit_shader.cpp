@@ -251,7 +251,9 @@ void main() {
     point.to_eye = normalize(eye.xyz - position);
     point.f0 = mix(vec3(0.04), base.rgb, factors.x);
     point.roughness = factors.y;
-    point.albedo = base.rgb * ((1.0 - factors.x) * 0.96) + point.f0 * (0.5 * factors.y);
+    bool mirrors = reflects_probes();
+    point.albedo = base.rgb * ((1.0 - factors.x) * 0.96);
+    if (!mirrors) point.albedo += point.f0 * (0.5 * factors.y);
     point.has_specular = instances[instance].factors.z > 0.0;
     vec4 occlusion;
     TetralightPackedSh probe_sh = probe_light(flat_normal, occlusion);
@@ -263,8 +265,11 @@ void main() {
     vec3 baked = has_lightmap
                      ? lightmap_light(point, has_normal_map, base_normal)
                      : max(tetralight_sample_sh9(probe_sh, unit_normal), vec3(0.0));
-    baked *= point.albedo;
-    if (point.has_specular) {
+    vec3 mirrored = mirrors ? mirrored_light(position, unit_normal, point.to_eye, point.f0, factors.y,
+                                             baked)
+                            : vec3(0.0);
+    baked = baked * point.albedo + mirrored;
+    if (point.has_specular && !mirrors) {
         vec3 dominant = tetralight_dominant_direction(probe_sh);
         baked += tetralight_dominant_irradiance(probe_sh, dominant) *
                   tetralight_specular_reflection(unit_normal, dominant, point.to_eye, point.f0,

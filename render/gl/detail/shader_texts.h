@@ -17,6 +17,8 @@ extern const char* const kDepthText;
 extern const char* const kMaskedDepthText;
 /// The uniform block of a frame.
 extern const char* const kFrameText;
+/// What surfaces mirror of reflection probes.
+extern const char* const kReflectionText;
 /// Shading of surfaces.
 extern const char* const kLitText;
 /// A triangle that covers the picture.

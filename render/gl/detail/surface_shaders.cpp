@@ -134,7 +134,7 @@ layout(std140, binding = 1) uniform Frame {
     vec4 right;  // length: half the width of the picture at distance 1
     vec4 up;
     vec4 ahead;
-    uvec4 counts;  // lights
+    uvec4 counts;  // lights, reflection probes, 1 = box projection, levels of the cubes - 1
     vec4 shadow_color;
     TetralightPackedSh sky;
 };
