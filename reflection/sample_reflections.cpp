@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 
 #include <tetralight/base/half.h>
@@ -14,6 +15,10 @@
 
 namespace tetralight {
 namespace {
+
+/// Walls on the sides of a box count as inside it, however their positions are rounded: as a
+/// multiple of the box.
+constexpr double kBoxReach = 1.001;
 
 /// The texels of one cube at one level; none if the level lacks them.
 struct CubeLevel {
@@ -116,9 +121,10 @@ glm::vec3 project_on_box(const ReflectionProbe& probe, const glm::dvec3& positio
     const glm::vec3 unchanged(along);
     if (probe.is_everywhere()) return unchanged;
     const glm::dvec3 place = detail::place_in_box(probe, position);
-    if (!(detail::depth_in_box(probe, place) >= 0.0)) return unchanged;
-    const double distance =
-        distance_to_side(glm::dvec3(probe.half_size), place, detail::box_from_world(probe, along));
+    const glm::dvec3 half_size(probe.half_size);
+    if (!glm::all(glm::lessThanEqual(glm::abs(place), kBoxReach * half_size))) return unchanged;
+    const double distance = distance_to_side(half_size, glm::clamp(place, -half_size, half_size),
+                                             detail::box_from_world(probe, along));
     const glm::dvec3 hit = position - probe.position + distance * along;
     const double length = glm::length(hit);
     return length > 0.0 && std::isfinite(length) ? glm::vec3(hit / length) : unchanged;

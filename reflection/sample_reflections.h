@@ -46,7 +46,8 @@ struct ReflectionBlend {
 
 /// The direction from a probe to where a ray from `position` hits the side of its box (Lagarde &
 /// Zanuttini 2012, "Local Image-based Lighting With Parallax-corrected Cubemaps"). The direction
-/// itself if the probe is everywhere or the position lies outside the box. Unit vector.
+/// itself if the probe is everywhere or the position lies outside the box, by more than a
+/// thousandth of its size. Unit vector.
 [[nodiscard]] glm::vec3 project_on_box(const ReflectionProbe& probe, const glm::dvec3& position,
                                        glm::vec3 direction) noexcept;
 

@@ -33,9 +33,8 @@ Status check_limits(const ReflectionsView& reflections) {
                              reflections.probes.size())};
     }
     if (reflections.size > static_cast<uint32_t>(size)) {
-        return Error{ErrorCode::Unsupported,
-                     str_cat("OpenGL: holds cubes of ", size, " texels, not of ",
-                             reflections.size)};
+        return Error{ErrorCode::Unsupported, str_cat("OpenGL: holds cubes of ", size,
+                                                     " texels, not of ", reflections.size)};
     }
     return Ok{};
 }

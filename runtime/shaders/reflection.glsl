@@ -60,15 +60,22 @@ float tetralight_reflection_influence(TetralightReflectionProbe probe, vec3 posi
     return t * t * (3.0f - 2.0f * t);
 }
 
+// Walls on the sides of a box count as inside it, however their positions are rounded: as a multiple
+// of the box.
+TETRALIGHT_CONST float tetralight_box_reach = 1.001f;
+
 // The unit direction from a probe to where a ray from `position` in a unit direction hits the side
 // of its box. The direction itself outside the box, or if there is none.
 vec3 tetralight_project_on_box(TetralightReflectionProbe probe, vec3 position, vec3 direction) {
     if (probe.half_size.w == 0.0f) return direction;
+    vec3 half_size = probe.half_size.xyz;
     vec3 place = tetralight_place_in_box(probe, position);
-    if (!(tetralight_depth_in_box(probe, place) >= 0.0f)) return direction;
+    vec3 beyond = abs(place) - half_size * tetralight_box_reach;
+    if (!(max(beyond.x, max(beyond.y, beyond.z)) <= 0.0f)) return direction;
+    place = clamp(place, -half_size, half_size);
     vec3 along = tetralight_box_from_world(probe, direction);
     vec3 speed = max(abs(along), vec3(1e-20f, 1e-20f, 1e-20f));
-    vec3 reach = (probe.half_size.xyz - place * sign(along)) / speed;
+    vec3 reach = (half_size - place * sign(along)) / speed;
     vec3 hit = position - probe.position.xyz + direction * min(reach.x, min(reach.y, reach.z));
     float square = dot(hit, hit);
     return square > 0.0f ? hit * inversesqrt(square) : direction;

@@ -190,6 +190,20 @@ TEST(ProjectOnBox, LeavesDirectionsOutsideTheBoxAndOfTheSky) {
     EXPECT_EQ(project_on_box(ReflectionProbe{}, {3, 0, 0}, direction), direction);
 }
 
+TEST(ProjectOnBox, WallsOnTheSidesAreInside) {
+    // One rounding apart in floats far from the origin, and on either side of the wall.
+    const ReflectionProbe box = box_probe({0, 0, 0}, {2, 1, 3});
+    const glm::vec3 inward(-0.6f, 0.8f, 0.0f), outward(1.0f, 0.0f, 0.0f);
+    const glm::vec3 hit = glm::normalize(glm::vec3(1.25f, 1.0f, 1.0f));
+    for (const double x : {1.999, 2.0, 2.001}) {
+        EXPECT_LT(glm::distance(project_on_box(box, {x, 0, 1}, inward), hit), 1e-3f) << x;
+        EXPECT_LT(glm::distance(project_on_box(box, {x, 0, 1}, outward),
+                                glm::normalize(glm::vec3(2, 0, 1))),
+                  1e-3f)
+            << x;
+    }
+}
+
 TEST(SampleReflections, AddsTheProbesByTheirWeights) {
     const Reflections cubes =
         make_reflections(4, 1, {{}, {}, {}}, [](uint32_t probe, uint32_t, const glm::vec3&) {

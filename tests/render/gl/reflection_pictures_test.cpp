@@ -47,8 +47,7 @@ Scene balls_on_floor() {
         metal.roughness = static_cast<float>(i) / 3.0f;
         MeshInstance& ball = test::add_mesh(scene, metal, make_sphere_mesh(3));
         const glm::dvec3 place(2.0 * i - 3.0, 1.0, 0.0);
-        ball.world_from_mesh =
-            glm::scale(glm::translate(glm::dmat4(1.0), place), glm::dvec3(0.8));
+        ball.world_from_mesh = glm::scale(glm::translate(glm::dmat4(1.0), place), glm::dvec3(0.8));
         ball.contributes_gi = i < 2;
     }
     return scene;
@@ -112,8 +111,7 @@ class GlReflections : public testing::Test {
     [[nodiscard]] ImageF trace(const Scene& scene, const SceneLight& light,
                                const Camera& camera = kCamera) const {
         const auto shader = SceneShader::make(scene, volume_.view(), light);
-        return *ray_traced_pictures(*shader, volume_.view())
-                    .radiance(camera, small_settings(), {});
+        return *ray_traced_pictures(*shader, volume_.view()).radiance(camera, small_settings(), {});
     }
 
     /// Share of pixels that differ by more than 2 % of the brightest radiance.
