@@ -19,6 +19,8 @@ BallOptions::BallOptions(const Values& values)
     if (has_radius_) settings.radius = values.number("radius");
     settings.seed = values.integer("seed");
     settings.is_plain = values.flag("plain");
+    if (values.is_given("roughness"))
+        settings.metal_roughness = static_cast<float>(values.number("roughness"));
     if (values.flag("lppv")) light = BallLight::ProxyVolume;
     if (values.flag("off")) light = BallLight::Off;
     if (values.flag("specular")) specular = Specular::On;

@@ -19,6 +19,7 @@
 #include <tetralight/cli/renderer_kind.h>
 #include <tetralight/cli/view_options.h>
 #include <tetralight/probes/probe_file.h>
+#include <tetralight/reflection/reflection_file.h>
 #include <tetralight/render/mesh_ball.h>
 #include <tetralight/render/with_walls.h>
 #ifdef TETRALIGHT_HAS_GL
@@ -50,6 +51,7 @@ struct MeshBall {
     std::string volume_path;
     std::string scene_path;
     std::string lightmap_path;
+    std::string reflection_path;
     std::string output;
     uint32_t frame_count = 1;
     bool has_frames = false;
@@ -64,6 +66,7 @@ struct MeshBall {
         : volume_path(values.text("volume")),
           scene_path(values.text("scene")),
           lightmap_path(values.text("lightmaps")),
+          reflection_path(values.text("reflections")),
           output(values.text("output")),
           frame_count(values.integer32("frames")),
           has_frames(values.is_given("frames")),
@@ -87,7 +90,8 @@ struct MeshBall {
 
     Status run() {
         if (!has_window) {
-            const std::vector<std::string> inputs{volume_path, scene_path, lightmap_path};
+            const std::vector<std::string> inputs{volume_path, scene_path, lightmap_path,
+                                                  reflection_path};
             auto status = check_output(picture_path(0), inputs);
             if (!status) return status;
         }
@@ -107,6 +111,13 @@ struct MeshBall {
         auto light = make_scene_light(scene, volume, ProbeLight::AsTheScene,
                                       *lightmaps ? (*lightmaps)->view() : LightmapsView{});
         if (!light) return light.error().in(scene_path);
+        std::optional<ReflectionFile> reflections;
+        if (!reflection_path.empty()) {
+            auto opened = open_reflection_file(reflection_path);
+            if (!opened) return opened.error();
+            reflections = std::move(*opened);
+            light->reflections = reflections->view();
+        }
         std::optional<SceneShader> shader;
         if (!scene_path.empty()) {
             auto made = SceneShader::make(scene, volume, *light);
@@ -128,7 +139,8 @@ struct MeshBall {
             common.warn({"this build has no OpenGL; rendering on the CPU"});
 #endif
         }
-        return render_cpu(volume, shader, camera);
+        const Mirror mirror(light.reflections, light.has_box_projection);
+        return render_cpu(volume, shader, mirror, camera);
     }
 
     Status show(const ProbeVolumeView& volume, const Scene& scene, SceneLight light,
@@ -150,10 +162,10 @@ struct MeshBall {
     }
 
     Status render_cpu(const ProbeVolumeView& volume, const SceneShader* shader,
-                      const Camera& camera) {
+                      const Mirror& mirror, const Camera& camera) {
         const auto proxy = make_ball_proxy(ball.settings, volume);
         if (!proxy) return proxy.error();
-        const BallLighting lighting{ball.light, ball.specular, &*proxy};
+        const BallLighting lighting{ball.light, ball.specular, &*proxy, &mirror};
         const std::vector<BallInstance> still = make_mesh_ball(ball.settings);
         return write_frames(camera, [&](double angle) {
             const BallTurn turn(ball.settings.center, angle);

@@ -101,7 +101,10 @@ class LitBall {
         const BallInstance& instance = instances_[sphere];
         const float roughness = 1.0f - instance.smoothness;
         const glm::vec3 f0 = glm::mix(glm::vec3(0.04f), instance.color, instance.metallic);
-        const glm::vec3 albedo = diffuse_reflectivity(instance.color, instance.metallic, roughness);
+        const bool mirrors = lighting_.mirror != nullptr && lighting_.mirror->has_probes();
+        const glm::vec3 albedo =
+            mirrors ? instance.color * (0.96f * (1.0f - instance.metallic))
+                    : diffuse_reflectivity(instance.color, instance.metallic, roughness);
         PackedSh light = light_[sphere];
         glm::vec4 occlusion = occlusion_[sphere];
         if (lighting_.light == BallLight::ProxyVolume) {
@@ -115,9 +118,16 @@ class LitBall {
             return irradiance *
                    specular_reflection(point.normal, to_light, point.to_eye, f0, roughness);
         };
-        const glm::vec3 dominant = dominant_direction(light);
-        glm::vec3 sum = shade_diffuse(albedo, light, point.normal, glm::vec3(0.0f)) +
-                        specular(dominant, dominant_irradiance(light, dominant));
+        glm::vec3 sum = shade_diffuse(albedo, light, point.normal, glm::vec3(0.0f));
+        if (mirrors) {
+            const glm::vec3 baked =
+                shade_diffuse(glm::vec3(1.0f), light, point.normal, glm::vec3(0.0f));
+            sum += lighting_.mirror->radiance(
+                {point.position, point.normal, point.to_eye, f0, roughness}, baked);
+        } else {
+            const glm::vec3 dominant = dominant_direction(light);
+            sum += specular(dominant, dominant_irradiance(light, dominant));
+        }
         for (const RuntimeLight& runtime : direct_lights_) {
             const Illumination arriving = illuminate(runtime.light, glm::vec3(point.position));
             const float visible = visibility(runtime, arriving, occlusion, point);
@@ -173,10 +183,16 @@ std::vector<BallInstance> make_mesh_ball(const MeshBallSettings& settings) {
         const float smoothness = 0.05f + 0.75f * random.next();
         instances.push_back({settings.center + distance * direction, settings.radius * size, color,
                              metallic, smoothness});
-        if (!settings.is_plain) continue;
-        instances.back().color = glm::vec3(0.9f);
-        instances.back().metallic = 0.0f;
-        instances.back().smoothness = 0.0f;
+        BallInstance& made = instances.back();
+        if (settings.is_plain) {
+            made.color = glm::vec3(0.9f);
+            made.metallic = 0.0f;
+            made.smoothness = 0.0f;
+        }
+        if (settings.metal_roughness) {
+            made.metallic = 1.0f;
+            made.smoothness = 1.0f - *settings.metal_roughness;
+        }
     }
     return instances;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include <tetralight/lppv/lppv.h>
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/render/image_renderer.h>
+#include <tetralight/render/mirror.h>
 #include <tetralight/render/render_scene.h>
 
 namespace tetralight {
@@ -25,6 +27,8 @@ struct MeshBallSettings {
     uint64_t seed = 0;
     /// White and rough instead of coloured and glossy, so that only the light is seen.
     bool is_plain = false;
+    /// All spheres are metal of this roughness.
+    std::optional<float> metal_roughness;
 };
 
 /// One sphere of the mesh ball.
@@ -78,6 +82,8 @@ struct BallLighting {
     Specular specular = Specular::Off;
     /// Needed for `BallLight::ProxyVolume`.
     const Lppv* proxy = nullptr;
+    /// Reflection probes that spheres mirror, instead of the dominant direction of the probe light.
+    const Mirror* mirror = nullptr;
 };
 
 /// Radiance, and what the query cost.

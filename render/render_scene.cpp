@@ -13,8 +13,6 @@
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/probes/interpolate.h>
 #include <tetralight/probes/locate.h>
-#include <tetralight/reflection/sample_reflections.h>
-#include <tetralight/reflection/split_sum.h>
 #include <tetralight/runtime/shade.h>
 
 namespace tetralight {
@@ -42,12 +40,12 @@ SceneShader::SceneShader(const Scene& scene, const ProbeVolumeView& volume, Scen
     : scene_(&scene),
       volume_(volume),
       light_(std::move(light)),
+      mirror_(light_.reflections, light_.has_box_projection),
       traced_(std::move(traced)),
       moving_(std::move(moving)) {
     for (RuntimeLight& runtime : light_.lights) {
         runtime.light = traced_.render_from_world(runtime.light);
     }
-    if (!light_.reflections.probes.empty()) split_sum_ = make_split_sum_table();
 }
 
 Result<SceneShader> SceneShader::make(const Scene& scene, const ProbeVolumeView& volume,
@@ -189,29 +187,17 @@ glm::vec3 SceneShader::shiny_light(const Surface& surface, const glm::vec3& base
     if (scene_->materials[mesh.material].is_unlit) return glm::vec3(0.0f);
     const ShinySurface shiny =
         shiny_surface(*scene_, mesh_point(mesh, surface.primitive, surface.barycentric));
-    const ReflectionsView& reflections = light_.reflections;
-    const glm::vec3 normal = surface.shading_normal;
-    const glm::dvec3 world = traced_.world_from_render(surface.position);
     const glm::vec3 baked = baked_light(surface, base_normal);
-    const ReflectionBlend blend = blend_reflections(reflections, world);
-    const glm::vec3 mirrored = glm::reflect(direction, normal);
-    const glm::vec3 seen =
-        light_.has_box_projection
-            ? sample_reflections(reflections, blend, world, mirrored, shiny.roughness)
-            : sample_far_reflections(reflections, blend, mirrored, shiny.roughness);
-    const float occlusion = reflection_occlusion(baked * std::numbers::pi_v<float>,
-                                                 reflection_irradiance(reflections, blend, normal));
-    const glm::vec2 terms =
-        sample_split_sum(split_sum_, std::max(0.0f, glm::dot(-direction, normal)), shiny.roughness);
-    return shiny.diffuse * (baked + direct_term(surface)) +
-           occlusion * seen * (shiny.f0 * terms.x + terms.y);
+    const MirrorPoint point{traced_.world_from_render(surface.position), surface.shading_normal,
+                            -direction, shiny.f0, shiny.roughness};
+    return shiny.diffuse * (baked + direct_term(surface)) + mirror_.radiance(point, baked);
 }
 
 glm::vec3 SceneShader::show(const Surface& surface, const glm::vec3& base_normal,
                             glm::vec3 direction, SurfaceView view) const {
     switch (view) {
         case SurfaceView::Shaded:
-            if (!light_.reflections.probes.empty())
+            if (mirror_.has_probes())
                 return emitted(surface) + shiny_light(surface, base_normal, direction);
             return emitted(surface) +
                    surface.albedo * (baked_light(surface, base_normal) + direct_term(surface));

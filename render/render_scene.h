@@ -11,6 +11,7 @@
 #include <tetralight/probes/packed_sh.h>
 #include <tetralight/probes/probe_volume.h>
 #include <tetralight/render/image_renderer.h>
+#include <tetralight/render/mirror.h>
 #include <tetralight/render/scene_light.h>
 #include <tetralight/render/surface_view.h>
 
@@ -96,9 +97,9 @@ class SceneShader {
     const Scene* scene_;
     ProbeVolumeView volume_;
     SceneLight light_;  // lights in render space
+    Mirror mirror_;
     TraceScene traced_;
     TraceScene moving_;
-    std::vector<glm::vec2> split_sum_;  ///< `make_split_sum_table`
 };
 
 /// Radiance of the sky in a direction, from the volume's ambient probe.

@@ -4,19 +4,25 @@
 namespace tetralight::settings {
 namespace {
 
-constexpr Setting kFiles[] = {input_file("volume", "Probe volume (.probes)"),
-                              {.name = "output",
-                               .type = Type::Path,
-                               .help = "Picture to write (- = stdout)",
-                               .extensions = ".png",
-                               .without = "none; required except with --window",
-                               .short_name = 'o',
-                               .access = Access::Command},
-                              {.name = "scene",
-                               .type = Type::Path,
-                               .help = "glTF 2.0 scene to show around the ball",
-                               .without = "the sky only"},
-                              kLightmaps};
+constexpr Setting kFiles[] = {
+    input_file("volume", "Probe volume (.probes)"),
+    {.name = "output",
+     .type = Type::Path,
+     .help = "Picture to write (- = stdout)",
+     .extensions = ".png",
+     .without = "none; required except with --window",
+     .short_name = 'o',
+     .access = Access::Command},
+    {.name = "scene",
+     .type = Type::Path,
+     .help = "glTF 2.0 scene to show around the ball",
+     .without = "the sky only"},
+    kLightmaps,
+    {.name = "reflections",
+     .type = Type::Path,
+     .help = "Reflection probes (.ktx2, from `tetralight reflect`), which "
+             "the spheres and shiny surfaces of the scene mirror",
+     .without = "no reflections"}};
 
 constexpr Setting kBall[] = {
     {.name = "count",
@@ -39,6 +45,13 @@ constexpr Setting kBall[] = {
      .without = "from the probes"},
     seed_setting("Seed of the positions and colors"),
     {.name = "plain", .type = Type::Flag, .help = "White, rough spheres, which show light alone"},
+    {.name = "roughness",
+     .type = Type::Number,
+     .help = "The spheres are metal of this roughness; 0 = mirrors",
+     .unit = "factor",
+     .range = {0, 1},
+     .without = "a quarter of them is metal, of any roughness",
+     .needs = "reflections"},
     {.name = "lppv",
      .type = Type::Flag,
      .help = "Light the spheres by one grid around the ball instead of one query each, so that "

@@ -52,7 +52,7 @@ GlMeshBall::GlMeshBall(const MeshBallSettings& settings, Renderer renderer,
         const BallInstance& source = instances_[i];
         GlInstance& instance = memory[i];
         instance.color = glm::vec4(source.color, 1.0f);
-        instance.factors = {source.metallic, 1.0f - source.smoothness, 0.0f, 0.0f};
+        instance.factors = {source.metallic, 1.0f - source.smoothness, 0.0f, 1.0f};
         instance.material = renderer_.sphere_material(subdivisions_);
         instance.direct = DirectUse::Moving;
         instance.is_round = 1;

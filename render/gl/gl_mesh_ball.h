@@ -15,7 +15,8 @@ namespace tetralight {
 /// light. A context must be current during its lifetime.
 class GlMeshBall {
   public:
-    /// `scene_light` belongs to `scene`, which may be empty. Returns the errors of `Renderer::make`
+    /// `scene_light` belongs to `scene`, which may be empty; the spheres mirror its reflection
+    /// probes. Returns the errors of `Renderer::make`
     /// and of the ball's proxy volume.
     [[nodiscard]] static Result<GlMeshBall> make(const MeshBallSettings& settings,
                                                  const Scene& scene, SceneLight scene_light,

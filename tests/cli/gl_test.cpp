@@ -60,6 +60,17 @@ TEST_F(Gl, DrawsWhatRaysShow) {
     EXPECT_LT(difference(meshball({"--renderer", "gl"}), meshball({})), 5.0);
 }
 
+TEST_F(Gl, MirrorsReflectionProbesAsRaysDo) {
+    if (!has_gl()) GTEST_SKIP() << "no OpenGL";
+    succeed({"reflect", kCourtyard, "--box", "-9,0,-9,9,6,9", "-o", "r.ktx2", "--cube-size", "8",
+             "-s", "4"});
+    const Arguments mirror{"--reflections", "r.ktx2"};
+    EXPECT_LT(difference(join(render({"--renderer", "gl"}), mirror), render(mirror)), 5.0);
+    const Arguments metal{"--reflections", "r.ktx2", "--roughness", "0.3"};
+    EXPECT_LT(difference(join(meshball({"--renderer", "gl"}), metal), meshball(metal)), 5.0);
+    EXPECT_GT(difference(meshball(metal), meshball({})), 5.0);
+}
+
 TEST_F(Gl, ShowsGizmosAsRaysDo) {
     if (!has_gl()) GTEST_SKIP() << "no OpenGL";
     const Arguments shown{"--show", "probes,cells,selection=0,1,8,lppv"};

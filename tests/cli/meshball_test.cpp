@@ -74,6 +74,19 @@ TEST_F(MeshBall, ShowsTheSceneWithItsLightmaps) {
     EXPECT_TRUE(contains(misuse(arguments({"--lightmaps", "c.lightmaps"})), "--scene"));
 }
 
+TEST_F(MeshBall, MirrorsReflectionProbesAsRoughAsAsked) {
+    succeed({"reflect", kCourtyard, "--box", "-9,0,-9,9,6,9", "-o", "r.ktx2", "--cube-size", "8",
+             "-s", "1"});
+    const std::string own = picture({"--reflections", "r.ktx2"});
+    const std::string mirrors = picture({"--reflections", "r.ktx2", "--roughness", "0"});
+    EXPECT_TRUE(own != picture({}));
+    EXPECT_TRUE(mirrors != own);
+    EXPECT_TRUE(mirrors != picture({"--reflections", "r.ktx2", "--roughness", "0.7"}));
+    EXPECT_TRUE(contains(misuse(arguments({"--roughness", "0.5"})), "needs --reflections"));
+    EXPECT_TRUE(
+        contains(fail(arguments({"--reflections", "none.ktx2"})), "none.ktx2: cannot open"));
+}
+
 TEST_F(MeshBall, PutsTheBallWhereAsked) {
     const Arguments view{"--eye", "0,1,20", "--target", "0,1,0"};
     Arguments here = view;

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include <tetralight/reflection/split_sum.h>
+#include "tests/reflection/reflection_fixture.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
 
@@ -26,14 +28,15 @@ ProbeVolume constant_volume(glm::vec3 radiance) {
 
 /// What an eye straight above the origin sees in the middle of its picture.
 glm::vec3 seen_from_above(const std::vector<BallInstance>& instances, const Scene* scene,
-                          const ProbeVolume& volume, double height = 10.0) {
+                          const ProbeVolume& volume, double height = 10.0,
+                          const BallLighting& lighting = {}) {
     RenderSettings settings;
     settings.width = settings.height = settings.samples_per_axis = 1;
     const Camera camera = look_at({0, height, 0}, {0, 0, 0}, 0.01);
     std::optional<SceneShader> shader;
     if (scene != nullptr) shader.emplace(*SceneShader::make(*scene, volume.view()));
-    const auto picture = render_mesh_ball(instances, {}, shader ? &*shader : nullptr, volume.view(),
-                                          camera, settings);
+    const auto picture = render_mesh_ball(instances, lighting, shader ? &*shader : nullptr,
+                                          volume.view(), camera, settings);
     EXPECT_TRUE(picture) << error_text(picture.error());
     return picture ? picture->image.pixels[0] : glm::vec3(-1.0f);
 }
@@ -61,6 +64,21 @@ TEST(MakeMeshBall, PlainSpheresStandWhereColouredOnesDo) {
         EXPECT_EQ(plain[i].radius, colored[i].radius);
         EXPECT_EQ(plain[i].color, plain[0].color);
         EXPECT_EQ(plain[i].metallic, 0.0f);
+    }
+}
+
+TEST(MakeMeshBall, MetalSpheresStandWhereOthersDo) {
+    MeshBallSettings settings;
+    settings.instance_count = 40;
+    const auto own = make_mesh_ball(settings);
+    settings.metal_roughness = 0.25f;
+    const auto metal = make_mesh_ball(settings);
+    ASSERT_EQ(metal.size(), own.size());
+    for (size_t i = 0; i < metal.size(); ++i) {
+        EXPECT_EQ(metal[i].center, own[i].center);
+        EXPECT_EQ(metal[i].color, own[i].color);
+        EXPECT_EQ(metal[i].metallic, 1.0f);
+        EXPECT_EQ(metal[i].smoothness, 0.75f);
     }
 }
 
@@ -157,6 +175,26 @@ TEST(RenderMeshBall, SceneShadowsTheSpheresAndHidesThem) {
 
 TEST(RenderMeshBall, WithoutInstancesShowsWhatIsBehind) {
     expect_near(seen_from_above({}, nullptr, constant_volume({1, 2, 3})), {1, 2, 3});
+}
+
+TEST(RenderMeshBall, MirrorsReflectionProbesByFresnelInTheLightOfThePlace) {
+    // Light 3 from above, half of what lights the probe.
+    ReflectionProbe probe;
+    probe.irradiance = irradiance_from_radiance(constant_radiance(glm::vec3(2.0f)));
+    const Reflections cube = test::make_reflections(
+        8, 1, {probe},
+        [](uint32_t, uint32_t, const glm::vec3& d) { return glm::vec3(d.y > 0.7f ? 3.0f : 0.0f); });
+    const Mirror mirror(cube.view(), true);
+    BallLighting lighting;
+    lighting.mirror = &mirror;
+    const glm::vec2 terms = sample_split_sum(make_split_sum_table(), 1.0f, 0.0f);
+    std::vector<BallInstance> spheres{{{0, 0, 0}, 2.0, kAlbedo, 1.0f, 1.0f}};
+    const ProbeVolume volume = constant_volume(glm::vec3(1.0f));
+    expect_near(seen_from_above(spheres, nullptr, volume, 10.0, lighting),
+                1.5f * (kAlbedo * terms.x + terms.y));
+    spheres[0].metallic = 0.0f;
+    expect_near(seen_from_above(spheres, nullptr, volume, 10.0, lighting),
+                0.96f * kAlbedo + 1.5f * (0.04f * terms.x + terms.y));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 namespace tetralight::detail {
 
-// The twin of `SceneShader::shiny_light`.
+// The twin of `Mirror` (render/mirror.h).
 const char* const kReflectionText = R"(
 struct ReflectionProbe {
     TetralightReflectionProbe probe;

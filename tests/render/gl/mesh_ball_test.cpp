@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <numbers>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include <tetralight/render/gl/presenter.h>
 #include <tetralight/render/gl/sphere_mesh.h>
 #include <tetralight/render/render_scene.h>
+#include "tests/reflection/reflection_fixture.h"
 #include "tests/support/random_probes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/volume_sun.h"
@@ -53,11 +55,15 @@ class GlMeshBallTest : public testing::Test {
         test::add_floor(scene_, test::diffuse({0.5f, 0.6f, 0.3f}), 8.0f, -6.0f);
     }
 
+    [[nodiscard]] SceneLight light_of(const ProbeVolume& volume) const {
+        SceneLight light = *make_scene_light(scene_, volume.view(), ProbeLight::AsTheScene);
+        light.reflections = reflections_.view();
+        return light;
+    }
+
     Result<GlMeshBall> make(uint32_t count, const ProbeVolume& volume) {
         settings_.instance_count = count;
-        return GlMeshBall::make(settings_, scene_,
-                                *make_scene_light(scene_, volume.view(), ProbeLight::AsTheScene),
-                                volume.view(), 512);
+        return GlMeshBall::make(settings_, scene_, light_of(volume), volume.view(), 512);
     }
 
     static ImageF draw(GlMeshBall& ball, const Camera& camera, double angle, BallLight light,
@@ -83,10 +89,12 @@ class GlMeshBallTest : public testing::Test {
     double difference_to_rays(const ProbeVolume& volume, BallLight light, Specular specular) {
         auto ball = make(100, volume);
         EXPECT_TRUE(ball) << error_text(ball.error());
-        const auto shader = SceneShader::make(scene_, volume.view());
+        const auto shader = SceneShader::make(scene_, volume.view(), light_of(volume));
         const auto proxy = make_ball_proxy(settings_, volume.view());
-        const auto rays = render_mesh_ball(make_mesh_ball(settings_), {light, specular, &*proxy},
-                                           &*shader, volume.view(), camera_, small_settings());
+        const Mirror mirror(reflections_.view(), true);
+        const auto rays =
+            render_mesh_ball(make_mesh_ball(settings_), {light, specular, &*proxy, &mirror},
+                             &*shader, volume.view(), camera_, small_settings());
         EXPECT_TRUE(rays);
         return mean_difference(draw(*ball, camera_, 0.0, light, specular), rays->image);
     }
@@ -95,6 +103,7 @@ class GlMeshBallTest : public testing::Test {
     Scene scene_;
     MeshBallSettings settings_;
     Camera camera_;
+    Reflections reflections_;
 };
 
 // Spheres are triangles here, and their shadows texels: some pixels of their edges differ.
@@ -113,6 +122,29 @@ TEST_F(GlMeshBallTest, AgreesWithRaysInEveryProbeLight) {
 
 TEST_F(GlMeshBallTest, AgreesWithRaysOnTheSun) {
     EXPECT_LE(difference_to_rays(make_volume(), BallLight::Probes, Specular::On), 0.06);
+}
+
+TEST_F(GlMeshBallTest, AgreesWithRaysOnReflections) {
+    ProbeVolume volume = make_volume();
+    volume.lights.clear();
+    volume.light_states.clear();
+    const auto probe = test::box_probe({0, 0, 0}, glm::vec3(9.0f), 1.0f);
+    reflections_ = test::make_reflections(
+        32, 3, {probe, ReflectionProbe{}}, [](uint32_t probe_index, uint32_t, const glm::vec3& d) {
+            return 0.5f + static_cast<float>(probe_index) + 0.5f * glm::sin(2.0f * d);
+        });
+    settings_.instance_size = 0.2;
+    EXPECT_LE(difference_to_rays(volume, BallLight::Probes, Specular::On), 0.03);
+    auto own = make(100, volume);
+    ASSERT_TRUE(own) << error_text(own.error());
+    const ImageF before = draw(*own, camera_, 0.0, BallLight::Probes);
+    for (const float roughness : {0.0f, 0.5f}) {
+        settings_.metal_roughness = roughness;
+        EXPECT_LE(difference_to_rays(volume, BallLight::Probes, Specular::Off), 0.03) << roughness;
+        auto metal = make(100, volume);
+        ASSERT_TRUE(metal) << error_text(metal.error());
+        EXPECT_GT(mean_difference(draw(*metal, camera_, 0.0, BallLight::Probes), before), 0.1);
+    }
 }
 
 TEST_F(GlMeshBallTest, TakesItsLightFromOneBatchQueryInPlace) {
