@@ -3,6 +3,7 @@
 #include <chrono>
 #include <glm/common.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tetralight/bake/scene/read_gltf.h>
@@ -14,8 +15,8 @@
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/progress.h>
+#include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/scene_options.h>
-#include <tetralight/cli/table.h>
 #include <tetralight/pipeline/bake_reflections.h>
 #include <tetralight/pipeline/reflection_settings.h>
 #include <tetralight/reflection/reflection_file.h>
@@ -59,36 +60,16 @@ Json probes_json(const Reflections& reflections, const std::vector<ReflectionFac
     Json probes = Json::array();
     for (size_t i = 0; i < facts.size(); ++i) {
         const ReflectionProbe& probe = reflections.probes[i];
-        probes.push_back({{"name", facts[i].name},
-                          {"position", to_json(probe.position)},
-                          {"half_size", probe.is_everywhere()
-                                            ? Json()
-                                            : to_json(glm::dvec3(probe.half_size))},
-                          {"importance", probe.importance},
-                          {"validity", facts[i].validity},
-                          {"virtual_offset", facts[i].virtual_offset},
-                          {"clamped_share", facts[i].clamped_share}});
+        probes.push_back(
+            {{"name", facts[i].name},
+             {"position", to_json(probe.position)},
+             {"half_size", probe.is_everywhere() ? Json() : to_json(glm::dvec3(probe.half_size))},
+             {"importance", probe.importance},
+             {"validity", facts[i].validity},
+             {"virtual_offset", facts[i].virtual_offset},
+             {"clamped_share", facts[i].clamped_share}});
     }
     return probes;
-}
-
-std::string coordinates(const glm::dvec3& v) {
-    return str_cat(v.x, ", ", v.y, ", ", v.z);
-}
-
-std::string table_of(const Reflections& reflections, const std::vector<ReflectionFacts>& facts) {
-    std::vector<std::vector<std::string>> rows{
-        {"probe", "position", "size of the box", "validity"}};
-    for (size_t i = 0; i < facts.size(); ++i) {
-        const ReflectionProbe& probe = reflections.probes[i];
-        const bool is_everywhere = probe.is_everywhere();
-        rows.push_back({printable(facts[i].name), is_everywhere ? "-" : coordinates(probe.position),
-                        is_everywhere ? "everywhere" : coordinates(2.0f * probe.half_size),
-                        percent(facts[i].validity)});
-    }
-    std::string lines = aligned(rows, "lllr");
-    if (!lines.empty()) lines.pop_back();
-    return lines;
 }
 
 struct Reflect {
@@ -127,13 +108,12 @@ struct Reflect {
         if (!places) return places.error();
         BakeProgressDisplay display(common.is_quiet, 0.0, progress_file, "rows of texels");
         const auto baked =
-            bake_reflections(*scene, *places, settings, [&](const BakeProgress& progress) {
-                return display.show(progress);
-            });
+            bake_reflections(*scene, *places, settings,
+                             [&](const BakeProgress& progress) { return display.show(progress); });
         if (!baked) return in_scene(baked.error());
         common.warn(baked->warnings);
-        if (auto status = write_reflection_file(output, baked->reflections); !status)
-            return status;
+        if (places->empty()) warn_of_sky_alone();
+        if (auto status = write_reflection_file(output, baked->reflections); !status) return status;
         report(*baked);
         return Ok{};
     }
@@ -168,22 +148,27 @@ struct Reflect {
         return std::move(scene->reflection_places);
     }
 
+    void warn_of_sky_alone() const {
+        const std::string& path = places_path.empty() ? scene_options.path : places_path;
+        common.warn({str_cat(shown_path(path), ": has no reflection probes; ", shown_path(output),
+                             " holds the sky alone")});
+    }
+
     void report(const BakedReflections& baked) const {
         const Reflections& all = baked.reflections;
-        common.report(output,
-                      {{"output", output},
-                       {"cube_size", all.size},
-                       {"levels", all.levels.size()},
-                       {"probes", probes_json(all, baked.facts)},
-                       {"rays", baked.ray_count},
-                       {"seconds",
-                        {{"bake", baked.bake_seconds}, {"prefilter", baked.prefilter_seconds}}}},
-                      str_cat(output, ": ", counted(all.probes.size(), "reflection probe"), " of ",
-                              all.size, " x ", all.size, ", ",
-                              counted(all.levels.size(), "level"), "; bake ",
-                              duration(baked.bake_seconds), ", prefilter ",
-                              duration(baked.prefilter_seconds), "\n",
-                              table_of(all, baked.facts)));
+        const std::vector<std::string_view> all_names(all.names.begin(), all.names.end());
+        common.report(
+            output,
+            {{"output", output},
+             {"cube_size", all.size},
+             {"levels", all.levels.size()},
+             {"probes", probes_json(all, baked.facts)},
+             {"rays", baked.ray_count},
+             {"seconds", {{"bake", baked.bake_seconds}, {"prefilter", baked.prefilter_seconds}}}},
+            str_cat(output, ": ", counted(all.probes.size(), "reflection probe"), " of ", all.size,
+                    " x ", all.size, ", ", counted(all.levels.size(), "level"), "; bake ",
+                    duration(baked.bake_seconds), ", prefilter ", duration(baked.prefilter_seconds),
+                    "\n", reflection_table(all.probes, all_names)));
     }
 };
 
