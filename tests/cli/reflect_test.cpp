@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/image/read_image.h>
 #include <tetralight/base/half.h>
 #include <tetralight/reflection/reflection_file.h>
 
@@ -184,6 +185,43 @@ TEST_F(Reflect, NothingToBakeKeepsTheOldFile) {
     write("broken.gltf", "{");
     EXPECT_TRUE(
         contains(fail_and_keep("r.ktx2", arguments("broken.gltf", "r.ktx2")), "broken.gltf: "));
+}
+
+TEST_F(Reflect, ExportWritesTheFacesOfEachCube) {
+    succeed(arguments("two.gltf", "r.ktx2", {"--sky", "3"}));
+    const Json json = run_json({"export", "r.ktx2", "-o", "r.exr"});
+    EXPECT_EQ(json["files"], Json({"r_0.exr", "r_1.exr", "r_2.exr"}));
+    for (const std::string file : {"r_0.exr", "r_1.exr", "r_2.exr"}) {
+        const auto strip = read_hdr_image(path(file));
+        ASSERT_TRUE(strip) << file;
+        EXPECT_EQ(strip->image.width, 16u);
+        ASSERT_EQ(strip->image.height, 6u * 16u);
+        for (const glm::vec3& light : strip->image.pixels) ASSERT_NEAR(light.y, 3.0f, 0.003f);
+    }
+    succeed({"export", "r.ktx2", "--probe", "right", "--level", "1", "-o", "one.exr"});
+    const auto strip = read_hdr_image(path("one.exr"));
+    ASSERT_TRUE(strip);
+    EXPECT_EQ(strip->image.width, 8u);
+    EXPECT_EQ(strip->image.height, 6u * 8u);
+}
+
+TEST_F(Reflect, ExportRefusesWhatDoesNotFitCubes) {
+    succeed(arguments("two.gltf", "r.ktx2", {"--sky", "3"}));
+    const std::pair<Arguments, std::string> orders[] = {
+        {{"-o", "r.png"}, "r.ktx2: contains reflection probes, which are written as "},
+        {{"-o", "r.exr", "--map", "mono-sh"}, "--map, --pack and --mark are for lightmaps"},
+        {{"-o", "r.exr", "--pack", "sun"}, "--map, --pack and --mark are for lightmaps"},
+        {{"-o", "r.exr", "--level", "2"}, "r.ktx2: has levels 0 to 1, not 2"},
+        {{"-o", "r.exr", "--probe", "middle"}, "r.ktx2: no reflection probe \"middle\" is there"},
+        {{"-o", "-", "--as", "exr"}, "cannot write 3 cubes to stdout"}};
+    for (const auto& [more, message] : orders) {
+        Arguments all{"export", "r.ktx2"};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_TRUE(contains(fail(all), message)) << message;
+    }
+    EXPECT_EQ(file_names(), Names({"empty.gltf", "r.ktx2", "two.gltf"}));
+    EXPECT_TRUE(contains(fail({"export", "two.gltf", "-o", "r.exr", "--probe", "left"}),
+                         "--probe and --level are for reflection probes, and two.gltf has none"));
 }
 
 TEST_F(Reflect, RenderShowsReflectionsWithAndWithoutBoxProjection) {
