@@ -10,8 +10,10 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/export_reflections.h>
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/reflection_files.h>
 #include <tetralight/pipeline/exported_texels.h>
 #include <tetralight/pipeline/lightmap_images.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
@@ -56,6 +58,10 @@ struct Export {
     LightmapMap map;
     std::vector<std::string> packed;
     std::vector<std::string> marked;
+    std::vector<std::string> probe_names;
+    uint32_t level = 0;
+    bool has_lightmap_settings = false;
+    bool has_cube_settings = false;
     CommonOptions common;
 
     explicit Export(const Values& values)
@@ -66,6 +72,10 @@ struct Export {
           map(choice<LightmapMap>(values, "map")),
           packed(values.texts("pack")),
           marked(values.texts("mark")),
+          probe_names(values.texts("probe")),
+          level(static_cast<uint32_t>(values.integer("level"))),
+          has_lightmap_settings(values.is_given("map") || !packed.empty() || !marked.empty()),
+          has_cube_settings(!probe_names.empty() || values.is_given("level")),
           common(values) {
         if (format == ExportFormat::Glb && scene_path.empty()) require(values, "scene");
         if (format != ExportFormat::Glb && !scene_path.empty())
@@ -81,6 +91,12 @@ struct Export {
     }
 
     Status run() const {
+        if (is_reflection_file(lightmaps_path)) return run_reflections();
+        if (has_cube_settings) {
+            return Error{ErrorCode::InvalidArgument, probe_names.empty() ? "level" : "probe", "",
+                         "--probe and --level are for reflection probes, and " +
+                             shown_path(lightmaps_path) + " has none"};
+        }
         const auto file = open_lightmaps(lightmaps_path);
         if (!file) return file.error();
         const LightmapsView& maps = (*file)->view();
@@ -94,6 +110,19 @@ struct Export {
                       str_cat(paths->front(), files, ": ", counted(maps.info.page_count, "page"),
                               " of ", maps.info.page_size, " x ", maps.info.page_size, note(json)));
         return Ok{};
+    }
+
+    [[nodiscard]] Status run_reflections() const {
+        const std::string start = shown_path(lightmaps_path) + ": contains reflection probes";
+        if (has_lightmap_settings) {
+            return Error{ErrorCode::InvalidArgument, "lightmaps", lightmaps_path,
+                         start + "; --map, --pack and --mark are for lightmaps"};
+        }
+        if (format != ExportFormat::Exr) {
+            return Error{ErrorCode::InvalidArgument, "as", "",
+                         start + ", which are written as exr"};
+        }
+        return export_reflection_images({lightmaps_path, output, probe_names, level}, common);
     }
 
     /// The files that are written, checked.

@@ -8,6 +8,7 @@
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/volume_facts.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/build/check_metadata.h>
@@ -49,6 +50,7 @@ struct Info {
             if (auto status = check_output(output, {path}); !status) return status;
         }
         if (is_lightmap_file(path)) return run_lightmaps();
+        if (is_reflection_file(path)) return run_reflections();
         const auto file = open_probe_file(path);
         if (!file) return file.error();
         if (auto status = check_metadata(file->view().metadata); !status) {
@@ -73,11 +75,22 @@ struct Info {
         return Ok{};
     }
 
+    /// Anything besides the description.
+    [[nodiscard]] bool has_other() const {
+        return !obj_path.empty() || !ply_path.empty() || shows_probes;
+    }
+
     [[nodiscard]] Status run_lightmaps() const {
-        const bool has_other = !obj_path.empty() || !ply_path.empty() || shows_probes;
-        if (!has_other) return show_lightmaps(path, common);
+        if (!has_other()) return show_lightmaps(path, common);
         return Error{ErrorCode::InvalidArgument, "volume", path,
                      path + ": contains lightmaps, which have no probes and no tetrahedra"};
+    }
+
+    [[nodiscard]] Status run_reflections() const {
+        if (!has_other()) return show_reflections(path, common);
+        return Error{
+            ErrorCode::InvalidArgument, "volume", path,
+            path + ": contains reflection probes, which are always listed and have no tetrahedra"};
     }
 
     static Json part_json(const PartialBake& part) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <glm/common.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tetralight/bake/scene/read_gltf.h>
@@ -14,8 +15,8 @@
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/progress.h>
+#include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/scene_options.h>
-#include <tetralight/cli/table.h>
 #include <tetralight/pipeline/bake_reflections.h>
 #include <tetralight/pipeline/reflection_settings.h>
 #include <tetralight/reflection/reflection_file.h>
@@ -71,25 +72,6 @@ Json probes_json(const Reflections& reflections, const std::vector<ReflectionFac
     return probes;
 }
 
-std::string coordinates(const glm::dvec3& v) {
-    return str_cat(v.x, ", ", v.y, ", ", v.z);
-}
-
-std::string table_of(const Reflections& reflections, const std::vector<ReflectionFacts>& facts) {
-    std::vector<std::vector<std::string>> rows{
-        {"probe", "position", "size of the box", "validity"}};
-    for (size_t i = 0; i < facts.size(); ++i) {
-        const ReflectionProbe& probe = reflections.probes[i];
-        const bool is_everywhere = probe.is_everywhere();
-        rows.push_back({printable(facts[i].name), is_everywhere ? "-" : coordinates(probe.position),
-                        is_everywhere ? "everywhere" : coordinates(2.0f * probe.half_size),
-                        percent(facts[i].validity)});
-    }
-    std::string lines = aligned(rows, "lllr");
-    if (!lines.empty()) lines.pop_back();
-    return lines;
-}
-
 struct Reflect {
     SceneOptions scene_options;
     std::string output;
@@ -130,6 +112,7 @@ struct Reflect {
                              [&](const BakeProgress& progress) { return display.show(progress); });
         if (!baked) return in_scene(baked.error());
         common.warn(baked->warnings);
+        if (places->empty()) warn_of_sky_alone();
         if (auto status = write_reflection_file(output, baked->reflections); !status) return status;
         report(*baked);
         return Ok{};
@@ -165,8 +148,15 @@ struct Reflect {
         return std::move(scene->reflection_places);
     }
 
+    void warn_of_sky_alone() const {
+        const std::string& path = places_path.empty() ? scene_options.path : places_path;
+        common.warn({str_cat(shown_path(path), ": has no reflection probes; ", shown_path(output),
+                             " holds the sky alone")});
+    }
+
     void report(const BakedReflections& baked) const {
         const Reflections& all = baked.reflections;
+        const std::vector<std::string_view> all_names(all.names.begin(), all.names.end());
         common.report(
             output,
             {{"output", output},
@@ -178,7 +168,7 @@ struct Reflect {
             str_cat(output, ": ", counted(all.probes.size(), "reflection probe"), " of ", all.size,
                     " x ", all.size, ", ", counted(all.levels.size(), "level"), "; bake ",
                     duration(baked.bake_seconds), ", prefilter ", duration(baked.prefilter_seconds),
-                    "\n", table_of(all, baked.facts)));
+                    "\n", reflection_table(all.probes, all_names)));
     }
 };
 

@@ -11,6 +11,7 @@
 #include <tetralight/cli/failure.h>
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/walls_report.h>
 #include <tetralight/pipeline/bake_metadata.h>
 #include <tetralight/pipeline/unseen_places.h>
@@ -47,6 +48,7 @@ struct Validate {
 
     Status run() {
         if (is_lightmap_file(path)) return validate_lightmaps(path, common);
+        if (is_reflection_file(path)) return run_reflections();
         const auto file = open_volume();
         if (!file && (can_retry(file.error().code) || file.error().code == ErrorCode::NotFound)) {
             return file.error();
@@ -74,6 +76,12 @@ struct Validate {
             message += (&problem == &problems[0] ? "" : "; ") + problem;
         }
         return with_report({ErrorCode::Corrupt, message}, json);
+    }
+
+    [[nodiscard]] Status run_reflections() const {
+        if (scene_path.empty()) return validate_reflections(path, common);
+        return Error{ErrorCode::InvalidArgument, "scene", scene_path,
+                     path + ": contains reflection probes, which are checked without a scene"};
     }
 
     /// None without a scene.

@@ -5,12 +5,13 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting kFiles[] = {
-    input_file("lightmaps", "Lightmaps (.lightmaps)"),
+    input_file("lightmaps", "Lightmaps, or reflection probes (.lightmaps, .ktx2)"),
     output_file(".exr .ktx2 .png .glb",
-                "File to write; exr and png write one file a page: a_0.exr, a_1.exr"),
+                "File to write; exr and png write one file a page or cube: a_0.exr, a_1.exr"),
     {.name = "as",
      .type = Type::Choice,
-     .help = "exr = 32-bit float images; ktx2 = one array texture of 16-bit floats; png = RGBM "
+     .help = "exr = 32-bit float images, of a cube its six faces one below the other; ktx2 = one "
+             "array texture of 16-bit floats; png = RGBM "
              "images; glb = the scene with TEXCOORD_1 and MX_lightmap; preview = PNG images for "
              "looking "
              "at, with the rectangle of each object",
@@ -18,7 +19,8 @@ constexpr Setting kFiles[] = {
      .without = "by the extension of the output"},
     {.name = "map",
      .type = Type::Choice,
-     .help = "What is written of the texels: irradiance; direction = dominant direction of the "
+     .help = "What is written of the texels of lightmaps: irradiance; direction = dominant "
+             "direction of the "
              "light, for normal maps; mono-sh = the same with how much of the light has it; "
              "shadow-mask = how much is seen of the lights of four occlusion channels; "
              "ambient-occlusion",
@@ -26,11 +28,11 @@ constexpr Setting kFiles[] = {
      .default_text = "irradiance"},
     {.name = "pack",
      .type = Type::Words,
-     .help =
-         "Write up to four channels instead: the luminance of layers by their names, light (all "
-         "of it), sky-occlusion (that of layer sky over its largest value), shadow:0 to "
-         "shadow:3 (of the shadow mask), ambient-occlusion; each to a power if it ends with "
-         "^POWER: sun,sky,emission^0.5",
+     .help = "Write up to four channels of lightmaps instead: the luminance of layers by their "
+             "names, light (all "
+             "of it), sky-occlusion (that of layer sky over its largest value), shadow:0 to "
+             "shadow:3 (of the shadow mask), ambient-occlusion; each to a power if it ends with "
+             "^POWER: sun,sky,emission^0.5",
      .without = "a map",
      .value_name = "LIST"},
     {.name = "scene",
@@ -42,17 +44,35 @@ constexpr Setting kFiles[] = {
      .help = "Mark the rectangles of the object of this name in the preview",
      .without = "all objects look the same",
      .value_name = "NODE",
-     .is_list = true}};
+     .is_list = true},
+    {.name = "probe",
+     .type = Type::Text,
+     .help = "Write the reflection probe of this name only",
+     .without = "all reflection probes",
+     .value_name = "NODE",
+     .is_list = true,
+     .access = Access::Command},
+    {.name = "level",
+     .type = Type::Integer,
+     .help = "Level of the cubes that images show: 0 is a mirror's, further ones are for rougher "
+             "surfaces",
+     .unit = "levels",
+     .range = {0, 12},
+     .default_text = "0",
+     .value_name = "N",
+     .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
 
 }  // namespace
 
-const Table kExport{.command = "export",
-                    .summary = "Write lightmaps as images, or into their scene",
-                    .examples =
-                        "tetralight export courtyard.lightmaps -o courtyard.exr\n"
-                        "tetralight export courtyard.lightmaps --scene courtyard.glb -o lit.glb",
-                    .groups = kGroups};
+const Table kExport{
+    .command = "export",
+    .summary = "Write lightmaps or reflection probes as images, or into their scene",
+    .examples =
+        "tetralight export courtyard.lightmaps -o courtyard.exr\n"
+        "tetralight export courtyard.lightmaps --scene courtyard.glb -o lit.glb\n"
+        "tetralight export rooms.ktx2 -o rooms.exr",
+    .groups = kGroups};
 
 }  // namespace tetralight::settings

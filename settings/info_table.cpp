@@ -5,7 +5,8 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting kFiles[] = {
-    input_file("volume", "Probe volume or lightmaps (.probes, .lightmaps)"),
+    input_file("volume",
+               "Probe volume, lightmaps or reflection probes (.probes, .lightmaps, .ktx2)"),
     {.name = "obj",
      .type = Type::Path,
      .help = "Also write the edges of the tetrahedra as line elements, for any viewer: Wavefront "
@@ -30,7 +31,8 @@ constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettin
 
 const Table kInfo{
     .command = "info",
-    .summary = "Describe a probe volume, lightmaps or a part of them, or write tetrahedra as lines",
+    .summary =
+        "Describe a probe volume, lightmaps or reflection probes, or write tetrahedra as lines",
     .examples = "tetralight info courtyard.probes --obj courtyard_cells.obj",
     .groups = kGroups};
 

@@ -5,7 +5,8 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting kFiles[] = {
-    input_file("volume", "Probe volume or lightmaps (.probes, .lightmaps)"),
+    input_file("volume",
+               "Probe volume, lightmaps or reflection probes (.probes, .lightmaps, .ktx2)"),
     {.name = "scene",
      .type = Type::Path,
      .help = "glTF 2.0 scene of the volume: also measure the free space that sees no probe of its "
@@ -17,12 +18,13 @@ constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettin
 
 }  // namespace
 
-const Table kValidate{
-    .command = "validate",
-    .summary = "Check a probe volume or lightmaps: checksums, structure, Delaunay property",
-    .examples =
-        "tetralight validate courtyard.probes --json\n"
-        "tetralight validate courtyard.probes --scene courtyard.glb",
-    .groups = kGroups};
+const Table kValidate{.command = "validate",
+                      .summary =
+                          "Check a probe volume, lightmaps or reflection probes: checksums, "
+                          "structure, Delaunay property",
+                      .examples =
+                          "tetralight validate courtyard.probes --json\n"
+                          "tetralight validate courtyard.probes --scene courtyard.glb",
+                      .groups = kGroups};
 
 }  // namespace tetralight::settings
