@@ -46,8 +46,12 @@ TEST(BakeSettings, LayersHaveATargetByDefaultAndOnlyThen) {
 
 TEST(BakeSettings, AMaximumNeedsRounds) {
     EXPECT_THROW((void)cli::bake_settings(values_of({{"max_samples", 5}})), cli::UsageError);
-    const Values values = values_of({{"max_samples", 5}, {"target_error", 0.01}});
-    EXPECT_EQ(cli::bake_settings(values).bake.max_sample_count, 5u);
+    const Values values = values_of({{"max_samples", 2048}, {"target_error", 0.01}});
+    EXPECT_EQ(cli::bake_settings(values).bake.max_sample_count, 2048u);
+    // The first round has 1024 samples.
+    EXPECT_THROW(
+        (void)cli::bake_settings(values_of({{"max_samples", 1023}, {"target_error", 0.01}})),
+        cli::UsageError);
     EXPECT_THROW((void)cli::bake_settings(values_of({{"max_samples", 5}, {"samples", 6}})),
                  cli::UsageError);
     const BakeSettings rounds =
