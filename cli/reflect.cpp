@@ -13,6 +13,7 @@
 #include <tetralight/cli/amounts.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/explain.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/reflection_files.h>
@@ -80,6 +81,7 @@ struct Reflect {
     std::string places_path;
     std::vector<ReflectionPlace> given_places;
     std::string progress_file;
+    bool is_explained = false;
     CommonOptions common;
 
     explicit Reflect(const Values& values)
@@ -90,9 +92,23 @@ struct Reflect {
           places_path(values.text("places")),
           given_places(place_of_box(values)),
           progress_file(values.text("progress_file")),
-          common(values) {}
+          is_explained(values.flag("explain")),
+          common(values) {
+        if (output.empty() && !is_explained) require(values, "output");
+    }
 
-    [[nodiscard]] Status run() const {
+    [[nodiscard]] Status run() const { return is_explained ? run_explain() : run_bake(); }
+
+    [[nodiscard]] Status run_explain() const {
+        const auto scene = scene_options.read();
+        if (!scene) return scene.error();
+        common.warn(scene->warnings);
+        const auto places = places_of(*scene);
+        if (!places) return places.error();
+        return explain(*scene, {}, common);
+    }
+
+    [[nodiscard]] Status run_bake() const {
         std::vector<std::string> others = scene_options.inputs();
         others.push_back(places_path);
         if (auto status = check_output(output, others); !status) return status;

@@ -142,19 +142,18 @@ Response all_events(const Service& service) {
 
 std::vector<Route> bake_routes(Service& service) {
     constexpr auto kStorage = Plan::RunOn::Storage;
+    const auto orders = [&](const char* pattern, Kind kind) {
+        return Route{.method = "POST",
+                     .pattern = pattern,
+                     .access = Access::Writes,
+                     .handle = [&, kind](Request& r) { return submit(service, kind, r); },
+                     .body_limit = service.settings.max_body_bytes,
+                     .run_on = kStorage};
+    };
     return {
-        {.method = "POST",
-         .pattern = "/v1/bakes",
-         .access = Access::Writes,
-         .handle = [&](Request& r) { return submit(service, Kind::Volumes, r); },
-         .body_limit = service.settings.max_body_bytes,
-         .run_on = kStorage},
-        {.method = "POST",
-         .pattern = "/v1/lightmap-bakes",
-         .access = Access::Writes,
-         .handle = [&](Request& r) { return submit(service, Kind::Lightmaps, r); },
-         .body_limit = service.settings.max_body_bytes,
-         .run_on = kStorage},
+        orders("/v1/bakes", Kind::Volumes),
+        orders("/v1/lightmap-bakes", Kind::Lightmaps),
+        orders("/v1/reflection-bakes", Kind::Reflections),
         {.method = "GET",
          .pattern = "/v1/bakes",
          .handle = [&](Request& r) { return list_bakes(service, r); },

@@ -22,6 +22,18 @@ constexpr const char* kNew = "new-";
 /// Before the number of a bake in a place of their list. Ids are hexadecimal.
 constexpr std::string_view kBefore = "before-";
 
+/// What a bake counts.
+struct CountMembers {
+    const char* done;
+    const char* all;
+};
+
+CountMembers count_members(Kind kind) {
+    if (kind == Kind::Reflections) return {"rows_done", "row_count"};
+    if (kind == Kind::Lightmaps) return {"texels_done", "texel_count"};
+    return {"probes_done", "probe_count"};
+}
+
 std::string random_id() {
     std::random_device device;
     std::array<char, 24> digits{};
@@ -32,6 +44,7 @@ std::string random_id() {
 }  // namespace
 
 const settings::Table& bake_table(Kind kind) {
+    if (kind == Kind::Reflections) return settings::kReflect;
     return kind == Kind::Lightmaps ? settings::kLightmap : settings::kBake;
 }
 
@@ -98,22 +111,22 @@ void Bakes::clear_folders() const {
 }
 
 Json Bakes::to_json(const Bake& bake) {
-    const bool has_texels = bake.kind == Kind::Lightmaps;
+    const CountMembers members = count_members(bake.kind);
     Json json{{"id", bake.id},
               {"kind", name_of(bake.kind)},
               {"state", bake.state},
               {"priority", bake.priority},
               {"name", bake.name},
               {"created", bake.created},
-              {has_texels ? "texels_done" : "probes_done", bake.probes_done},
-              {has_texels ? "texel_count" : "probe_count", bake.probe_count}};
+              {members.done, bake.probes_done},
+              {members.all, bake.probe_count}};
     if (bake.ended > 0.0) json["ended"] = bake.ended;
     if (!is_final(bake.state)) {
         json["rays_per_second"] = bake.rays_per_second;
         json["seconds_left"] = bake.seconds_left;
         json["at_target"] = bake.at_target;
         json["share_at_target"] = bake.share_at_target;
-        if (has_texels) json["preview"] = bake.preview;
+        if (bake.kind == Kind::Lightmaps) json["preview"] = bake.preview;
     }
     if (!bake.result.empty()) json[noun_of(bake.kind)] = bake.result;
     if (!bake.error.empty()) json["error"] = bake.error;

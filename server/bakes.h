@@ -17,7 +17,7 @@ namespace tetralight::server {
 
 /// A checked order of a client.
 struct BakeOrder {
-    /// What it makes: volumes or lightmaps.
+    /// What it makes: volumes, lightmaps or reflection probes.
     Kind kind = Kind::Volumes;
     /// As the client sent it.
     Json request;
@@ -27,7 +27,7 @@ struct BakeOrder {
     std::vector<OrderFile> inputs;
 };
 
-/// The settings of bakes that make volumes or lightmaps.
+/// The settings of bakes that make files of a kind.
 [[nodiscard]] const settings::Table& bake_table(Kind kind);
 
 /// True of "done", "failed" and "cancelled".
@@ -89,14 +89,15 @@ class Bakes {
         std::string name;
         int64_t priority = 0;
         std::string state = "queued";
-        std::string result;  ///< id of the volume or the lightmaps
+        std::string result;  ///< id of the volume, the lightmaps or the reflection probes
         std::string error;
         Json report;
         double created = 0.0;
         double ended = 0.0;
         /// Number of starts that failed because a file or a resource was missing.
         int retries = 0;
-        /// Of the progress file of the running command.
+        /// Of the progress file of the running command. Bakes of lightmaps count texels, those of
+        /// reflection probes rows of texels.
         uint64_t probes_done = 0;
         uint64_t probe_count = 0;
         /// Of the current run; null: not known.

@@ -25,11 +25,20 @@ std::string result_path(Kind kind) {
 
 /// What the job of a bake gets beside the order.
 Json own_settings(Kind kind) {
-    Json json{{"output", result_path(kind)}, {"chunks", kChunks}, {"progress_file", kProgress}};
+    Json json{{"output", result_path(kind)}, {"progress_file", kProgress}};
+    if (kind == Kind::Reflections) return json;  // short: they begin again
+    json["chunks"] = kChunks;
     if (kind != Kind::Lightmaps) return json;
     json["preview"] = {"results/preview.png", "results/preview.lightmaps"};
     json["unwrapped"] = "results/scene.glb";
     return json;
+}
+
+/// The number of probes or texels in the report of a bake; of reflection probes, whose report has
+/// none, that of the progress file.
+uint64_t final_count(Kind kind, const Json& report, uint64_t last_count) {
+    if (kind == Kind::Reflections) return last_count;
+    return report.value(kind == Kind::Lightmaps ? "baked" : "probes", uint64_t{0});
 }
 
 /// The progress file of the running command; an empty object if there is none.
@@ -80,8 +89,8 @@ void Bakes::end(const std::string& id, const std::string& state, const std::stri
     bake.error = error;
     bake.report = report;
     bake.ended = now();
-    const char* counted = bake.kind == Kind::Lightmaps ? "baked" : "probes";
-    if (state == "done") bake.probes_done = bake.probe_count = report.value(counted, 0u);
+    if (state == "done")
+        bake.probes_done = bake.probe_count = final_count(bake.kind, report, bake.probe_count);
     store_.with_reserve([&] {
         store_.database().run(
             "UPDATE bakes SET state = ?, volume = ?, error = ?, report = ?, ended = ?, "
@@ -219,6 +228,7 @@ void Bakes::run_bake(const Bake& bake) {
     // When the server stops, the bake keeps its state and continues at the next start.
     if (baked.end == End::Cancelled) return;
     if (baked.end != End::Done) throw bake_problem(baked.error);
+    update_progress(bake.id);  // its last words
     const JobResult info = run({.command = "info", .settings = {{"volume", output}}});
     if (info.end != End::Done) throw bake_problem(info.error);
     std::string result;

@@ -114,6 +114,35 @@ constexpr std::array kMigrations = {
     R"sql(
         ALTER TABLE bakes ADD COLUMN kind TEXT NOT NULL DEFAULT 'volumes';
     )sql",
+    // As before, for one kind more.
+    R"sql(
+        CREATE TEMP TABLE old_names AS SELECT kind, name, file FROM names;
+        DROP TABLE names;
+        CREATE TABLE new_files (
+            id TEXT NOT NULL,
+            kind TEXT NOT NULL
+                CHECK (kind IN ('scenes', 'skies', 'groups', 'volumes', 'lightmaps',
+                                'reflections')),
+            bytes INTEGER NOT NULL,
+            created REAL NOT NULL,
+            facts TEXT NOT NULL,
+            damage TEXT NOT NULL DEFAULT '',
+            PRIMARY KEY (kind, id)
+        ) STRICT;
+        INSERT INTO new_files SELECT id, kind, bytes, created, facts, damage FROM files;
+        DROP TABLE files;
+        ALTER TABLE new_files RENAME TO files;
+        CREATE TABLE names (
+            kind TEXT NOT NULL,
+            name TEXT NOT NULL CHECK (name <> ''),
+            file TEXT NOT NULL,
+            PRIMARY KEY (kind, name),
+            FOREIGN KEY (kind, file) REFERENCES files (kind, id) ON DELETE CASCADE
+        ) STRICT;
+        CREATE INDEX names_of_files ON names (kind, file);
+        INSERT INTO names SELECT kind, name, file FROM old_names;
+        DROP TABLE old_names;
+    )sql",
 };
 
 struct Finalize {

@@ -6,6 +6,7 @@
 
 #include <tetralight/base/file.h>
 #include <tetralight/base/hash/sha256.h>
+#include <tetralight/base/ktx2.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/base/system_error.h>
 #include <tetralight/lightmap/lightmap_file.h>
@@ -17,10 +18,16 @@ namespace tetralight::server {
 namespace {
 
 const char* content_type_of(Kind kind) {
-    constexpr const char* kTypes[] = {"model/gltf-binary", "application/octet-stream",
-                                      "application/json", "application/octet-stream",
-                                      "application/octet-stream"};
+    constexpr const char* kTypes[] = {"model/gltf-binary",        "application/octet-stream",
+                                      "application/json",         "application/octet-stream",
+                                      "application/octet-stream", "image/ktx2"};
     return kTypes[static_cast<size_t>(kind)];
+}
+
+bool is_ktx2(std::string_view start) {
+    const auto& identifier = kKtx2Identifier;
+    return std::ranges::equal(start.substr(0, identifier.size()), identifier, {},
+                              [](char c) { return static_cast<uint8_t>(c); });
 }
 
 /// Why a file that begins like this is not of the kind; nothing if it may be.
@@ -36,16 +43,20 @@ const char* fault_of_start(Kind kind, std::string_view start) {
         case Kind::Groups:
             return nullptr;
         case Kind::Volumes:
-            return has_lightmaps ? "contains lightmaps, which /v1/lightmaps stores" : nullptr;
+            if (has_lightmaps) return "contains lightmaps, which /v1/lightmaps stores";
+            return is_ktx2(start) ? "is a KTX file; /v1/reflections stores reflection probes"
+                                  : nullptr;
         case Kind::Lightmaps:
+            return has_lightmaps ? nullptr : "is not a lightmap file (.lightmaps)";
+        case Kind::Reflections:
             break;
     }
-    return has_lightmaps ? nullptr : "is not a lightmap file (.lightmaps)";
+    return is_ktx2(start) ? nullptr : "is not a file of reflection probes (.ktx2)";
 }
 
 /// Throws if the first bytes are not those of the kind, before a program is run.
 void check_magic(Kind kind, int file) {
-    char bytes[8] = {};
+    char bytes[kKtx2Identifier.size()] = {};
     const ssize_t count = ::pread(file, bytes, sizeof bytes, 0);
     const std::string_view start(bytes, static_cast<size_t>(std::max<ssize_t>(count, 0)));
     if (const char* fault = fault_of_start(kind, start)) {
@@ -77,6 +88,7 @@ Job reading_job(Kind kind, const WorkFolder& folder) {
                                  {"output", str_cat(kResults, "/check.probes")}}};
         case Kind::Volumes:
         case Kind::Lightmaps:
+        case Kind::Reflections:
             break;
     }
     return {.command = "info", .settings = {{"volume", kUpload}}};

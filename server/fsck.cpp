@@ -171,8 +171,9 @@ bool is_of_server(const std::string& data) {
     };
     return is_there("tetralight.db") || is_there("index.json") ||
            std::ranges::all_of(kKinds, [&](Kind kind) {
-               // Early servers had no lightmaps.
-               return kind == Kind::Lightmaps || is_there(name_of(kind));
+               // Early servers had neither.
+               const bool is_later = kind == Kind::Lightmaps || kind == Kind::Reflections;
+               return is_later || is_there(name_of(kind));
            });
 }
 

@@ -21,7 +21,8 @@ void Retention::delete_old() {
         log_.write(Log::Level::Error, "what is too old could not be deleted", {{"error", error}});
     };
     try {
-        for (const Kind kind : {Kind::Volumes, Kind::Lightmaps}) delete_unnamed(kind);
+        for (const Kind kind : {Kind::Volumes, Kind::Lightmaps, Kind::Reflections})
+            delete_unnamed(kind);
         delete_bakes();
     } catch (const Problem& problem) {
         report(problem.detail);

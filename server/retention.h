@@ -9,8 +9,8 @@
 
 namespace tetralight::server {
 
-/// Deletes volumes and lightmaps without a name and bakes that have ended, once they are older or
-/// more than the settings keep. Files with a name, scenes, skies and groups stay.
+/// Deletes volumes, lightmaps and reflection probes without a name and bakes that have ended, once
+/// they are older or more than the settings keep. Files with a name, scenes, skies and groups stay.
 class Retention {
   public:
     /// Starts a thread if the settings limit anything. Keeps references.

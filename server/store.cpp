@@ -56,7 +56,8 @@ std::optional<StoredFile> Store::find(Kind kind, const std::string& reference) {
 
 StoredFile Store::get(Kind kind, const std::string& reference) {
     auto file = find(kind, reference);
-    const bool is_plural = kind == Kind::Groups || kind == Kind::Lightmaps;
+    const bool is_plural =
+        kind == Kind::Groups || kind == Kind::Lightmaps || kind == Kind::Reflections;
     if (!file) {
         throw Problem{
             404, "not_found",

@@ -31,7 +31,7 @@ namespace tetralight::server {
 ///
 ///     DIR/tetralight.db                names, facts and bakes
 ///     DIR/index.json                   the stored files, for servers that only read
-///     DIR/{scenes,skies,groups,volumes,lightmaps}/ID.EXT
+///     DIR/{scenes,skies,groups,volumes,lightmaps,reflections}/ID.EXT
 ///     DIR/bakes/ID/                    an unfinished bake
 ///     DIR/work/                        folders of requests; deleted at the start
 ///     DIR/quarantine/                  damaged files, and those that no row tells of

@@ -10,9 +10,11 @@
 namespace tetralight::server {
 namespace {
 
-constexpr const char* kKindNames[] = {"scenes", "skies", "groups", "volumes", "lightmaps"};
-constexpr const char* kKindNouns[] = {"scene", "sky", "groups", "volume", "lightmaps"};
-constexpr const char* kExtensions[] = {".glb", ".hdr", ".json", ".probes", ".lightmaps"};
+constexpr const char* kKindNames[] = {"scenes",  "skies",     "groups",
+                                      "volumes", "lightmaps", "reflections"};
+constexpr const char* kKindNouns[] = {"scene",  "sky",       "groups",
+                                      "volume", "lightmaps", "reflections"};
+constexpr const char* kExtensions[] = {".glb", ".hdr", ".json", ".probes", ".lightmaps", ".ktx2"};
 constexpr size_t kIdLength = 64;
 constexpr size_t kOldIdLength = 32;
 

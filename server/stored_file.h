@@ -11,10 +11,10 @@
 namespace tetralight::server {
 
 /// What a stored file holds.
-enum class Kind : uint8_t { Scenes, Skies, Groups, Volumes, Lightmaps };
+enum class Kind : uint8_t { Scenes, Skies, Groups, Volumes, Lightmaps, Reflections };
 
-inline constexpr Kind kKinds[] = {Kind::Scenes, Kind::Skies, Kind::Groups, Kind::Volumes,
-                                  Kind::Lightmaps};
+inline constexpr Kind kKinds[] = {Kind::Scenes,  Kind::Skies,     Kind::Groups,
+                                  Kind::Volumes, Kind::Lightmaps, Kind::Reflections};
 
 /// "scenes": its folder and its part of paths.
 [[nodiscard]] const char* name_of(Kind kind);

@@ -171,6 +171,10 @@ Response validate_lightmaps(Service& service, const Request& request) {
     return validate_file(service, request, Kind::Lightmaps);
 }
 
+Response validate_reflections(Service& service, const Request& request) {
+    return validate_file(service, request, Kind::Reflections);
+}
+
 Response lppv(Service& service, const Request& request) {
     constexpr const char* kFormats[] = {"vdb", "nvdb", "exr", "dds", "ktx2"};
     const Json order = parse_object(request.body);
@@ -229,6 +233,7 @@ std::vector<Route> tool_routes(Service& service) {
             route("/v1/lightmaps/{lightmaps}/validate", false, validate_lightmaps),
             route("/v1/lightmaps/{lightmaps}/relight", true, relight_lightmaps),
             route("/v1/lightmaps/{lightmaps}/export", false, export_lightmaps),
+            route("/v1/reflections/{reflections}/validate", false, validate_reflections),
             route("/v1/relight", true, relight),
             route("/v1/lppv", false, lppv),
             route("/v1/render", false, render)};

@@ -6,7 +6,13 @@ namespace {
 
 constexpr Setting kFiles[] = {
     scene_file("glTF 2.0 scene (.glb or .gltf)"),
-    output_file(".ktx2", "Reflection probes to write: a cube array of 16-bit floats (- = stdout)"),
+    {.name = "output",
+     .type = Type::Path,
+     .help = "Reflection probes to write: a cube array of 16-bit floats (- = stdout)",
+     .extensions = ".ktx2",
+     .without = "none; required except with --explain",
+     .short_name = 'o',
+     .access = Access::Command},
     {.name = "probe",
      .type = Type::Text,
      .help = "Bake the reflection probe of this name only",
@@ -19,7 +25,8 @@ constexpr Setting kFiles[] = {
      .help = "Bake the reflection probes of this file instead: .json or .glb, as `tetralight grid "
              "--reflections` writes them",
      .without = "the reflection probes of the scene",
-     .excludes = "box"},
+     .excludes = "box",
+     .access = Access::Command},
     {.name = "box",
      .type = Type::Numbers,
      .help = "Bake one reflection probe for this world box instead: minimum x,y,z, maximum x,y,z",
@@ -73,7 +80,13 @@ constexpr Setting kCubes[] = {
 
 constexpr Setting kTransport[] = {kBounces, kClamp, kAlbedoBoost, kMaxAlbedo};
 
-constexpr Setting kStoring[] = {kProgressFile};
+constexpr Setting kStoring[] = {
+    kProgressFile,
+    {.name = "explain",
+     .type = Type::Flag,
+     .help = "Bake nothing; check the settings, and print what a bake takes from each light of the "
+             "scene",
+     .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},      {"Added light", kAddedLightAlone},
                              {"Cubes", kCubes},      {"Light transport", kTransport},

@@ -111,8 +111,9 @@ constexpr Setting kLimits[] = {
     {.name = "keep",
      .type = Type::Text,
      .help =
-         "Keep this many volumes and lightmaps without a name, each, and this many ended bakes, "
-         "or those younger than an age: 100, 30d, 12h, 90m, 45s; the server deletes the others",
+         "Keep this many volumes, lightmaps and reflection probes without a name, each, and this "
+         "many ended bakes, or those younger than an age: 100, 30d, 12h, 90m, 45s; the server "
+         "deletes the others",
      .without = "all are kept",
      .value_name = "COUNT|AGE",
      .access = Access::Command},

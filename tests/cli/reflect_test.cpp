@@ -167,6 +167,16 @@ TEST_F(Reflect, WrongUseIsRefused) {
     EXPECT_FALSE(std::filesystem::exists(path("r.ktx2")));
 }
 
+TEST_F(Reflect, ExplainsWithoutBaking) {
+    const auto before = file_names();
+    const Json json = run_json({"reflect", kCourtyard, "--explain"});
+    EXPECT_EQ(json["sources"], run_json({"bake", kCourtyard, "--explain"})["sources"]);
+    EXPECT_EQ(file_names(), before);
+    EXPECT_TRUE(contains(fail({"reflect", "two.gltf", "--explain", "--probe", "middle"}),
+                         "no reflection probe \"middle\""));
+    EXPECT_TRUE(contains(misuse({"reflect", "two.gltf"}), "--output is required"));
+}
+
 TEST_F(Reflect, WarnsIfTheFileHoldsTheSkyAlone) {
     const CommandResult result = succeed(arguments("empty.gltf", "r.ktx2", {"--sky", "1"}));
     EXPECT_EQ(result.err,

@@ -66,9 +66,9 @@ class FuzzedServer:
             file.write(GROUPS)
         subprocess.run([COMMAND, "tetrahedralize", groups, "-o", volume, "--quiet"], check=True)
         self.files = {"volumes": read(volume), "groups": GROUPS, "scenes": triangle_scene(), "skies": SKY,
-                      "lightmaps": read(test.lightmap_file())}
+                      "lightmaps": read(test.lightmap_file()), "reflections": read(test.reflection_file())}
         self.names = {"volumes": "level", "groups": "few", "scenes": "court", "skies": "white",
-                      "lightmaps": "floor"}
+                      "lightmaps": "floor", "reflections": "room"}
         self.sound = sound_requests(self.files)
         self.allowed = allowed()
         self.keep_files()

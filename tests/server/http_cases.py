@@ -54,7 +54,8 @@ def sound_requests(files):
         "/healthz", "/readyz", "/version", "/openapi.json", "/metrics", "/v1/volumes", "/v1/volumes?limit=1",
         "/v1/volumes/level", "/v1/volumes/level/file", "/v1/volumes/level/sections/positions",
         "/v1/lightmaps", "/v1/lightmaps/floor", "/v1/lightmaps/floor/file",
-        "/v1/lightmaps/floor/sections/irradiance", "/v1/scenes/court", "/v1/groups?name=few", "/v1/groups/few/file", "/v1/skies", "/v1/bakes",
+        "/v1/lightmaps/floor/sections/irradiance", "/v1/reflections", "/v1/reflections/room",
+        "/v1/reflections/room/file", "/v1/scenes/court", "/v1/groups?name=few", "/v1/groups/few/file", "/v1/skies", "/v1/bakes",
         "/v1/bakes?limit=2", "/v1/bakes/none/events", "/v1/quarantine", "/", "/assets/none.js")]
     post = [request("POST", query, {"positions": positions}),
             request("POST", query, {"positions": positions, "outside": "clamp", "fade": 2, "cells": True}),
@@ -65,6 +66,8 @@ def sound_requests(files):
             request("POST", "/v1/volumes/level/validate"),
             request("POST", "/v1/relight", {"volume": "level", "name": "dusk"}),
             request("POST", "/v1/lightmaps/floor/validate"),
+            request("POST", "/v1/reflections/room/validate"),
+            request("POST", "/v1/reflection-bakes", {"scene": "court", "samples": "x"}),
             request("POST", "/v1/lightmaps/floor/relight", {"weights": {"sky": 0.5}, "name": "dusk"}),
             request("POST", "/v1/grid", {"scene": "court", "spacing": 8, "name": "grid"}),
             request("POST", "/v1/render", {"scene": "court", "volume": "level", "width": 8, "height": 8}),
@@ -73,7 +76,7 @@ def sound_requests(files):
             request("POST", "/v1/bakes/none/cancel"),
             request("POST", "/v1/quarantine/none/restore")]
     change = [request("PATCH", "/v1/groups/few", {"name": "few"}), request("DELETE", "/v1/volumes/fuzzed"),
-              request("DELETE", "/v1/lightmaps/fuzzed"),
+              request("DELETE", "/v1/lightmaps/fuzzed"), request("DELETE", "/v1/reflections/fuzzed"),
               request("DELETE", "/v1/bakes/none"), request("DELETE", "/v1/quarantine/none"), request("HEAD", "/v1/volumes/level/file"),
               request("OPTIONS", query, fields=[b"Origin: http://example.com",
                                                 b"Access-Control-Request-Method: POST"]),

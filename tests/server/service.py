@@ -169,6 +169,15 @@ class ServiceTest(unittest.TestCase):
                      "--samples", "16", "--sky", "1", "--layers", "sky")
         return path
 
+    def reflection_file(self, sky=1):
+        """The reflection probe of `room_scene` under a grey sky."""
+        scene = os.path.join(self.folder, "room.glb")
+        with open(scene, "wb") as file:
+            file.write(room_scene())
+        path = os.path.join(self.folder, f"room{sky}.ktx2")
+        self.command("reflect", scene, "-o", path, "--cube-size", "8", "--samples", "1", "--sky", str(sky))
+        return path
+
     def upload(self, server, kind, path, name=""):
         with open(path, "rb") as file:
             answer = server.post(f"/v1/{kind}?name={name}", file.read(), BINARY)
@@ -209,11 +218,18 @@ def lattice(count, spacing=1.0):
             for x in range(count) for y in range(count) for z in range(count)]
 
 
-def triangle_scene():
-    """One triangle as binary glTF."""
+def room_scene():
+    """A triangle and a reflection probe above it."""
+    probe = {"name": "room", "translation": [1, 1, 1], "extras": {"reflection_probe": {"size": [4, 3, 4]}}}
+    return triangle_scene([probe])
+
+
+def triangle_scene(more_nodes=()):
+    """One triangle, and nodes without meshes, as binary glTF."""
     positions = struct.pack("<9f", 0, 0, 0, 4, 0, 0, 0, 0, 4)
     text = json.dumps({
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(1 + len(more_nodes)))}],
+        "nodes": [{"mesh": 0}, *more_nodes],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
                        "min": [0, 0, 0], "max": [4, 0, 4]}],

@@ -133,13 +133,14 @@ class Files(VolumeTest):
                            ("skies", b"#?RADIANCE\n\nbroken"), ("groups", b"{}"),
                            ("groups", b'{"groups":[{"name":"a","positions":[[0,0,1e999]]}]}'),
                            ("volumes", b"nonsense"), ("lightmaps", b"nonsense"),
+                           ("reflections", b"nonsense"),
                            ("scenes", b"glTF" + b"\xff" * 100)):
             with self.subTest(kind=kind, body=body[:20]):
                 problem = self.assert_problem(server.post(f"/v1/{kind}", body, BINARY), 422,
                                               "bad_data")
                 self.assertNotIn(self.folder, json.dumps(problem))
         self.assert_problem(server.post("/v1/scenes", b"", BINARY), 400, "missing_value")
-        for kind in ("scenes", "skies", "groups", "volumes", "lightmaps"):
+        for kind in ("scenes", "skies", "groups", "volumes", "lightmaps", "reflections"):
             self.assertEqual(server.get(f"/v1/{kind}").json()[kind], [])
         self.assertEqual(os.listdir(os.path.join(self.data, "work")), [])
 
@@ -360,6 +361,8 @@ class Files(VolumeTest):
         self.assertEqual(self.names(again, plain), [])
         maps = self.upload(again, "lightmaps", self.lightmap_file(), "level")
         self.assertEqual(again.get("/v1/lightmaps/level").json()["id"], maps)
+        cubes = self.upload(again, "reflections", self.reflection_file(), "level")
+        self.assertEqual(again.get("/v1/reflections/level").json()["id"], cubes)
 
     def test_names_move(self):
         server = self.start()
@@ -525,7 +528,8 @@ class Downloads(VolumeTest):
 
     def test_damaged_files_are_not_sent(self):
         for kind, path, extension in (("volumes", self.volume_file(3), ".probes"), ("scenes", COURTYARD, ".glb"),
-                                      ("lightmaps", self.lightmap_file(), ".lightmaps")):
+                                      ("lightmaps", self.lightmap_file(), ".lightmaps"),
+                                      ("reflections", self.reflection_file(), ".ktx2")):
             for damage in (self.damage_by_zeros, self.damage_by_cutting, self.damage_by_replacing,
                            self.damage_with_the_old_time):
                 with self.subTest(kind=kind, damage=damage.__name__):

@@ -110,6 +110,7 @@ class OpenApi(ServiceTest):
         for path, schema, member in (
                 ("/v1/bakes", "BakeOrder", "samples"),
                 ("/v1/lightmap-bakes", "LightmapBakeOrder", "texels_per_meter"),
+                ("/v1/reflection-bakes", "ReflectionBakeOrder", "cube_size"),
                 ("/v1/lightmaps/none/export", "ExportLightmapsOrder", "scene"), ("/v1/grid", "GridOrder", "spacing"),
                 ("/v1/lppv", "LppvOrder", "density"), ("/v1/render", "RenderOrder", "camera"),
                 ("/v1/relight", "RelightOrder", "weights"),
@@ -131,13 +132,16 @@ class OpenApi(ServiceTest):
         self.assertIn("hann", bake["dering_window"]["enum"])
         self.assertEqual((bake["scene"]["x-stored"], bake["reuse"]["x-stored"]), ("scenes", "volumes"))
         self.assertIn("scene", schemas["BakeOrder"]["required"])
+        render = schemas["RenderOrder"]["properties"]
+        self.assertEqual([render[name]["x-stored"] for name in ("volume", "lightmaps", "reflections")],
+                         ["volumes", "lightmaps", "reflections"])
         self.assertEqual(set(schemas["Query"]["properties"]),
                          {"positions", "normals", "normal_offset", "outside", "fade", "walls",
                           "rendering_layers", "radius", "precision"})
         text = json.dumps(schemas)
         self.assertNotIn("x-settings", text)
         self.assertNotIn("--", text)
-        for order in ("BakeOrder", "LightmapBakeOrder", "ExportLightmapsOrder", "GridOrder", "LppvOrder", "RenderOrder", "RelightOrder",
+        for order in ("BakeOrder", "LightmapBakeOrder", "ReflectionBakeOrder", "ExportLightmapsOrder", "GridOrder", "LppvOrder", "RenderOrder", "RelightOrder",
                       "RelightLightmapsOrder"):
             for name, setting in schemas[order]["properties"].items():
                 self.assertTrue(setting["description"], name)

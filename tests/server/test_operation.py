@@ -99,7 +99,7 @@ class Readiness(ServiceTest):
 
     def test_each_folder_of_the_store_must_be_there(self):
         server = self.start()
-        for name in ("scenes", "skies", "groups", "volumes", "lightmaps", "bakes", "work", "quarantine"):
+        for name in ("scenes", "skies", "groups", "volumes", "lightmaps", "reflections", "bakes", "work", "quarantine"):
             folder = os.path.join(self.data, name)
             os.rename(folder, folder + ".aside")
             self.assert_not_ready(server, name + " cannot be written")

@@ -30,6 +30,15 @@ class Retention(VolumeTest):
         self.assertTrue(self.eventually(lambda: kept() == sorted([named, plain[1]])))
         self.assertEqual(self.volumes(server), [volume])
 
+    def test_reflection_probes_without_a_name_are_counted_on_their_own(self):
+        server = self.start("--keep", "1")
+        volume = self.upload(server, "volumes", self.volume_file(2))
+        named = self.upload(server, "reflections", self.reflection_file(1), "room")
+        plain = [self.upload(server, "reflections", self.reflection_file(sky)) for sky in (2, 3)]
+        kept = lambda: [r["id"] for r in server.get("/v1/reflections").json()["reflections"]]
+        self.assertTrue(self.eventually(lambda: kept() == sorted([named, plain[1]])))
+        self.assertEqual(self.volumes(server), [volume])
+
     def test_old_ones_go(self):
         server = self.start()
         named = self.upload(server, "volumes", self.volume_file(2), "level")
