@@ -247,7 +247,7 @@ void bench_box() {
     report("reflection.box", 100.0 * error.rms(), "%");
 }
 
-/// The largest step of what a ball reflects that moves by 1 mm from one box into another, black
+/// The largest change of the light that a ball reflects per 1 mm, on its way into another, black
 /// one.
 void bench_blend() {
     Reflections two;

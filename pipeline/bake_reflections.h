@@ -58,8 +58,8 @@ struct BakedReflections {
 /// of light, so that punctual lights and suns are not in them; what surfaces reflect of these is. A
 /// pure function of (scene, places, settings), the same bits for any number of threads.
 ///
-/// Returns invalid_argument for a size that is no power of two or out of range, for no places while
-/// there is no sky, and the errors of `bake_cubes`.
+/// Returns invalid_argument for a size that is not a power of two or out of range, for no places
+/// while there is no sky, and the errors of `bake_cubes`.
 [[nodiscard]] Result<BakedReflections> bake_reflections(const Scene& scene,
                                                         std::span<const ReflectionPlace> places,
                                                         const BakeReflectionsSettings& settings,

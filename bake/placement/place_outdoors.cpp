@@ -120,7 +120,7 @@ class OutdoorPlacer {
 
     /// Above the ground nearest to the middle of a square where there is room.
     [[nodiscard]] std::optional<glm::dvec3> position_in(const Square& square) const {
-        // Most of what is higher are roofs.
+        // Higher ground is mostly roofs.
         const glm::dvec3 middle(square.center.x, ground_of(square, 0.75), square.center.y);
         std::vector<std::pair<double, const Column*>> columns;
         for (const auto& [number, column] : square.columns) {

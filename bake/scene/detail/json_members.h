@@ -34,7 +34,7 @@ namespace tetralight::detail {
 [[nodiscard]] std::optional<int32_t> read_int32(const nlohmann::json& value);
 
 /// Reads the number of a key; leaves `number` unchanged if the key is absent. Returns corrupt if
-/// the value is no number.
+/// the value is not a number.
 [[nodiscard]] Status read_number(const nlohmann::json& object, const char* key,
                                  std::optional<double>& number);
 [[nodiscard]] Status read_number(const nlohmann::json& object, const char* key,
