@@ -51,14 +51,34 @@ uint64_t checksum_of(std::span<const std::byte> bytes) {
     return hash.value();
 }
 
-std::vector<std::string> pack_paths(const std::string& folder) {
+bool is_pack(const fs::path& path) {
+    return path.extension() == ".pack";
+}
+
+/// The files of a folder for which `is_one(path)` is true, in order.
+template <class Test>
+std::vector<std::string> paths_of(const std::string& folder, const Test& is_one) {
     std::vector<std::string> paths;
     std::error_code error;
     for (const auto& file : fs::directory_iterator(folder, error)) {
-        if (file.path().extension() == ".pack") paths.push_back(file.path().string());
+        if (is_one(file.path())) paths.push_back(file.path().string());
     }
     std::ranges::sort(paths);
     return paths;
+}
+
+/// True for a file that a process was writing when it or the system stopped, see FileWriter.
+bool is_unfinished(const fs::path& path) {
+    const std::string name = path.filename().string();
+    return name.starts_with(std::string(kMarker) + ".") || name.find(".pack.") != name.npos;
+}
+
+/// True if a folder is empty but for what a stopped process left.
+bool can_become_store(const std::string& folder) {
+    std::error_code error;
+    const fs::directory_iterator files(folder, error);
+    return !error &&
+           std::ranges::all_of(files, [](const auto& file) { return is_unfinished(file.path()); });
 }
 
 /// The table of a pack; nothing if it is damaged.
@@ -85,7 +105,8 @@ bool BakeStore::is_store(const std::string& folder) {
 void BakeStore::remove(const std::string& folder) {
     std::error_code error;
     if (!is_store(folder)) return;
-    for (const std::string& path : pack_paths(folder)) fs::remove(path, error);
+    const auto is_own = [](const fs::path& path) { return is_pack(path) || is_unfinished(path); };
+    for (const std::string& path : paths_of(folder, is_own)) fs::remove(path, error);
     fs::remove(fs::path(folder) / kMarker, error);
     fs::remove(folder, error);
 }
@@ -97,7 +118,7 @@ Result<BakeStore> BakeStore::open(const std::string& folder) {
         return Error{ErrorCode::InvalidArgument,
                      folder + ": is not a bake store; move it away, or write elsewhere"};
     }
-    if (exists && !is_store(folder) && !fs::is_empty(folder, error)) {
+    if (exists && !is_store(folder) && !can_become_store(folder)) {
         return Error{ErrorCode::InvalidArgument,
                      folder + ": is a folder of other files, not a bake store"};
     }
@@ -107,7 +128,7 @@ Result<BakeStore> BakeStore::open(const std::string& folder) {
 }
 
 void BakeStore::add_packs() {
-    for (const std::string& path : pack_paths(folder_)) {
+    for (const std::string& path : paths_of(folder_, is_pack)) {
         unsigned long long number = 0;
         if (std::sscanf(fs::path(path).filename().c_str(), "%llx", &number) == 1) {
             next_number_ = std::max<uint64_t>(next_number_, number + 1);
@@ -246,7 +267,7 @@ StoreSize BakeStore::prune(uint64_t max_bytes) {
     std::vector<File> files;
     StoreSize size;
     std::error_code error;
-    for (const std::string& path : pack_paths(folder_)) {
+    for (const std::string& path : paths_of(folder_, is_pack)) {
         const uint64_t pack_size = fs::file_size(path, error);
         if (error) continue;
         files.push_back({fs::last_write_time(path, error), path, pack_size});

@@ -38,7 +38,7 @@ class BakeStore {
   public:
     /// Reads the tables of all packs. The folder may not exist; the first `put` makes it. Entries
     /// that other processes put later are not seen. Returns invalid_argument if the path is not a
-    /// folder, or a folder that is neither empty nor a store.
+    /// folder, or a folder of other files.
     [[nodiscard]] static Result<BakeStore> open(const std::string& folder);
 
     /// True if the path is a folder that holds a store.

@@ -181,6 +181,17 @@ TEST_F(BakeStores, AreNotMadeOfOtherFiles) {
     EXPECT_FALSE(fs::exists(folder));
 }
 
+TEST_F(BakeStores, StartInAFolderOfUnfinishedFiles) {
+    fs::create_directories(folder);
+    std::ofstream(fs::path(folder) / "tetralight-store.4711.0");  // a power cut before its rename
+    BakeStore store = open();
+    put(store, {{1, "one"}});
+    EXPECT_EQ(find(store, 1), "one");
+    std::ofstream(fs::path(folder) / "0000000000000001-0.pack.aBcDeF") << "half";
+    BakeStore::remove(folder);
+    EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST_F(BakeStores, ThatCannotBeWrittenAreAnError) {
     std::ofstream(root / "file") << "a file";
     auto store = BakeStore::open(root / "file" / "store");

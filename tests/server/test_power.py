@@ -149,7 +149,8 @@ class PowerCuts(ServiceTest):
                 answer = server.post(f"/v1/volumes/{found}/query", {"positions": [[0.5, 0.5, 0.5]]})
                 self.assertEqual(answer.status, 200, answer.body)
             elif key[0] == "bakes":
-                self.assertEqual(server.wait_for(found)["state"], "done", found)
+                bake = server.wait_for(found)
+                self.assertEqual(bake["state"], "done", bake)
             else:
                 self.assertEqual(server.get(f"/v1/{key[0]}/{found}/file").status, 200)
 
