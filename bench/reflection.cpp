@@ -206,7 +206,7 @@ WallHit hit_walls(const glm::dvec3& origin, const glm::dvec3& direction) {
 /// A probe of the room, captured at a position.
 Reflections room_probe(const glm::dvec3& position) {
     const SampleCube sample = [](const glm::dvec3& origin, glm::vec3 direction, float,
-                                 const Sampler&) {
+                                 const Sampler&, std::span<glm::vec3>) {
         return CubeSample{light_of_walls(hit_walls(origin, direction).place)};
     };
     const CubePosition place{position};
@@ -247,16 +247,16 @@ void bench_box() {
     report("reflection.box", 100.0 * error.rms(), "%");
 }
 
-/// The largest change of the light that a ball reflects per 1 mm, on its way into another, black
-/// one.
+/// The largest change of the light that a ball reflects per 1 mm, on its way from a white room into
+/// a black one through a doorway as long as the blend distance.
 void bench_blend() {
     Reflections two;
     two.size = 8;
     for (int i = 0; i < 2; ++i) {
         ReflectionProbe probe;
-        probe.position = {3.0 * i, 0.0, 0.0};
+        probe.position = {4.5 * i, 0.0, 0.0};
         probe.half_size = {2.0f, 2.0f, 2.0f};
-        probe.blend_distance = 1.0f;
+        probe.blend_distance = 0.5f;
         two.probes.push_back(probe);
         const CubeImage cube{
             8, std::vector<glm::vec3>(cube_texel_count(8), glm::vec3(i == 0 ? 1.0f : 0.0f))};
@@ -265,7 +265,7 @@ void bench_blend() {
     const ReflectionsView view = two.view();
     double worst = 0.0;
     float before = -1.0f;
-    for (int step = 0; step <= 3000; ++step) {
+    for (int step = 0; step <= 4500; ++step) {
         const glm::dvec3 place(0.001 * step, 0.2, 0.1);
         const ReflectionBlend blend = blend_reflections(view, place);
         const float light = sample_reflections(view, blend, place, {0, 1, 0}, 0.5f).x;

@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <tuple>
 
@@ -86,7 +85,7 @@ Candidates candidates_after(const ReflectionsView& reflections, const glm::dvec3
     return found;
 }
 
-/// The weights of probes that cover each other as layers of paint do.
+/// The weights of probes, each of which takes what the earlier ones left, up to its influence.
 LargestWeights composited(const ReflectionsView& reflections, const glm::dvec3& position) noexcept {
     LargestWeights largest;
     float uncovered = 1.0f;
@@ -94,22 +93,15 @@ LargestWeights composited(const ReflectionsView& reflections, const glm::dvec3& 
     while (found.count > 0) {
         for (size_t i = 0; i < found.count; ++i) {
             const Candidate& candidate = found.all[i];
-            largest.insert(candidate.probe, candidate.influence * uncovered);
-            uncovered *= 1.0f - candidate.influence;
+            const float weight = std::min(candidate.influence, uncovered);
+            largest.insert(candidate.probe, weight);
+            uncovered -= weight;
         }
         if (found.count < Candidates::kRoom || uncovered == 0.0f) break;
         const Candidate last = found.all.back();
         found = candidates_after(reflections, position, &last);
     }
     return largest;
-}
-
-/// Square of the distance from a position to the box of a probe.
-double square_distance(const ReflectionProbe& probe, const glm::dvec3& position) noexcept {
-    const glm::dvec3 beyond =
-        glm::abs(detail::place_in_box(probe, position)) - glm::dvec3(probe.half_size);
-    const glm::dvec3 outside = glm::max(beyond, glm::dvec3(0.0));
-    return glm::dot(outside, outside);
 }
 
 /// The probe whose box is the nearest; all of the weight.
@@ -119,7 +111,9 @@ ReflectionBlend nearest_probe(const ReflectionsView& reflections,
     double nearest = std::numeric_limits<double>::infinity();
     const auto count = static_cast<uint32_t>(reflections.probes.size());
     for (uint32_t i = 0; i < count; ++i) {
-        const double distance = square_distance(reflections.probes[i], position);
+        const ReflectionProbe& probe = reflections.probes[i];
+        const double distance =
+            detail::distance_to_box(probe, detail::place_in_box(probe, position));
         if (!(distance < nearest)) continue;
         nearest = distance;
         blend.probes[0] = i;
@@ -132,10 +126,10 @@ ReflectionBlend nearest_probe(const ReflectionsView& reflections,
 
 float reflection_influence(const ReflectionProbe& probe, const glm::dvec3& position) noexcept {
     if (probe.is_everywhere()) return 1.0f;
-    const double depth = detail::depth_in_box(probe, detail::place_in_box(probe, position));
-    if (!(depth >= 0.0)) return 0.0f;
-    if (!(depth < probe.blend_distance)) return 1.0f;
-    const double t = depth / probe.blend_distance;
+    const double distance = detail::distance_to_box(probe, detail::place_in_box(probe, position));
+    if (distance == 0.0) return 1.0f;
+    if (!(distance < probe.blend_distance)) return 0.0f;
+    const double t = 1.0 - distance / probe.blend_distance;
     return static_cast<float>(t * t * (3.0 - 2.0 * t));
 }
 

@@ -16,10 +16,6 @@
 namespace tetralight {
 namespace {
 
-/// Walls on the sides of a box count as inside it, however their positions are rounded: as a
-/// multiple of the box.
-constexpr double kBoxReach = 1.001;
-
 /// The texels of one cube at one level; none if the level lacks them.
 struct CubeLevel {
     std::span<const RadianceTexel> texels;
@@ -118,16 +114,19 @@ glm::vec3 blended(const ReflectionsView& reflections, const ReflectionBlend& ble
 glm::vec3 project_on_box(const ReflectionProbe& probe, const glm::dvec3& position,
                          glm::vec3 direction) noexcept {
     const glm::dvec3 along = glm::normalize(glm::dvec3(direction));
-    const glm::vec3 unchanged(along);
-    if (probe.is_everywhere()) return unchanged;
-    const glm::dvec3 place = detail::place_in_box(probe, position);
+    const double influence = probe.is_everywhere() ? 0.0 : reflection_influence(probe, position);
+    if (!(influence > 0.0)) return glm::vec3(along);
     const glm::dvec3 half_size(probe.half_size);
-    if (!glm::all(glm::lessThanEqual(glm::abs(place), kBoxReach * half_size))) return unchanged;
-    const double distance = distance_to_side(half_size, glm::clamp(place, -half_size, half_size),
-                                             detail::box_from_world(probe, along));
-    const glm::dvec3 hit = position - probe.position + distance * along;
-    const double length = glm::length(hit);
-    return length > 0.0 && std::isfinite(length) ? glm::vec3(hit / length) : unchanged;
+    const glm::dvec3 place =
+        glm::clamp(detail::place_in_box(probe, position), -half_size, half_size);
+    const glm::dvec3 direction_in_box = detail::box_from_world(probe, along);
+    const glm::dvec3 hit =
+        place + distance_to_side(half_size, place, direction_in_box) * direction_in_box;
+    const glm::dvec3 from_probe = glm::dvec3(probe.box_center) + detail::world_from_box(probe, hit);
+    const double length = glm::length(from_probe);
+    if (!(length > 0.0 && std::isfinite(length))) return glm::vec3(along);
+    const glm::dvec3 mixed = glm::mix(along, from_probe / length, influence);
+    return glm::vec3(influence == 1.0 ? mixed : glm::normalize(mixed));
 }
 
 glm::vec3 sample_cube(const ReflectionsView& reflections, uint32_t probe, glm::vec3 direction,

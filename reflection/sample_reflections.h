@@ -24,19 +24,20 @@ struct ReflectionBlend {
     std::array<float, kMaxProbes> weights{};
 };
 
-/// How much a probe counts at a position, in [0, 1]: 0 outside its box, 1 farther inside than the
-/// blend distance, a smooth step between. Continuous if the blend distance is above 0.
+/// How much a probe counts at a position, in [0, 1]: 1 in its box, 0 farther outside than the blend
+/// distance, a smooth step between. Continuous if the blend distance is above 0. Walls on the sides
+/// of the box are in it, however their positions are rounded: it is taken larger by a thousandth.
 [[nodiscard]] float reflection_influence(const ReflectionProbe& probe,
                                          const glm::dvec3& position) noexcept;
 
-/// The three most important probes at a position. Probes of higher importance, and of smaller boxes
-/// among equals, cover the others by their influence. What they leave uncovered belongs to the
-/// probes that are everywhere (the sky), or if there are none, to the probes by their weights;
-/// outside all boxes to the nearest box.
+/// The three most important probes at a position. Probes of higher importance come first, and of
+/// smaller boxes among equals; each takes as much of what the earlier ones left as its influence.
+/// What all of them leave belongs to the probes that are everywhere (the sky), or if there are
+/// none, to the probes by their weights; beyond all boxes to the nearest box.
 ///
-/// Inside boxes with blend distances the weights are continuous in the position, because they are
-/// reduced by the fourth largest. They are not where the four largest are equal (no choice of three
-/// is), and without a sky on the outer sides of the boxes. Cost: O(n).
+/// With blend distances the weights are continuous in the position, because they are reduced by the
+/// fourth largest. They are not where the four largest are equal (no choice of three is), and
+/// without a sky where the influence of the last box ends. Cost: O(n).
 [[nodiscard]] ReflectionBlend blend_reflections(const ReflectionsView& reflections,
                                                 const glm::dvec3& position) noexcept;
 
@@ -45,9 +46,9 @@ struct ReflectionBlend {
 [[nodiscard]] std::vector<uint32_t> reflection_order(const ReflectionsView& reflections);
 
 /// The direction from a probe to where a ray from `position` hits the side of its box (Lagarde &
-/// Zanuttini 2012, "Local Image-based Lighting With Parallax-corrected Cubemaps"). The direction
-/// itself if the probe is everywhere or the position lies outside the box, by more than a
-/// thousandth of its size. Unit vector.
+/// Zanuttini 2012, "Local Image-based Lighting With Parallax-corrected Cubemaps"). Outside the box
+/// it is mixed, by the influence, from that of the nearest place in the box and the direction
+/// itself; without a box it is the direction. Unit vector.
 [[nodiscard]] glm::vec3 project_on_box(const ReflectionProbe& probe, const glm::dvec3& position,
                                        glm::vec3 direction) noexcept;
 

@@ -480,7 +480,7 @@ typedef struct tetralight_reflection_probe {
     float half_size[3];
     /** Unit vectors in world axes, one after the other. */
     float axes[9];
-    /** Inside the box, within this distance of its sides, the probe fades out, metres. */
+    /** Outside the box the probe fades out over this distance, metres. */
     float blend_distance;
     /** Probes of higher importance hide those of lower importance. */
     int32_t importance;

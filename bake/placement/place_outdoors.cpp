@@ -153,15 +153,11 @@ class OutdoorPlacer {
         WorldBox box;
         box.min.y = ground_of(square, 0.95);
         box.max.y = std::max(rule_.bounds.max.y, position.y + kOutdoorHeight);
-        // Wider by the blend distance, a tenth of the box, than the square.
         const glm::dvec2 half = 0.5 * glm::dvec2(square_side(0), square_side(2));
-        const double smallest =
-            std::min({half.x, half.y, 0.5 * (1.0 - kBlendFraction) * (box.max.y - box.min.y)});
-        const double more = kBlendFraction / (1.0 - kBlendFraction) * smallest;
-        box.min.x = square.center.x - half.x - more;
-        box.max.x = square.center.x + half.x + more;
-        box.min.z = square.center.y - half.y - more;
-        box.max.z = square.center.y + half.y + more;
+        box.min.x = square.center.x - half.x;
+        box.max.x = square.center.x + half.x;
+        box.min.z = square.center.y - half.y;
+        box.max.z = square.center.y + half.y;
         return box;
     }
 

@@ -30,6 +30,18 @@ constexpr double kSharedFraction = 0.8;
 /// Points of a room that decide whether it is to be filled.
 constexpr size_t kAskedPoints = 16;
 
+/// Of a place along the axes of the world.
+WorldBox box_around(const ReflectionPlace& place) {
+    const glm::dvec3 center = place.position + glm::dvec3(place.box_center);
+    const glm::dvec3 half_size(place.half_size);
+    return {center - half_size, center + half_size};
+}
+
+/// 0 if they overlap.
+double distance_between(const WorldBox& a, const WorldBox& b) {
+    return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), glm::dvec3(0.0)));
+}
+
 class ReflectionPlacer {
   public:
     ReflectionPlacer(const TraceScene& traced, const ReflectionRule& rule)
@@ -39,6 +51,7 @@ class ReflectionPlacer {
 
     std::vector<ReflectionPlace> run() {
         place_rooms();
+        fit_blend_distances();
         std::ranges::move(place_outdoors(traced_, rule_, map_, boxes_),
                           std::back_inserter(places_));
         return std::move(places_);
@@ -91,6 +104,22 @@ class ReflectionPlacer {
         }
         map_.open_points.insert(map_.open_points.end(), outdoors.begin(), outdoors.end());
         std::ranges::sort(map_.open_points);
+    }
+
+    /// Rooms beside each other blend over the thickness of the wall between them: through its
+    /// doors, and not behind it.
+    void fit_blend_distances() {
+        constexpr float kThickestWall = 2.5f;  // as a multiple of the blend distance
+        std::vector<WorldBox> boxes;
+        std::ranges::transform(places_, std::back_inserter(boxes), box_around);
+        for (size_t i = 0; i < boxes.size(); ++i) {
+            float& blend_distance = places_[i].blend_distance;
+            float nearest = kThickestWall * blend_distance;
+            for (const WorldBox& other : boxes) {
+                const float distance = static_cast<float>(distance_between(boxes[i], other));
+                if (distance > 0.0f && distance < nearest) nearest = blend_distance = distance;
+            }
+        }
     }
 
     /// One probe, or several in an arcade around a court, which no box is to hold.

@@ -20,6 +20,7 @@ ReflectionPlace make_reflection_place(const glm::dvec3& position, const WorldBox
     place.position = position;
     place.box_center = glm::vec3(box.center() - position);
     place.half_size = glm::vec3(0.5 * size);
+    constexpr double kBlendFraction = 0.1;
     place.blend_distance = static_cast<float>(kBlendFraction * std::min({size.x, size.y, size.z}));
     place.importance = importance;
     return place;

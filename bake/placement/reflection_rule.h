@@ -13,8 +13,6 @@
 
 namespace tetralight {
 
-/// The fraction of the smallest side of a box that is its blend distance.
-inline constexpr double kBlendFraction = 0.1;
 /// Distance of reflection probes from surfaces, metres, where there is room for it.
 inline constexpr double kFarFromSurfaces = 0.5;
 
@@ -40,7 +38,7 @@ struct ReflectionRule {
 [[nodiscard]] bool allows_reflection_probe(const TraceScene& traced, const ReflectionRule& rule,
                                            const glm::dvec3& position, double clearance);
 
-/// A place in its box, with the blend distance of the box.
+/// A place in its box. The blend distance is a tenth of the box's smallest side.
 [[nodiscard]] ReflectionPlace make_reflection_place(const glm::dvec3& position, const WorldBox& box,
                                                     int importance);
 

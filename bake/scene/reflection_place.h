@@ -21,8 +21,8 @@ struct ReflectionPlace {
     glm::vec3 half_size{5.0f};
     /// The axes of the box as columns: unit vectors at right angles, in world axes.
     glm::mat3 axes{1.0f};
-    /// Inside the box, within this distance of its sides, the probe fades out, metres; at least 0.
-    float blend_distance = 1.0f;
+    /// Outside the box the probe fades out over this distance, metres; at least 0.
+    float blend_distance = 0.25f;
     /// Probes of higher importance hide those of lower importance.
     int32_t importance = 1;
     /// Surfaces nearer than this are not in the cube, metres; at least 0.

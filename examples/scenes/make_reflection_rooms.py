@@ -68,7 +68,7 @@ def add_room(gltf, name, center_x, material):
     lamp = "lamp_warm" if center_x < 0 else "lamp_cool"
     gltf.box(f"{name}_lamp", (1.6, 0.08, 0.5), (center_x, HIGH - 0.2, -0.4), lamp)
     gltf.node(f"{name}_reflections", None, (center_x, 1.4, 0), extras={"reflection_probe": {
-        "size": [LONG, HIGH, DEEP], "center": [0, round(HIGH / 2 - 1.4, 6), 0], "blend_distance": 0.8}})
+        "size": [LONG, HIGH, DEEP], "center": [0, round(HIGH / 2 - 1.4, 6), 0], "blend_distance": WALL}})
     places = grid([center_x + d for d in (-2.7, -1.6, -0.5, 0.5, 1.6, 2.7)], [0.15, 0.8, 1.6, 2.6], [-1.8, -0.9, 0, 0.9, 1.8])
     add_probe_group(gltf, f"{name}_probes", places)
 

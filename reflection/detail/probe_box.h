@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -20,17 +19,28 @@ namespace tetralight::detail {
             glm::dot(vector, glm::dvec3(probe.axes[2]))};
 }
 
+/// The same vector in the world.
+[[nodiscard]] inline glm::dvec3 world_from_box(const ReflectionProbe& probe,
+                                               const glm::dvec3& vector) noexcept {
+    return vector.x * glm::dvec3(probe.axes[0]) + vector.y * glm::dvec3(probe.axes[1]) +
+           vector.z * glm::dvec3(probe.axes[2]);
+}
+
 /// A position relative to the center of the box, in its axes.
 [[nodiscard]] inline glm::dvec3 place_in_box(const ReflectionProbe& probe,
                                              const glm::dvec3& position) noexcept {
     return box_from_world(probe, position - probe.position - glm::dvec3(probe.box_center));
 }
 
-/// Distance from a place inside the box to its nearest side; negative outside.
-[[nodiscard]] inline double depth_in_box(const ReflectionProbe& probe,
-                                         const glm::dvec3& place) noexcept {
-    const glm::dvec3 depth = glm::dvec3(probe.half_size) - glm::abs(place);
-    return std::min({depth.x, depth.y, depth.z});
+/// Walls on the sides of a box count as inside it, however their positions are rounded: as a
+/// multiple of the box.
+inline constexpr double kBoxReach = 1.001;
+
+/// Distance from a place outside the box to the box; 0 inside.
+[[nodiscard]] inline double distance_to_box(const ReflectionProbe& probe,
+                                            const glm::dvec3& place) noexcept {
+    const glm::dvec3 beyond = glm::abs(place) - kBoxReach * glm::dvec3(probe.half_size);
+    return glm::length(glm::max(beyond, glm::dvec3(0.0)));
 }
 
 }  // namespace tetralight::detail

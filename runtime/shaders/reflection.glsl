@@ -37,48 +37,56 @@ vec3 tetralight_box_from_world(TetralightReflectionProbe probe, vec3 v) {
     return vec3(dot(v, probe.x_axis.xyz), dot(v, probe.y_axis.xyz), dot(v, probe.z_axis.xyz));
 }
 
+// A vector in the axes of the box, in the world.
+vec3 tetralight_world_from_box(TetralightReflectionProbe probe, vec3 v) {
+    return probe.x_axis.xyz * v.x + probe.y_axis.xyz * v.y + probe.z_axis.xyz * v.z;
+}
+
 vec3 tetralight_place_in_box(TetralightReflectionProbe probe, vec3 position) {
     return tetralight_box_from_world(probe,
                                      position - probe.position.xyz - probe.box_center.xyz);
-}
-
-// Distance from a place inside the box to its nearest side; negative outside.
-float tetralight_depth_in_box(TetralightReflectionProbe probe, vec3 place) {
-    vec3 depth = probe.half_size.xyz - abs(place);
-    return min(depth.x, min(depth.y, depth.z));
-}
-
-// How much a probe counts at a position: 0 outside its box, 1 farther inside than the blend
-// distance, a smooth step between.
-float tetralight_reflection_influence(TetralightReflectionProbe probe, vec3 position) {
-    if (probe.half_size.w == 0.0f) return 1.0f;
-    float depth = tetralight_depth_in_box(probe, tetralight_place_in_box(probe, position));
-    float blend_distance = probe.box_center.w;
-    if (!(depth >= 0.0f)) return 0.0f;
-    if (!(depth < blend_distance)) return 1.0f;
-    float t = depth / blend_distance;
-    return t * t * (3.0f - 2.0f * t);
 }
 
 // Walls on the sides of a box count as inside it, however their positions are rounded: as a multiple
 // of the box.
 TETRALIGHT_CONST float tetralight_box_reach = 1.001f;
 
+// How much a probe counts at a place in the axes of its box: 1 in the box, 0 farther outside than
+// the blend distance, a smooth step between.
+float tetralight_influence_in_box(TetralightReflectionProbe probe, vec3 place) {
+    vec3 beyond = abs(place) - probe.half_size.xyz * tetralight_box_reach;
+    float distance_to_box = length(max(beyond, vec3(0.0f, 0.0f, 0.0f)));
+    float blend_distance = probe.box_center.w;
+    if (distance_to_box == 0.0f) return 1.0f;
+    if (!(distance_to_box < blend_distance)) return 0.0f;
+    float t = 1.0f - distance_to_box / blend_distance;
+    return t * t * (3.0f - 2.0f * t);
+}
+
+// The same at a position; 1 if the probe has no box.
+float tetralight_reflection_influence(TetralightReflectionProbe probe, vec3 position) {
+    if (probe.half_size.w == 0.0f) return 1.0f;
+    return tetralight_influence_in_box(probe, tetralight_place_in_box(probe, position));
+}
+
 // The unit direction from a probe to where a ray from `position` in a unit direction hits the side
-// of its box. The direction itself outside the box, or if there is none.
+// of its box. Outside the box mixed, by the influence, from that of the nearest place in the box
+// and the direction itself.
 vec3 tetralight_project_on_box(TetralightReflectionProbe probe, vec3 position, vec3 direction) {
     if (probe.half_size.w == 0.0f) return direction;
     vec3 half_size = probe.half_size.xyz;
     vec3 place = tetralight_place_in_box(probe, position);
-    vec3 beyond = abs(place) - half_size * tetralight_box_reach;
-    if (!(max(beyond.x, max(beyond.y, beyond.z)) <= 0.0f)) return direction;
+    float influence = tetralight_influence_in_box(probe, place);
+    if (influence == 0.0f) return direction;
     place = clamp(place, -half_size, half_size);
     vec3 along = tetralight_box_from_world(probe, direction);
     vec3 speed = max(abs(along), vec3(1e-20f, 1e-20f, 1e-20f));
     vec3 reach = (half_size - place * sign(along)) / speed;
-    vec3 hit = position - probe.position.xyz + direction * min(reach.x, min(reach.y, reach.z));
-    float square = dot(hit, hit);
-    return square > 0.0f ? hit * inversesqrt(square) : direction;
+    vec3 hit = place + along * min(reach.x, min(reach.y, reach.z));
+    vec3 from_probe = probe.box_center.xyz + tetralight_world_from_box(probe, hit);
+    float square = dot(from_probe, from_probe);
+    if (!(square > 0.0f)) return direction;
+    return normalize(mix(direction, from_probe * inversesqrt(square), influence));
 }
 
 // Radiance of one cube at a level: roughness * (number of levels - 1).
@@ -142,8 +150,8 @@ TetralightReflectionChoice tetralight_add_reflection(TetralightReflectionChoice 
                                                      float influence) {
     vec4 w = choice.weights;
     vec4 p = choice.probes;
-    float weight = influence * choice.uncovered;
-    choice.uncovered *= 1.0f - influence;
+    float weight = min(influence, choice.uncovered);
+    choice.uncovered -= weight;
     if (weight > w.x) {
         choice.weights = vec4(weight, w.x, w.y, w.z);
         choice.probes = vec4(probe, p.x, p.y, p.z);

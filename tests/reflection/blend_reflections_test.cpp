@@ -35,21 +35,27 @@ std::vector<double> weights_of(const std::vector<ReflectionProbe>& probes,
     return weights;
 }
 
+/// The thousandth by which boxes are taken larger.
+constexpr double kReach = 1.001;
+
 TEST(ReflectionInfluence, IsASmoothStepFromTheSideOfTheBox) {
     const ReflectionProbe probe = box_probe({10, 0, 0}, {4, 3, 2}, 1.0f);
     EXPECT_EQ(reflection_influence(probe, {10, 0, 0}), 1.0f);
-    EXPECT_EQ(reflection_influence(probe, {13, 0, 0}), 1.0f);
-    EXPECT_NEAR(reflection_influence(probe, {13.5, 0, 0}), 0.5f, 1e-6f);
-    EXPECT_NEAR(reflection_influence(probe, {10, -2.75, 1.5}), 0.15625f,
+    EXPECT_EQ(reflection_influence(probe, {14, 3, 2}), 1.0f);  // a corner of the walls
+    EXPECT_NEAR(reflection_influence(probe, {10 + 4 * kReach + 0.5, 0, 0}), 0.5f, 1e-6f);
+    EXPECT_NEAR(reflection_influence(probe, {10, -3 * kReach - 0.75, 1.5}), 0.15625f,
                 1e-6f);  // t = ¼: t² (3 − 2t)
-    EXPECT_EQ(reflection_influence(probe, {14, 0, 0}), 0.0f);
+    EXPECT_NEAR(reflection_influence(probe, {10, 3 * kReach + 0.3, 2 * kReach + 0.4}), 0.5f,
+                1e-6f);  // 0.5 m from the edge
+    EXPECT_EQ(reflection_influence(probe, {10 + 4 * kReach + 1, 0, 0}), 0.0f);
     EXPECT_EQ(reflection_influence(probe, {10, 0, 5}), 0.0f);
 }
 
 TEST(ReflectionInfluence, WithoutABlendDistanceIsAllOrNothing) {
     const ReflectionProbe probe = box_probe({0, 0, 0}, {1, 1, 1}, 0.0f);
     EXPECT_EQ(reflection_influence(probe, {0.999, 0, 0}), 1.0f);
-    EXPECT_EQ(reflection_influence(probe, {1.001, 0, 0}), 0.0f);
+    EXPECT_EQ(reflection_influence(probe, {1.0005, 0, 0}), 1.0f);  // a wall, rounded
+    EXPECT_EQ(reflection_influence(probe, {1.0011, 0, 0}), 0.0f);
     EXPECT_EQ(reflection_influence(ReflectionProbe{}, {1e9, 0, 0}), 1.0f);
 }
 
@@ -66,12 +72,31 @@ TEST(BlendReflections, SmallBoxesCoverLargeOnesAndTheSky) {
     const std::vector probes{ReflectionProbe{}, box_probe({0, 0, 0}, {9, 9, 9}, 1.0f),
                              box_probe({0, 0, 0}, {2, 2, 2}, 1.0f)};
     EXPECT_EQ(weights_of(probes, {0, 0, 0}), (std::vector<double>{0, 0, 1}));
+    EXPECT_EQ(weights_of(probes, {2, 0, 0}), (std::vector<double>{0, 0, 1}));  // at its wall
     EXPECT_EQ(weights_of(probes, {5, 0, 0}), (std::vector<double>{0, 1, 0}));
+    EXPECT_EQ(weights_of(probes, {9, 9, 0}), (std::vector<double>{0, 1, 0}));
     EXPECT_EQ(weights_of(probes, {20, 0, 0}), (std::vector<double>{1, 0, 0}));
-    const auto between = weights_of(probes, {1.5, 0, 0});
+    const auto between = weights_of(probes, {2 * kReach + 0.5, 0, 0});
     EXPECT_NEAR(between[2], 0.5, 1e-6);
     EXPECT_NEAR(between[1], 0.5, 1e-6);
-    EXPECT_NEAR(weights_of(probes, {8.5, 0, 0})[0], 0.5, 1e-6);
+    EXPECT_NEAR(weights_of(probes, {9 * kReach + 0.5, 0, 0})[0], 0.5, 1e-6);
+}
+
+TEST(BlendReflections, RoomsShareADoorwayAsLongAsTheBlendDistanceWithoutTheSky) {
+    const float wall = 0.25f;
+    const std::vector probes{ReflectionProbe{}, box_probe({0, 0, 0}, {2, 2, 2}, wall),
+                             box_probe({5 + wall, 0, 0}, {3, 2, 2}, wall)};
+    // 0.001 × (2 + 3) m of the doorway are in the boxes, which are taken larger.
+    const double begin = 2 * kReach, length = wall - 0.005;
+    for (int i = 0; i <= 100; ++i) {
+        const double place = i / 100.0;
+        const auto weights = weights_of(probes, {begin + place * length, 0.5, 0});
+        const double t = 1.0 - place * length / wall;
+        EXPECT_EQ(weights[0], 0.0) << i;
+        EXPECT_NEAR(weights[1], t * t * (3.0 - 2.0 * t), 1e-6) << i;
+        EXPECT_NEAR(weights[1] + weights[2], 1.0, 1e-6) << i;
+    }
+    EXPECT_EQ(weights_of(probes, {begin + wall, 0, 0}), (std::vector<double>{0, 0, 1}));
 }
 
 TEST(BlendReflections, ImportantProbesCoverOthersOfAnySize) {
@@ -99,13 +124,14 @@ TEST(ReflectionOrder, IsThatOfImportanceThenVolumeThenPlaceInTheFile) {
 
 TEST(BlendReflections, WithoutASkyBoxesShareTheRest) {
     const std::vector probes{box_probe({0, 0, 0}, {2, 2, 2}, 2.0f),
-                             box_probe({3, 0, 0}, {2, 2, 2}, 2.0f)};
-    // In the middle of the overlap both have influence w: w and (1 − w) w share the light.
-    const double t = 0.25, w = t * t * (3.0 - 2.0 * t);
-    const auto weights = weights_of(probes, {1.5, 0, 0});
-    EXPECT_NEAR(weights[0], 1.0 / (2.0 - w), 1e-6);
-    EXPECT_NEAR(weights[1], (1.0 - w) / (2.0 - w), 1e-6);
-    EXPECT_EQ(weights_of(probes, {-1.9, 0, 0}), (std::vector<double>{1, 0}));
+                             box_probe({6, 0, 0}, {2, 2, 2}, 1.0f)};
+    // 1.25 m and 0.75 m from the boxes: t = 3/8 and 1/4.
+    const auto weights = weights_of(probes, {2 * kReach + 1.25, 0, 0});
+    const double far = 0.375 * 0.375 * (3 - 0.75);
+    const double t = 1.0 - (2.0 - 1.25 - 4 * (kReach - 1.0)), near = t * t * (3.0 - 2.0 * t);
+    EXPECT_NEAR(weights[0], far / (far + near), 1e-6);
+    EXPECT_NEAR(weights[1], near / (far + near), 1e-6);
+    EXPECT_EQ(weights_of(probes, {-2.9, 0, 0}), (std::vector<double>{1, 0}));
 }
 
 TEST(BlendReflections, OutsideAllBoxesTheNearestBoxLights) {
@@ -120,7 +146,7 @@ TEST(BlendReflections, WithoutProbesIsEmpty) {
     EXPECT_EQ(blend.probes, (std::array<uint32_t, kMost>{}));
 }
 
-/// The four largest weights of composited probes, by sorting all of them.
+/// The four largest weights of probes that take of the rest in order, by sorting all of them.
 struct Oracle {
     std::vector<double> weights;  ///< reduced by the fourth largest, not yet divided by `sum`
     double sum = 0.0;
@@ -140,8 +166,8 @@ struct Oracle {
         double rest = 1.0;
         for (const size_t i : order) {
             const double influence = reflection_influence(probes[i], position);
-            weights[i] = rest * influence;
-            rest *= 1.0 - influence;
+            weights[i] = std::min(rest, influence);
+            rest -= weights[i];
         }
         std::vector<double> sorted = weights;
         sorted.resize(std::max<size_t>(sorted.size(), 4));
@@ -186,16 +212,19 @@ TEST(BlendReflections, AreTheLargestOfAllProbesInOrder) {
 }
 
 TEST(BlendReflections, CountAlsoWhereHundredsOfBoxesOverlap) {
-    // 300 boxes have influence t² (3 − 2t) = 0.0076 with t = 1 / 19.5; two below them have 0.5.
+    // 300 boxes have influence t² (3 − 2t) = 0.0018 with t = 1 / 40; two below them have 0.5.
+    const glm::dvec3 position(20, 0, 0);
     std::vector<ReflectionProbe> probes;
     for (int i = 0; i < 300; ++i) {
         const float size = 1.0f + 0.001f * static_cast<float>((i * 7) % 300);
-        probes.push_back(box_probe({0, 0, 0}, glm::vec3(size), 19.5f * size));
+        const double distance = 20.0 - kReach * double{size};
+        probes.push_back(box_probe({0, 0, 0}, glm::vec3(size),
+                                   static_cast<float>(distance / (1.0 - 1.0 / 40.0))));
     }
-    for (int i = 0; i < 2; ++i) probes.push_back(box_probe({0, 0, 0}, glm::vec3(9), 18.0f));
-    const Oracle oracle(probes, {0, 0, 0});
-    ASSERT_GT(oracle.weights[300], 0.04);  // the largest, below all others
-    const auto weights = weights_of(probes, {0, 0, 0});
+    for (int i = 0; i < 2; ++i) probes.push_back(box_probe({0, 0, 0}, glm::vec3(9), 22.0f));
+    const Oracle oracle(probes, position);
+    ASSERT_GT(oracle.weights[300], 0.4);  // the largest, below all others
+    const auto weights = weights_of(probes, position);
     for (size_t i = 0; i < probes.size(); ++i) {
         EXPECT_NEAR(weights[i], oracle.weights[i] / oracle.sum, 1e-5);
     }
@@ -233,9 +262,9 @@ struct LineSearch {
 
     /// How much the weights may change from `a` to `b`. With n boxes of blend distances ≥ B, an
     /// influence changes by at most L d over a distance d, L = 1.5 / B (the steepest slope of the
-    /// smooth step). A product of influences and of their complements changes by at most n L d, the
-    /// fourth largest of such products by no more, their differences u by twice that, and the sum S
-    /// of three differences by six times that. u / S changes by at most (|Δu| + |ΔS|) / S.
+    /// smooth step). A weight is an influence, or 1 minus influences, so that it changes by at most
+    /// n L d, the fourth largest weight by no more, their differences u by twice that, and the sum
+    /// S of three differences by six times that. u / S changes by at most (|Δu| + |ΔS|) / S.
     [[nodiscard]] double limit(double smallest_sum) const {
         const double slope = 1.5 / 0.5, count = static_cast<double>(probes.size());
         const double rounding = 1e-6;

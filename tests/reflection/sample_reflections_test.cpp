@@ -204,6 +204,30 @@ TEST(ProjectOnBox, WallsOnTheSidesAreInside) {
     }
 }
 
+TEST(ProjectOnBox, IsContinuousWhereTheProbeFadesOut) {
+    ReflectionProbe box = box_probe({0, 0, 0}, {2, 1, 3}, 0.5f);
+    box.box_center = {0.3f, -0.2f, 0.5f};
+    std::mt19937 random(8);
+    constexpr int kSteps = 300, kHalvings = 25;
+    for (int i = 0; i < 100; ++i) {
+        const glm::vec3 direction = random_unit_vector(random);
+        const glm::dvec3 end = 6.0 * glm::dvec3(random_unit_vector(random));
+        const auto at = [&](double way) { return project_on_box(box, way * end, direction); };
+        for (int step = 0; step < kSteps; ++step) {
+            // Follows the larger change into ever smaller pieces: a step would stay.
+            double a = step / double{kSteps}, b = (step + 1) / double{kSteps};
+            for (int j = 0; j < kHalvings; ++j) {
+                const double middle = 0.5 * (a + b);
+                const bool is_first =
+                    glm::distance(at(a), at(middle)) > glm::distance(at(middle), at(b));
+                (is_first ? b : a) = middle;
+            }
+            ASSERT_LT(glm::distance(at(a), at(b)), 1e-4f) << i << " " << a;
+        }
+        EXPECT_LT(glm::distance(at(1.0), direction), 1e-6f);
+    }
+}
+
 TEST(SampleReflections, AddsTheProbesByTheirWeights) {
     const Reflections cubes =
         make_reflections(4, 1, {{}, {}, {}}, [](uint32_t probe, uint32_t, const glm::vec3&) {

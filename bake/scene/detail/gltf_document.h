@@ -153,7 +153,7 @@ struct GltfAdjustment {
 struct GltfReflectionProbe {
     glm::dvec3 size{10.0};
     glm::dvec3 center{0.0};
-    double blend_distance = 1.0;
+    double blend_distance = 0.25;
     int32_t importance = 1;
     double near_distance = 0.0;
 };

@@ -151,9 +151,8 @@ TEST(PlaceReflections, OutdoorsTheyAreASpacingApart) {
         EXPECT_NEAR(box.min.y, 0.0, 1e-3);
         EXPECT_NEAR(box.max.y, 8.0, 1e-3);
         EXPECT_NEAR(places[i].blend_distance, 0.8f, 1e-3f);
-        // Boxes of neighbors overlap by the blend distance.
-        EXPECT_NEAR(box.size().x, 10.0 + 0.8, 1e-3);
-        EXPECT_NEAR(box.size().z, 10.0 + 0.8, 1e-3);
+        EXPECT_NEAR(box.size().x, 10.0, 1e-3);
+        EXPECT_NEAR(box.size().z, 10.0, 1e-3);
     }
     EXPECT_EQ(places.back().name, "outdoors 16");
 }
