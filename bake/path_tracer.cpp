@@ -210,6 +210,12 @@ std::optional<Surface> PathTracer::first_surface(const PathStart& start, Ray& ra
     return surface;
 }
 
+std::optional<Surface> PathTracer::first_surface(const PathStart& start,
+                                                 uint32_t& ray_count) const {
+    Ray ray{start.origin, start.direction};
+    return first_surface(start, ray, ray_count);
+}
+
 bool PathTracer::can_sample_emission() const {
     return settings_.strategy != LightStrategy::BsdfOnly && !settings_.is_reflected_only &&
            (light_sampler_.has(LightKind::Triangle) || light_sampler_.has(LightKind::Sky));

@@ -115,6 +115,10 @@ class PathTracer {
     [[nodiscard]] PathSample trace(const PathStart& start, Sampler sampler,
                                    PathLightGroups* light_groups = nullptr) const;
 
+    /// The surface that the first ray of a path hits; none if it escapes. Adds to `ray_count`.
+    [[nodiscard]] std::optional<Surface> first_surface(const PathStart& start,
+                                                       uint32_t& ray_count) const;
+
     /// True if the strategy samples lights, the scene has emission that rays can hit, and its
     /// direct light counts.
     [[nodiscard]] bool can_sample_emission() const;
@@ -197,8 +201,7 @@ class PathTracer {
 
     [[nodiscard]] std::optional<Surface> next_surface(const Ray& ray, float spread,
                                                       uint32_t& ray_count) const;
-    /// The surface that the first ray of a path hits. Adds to `ray_count`, and moves the origin of
-    /// the ray past hidden instances.
+    /// The same, and moves the origin of the ray past hidden instances.
     [[nodiscard]] std::optional<Surface> first_surface(const PathStart& start, Ray& ray,
                                                        uint32_t& ray_count) const;
     /// Direct light of all kinds that a surface reflects, divided by its albedo. `weight`: of all

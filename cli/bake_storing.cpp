@@ -16,15 +16,29 @@ namespace {
 /// Seconds between two saves with `chunks`; more if saving takes long.
 constexpr double kFrequentSaves = 0.1;
 
-/// The setting of the range: bakes of probes and of texels have one.
-const char* range_setting(const Values& values) {
-    return has_setting(values, "texels") ? "texels" : "probes";
+/// The range of a bake of probes or of texels; others have none.
+std::optional<IndexRange> range_of(const Values& values) {
+    for (const char* setting : {"texels", "probes"}) {
+        if (has_setting(values, setting)) return index_range(values, setting);
+    }
+    return std::nullopt;
+}
+
+/// Refuses a name that is not that of a part for a part, and that of a part for all.
+void check_extension(const Values& values, const std::string& output, bool is_part) {
+    const std::string extension = std::filesystem::path(output).extension().string();
+    const std::string setting = has_setting(values, "texels") ? "texels" : "probes";
+    const std::string whole = setting == "texels" ? ".lightmaps" : ".probes";
+    if (!has_setting(values, setting) || extension != (is_part ? whole : ".part")) return;
+    refuse(values, "output",
+           str_cat("with ", values.shown(setting), " a .part is written, without it ", whole,
+                   ", not \"", output, "\""));
 }
 
 }  // namespace
 
 BakeStoring::BakeStoring(const Values& values)
-    : range(index_range(values, range_setting(values))),
+    : range(cli::range_of(values)),
       progress_file(values.text("progress_file")),
       output_(values.text("output")),
       is_resumed_(values.flag("resume")),
@@ -33,14 +47,7 @@ BakeStoring::BakeStoring(const Values& values)
       store_limit_(values.number("store_limit")),
       reuse_path_(has_setting(values, "reuse") ? values.text("reuse") : "") {
     if (is_resumed_ && output_ == "-") refuse(values, "resume", "nothing is kept beside stdout");
-    const std::string extension = std::filesystem::path(output_).extension().string();
-    const std::string setting = range_setting(values);
-    const std::string whole = setting == "texels" ? ".lightmaps" : ".probes";
-    if (extension == (range ? whole : ".part")) {
-        refuse(values, "output",
-               str_cat("with ", values.shown(setting), " a .part is written, without it ", whole,
-                       ", not \"", output_, "\""));
-    }
+    check_extension(values, output_, range.has_value());
 }
 
 PlaceRange BakeStoring::range_of(size_t count) const {

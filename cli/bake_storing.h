@@ -14,6 +14,7 @@ namespace tetralight::cli {
 
 /// What a bake bakes, and where light that is known already is kept: `resume`, `chunks`, `store`,
 /// `store_limit`, `progress_file`, of `bake` also `probes` and `reuse`, and of `lightmap` `texels`.
+/// The places of `reflect` are its cubes.
 class BakeStoring {
   public:
     /// That of `probes` or `texels`; nothing: all of them.

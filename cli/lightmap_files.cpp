@@ -108,11 +108,21 @@ Status refuse_part(const LightmapFile& file, const std::string& path, const char
 
 }  // namespace
 
-Status check_output_kind(const std::string& input, const std::string& output, bool has_lightmaps) {
-    if (!output.ends_with(has_lightmaps ? ".probes" : ".lightmaps")) return Ok{};
-    return Error{ErrorCode::InvalidArgument, "output", output,
-                 str_cat(input, has_lightmaps ? ": contains lightmaps" : ": contains no lightmaps",
-                         "; give the output another name than ", output)};
+Status check_output_kind(const std::string& input, const std::string& output,
+                         std::string_view contents) {
+    struct Kind {
+        std::string_view contents, extension;
+    };
+
+    constexpr Kind kKinds[] = {
+        {"probes", ".probes"}, {"lightmaps", ".lightmaps"}, {"reflection probes", ".ktx2"}};
+    for (const Kind& kind : kKinds) {
+        if (kind.contents == contents || !output.ends_with(kind.extension)) continue;
+        return Error{ErrorCode::InvalidArgument, "output", output,
+                     str_cat(input, ": contains no ", kind.contents,
+                             "; give the output another name than ", output)};
+    }
+    return Ok{};
 }
 
 Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path) {

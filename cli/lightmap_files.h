@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,9 +18,10 @@ namespace tetralight::cli {
 /// True if the file begins as lightmaps do.
 [[nodiscard]] bool is_lightmap_file(const std::string& path);
 
-/// Refuses to write lightmaps to a file that is called `.probes`, and probes to `.lightmaps`.
+/// Refuses to write `contents` ("probes", "lightmaps", "reflection probes") to a file whose
+/// extension is that of another of these.
 [[nodiscard]] Status check_output_kind(const std::string& input, const std::string& output,
-                                       bool has_lightmaps);
+                                       std::string_view contents);
 
 /// Opens the lightmaps at a path; without a path there are none.
 [[nodiscard]] Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path);

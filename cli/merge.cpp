@@ -24,7 +24,9 @@ struct Merge {
     Status run() {
         if (auto status = check_output(output, parts); !status) return status;
         const bool has_lightmaps = is_lightmap_file(parts[0]);
-        if (auto status = check_output_kind(parts[0], output, has_lightmaps); !status)
+        if (auto status =
+                check_output_kind(parts[0], output, has_lightmaps ? "lightmaps" : "probes");
+            !status)
             return status;
         return has_lightmaps ? merge_lightmaps() : merge_probes();
     }

@@ -11,9 +11,11 @@
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/amounts.h>
+#include <tetralight/cli/bake_storing.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/explain.h>
+#include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/reflection_files.h>
@@ -30,6 +32,9 @@ BakeReflectionsSettings reflection_settings(const Values& values) {
     for_each_reflection_setting(settings, [&](const char* name, auto& member, Recorded) {
         read_if_any(values, name, member);
     });
+    constexpr uint32_t kRaysToLightmaps = 16;
+    if (values.is_given("lightmaps") && !values.is_given("samples"))
+        settings.bake.sample_count = kRaysToLightmaps;
     settings.has_sky = !values.flag("no_sky");
     const uint32_t size = settings.cube_size;
     if ((size & (size - 1)) != 0)
@@ -79,8 +84,9 @@ struct Reflect {
     BakeReflectionsSettings settings;
     std::vector<std::string> names;
     std::string places_path;
+    std::string lightmaps_path;
     std::vector<ReflectionPlace> given_places;
-    std::string progress_file;
+    BakeStoring storing;
     bool is_explained = false;
     CommonOptions common;
 
@@ -90,14 +96,15 @@ struct Reflect {
           settings(reflection_settings(values)),
           names(values.texts("probe")),
           places_path(values.text("places")),
+          lightmaps_path(values.text("lightmaps")),
           given_places(place_of_box(values)),
-          progress_file(values.text("progress_file")),
+          storing(values),
           is_explained(values.flag("explain")),
           common(values) {
         if (output.empty() && !is_explained) require(values, "output");
     }
 
-    [[nodiscard]] Status run() const { return is_explained ? run_explain() : run_bake(); }
+    Status run() { return is_explained ? run_explain() : run_bake(); }
 
     [[nodiscard]] Status run_explain() const {
         const auto scene = scene_options.read();
@@ -108,35 +115,41 @@ struct Reflect {
         return explain(*scene, {}, common);
     }
 
-    [[nodiscard]] Status run_bake() const {
+    Status run_bake() {
         std::vector<std::string> others = scene_options.inputs();
         others.push_back(places_path);
+        others.push_back(lightmaps_path);
         if (auto status = check_output(output, others); !status) return status;
-        if (!progress_file.empty()) {
-            others.push_back(output);
-            auto status = check_side_file(progress_file, others, "progress_file");
-            if (!status) return status;
-        }
+        if (auto status = storing.check_progress_file(others); !status) return status;
+        if (auto status = storing.open(); !status) return status;
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         const auto places = places_of(*scene);
         if (!places) return places.error();
-        BakeProgressDisplay display(common.is_quiet, 0.0, progress_file, "rows of texels");
-        const auto baked =
-            bake_reflections(*scene, *places, settings,
-                             [&](const BakeProgress& progress) { return display.show(progress); });
-        if (!baked) return in_scene(baked.error());
+        const auto lightmaps = open_lightmaps(lightmaps_path);
+        if (!lightmaps) return lightmaps.error();
+        BakeProgressDisplay display(common.is_quiet, 0.0, storing.progress_file, "rows of texels");
+        const auto baked = bake_reflections(
+            *scene, *places, settings,
+            [&](const BakeProgress& progress) { return display.show(progress); },
+            {*lightmaps ? (*lightmaps)->view() : LightmapsView{}, storing.storage()});
+        if (!baked && baked.error().code == ErrorCode::Cancelled) return storing.interrupted();
+        if (!baked) return in_file(baked.error());
         common.warn(baked->warnings);
+        storing.warn(baked->stored, common);
         if (places->empty()) warn_of_sky_alone();
         if (auto status = write_reflection_file(output, baked->reflections); !status) return status;
         report(*baked);
+        storing.finish(baked->stored);
         return Ok{};
     }
 
-    [[nodiscard]] Error in_scene(const Error& error) const {
-        return error.code == ErrorCode::InvalidArgument ? error.in(shown_path(scene_options.path))
-                                                        : error;
+    [[nodiscard]] Error in_file(const Error& error) const {
+        if (error.code != ErrorCode::InvalidArgument) return error;
+        const bool is_of_lightmaps = error.field == "lightmaps" || error.field == "scene";
+        return error.in(shown_path(
+            is_of_lightmaps && !lightmaps_path.empty() ? lightmaps_path : scene_options.path));
     }
 
     [[nodiscard]] Result<std::vector<ReflectionPlace>> places_of(const Scene& scene) const {
@@ -178,6 +191,7 @@ struct Reflect {
             {{"output", output},
              {"cube_size", all.size},
              {"levels", all.levels.size()},
+             {"layers", split_names(all.layer_names)},
              {"probes", probes_json(all, baked.facts)},
              {"rays", baked.ray_count},
              {"seconds", {{"bake", baked.bake_seconds}, {"prefilter", baked.prefilter_seconds}}}},

@@ -2,7 +2,6 @@
 #include <tetralight/cli/reflection_files.h>
 
 #include <cstring>
-#include <vector>
 
 #include <tetralight/base/file.h>
 #include <tetralight/base/ktx2.h>
@@ -13,6 +12,7 @@
 #include <tetralight/cli/table.h>
 #include <tetralight/probes/build/check_metadata.h>
 #include <tetralight/reflection/reflection_file.h>
+#include <tetralight/reflection/relight_reflections.h>
 
 namespace tetralight::cli {
 namespace {
@@ -45,6 +45,14 @@ Json listed_probes(const ReflectionFile& file) {
     return probes;
 }
 
+Json layers_json(const ReflectionsView& all) {
+    const auto names = split_names(all.layer_names);
+    Json layers = Json::array();
+    for (size_t k = 0; k < all.layers.size(); ++k)
+        layers.push_back({{"name", names[k]}, {"weight", all.layers[k].weight}});
+    return layers;
+}
+
 Json reflections_json(const std::string& path, const ReflectionFile& file) {
     const ReflectionsView& all = file.view();
     Json roughness = Json::array();
@@ -55,12 +63,19 @@ Json reflections_json(const std::string& path, const ReflectionFile& file) {
             {"levels", all.level_count},
             {"roughness", roughness},
             {"probes", listed_probes(file)},
+            {"layers", layers_json(all)},
             {"made_with", all.metadata.empty() ? Json() : Json::parse(all.metadata)}};
 }
 
 std::string cubes_text(const ReflectionsView& all) {
+    const auto names = split_names(all.layer_names);
+    std::string layers;
+    for (size_t k = 0; k < all.layers.size(); ++k) {
+        layers += str_cat(k == 0 ? ", layers " : ", ", printable(std::string(names[k])), " ",
+                          all.layers[k].weight);
+    }
     return str_cat(counted(all.probes.size(), "reflection probe"), " of ", all.size, " x ",
-                   all.size, ", ", counted(all.level_count, "level"));
+                   all.size, ", ", counted(all.level_count, "level"), layers);
 }
 
 /// The file, with its metadata checked.
@@ -106,6 +121,23 @@ Status show_reflections(const std::string& path, const CommonOptions& common) {
                                reflection_table(all.probes, file->names()));
     if (!all.metadata.empty()) text += "\nmade with " + printable(std::string(all.metadata));
     common.print(reflections_json(path, *file), text);
+    return Ok{};
+}
+
+Status relight_reflection_file(const std::string& path, const std::string& output,
+                               const std::vector<std::pair<std::string, float>>& weights,
+                               const CommonOptions& common) {
+    const auto file = open_with_metadata(path);
+    if (!file) return file.error();
+    Reflections reflections = file->copy();
+    std::vector<LayerWeight> changes;
+    for (const auto& [layer, weight] : weights) changes.push_back({layer, weight});
+    if (auto status = relight_reflections(reflections, changes); !status)
+        return status.error().in(shown_path(path));
+    if (auto status = write_reflection_file(output, reflections); !status) return status;
+    const ReflectionsView all = reflections.view();
+    common.report(output, {{"output", output}, {"layers", layers_json(all)}},
+                  str_cat(output, ": ", cubes_text(all)));
     return Ok{};
 }
 

@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <tetralight/base/result.h>
 #include <tetralight/cli/common.h>
@@ -23,6 +25,11 @@ namespace tetralight::cli {
 
 /// Prints what reflection probes hold: cubes, places, boxes and how they were made.
 [[nodiscard]] Status show_reflections(const std::string& path, const CommonOptions& common);
+
+/// Writes reflection probes with new weights of layers to another file.
+[[nodiscard]] Status relight_reflection_file(
+    const std::string& path, const std::string& output,
+    const std::vector<std::pair<std::string, float>>& weights, const CommonOptions& common);
 
 /// Checks all of a file and prints the verdict.
 [[nodiscard]] Status validate_reflections(const std::string& path, const CommonOptions& common);

@@ -12,6 +12,7 @@
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/sky_options.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/blend_volumes.h>
@@ -52,9 +53,13 @@ struct Relight {
         if (auto status = check_output(output, {volume_path, sky.path, blend_path}); !status) {
             return status;
         }
+        const bool has_reflections = is_reflection_file(volume_path);
         const bool has_lightmaps = is_lightmap_file(volume_path);
-        if (auto status = check_output_kind(volume_path, output, has_lightmaps); !status)
-            return status;
+        const char* contents = has_reflections ? "reflection probes"
+                               : has_lightmaps ? "lightmaps"
+                                               : "probes";
+        if (auto status = check_output_kind(volume_path, output, contents); !status) return status;
+        if (has_reflections) return run_reflections();
         if (has_lightmaps) return run_lightmaps();
         const auto file = open_probe_file(volume_path);
         if (!file) return file.error();
@@ -86,6 +91,16 @@ struct Relight {
         }
         return relight_lightmap_file(
             volume_path, output, {weights, blend_path, static_cast<float>(blend_fraction)}, common);
+    }
+
+    [[nodiscard]] Status run_reflections() const {
+        if (changes_sky() || sun_direction != glm::dvec3(0.0) || !blend_path.empty()) {
+            return Error{ErrorCode::InvalidArgument, "volume", volume_path,
+                         volume_path +
+                             ": contains reflection probes, whose light changes by the weights of "
+                             "their layers alone"};
+        }
+        return relight_reflection_file(volume_path, output, weights, common);
     }
 
     /// With the options that repeat the change; weights are recorded with their layers.

@@ -14,6 +14,7 @@ void for_each_reflection_setting(Settings& settings, Use use) {
     use("samples", settings.bake.sample_count, Recorded::Always);
     use("bounces", settings.bake.bounces, Recorded::Always);
     use("seed", settings.bake.seed, Recorded::Always);
+    use("layers", settings.layers, Recorded::Never);
     use("min_validity", settings.min_validity, Recorded::WhenChanged);
     use("clamp", settings.bake.clamp, Recorded::WhenChanged);
     use("albedo_boost", settings.bake.surfaces.albedo_boost, Recorded::WhenChanged);

@@ -22,15 +22,33 @@
 namespace tetralight {
 namespace {
 
-constexpr std::string_view kJsonKey = "tetralight", kMetadataKey = "tetralightMetadata",
-                           kNamesKey = "tetralightNames", kProbesKey = "tetralightReflections";
+constexpr std::string_view kJsonKey = "tetralight",
+                           kLayerIrradianceKey = "tetralightLayerIrradiance",
+                           kLayerNamesKey = "tetralightLayerNames", kLayersKey = "tetralightLayers",
+                           kMetadataKey = "tetralightMetadata", kNamesKey = "tetralightNames",
+                           kProbesKey = "tetralightReflections";
 
 /// What a file of reflection probes holds.
 struct Contents {
     std::vector<ReflectionProbe> probes;
-    ReflectionsView view;  ///< of `probes` and of the bytes
+    std::vector<ReflectionLayer> layers;
+    std::vector<IrradianceSh> layer_irradiance;
+    ReflectionsView view;  ///< of these and of the bytes
     std::string_view names;
 };
+
+/// The structs of a value.
+template <class T>
+Result<std::vector<T>> read_values(std::string_view key, std::string_view value, size_t count) {
+    if (value.size() != count * sizeof(T)) {
+        return Error{
+            ErrorCode::Corrupt, std::string(key), "",
+            str_cat("\"", key, "\" has ", value.size(), " bytes instead of ", count * sizeof(T))};
+    }
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), value.data(), value.size());
+    return values;
+}
 
 Result<std::vector<ReflectionProbe>> read_probes(std::optional<std::string_view> value,
                                                  uint32_t count) {
@@ -38,14 +56,16 @@ Result<std::vector<ReflectionProbe>> read_probes(std::optional<std::string_view>
         return Error{ErrorCode::Unsupported, std::string(kProbesKey), "",
                      "the texture is not of reflection probes: a key is missing"};
     }
-    if (value->size() != count * sizeof(ReflectionProbe)) {
-        return Error{ErrorCode::Corrupt, std::string(kProbesKey), "",
-                     str_cat("the probes have ", value->size(), " bytes instead of ",
-                             count * sizeof(ReflectionProbe))};
-    }
-    std::vector<ReflectionProbe> probes(count);
-    std::memcpy(probes.data(), value->data(), value->size());
-    return probes;
+    return read_values<ReflectionProbe>(kProbesKey, *value, count);
+}
+
+/// The number of probes: of all cubes, each probe has one, and one for each layer.
+Result<uint32_t> count_probes(uint32_t cube_count, size_t layer_count) {
+    if (cube_count % (1 + layer_count) == 0)
+        return static_cast<uint32_t>(cube_count / (1 + layer_count));
+    return Error{
+        ErrorCode::Corrupt, std::string(kLayersKey), "",
+        str_cat(cube_count, " cubes are not those of probes with ", layer_count, " layers each")};
 }
 
 Status check_reflection_names(std::string_view names, size_t probe_count) {
@@ -60,25 +80,53 @@ void set_levels(const detail::Ktx2Cubes& cubes, ReflectionsView& view) {
     view.size = cubes.header.width;
     view.level_count = cubes.header.level_count;
     for (uint32_t i = 0; i < view.level_count; ++i) {
-        view.levels[i] = {reinterpret_cast<const RadianceTexel*>(cubes.levels[i].data()),
-                          cubes.levels[i].size() / sizeof(RadianceTexel)};
+        const std::span texels(reinterpret_cast<const RadianceTexel*>(cubes.levels[i].data()),
+                               cubes.levels[i].size() / sizeof(RadianceTexel));
+        const size_t own = texels.size() / (1 + view.layers.size());
+        view.levels[i] = texels.first(own);
+        view.layer_levels[i] = texels.subspan(own);
     }
+}
+
+/// Layers, probes and irradiance, whose numbers must agree with that of the cubes.
+Status read_structs(const detail::Ktx2Cubes& cubes, Contents& contents) {
+    std::array<detail::Ktx2Wanted, 6> wanted{{{kProbesKey},
+                                              {kNamesKey},
+                                              {kMetadataKey},
+                                              {kLayersKey},
+                                              {kLayerNamesKey},
+                                              {kLayerIrradianceKey}}};
+    if (auto s = detail::find_ktx2_values(cubes.pairs, wanted); !s) return s;
+    const auto value = [&](size_t i) { return wanted[i].value.value_or(""); };
+    auto layers = read_values<ReflectionLayer>(kLayersKey, value(3),
+                                               value(3).size() / sizeof(ReflectionLayer));
+    if (!layers) return layers.error();
+    const auto count = count_probes(cubes.header.layer_count, layers->size());
+    if (!count) return count.error();
+    auto probes = read_probes(wanted[0].value, *count);
+    if (!probes) return probes.error();
+    auto irradiance =
+        read_values<IrradianceSh>(kLayerIrradianceKey, value(5), size_t{*count} * layers->size());
+    if (!irradiance) return irradiance.error();
+    contents.probes = std::move(*probes);
+    contents.layers = std::move(*layers);
+    contents.layer_irradiance = std::move(*irradiance);
+    contents.names = value(1);
+    contents.view.metadata = value(2);
+    contents.view.layer_names = value(4);
+    return Ok{};
 }
 
 /// Reads and verifies all bytes of a file.
 Result<Contents> read_contents(std::span<const std::byte> bytes) {
     const auto cubes = detail::read_ktx2_cubes(bytes);
     if (!cubes) return cubes.error();
-    std::array<detail::Ktx2Wanted, 3> wanted{{{kProbesKey}, {kNamesKey}, {kMetadataKey}}};
-    if (auto s = detail::find_ktx2_values(cubes->pairs, wanted); !s) return s.error();
-    auto probes = read_probes(wanted[0].value, cubes->header.layer_count);
-    if (!probes) return probes.error();
     Contents contents;
-    contents.probes = std::move(*probes);
-    contents.names = wanted[1].value.value_or("");
-    set_levels(*cubes, contents.view);
+    if (auto s = read_structs(*cubes, contents); !s) return s.error();
     contents.view.probes = contents.probes;
-    contents.view.metadata = wanted[2].value.value_or("");
+    contents.view.layers = contents.layers;
+    contents.view.layer_irradiance = contents.layer_irradiance;
+    set_levels(*cubes, contents.view);
     if (auto s = check_reflection_names(contents.names, contents.probes.size()); !s) {
         return s.error();
     }
@@ -97,19 +145,27 @@ std::string_view with_zero(const std::string& text) {
     return {text.c_str(), text.size() + 1};
 }
 
+template <class T>
+std::string_view text_of(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
 /// Key/value data. Names and metadata end where their value ends, without a zero.
 std::string make_pairs(const Reflections& reflections) {
     std::string names;
     for (const std::string& name : reflections.names) names += name + '\n';
-    const auto probes = std::as_bytes(std::span(reflections.probes));
     std::string pairs;
     append_ktx2_pair(pairs, "KTXorientation", with_zero("rd"));
     append_ktx2_pair(pairs, "KTXwriter", with_zero("tetralight"));
     append_ktx2_pair(pairs, kJsonKey, with_zero(detail::reflection_json(reflections)));
+    if (!reflections.layers.empty()) {
+        append_ktx2_pair(pairs, kLayerIrradianceKey, text_of(reflections.layer_irradiance));
+        append_ktx2_pair(pairs, kLayerNamesKey, reflections.layer_names);
+        append_ktx2_pair(pairs, kLayersKey, text_of(reflections.layers));
+    }
     if (!reflections.metadata.empty()) append_ktx2_pair(pairs, kMetadataKey, reflections.metadata);
     if (!names.empty()) append_ktx2_pair(pairs, kNamesKey, names);
-    append_ktx2_pair(pairs, kProbesKey,
-                     {reinterpret_cast<const char*>(probes.data()), probes.size()});
+    append_ktx2_pair(pairs, kProbesKey, text_of(reflections.probes));
     return pairs;
 }
 
@@ -118,7 +174,8 @@ Ktx2Header make_header(const Reflections& reflections, size_t pairs_size) {
     header.vk_format = kVkFormatRgba16Float;
     header.type_size = 2;
     header.width = header.height = reflections.size;
-    header.layer_count = static_cast<uint32_t>(reflections.probes.size());
+    header.layer_count =
+        static_cast<uint32_t>(reflections.probes.size() * (1 + reflections.layers.size()));
     header.face_count = kCubeFaceCount;
     header.level_count = static_cast<uint32_t>(reflections.levels.size());
     header.descriptor_offset =
@@ -144,7 +201,9 @@ std::string make_head(const Reflections& reflections) {
     std::vector<Ktx2Level> index(reflections.levels.size());
     uint64_t offset = first_texel;
     for (size_t i = index.size(); i-- > 0;) {  // the smallest level comes first
-        const uint64_t size = reflections.levels[i].size() * kTexel;
+        const size_t of_layers =
+            i < reflections.layer_levels.size() ? reflections.layer_levels[i].size() : 0;
+        const uint64_t size = (reflections.levels[i].size() + of_layers) * kTexel;
         index[i] = {offset, size, size};
         offset += size;
     }
@@ -163,6 +222,8 @@ std::vector<std::span<const std::byte>> pieces_of(const std::string& head,
     std::vector<std::span<const std::byte>> pieces{std::as_bytes(std::span(head))};
     for (size_t i = reflections.levels.size(); i-- > 0;) {
         pieces.push_back(std::as_bytes(std::span(reflections.levels[i])));
+        if (i < reflections.layer_levels.size())
+            pieces.push_back(std::as_bytes(std::span(reflections.layer_levels[i])));
     }
     return pieces;
 }
@@ -199,12 +260,34 @@ struct ReflectionFileReader {
         ReflectionFile file;
         file.file_ = std::move(*mapping);
         file.probes_ = std::move(contents->probes);
+        file.layers_ = std::move(contents->layers);
+        file.layer_irradiance_ = std::move(contents->layer_irradiance);
         file.view_ = contents->view;
         file.view_.probes = file.probes_;
+        file.view_.layers = file.layers_;
+        file.view_.layer_irradiance = file.layer_irradiance_;
         file.names_ = contents->names;
         return file;
     }
 };
+
+Reflections ReflectionFile::copy() const {
+    Reflections copy;
+    copy.size = view_.size;
+    copy.probes = probes_;
+    copy.layers = layers_;
+    copy.layer_names = view_.layer_names;
+    copy.layer_irradiance = layer_irradiance_;
+    for (uint32_t i = 0; i < view_.level_count; ++i) {
+        copy.levels.emplace_back(view_.levels[i].begin(), view_.levels[i].end());
+        if (!layers_.empty())
+            copy.layer_levels.emplace_back(view_.layer_levels[i].begin(),
+                                           view_.layer_levels[i].end());
+    }
+    for (const std::string_view name : names()) copy.names.emplace_back(name);
+    copy.metadata = view_.metadata;
+    return copy;
+}
 
 std::vector<std::string_view> ReflectionFile::names() const {
     return split_names(names_);

@@ -23,6 +23,9 @@ class ReflectionFile {
   public:
     [[nodiscard]] const ReflectionsView& view() const noexcept { return view_; }
 
+    /// A copy in memory.
+    [[nodiscard]] Reflections copy() const;
+
     /// The names of the probes; none if they are not known.
     [[nodiscard]] std::vector<std::string_view> names() const;
 
@@ -31,6 +34,8 @@ class ReflectionFile {
 
     MappedFile file_;
     std::vector<ReflectionProbe> probes_;
+    std::vector<ReflectionLayer> layers_;
+    std::vector<IrradianceSh> layer_irradiance_;
     ReflectionsView view_;
     std::string_view names_;
 };

@@ -13,6 +13,12 @@ ReflectionsView Reflections::view() const noexcept {
     view.probes = probes;
     const size_t count = std::min<size_t>(levels.size(), kMaxReflectionLevels);
     for (size_t level = 0; level < count; ++level) view.levels[level] = levels[level];
+    view.layers = layers;
+    view.layer_names = layer_names;
+    view.layer_irradiance = layer_irradiance;
+    const size_t layer_count = std::min<size_t>(layer_levels.size(), kMaxReflectionLevels);
+    for (size_t level = 0; level < layer_count; ++level)
+        view.layer_levels[level] = layer_levels[level];
     view.metadata = metadata;
     return view;
 }

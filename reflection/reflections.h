@@ -24,10 +24,10 @@
 
 namespace tetralight {
 
-/// The largest face, texels, and the most levels and probes of a file.
+/// The largest face, texels, and the most levels and cubes of a file.
 inline constexpr uint32_t kLargestCubeSize = 4096;
 inline constexpr uint32_t kMaxReflectionLevels = 13;
-inline constexpr uint32_t kMaxReflectionProbes = 65536;
+inline constexpr uint32_t kMaxReflectionCubes = 65536;
 
 /// The place of a cube, and where it is used.
 struct ReflectionProbe {
@@ -40,7 +40,7 @@ struct ReflectionProbe {
     glm::vec3 half_size{std::numeric_limits<float>::infinity()};
     /// The axes of the box: unit vectors at right angles, in world axes.
     std::array<glm::vec3, 3> axes{glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)};
-    /// Inside the box, within this distance of its sides, the probe fades out, metres.
+    /// Outside the box the probe fades out over this distance, metres.
     float blend_distance = 0.0f;
     /// Probes of higher importance hide those of lower importance.
     int32_t importance = 1;
@@ -62,6 +62,17 @@ static_assert(sizeof(ReflectionProbe) == 216 && std::is_trivially_copyable_v<Ref
 /// Radiance of a texel, and 1 (0x3c00). Halves.
 using RadianceTexel = std::array<uint16_t, 4>;
 
+/// A part of the light whose weight can change (reflection/relight_reflections.h), by
+/// `layer_names`. The light of the cubes is the sum of all layers by their weights.
+struct ReflectionLayer {
+    float weight = 1.0f;
+    std::array<uint32_t, 3> reserved{};
+
+    bool operator==(const ReflectionLayer&) const = default;
+};
+
+static_assert(sizeof(ReflectionLayer) == 16 && std::is_trivially_copyable_v<ReflectionLayer>);
+
 /// Read-only spans over reflection probes. Cheap to copy; valid as long as its owner.
 struct ReflectionsView {
     /// Texels along a side of a face of level 0; level k has faces of `size >> k`.
@@ -70,6 +81,12 @@ struct ReflectionsView {
     std::span<const ReflectionProbe> probes;
     /// The texels of each level: probe after probe, face after face, row after row.
     std::array<std::span<const RadianceTexel>, kMaxReflectionLevels> levels;
+    std::span<const ReflectionLayer> layers;
+    std::string_view layer_names;  ///< each ended by '\n'
+    std::span<const IrradianceSh>
+        layer_irradiance;  ///< at weight 1: probe after probe, one a layer
+    /// The texels of each level at weight 1: probe after probe, layer after layer, as `levels`.
+    std::array<std::span<const RadianceTexel>, kMaxReflectionLevels> layer_levels;
     std::string_view metadata;  ///< how the probes were made: a JSON object, or empty
 };
 
@@ -79,6 +96,10 @@ struct Reflections {
     std::vector<ReflectionProbe> probes;
     std::vector<std::vector<RadianceTexel>> levels;
     std::vector<std::string> names;  ///< of the probes
+    std::vector<ReflectionLayer> layers;
+    std::string layer_names;
+    std::vector<IrradianceSh> layer_irradiance;
+    std::vector<std::vector<RadianceTexel>> layer_levels;
     std::string metadata;
 
     [[nodiscard]] ReflectionsView view() const noexcept;

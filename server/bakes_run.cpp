@@ -26,7 +26,6 @@ std::string result_path(Kind kind) {
 /// What the job of a bake gets beside the order.
 Json own_settings(Kind kind) {
     Json json{{"output", result_path(kind)}, {"progress_file", kProgress}};
-    if (kind == Kind::Reflections) return json;  // short: they begin again
     json["chunks"] = kChunks;
     if (kind != Kind::Lightmaps) return json;
     json["preview"] = {"results/preview.png", "results/preview.lightmaps"};

@@ -27,6 +27,15 @@ constexpr Setting kFiles[] = {
      .without = "the reflection probes of the scene",
      .excludes = "box",
      .access = Access::Command},
+    {.name = "lightmaps",
+     .type = Type::Path,
+     .help =
+         "Lightmaps of the scene (`tetralight lightmap`): rays end at them and take their light, "
+         "which is much faster than paths",
+     .extensions = ".lightmaps",
+     .without = "paths",
+     .excludes = "layers",
+     .access = Access::Command},
     {.name = "box",
      .type = Type::Numbers,
      .help = "Bake one reflection probe for this world box instead: minimum x,y,z, maximum x,y,z",
@@ -44,10 +53,10 @@ constexpr Setting kFiles[] = {
      .needs = "box"},
     {.name = "blend_distance",
      .type = Type::Number,
-     .help = "The reflection probe of --box fades out within this distance of its sides",
+     .help = "Outside --box its reflection probe fades out over this distance",
      .unit = "metres",
      .range = {0, 1e9},
-     .default_text = "1",
+     .default_text = "0.25",
      .needs = "box"}};
 
 constexpr Setting kCubes[] = {
@@ -64,10 +73,10 @@ constexpr Setting kCubes[] = {
      .help = "Do not add the sky, which is reflected where no box is"},
     {.name = "samples",
      .type = Type::Integer,
-     .help = "Paths per texel",
+     .help = "Paths per texel; rays with --lightmaps",
      .unit = "paths",
      .range = {1, 1 << 24},
-     .default_text = "256",
+     .without = "256; 16 with --lightmaps",
      .short_name = 's'},
     {.name = "min_validity",
      .type = Type::Number,
@@ -78,9 +87,23 @@ constexpr Setting kCubes[] = {
      .default_text = "0.75"},
     seed_setting("Seed of the random numbers")};
 
-constexpr Setting kTransport[] = {kBounces, kClamp, kAlbedoBoost, kMaxAlbedo};
+constexpr Setting kTransport[] = {
+    kBounces,
+    kClamp,
+    kAlbedoBoost,
+    kMaxAlbedo,
+    {.name = "layers",
+     .type = Type::Words,
+     .help = "Keep this light in separate layers, which `tetralight relight` can scale later: sun, "
+             "sky, emission, light:NAME, material:NAME",
+     .without = "one layer",
+     .value_name = "LIST"}};
 
 constexpr Setting kStoring[] = {
+    kResume,
+    kChunks,
+    kStore,
+    kStoreLimit,
     kProgressFile,
     {.name = "explain",
      .type = Type::Flag,
@@ -88,9 +111,12 @@ constexpr Setting kStoring[] = {
              "scene",
      .access = Access::Command}};
 
-constexpr Group kGroups[] = {{"Files", kFiles},      {"Added light", kAddedLightAlone},
-                             {"Cubes", kCubes},      {"Light transport", kTransport},
-                             {"Progress", kStoring}, {"Common options", kCommonSettings}};
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Added light", kAddedLightAlone},
+                             {"Cubes", kCubes},
+                             {"Light transport", kTransport},
+                             {"Progress and storage", kStoring},
+                             {"Common options", kCommonSettings}};
 
 }  // namespace
 

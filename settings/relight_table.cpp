@@ -5,8 +5,8 @@ namespace tetralight::settings {
 namespace {
 
 constexpr Setting kFiles[] = {
-    input_file("volume", "Probe volume or lightmaps baked with --layers"),
-    output_file(".probes .lightmaps", "File of the same kind to write (- = stdout)")};
+    input_file("volume", "Probe volume, lightmaps or reflection probes baked with --layers"),
+    output_file(".probes .lightmaps .ktx2", "File of the same kind to write (- = stdout)")};
 
 constexpr Setting kSettings[] = {
     {.name = "weights",
@@ -55,11 +55,13 @@ constexpr Group kGroups[] = {
 
 const Table kRelight{
     .command = "relight",
-    .summary = "Change the light of a volume or of lightmaps without baking them again",
+    .summary =
+        "Change the light of probes, lightmaps or reflection probes without baking them again",
     .examples =
         "tetralight relight court.probes --weights lamp=0,neon=2 "
         "--sky dusk.exr -o night.probes\n"
-        "tetralight relight court.lightmaps --weights sun=0 -o night.lightmaps",
+        "tetralight relight court.lightmaps --weights sun=0 -o night.lightmaps\n"
+        "tetralight relight court.ktx2 --weights sun=0 -o night.ktx2",
     .groups = kGroups};
 
 }  // namespace tetralight::settings

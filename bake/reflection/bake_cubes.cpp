@@ -6,9 +6,8 @@
 #include <glm/common.hpp>
 #include <utility>
 
-#include <tetralight/bake/lights/scene_openings.h>
 #include <tetralight/bake/parallel.h>
-#include <tetralight/bake/path_tracer.h>
+#include <tetralight/bake/reflection/path_cubes.h>
 #include <tetralight/bake/sampling/mix.h>
 #include <tetralight/bake/sampling/sampling.h>
 #include <tetralight/base/str_cat.h>
@@ -37,20 +36,17 @@ class CubeBaker {
           sampling_(sampling),
           sample_(sample),
           key_(detail::mix(~probe_key(sampling.seed, position.position))) {
-        cube_.image.size = sampling.size;
-        cube_.image.texels.resize(cube_texel_count(sampling.size));
+        cube_.image = {sampling.size, std::vector<glm::vec3>(cube_texel_count(sampling.size))};
+        cube_.layers.resize(sampling.layer_count, cube_.image);
     }
 
     /// Returns the number of rays.
     uint64_t bake_row(size_t row) {
-        uint64_t rays = 0, back_faces = 0;
-        for (uint32_t x = 0; x < sampling_.size; ++x) {
-            const size_t texel = row * sampling_.size + x;
-            cube_.image.texels[texel] = bake_texel(texel, rays, back_faces);
-        }
-        ray_count_ += rays;
-        back_face_count_ += back_faces;
-        return rays;
+        TexelSum sum(sampling_.layer_count);
+        for (uint32_t x = 0; x < sampling_.size; ++x) bake_texel(row * sampling_.size + x, sum);
+        ray_count_ += sum.ray_count;
+        back_face_count_ += sum.back_face_count;
+        return sum.ray_count;
     }
 
     [[nodiscard]] BakedCube finish() {
@@ -62,25 +58,42 @@ class CubeBaker {
     }
 
   private:
-    [[nodiscard]] glm::vec3 bake_texel(size_t index, uint64_t& rays, uint64_t& back_faces) const {
+    /// Light of one texel, and rays of all of a row.
+    struct TexelSum {
+        explicit TexelSum(uint32_t layer_count) : layers(layer_count), sample(layer_count) {}
+
+        glm::dvec3 radiance{0.0};
+        std::vector<glm::dvec3> layers;
+        std::vector<glm::vec3> sample;  ///< the layers of one sample
+        uint64_t ray_count = 0;
+        uint64_t back_face_count = 0;
+    };
+
+    void bake_texel(size_t index, TexelSum& sum) {
         const CubeTexel texel = cube_.image.texel(index);
         const auto size = static_cast<float>(sampling_.size);
         const double solid_angle = cube_solid_angle(texel.x, texel.y, sampling_.size);
         const auto spread = static_cast<float>(std::sqrt(solid_angle));
         const uint64_t key = detail::mix(key_ + (index + 1) * detail::kGoldenRatio64);
-        glm::dvec3 sum(0.0);
+        sum.radiance = glm::dvec3(0.0);
+        std::ranges::fill(sum.layers, glm::dvec3(0.0));
         for (uint32_t i = 0; i < sampling_.samples_per_texel; ++i) {
             Sampler sampler(key, i);
             const glm::vec2 place = glm::vec2(texel.x, texel.y) + sampler.next2();
             const glm::vec3 direction = cube_direction(CubePlace{texel.face, place / size});
             const glm::dvec3 start =
                 position_.position + double{position_.near_distance} * glm::dvec3(direction);
-            const CubeSample found = sample_(start, direction, spread, sampler);
-            sum += found.radiance;
-            rays += found.ray_count;
-            back_faces += found.hit_back_face;
+            std::ranges::fill(sum.sample, glm::vec3(0.0f));
+            const CubeSample found = sample_(start, direction, spread, sampler, sum.sample);
+            sum.radiance += found.radiance;
+            for (size_t k = 0; k < sum.layers.size(); ++k) sum.layers[k] += sum.sample[k];
+            sum.ray_count += found.ray_count;
+            sum.back_face_count += found.hit_back_face;
         }
-        return glm::vec3(sum / static_cast<double>(sampling_.samples_per_texel));
+        const double count = sampling_.samples_per_texel;
+        cube_.image.texels[index] = glm::vec3(sum.radiance / count);
+        for (size_t k = 0; k < sum.layers.size(); ++k)
+            cube_.layers[k].texels[index] = glm::vec3(sum.layers[k] / count);
     }
 
     const CubePosition& position_;
@@ -105,7 +118,8 @@ Status check_light(const BakedCube& cube, size_t index) {
 
 Result<std::vector<BakedCube>> bake_cubes(std::span<const CubePosition> positions,
                                           const CubeSampling& sampling, const SampleCube& sample,
-                                          const BakeCallback& callback) {
+                                          const BakeCallback& callback,
+                                          const CubeFinished& finished) {
     if (auto status = check_positions(positions); !status) return status.error();
     const size_t row_count = size_t{kCubeFaceCount} * sampling.size;
     const uint64_t samples = uint64_t{sampling.size} * sampling.samples_per_texel;
@@ -125,35 +139,32 @@ Result<std::vector<BakedCube>> bake_cubes(std::span<const CubePosition> position
         if (progress.is_cancelled()) return Error{ErrorCode::Cancelled, "cancelled"};
         cubes.push_back(baker.finish());
         if (auto status = check_light(cubes.back(), i); !status) return status.error();
+        if (finished && !finished(i, cubes.back())) return Error{ErrorCode::Cancelled, "cancelled"};
     }
     progress.finish();
     return cubes;
+}
+
+Result<std::vector<BakedCube>> bake_cubes(const PathCubes& paths,
+                                          std::span<const CubePosition> positions, uint32_t size,
+                                          const BakeSettings& settings,
+                                          const BakeCallback& callback) {
+    const SampleCube sample = [&](const glm::dvec3& position, glm::vec3 direction, float spread,
+                                  const Sampler& sampler, std::span<glm::vec3> layers) {
+        return paths.sample(position, direction, spread, sampler, layers);
+    };
+    const CubeSampling sampling{size, settings.sample_count, settings.seed, settings.thread_count,
+                                settings.plan.layer_count};
+    return bake_cubes(positions, sampling, sample, callback);
 }
 
 Result<std::vector<BakedCube>> bake_cubes(const Scene& scene,
                                           std::span<const CubePosition> positions, uint32_t size,
                                           const BakeSettings& settings,
                                           const BakeCallback& callback) {
-    const auto trace_scene = TraceScene::make_static(scene, settings.surfaces);
-    if (!trace_scene) return trace_scene.error();
-    const PathSettings paths{settings.bounces, settings.clamp};
-    std::vector<Opening> openings;
-    if (paths.traces_all_light()) openings = openings_of(scene, *trace_scene);
-    const PathTracer tracer(scene, *trace_scene, paths, settings.plan, std::move(openings));
-    std::vector<bool> is_hidden;
-    for (const MeshInstance& instance : scene.instances)
-        is_hidden.push_back(!instance.is_in_reflections);
-    const SampleCube sample = [&](const glm::dvec3& position, glm::vec3 direction, float spread,
-                                  const Sampler& sampler) {
-        const PathSample path = tracer.trace({.origin = trace_scene->render_from_world(position),
-                                              .direction = direction,
-                                              .spread = spread,
-                                              .is_hidden = &is_hidden},
-                                             sampler);
-        return CubeSample{path.radiance, path.hit_back_face, path.ray_count};
-    };
-    const CubeSampling sampling{size, settings.sample_count, settings.seed, settings.thread_count};
-    return bake_cubes(positions, sampling, sample, callback);
+    const auto paths = PathCubes::make(scene, settings);
+    if (!paths) return paths.error();
+    return bake_cubes(*paths, positions, size, settings, callback);
 }
 
 }  // namespace tetralight

@@ -25,6 +25,7 @@ struct CubePosition {
 /// A baked cube.
 struct BakedCube {
     CubeImage image;
+    std::vector<CubeImage> layers;  ///< the light of each layer, which is part of `image`
     /// Fraction of the samples whose first hit was no back face, in [0, 1].
     float validity = 1.0f;
     uint64_t ray_count = 0;
@@ -38,9 +39,13 @@ struct CubeSample {
 };
 
 /// Samples the light at a world position from a unit direction. `spread`: width of the texel,
-/// radians. Thread-safe.
-using SampleCube = std::function<CubeSample(const glm::dvec3& position, glm::vec3 direction,
-                                            float spread, const Sampler& sampler)>;
+/// radians. `layers`: receives the radiance of each layer; 0 before. Thread-safe.
+using SampleCube =
+    std::function<CubeSample(const glm::dvec3& position, glm::vec3 direction, float spread,
+                             const Sampler& sampler, std::span<glm::vec3> layers)>;
+
+/// Receives each cube when it is finished, with its index; false cancels the bake.
+using CubeFinished = std::function<bool(size_t index, const BakedCube& cube)>;
 
 /// The samples of a cube.
 struct CubeSampling {
@@ -48,6 +53,7 @@ struct CubeSampling {
     uint32_t samples_per_texel = 64;  ///< at least 1
     uint64_t seed = 0;
     uint32_t thread_count = 0;  ///< 0 = all
+    uint32_t layer_count = 0;
 };
 
 /// Bakes cubes: each texel is the mean of samples that are spread over its solid angle. A pure
@@ -56,18 +62,23 @@ struct CubeSampling {
 /// all faces as probes.
 ///
 /// Returns invalid_argument if a position is not finite or light is beyond the range of float, and
-/// cancelled if the callback returns false.
+/// cancelled if a callback returns false.
 [[nodiscard]] Result<std::vector<BakedCube>> bake_cubes(std::span<const CubePosition> positions,
                                                         const CubeSampling& sampling,
                                                         const SampleCube& sample,
+                                                        const BakeCallback& callback = {},
+                                                        const CubeFinished& finished = {});
+
+class PathCubes;
+
+/// The same by paths, for the settings that they were made with: `sample_count` is the number of
+/// paths per texel, `plan` has the layers.
+[[nodiscard]] Result<std::vector<BakedCube>> bake_cubes(const PathCubes& paths,
+                                                        std::span<const CubePosition> positions,
+                                                        uint32_t size, const BakeSettings& settings,
                                                         const BakeCallback& callback = {});
 
-/// The same by paths through a scene, with the light that a probe bakes but for the direct light of
-/// `Baked` lights, whose sources a mirror would show: sky, emission, and what surfaces reflect of
-/// all lights. Objects with `is_in_reflections` false are not seen, but light what is.
-/// `settings.sample_count` is the number of paths per texel. Openings are used as for probes.
-///
-/// Returns also the errors of `TraceScene::make_static`.
+/// The same in one call. Returns also the errors of `PathCubes::make`.
 [[nodiscard]] Result<std::vector<BakedCube>> bake_cubes(const Scene& scene,
                                                         std::span<const CubePosition> positions,
                                                         uint32_t size, const BakeSettings& settings,

@@ -63,9 +63,9 @@ Status check_sizes(const Ktx2Header& header) {
                        str_cat("faces of ", header.width, " x ", header.height,
                                " texels: not a power of two of at most ", kLargestCubeSize));
     }
-    if (header.layer_count > kMaxReflectionProbes) {
+    if (header.layer_count > kMaxReflectionCubes) {
         return corrupt("layer_count",
-                       str_cat(header.layer_count, " probes are more than ", kMaxReflectionProbes));
+                       str_cat(header.layer_count, " cubes are more than ", kMaxReflectionCubes));
     }
     if (header.level_count == 0 ||
         header.level_count > static_cast<uint32_t>(std::bit_width(header.width))) {

@@ -6,6 +6,7 @@
 
 #include <tetralight/base/hex.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/probes/probe_volume.h>
 
 namespace tetralight::detail {
 namespace {
@@ -60,6 +61,16 @@ std::string json_roughness(uint32_t level_count) {
     return text + ']';
 }
 
+std::string json_layers(const Reflections& reflections) {
+    const auto names = split_names(reflections.layer_names);
+    std::string text;
+    for (size_t k = 0; k < reflections.layers.size() && k < names.size(); ++k) {
+        text += str_cat(k == 0 ? '[' : ',', R"({"name":)", json_string(names[k]), R"(,"weight":)",
+                        reflections.layers[k].weight, '}');
+    }
+    return text.empty() ? "" : str_cat(R"(,"layers":)", text, ']');
+}
+
 }  // namespace
 
 std::string reflection_json(const Reflections& reflections) {
@@ -72,7 +83,8 @@ std::string reflection_json(const Reflections& reflections) {
     }
     return str_cat(R"({"version":1,"units":{"length":"m","texels":"radiance",)",
                    R"("irradiance_sh":"irradiance, not divided by pi"},"roughness":)",
-                   json_roughness(level_count), R"(,"probes":)", probes, "]}");
+                   json_roughness(level_count), json_layers(reflections), R"(,"probes":)", probes,
+                   "]}");
 }
 
 }  // namespace tetralight::detail

@@ -9,6 +9,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/probes/is_finite.h>
+#include <tetralight/probes/probe_volume.h>
 #include <tetralight/probes/section_text.h>
 #include <tetralight/reflection/cube.h>
 #include <tetralight/reflection/reflection_file.h>
@@ -84,9 +85,37 @@ Status check_cube_sizes(const ReflectionsView& v) {
         return wrong("level_count",
                      str_cat(v.level_count, " levels do not fit faces of ", v.size, " texels"));
     }
-    if (v.probes.empty() || v.probes.size() > kMaxReflectionProbes) {
-        return wrong("probes", str_cat("their number, ", v.probes.size(), ", is not in 1 to ",
-                                       kMaxReflectionProbes));
+    const size_t most = kMaxReflectionCubes / (1 + v.layers.size());
+    if (v.probes.empty() || v.probes.size() > most) {
+        return wrong("probes",
+                     str_cat("their number, ", v.probes.size(), ", is not in 1 to ", most));
+    }
+    return Ok{};
+}
+
+Status check_layers(const ReflectionsView& v) {
+    if (auto status = detail::check_names("layer_names", v.layer_names); !status) return status;
+    const size_t name_count = split_names(v.layer_names).size();
+    if (name_count != v.layers.size()) {
+        return wrong("layer_names", str_cat(name_count, " names for ", v.layers.size(), " layers"));
+    }
+    for (size_t k = 0; k < v.layers.size(); ++k) {
+        const ReflectionLayer& layer = v.layers[k];
+        if (!std::isfinite(layer.weight) || layer.weight < 0.0f) {
+            return wrong(str_cat("layers[", k, "].weight"),
+                         str_cat(layer.weight, " is out of range"));
+        }
+        if (layer.reserved != std::array<uint32_t, 3>{})
+            return wrong(str_cat("layers[", k, "].reserved"), "is not zero");
+    }
+    if (v.layer_irradiance.size() != v.probes.size() * v.layers.size()) {
+        return wrong("layer_irradiance",
+                     str_cat(v.layer_irradiance.size(), " elements for ", v.layers.size(),
+                             " layers of ", v.probes.size(), " probes"));
+    }
+    for (size_t i = 0; i < v.layer_irradiance.size(); ++i) {
+        if (!is_finite(v.layer_irradiance[i]))
+            return wrong(str_cat("layer_irradiance[", i, "]"), "is not finite");
     }
     return Ok{};
 }
@@ -97,11 +126,11 @@ bool is_finite_texel(const RadianceTexel& texel) {
                                 [](uint16_t half) { return (half & kInfinity) == kInfinity; });
 }
 
-Status check_level(const ReflectionsView& v, uint32_t level) {
-    const std::string field = str_cat("levels[", level, "]");
-    const uint64_t size = v.size >> level,
-                   expected = v.probes.size() * kCubeFaceCount * size * size;
-    const auto texels = v.levels[level];
+/// The texels of so many cubes at a level.
+Status check_texels(const ReflectionsView& v, uint32_t level, std::string_view levels,
+                    std::span<const RadianceTexel> texels, size_t cube_count) {
+    const std::string field = str_cat(levels, "[", level, "]");
+    const uint64_t size = v.size >> level, expected = cube_count * kCubeFaceCount * size * size;
     if (texels.size() != expected) {
         return wrong(field, str_cat(texels.size(), " texels instead of ", expected));
     }
@@ -119,8 +148,18 @@ Status verify(const ReflectionsView& reflections) {
         if (problem.member.empty()) continue;
         return wrong(str_cat("probes[", i, "].", problem.member), problem.what);
     }
+    if (auto status = check_layers(reflections); !status) return status;
+    const size_t probe_count = reflections.probes.size(),
+                 layer_cubes = probe_count * reflections.layers.size();
     for (uint32_t level = 0; level < reflections.level_count; ++level) {
-        if (auto status = check_level(reflections, level); !status) return status;
+        if (auto status =
+                check_texels(reflections, level, "levels", reflections.levels[level], probe_count);
+            !status)
+            return status;
+        if (auto status = check_texels(reflections, level, "layer_levels",
+                                       reflections.layer_levels[level], layer_cubes);
+            !status)
+            return status;
     }
     return detail::check_metadata_text(reflections.metadata);
 }

@@ -252,5 +252,43 @@ TEST_F(Reflect, RenderShowsReflectionsWithAndWithoutBoxProjection) {
     EXPECT_TRUE(far != plain);
 }
 
+TEST_F(Reflect, KeepsLightInLayersForRelight) {
+    succeed(arguments("two.gltf", "r.ktx2", {"--sky", "3", "--layers", "sky"}));
+    const Json json = run_json({"relight", "r.ktx2", "-o", "dim.ktx2", "--weights", "sky=0.5"});
+    EXPECT_EQ(json["layers"], Json::parse(R"([{"name": "sky", "weight": 0.5}])"));
+    const auto file = open_reflection_file(path("dim.ktx2"));
+    ASSERT_TRUE(file);
+    for (const RadianceTexel& texel : file->view().levels[0])
+        ASSERT_NEAR(float_from_half(texel[0]), 1.5f, 0.002f);
+    EXPECT_EQ(run_json({"info", "dim.ktx2"})["layers"][0]["weight"], 0.5);
+    EXPECT_TRUE(
+        contains(fail({"relight", "r.ktx2", "-o", "x.ktx2", "--weights", "moon=1"}), "r.ktx2: "));
+    EXPECT_TRUE(contains(fail({"relight", "r.ktx2", "-o", "x.ktx2", "--sky", "1"}),
+                         "r.ktx2: contains reflection probes"));
+    EXPECT_TRUE(contains(fail({"relight", "r.ktx2", "-o", "x.probes", "--weights", "sky=1"}),
+                         "r.ktx2: contains no probes"));
+}
+
+TEST_F(Reflect, TakesLightFromLightmaps) {
+    succeed({"lightmap", kCourtyard, "-o", "c.lightmaps", "-s", "4", "--texels-per-meter", "1"});
+    const Arguments box{"--box=-2,0,-2,2,3,2", "--lightmaps", "c.lightmaps"};
+    const Json json = run_json(arguments(kCourtyard, "r.ktx2", box));
+    EXPECT_GT(json["rays"], 16 * 16 * 6);
+    EXPECT_TRUE(contains(fail(arguments("two.gltf", "x.ktx2", {"--lightmaps", "c.lightmaps"})),
+                         "c.lightmaps: "));
+    write("bad.lightmaps", "no lightmaps");
+    EXPECT_TRUE(contains(fail(arguments("two.gltf", "x.ktx2", {"--lightmaps", "bad.lightmaps"})),
+                         "bad.lightmaps: "));
+}
+
+TEST_F(Reflect, ChunksContinueWithTheSameBytes) {
+    succeed(arguments("two.gltf", "a.ktx2", {"--sky", "3"}));
+    succeed(
+        arguments("two.gltf", "b.ktx2", {"--sky", "3", "--probe", "right", "--chunks", "kept"}));
+    succeed(arguments("two.gltf", "b.ktx2", {"--sky", "3", "--chunks", "kept"}));
+    EXPECT_EQ(read("a.ktx2"), read("b.ktx2"));
+    EXPECT_FALSE(std::filesystem::exists(path("b.ktx2.store")));
+}
+
 }  // namespace
 }  // namespace tetralight::test

@@ -263,7 +263,7 @@ TEST_F(ReflectionFileTest, RefusesSizesThatDoNotFit) {
     expect_refused(kTypeSize, 4u, wrong, "type_size");
     expect_refused(kWidth, 8u, wrong, "size");
     expect_refused(kLayerCount, 3u, wrong, "levels[0]");
-    expect_refused(kLayerCount, kMaxReflectionProbes + 1, wrong, "layer_count");
+    expect_refused(kLayerCount, kMaxReflectionCubes + 1, wrong, "layer_count");
     expect_refused(kLevelCount, 0u, wrong, "level_count");
     expect_refused(kLevelCount, 4u, wrong, "level_count");
     expect_refused(kLevelCount, 3u, wrong, "levels[2]");  // its entry is the descriptor
@@ -333,6 +333,37 @@ TEST_F(RefusedWrite, NamesWhatIsWrong) {
     wrong = reflections;
     wrong.levels.resize(kMaxReflectionLevels + 1);
     EXPECT_EQ(field_of(wrong), "levels");
+}
+
+TEST_F(ReflectionFileTest, LayersComeBack) {
+    const Reflections all = test::make_layered_reflections();
+    const std::string path = folder.path("layers.ktx2");
+    ASSERT_TRUE(write_reflection_file(path, all));
+    const auto file = open_reflection_file(path);
+    ASSERT_TRUE(file) << error_text(file.error());
+    EXPECT_EQ(file->view().probes.size(), 2u);
+    const Reflections copy = file->copy();
+    EXPECT_EQ(copy.layers, all.layers);
+    EXPECT_EQ(copy.layer_names, all.layer_names);
+    EXPECT_EQ(copy.layer_irradiance, all.layer_irradiance);
+    EXPECT_EQ(copy.levels, all.levels);
+    EXPECT_EQ(copy.layer_levels, all.layer_levels);
+    EXPECT_EQ(reflection_file_bytes(copy), reflection_file_bytes(all));
+    EXPECT_EQ(number_at<uint32_t>(reflection_file_bytes(all), kLayerCount), 6u);
+}
+
+TEST_F(ReflectionFileTest, AChangedByteOfLayersGivesAnErrorOrASoundView) {
+    const Bytes layered = reflection_file_bytes(test::make_layered_reflections());
+    const size_t begin = number_at<uint32_t>(layered, kPairsOffset);
+    const size_t end = begin + number_at<uint32_t>(layered, kPairsSize);
+    for (size_t i = begin; i < end; i += 5) {
+        Bytes changed = layered;
+        changed[i] ^= std::byte{0x81};
+        (void)refused(changed);  // samples what is opened
+    }
+    Bytes fewer = layered;
+    set_number(fewer, kLayerCount, uint32_t{5});
+    EXPECT_TRUE(refused(fewer));
 }
 
 }  // namespace

@@ -91,4 +91,26 @@ inline Reflections make_small_reflections() {
     return reflections;
 }
 
+/// The same in two layers of random light, of weights 1 and 0.5.
+inline Reflections make_layered_reflections() {
+    Reflections reflections = make_small_reflections();
+    reflections.layers.resize(2);
+    reflections.layers[1].weight = 0.5f;
+    reflections.layer_names = "sun\nlight:lamp\n";
+    const size_t cubes = 2 * reflections.probes.size();
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> value;
+    for (const auto& level : reflections.levels) {
+        auto& texels = reflections.layer_levels.emplace_back(2 * level.size());
+        for (RadianceTexel& texel : texels)
+            texel = radiance_texel({value(random), value(random), value(random)});
+    }
+    reflections.layer_irradiance.resize(cubes);
+    for (IrradianceSh& irradiance : reflections.layer_irradiance) {
+        for (glm::vec3& coefficient : irradiance.coefficients)
+            coefficient = random_unit_vector(random);
+    }
+    return reflections;
+}
+
 }  // namespace tetralight::test

@@ -77,5 +77,25 @@ TEST(VerifyReflections, TexelsAreFiniteAndMetadataIsText) {
     EXPECT_EQ(wrong_field([](Reflections& r) { r.metadata = "\x01"; }), "metadata");
 }
 
+TEST(VerifyReflections, ChecksLayers) {
+    const auto field = [](const std::function<void(Reflections&)>& change) {
+        Reflections reflections = test::make_layered_reflections();
+        change(reflections);
+        const Status status = verify(reflections.view());
+        return status ? std::string() : status.error().field;
+    };
+    EXPECT_EQ(field([](Reflections&) {}), "");
+    EXPECT_EQ(field([](Reflections& r) { r.layer_names = "sun\n"; }), "layer_names");
+    EXPECT_EQ(field([](Reflections& r) { r.layers[1].weight = -1.0f; }), "layers[1].weight");
+    EXPECT_EQ(field([](Reflections& r) { r.layers[0].weight = kNan; }), "layers[0].weight");
+    EXPECT_EQ(field([](Reflections& r) { r.layers[0].reserved[2] = 1; }), "layers[0].reserved");
+    EXPECT_EQ(field([](Reflections& r) { r.layer_irradiance.pop_back(); }), "layer_irradiance");
+    EXPECT_EQ(field([](Reflections& r) { r.layer_irradiance[3].coefficients[1].x = kNan; }),
+              "layer_irradiance[3]");
+    EXPECT_EQ(field([](Reflections& r) { r.layer_levels[1].pop_back(); }), "layer_levels[1]");
+    EXPECT_EQ(field([](Reflections& r) { r.layer_levels[0][5][2] = 0x7c00; }), "layer_levels[0]");
+    EXPECT_EQ(field([](Reflections& r) { r.layers.clear(); }), "layer_names");
+}
+
 }  // namespace
 }  // namespace tetralight

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/reflection/relight_reflections.h>
+
+#include <vector>
+
+#include <tetralight/base/half.h>
+#include <tetralight/reflection/cube.h>
+
+namespace tetralight {
+namespace {
+
+/// Names of layers mean the same as for probes.
+Result<std::vector<float>> changed_weights(const Reflections& reflections,
+                                           std::span<const LayerWeight> changes) {
+    std::vector<Layer> layers(reflections.layers.size());
+    for (size_t k = 0; k < layers.size(); ++k) layers[k].weight = reflections.layers[k].weight;
+    ProbeVolumeView named;
+    named.layers = layers;
+    named.layer_names = reflections.layer_names;
+    return layer_weights(named, changes);
+}
+
+/// Rewrites the texels of one level: of each probe `count`.
+void relight_level(const std::vector<ReflectionLayer>& layers, size_t count,
+                   std::span<const RadianceTexel> light_of_layers,
+                   std::span<RadianceTexel> texels) {
+    for (size_t i = 0; i < texels.size(); ++i) {
+        const size_t probe = i / count, texel = i % count;
+        glm::vec3 sum(0.0f);
+        for (size_t k = 0; k < layers.size(); ++k) {
+            const RadianceTexel& light =
+                light_of_layers[(probe * layers.size() + k) * count + texel];
+            sum +=
+                layers[k].weight * glm::vec3(float_from_half(light[0]), float_from_half(light[1]),
+                                             float_from_half(light[2]));
+        }
+        for (int channel = 0; channel < 3; ++channel) {
+            texels[i][static_cast<size_t>(channel)] = half_from_float_saturated(sum[channel]);
+        }
+    }
+}
+
+}  // namespace
+
+Status relight_reflections(Reflections& reflections, std::span<const LayerWeight> changes) {
+    const auto weights = changed_weights(reflections, changes);
+    if (!weights) return weights.error();
+    std::vector<ReflectionLayer>& layers = reflections.layers;
+    for (size_t k = 0; k < layers.size(); ++k) layers[k].weight = (*weights)[k];
+    if (layers.empty()) return Ok{};
+    for (uint32_t level = 0; level < reflections.levels.size(); ++level) {
+        const size_t size = reflections.size >> level;
+        relight_level(layers, kCubeFaceCount * size * size, reflections.layer_levels[level],
+                      reflections.levels[level]);
+    }
+    for (size_t i = 0; i < reflections.probes.size(); ++i) {
+        IrradianceSh sum{};
+        for (size_t k = 0; k < layers.size(); ++k) {
+            IrradianceSh part = reflections.layer_irradiance[i * layers.size() + k];
+            part *= layers[k].weight;
+            sum += part;
+        }
+        reflections.probes[i].irradiance = sum;
+    }
+    return Ok{};
+}
+
+}  // namespace tetralight
