@@ -175,7 +175,7 @@ def check_subproject(sources):
             assert warning not in " ".join(printed.split()), printed
 
 
-def is_newer(stamp, depfile, command):
+def is_up_to_date(stamp, depfile, command):
     """Whether a command has succeeded since the files that it reads changed."""
     if not stamp.exists() or stamp.read_text() != command:
         return False
@@ -191,8 +191,9 @@ def check_unity(sources, folder):
         stamp, depfile = place.with_suffix(".checked"), place.with_suffix(".d")
         command = re.sub(r" -o \S+", "", entry["command"])
         command += f" -fsyntax-only -Werror -MD -MT x -MF {depfile}"
-        if is_newer(stamp, depfile, command):
+        if is_up_to_date(stamp, depfile, command):
             return 0
+        stamp.unlink(missing_ok=True)
         started = place.with_suffix(".started")
         started.parent.mkdir(parents=True, exist_ok=True)
         started.write_text(command)
