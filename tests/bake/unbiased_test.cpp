@@ -28,7 +28,7 @@ namespace {
 constexpr size_t kProbesPerScene = 2;
 
 /// Estimates whose spread gives the error of their mean.
-constexpr uint32_t kTrials = 32, kReferenceTrials = 128;
+constexpr uint32_t kTrials = 32, kReferenceTrials = 136;
 constexpr uint32_t kSamples = 1024, kReferenceSamples = 1024;
 
 /// Which openings are sampled.

@@ -107,7 +107,8 @@ TEST_F(GridAdaptive, ErrorsAreRelativeToWhatIsAsked) {
 }
 
 TEST_F(GridAdaptive, PreviewIsAPicture) {
-    succeed({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "g.png"});
+    succeed({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "g.png", "--width",
+             "160", "--height", "120"});
     EXPECT_EQ(read("g.png").substr(1, 3), "PNG");
     succeed({"grid", kCourtyard, "-o", "g.json", "--spacing", "4", "--preview", "g.png", "--width",
              "64", "--height", "48", "--eye", "0,9,9", "--target", "0,0,0"});

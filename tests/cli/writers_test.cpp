@@ -11,15 +11,24 @@ namespace {
 class EveryWriter : public CommandFixture, public testing::WithParamInterface<const char*> {
   protected:
     EveryWriter() {
-        bake_courtyard("v.probes");
+        if (reads_volume()) bake_courtyard("v.probes");
+        write("empty.gltf", kEmptyScene);
         write("five.json", kFiveProbes);
         write("positions.jsonl", "[1, 2, 3]\n");
+    }
+
+    [[nodiscard]] static bool reads_volume() {
+        const std::string command = GetParam();
+        return command != "bake" && command != "grid" && command != "tetrahedralize";
     }
 
     [[nodiscard]] static Arguments arguments(const std::string& output) {
         const std::string command = GetParam();
         if (command == "bake") return {"bake", kCourtyard, "-o", output, "-s", "1"};
-        if (command == "grid") return {"grid", kCourtyard, "-o", output, "--spacing", "9"};
+        if (command == "grid") {
+            return {"grid",  "empty.gltf", "-o",    output,  "--spacing", "1",
+                    "--min", "0,0,0",      "--max", "1,1,1", "--sky",     "1"};
+        }
         if (command == "lppv") return {"lppv", "v.probes", "-o", output, "--resolution", "2,2,2"};
         if (command == "query") return {"query", "v.probes", "positions.jsonl", "-o", output};
         if (command == "tetrahedralize") return {"tetrahedralize", "five.json", "-o", output};

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Uses the installed package as its users do, each time in an empty folder.
 
-check_package.py headers PREFIX
+check_package.py headers PREFIX SOURCES
 check_package.py consumer PREFIX VOLUME SOURCES
 check_package.py guide PREFIX VOLUME GUIDE
 check_package.py example PREFIX VOLUME SOURCE
@@ -9,7 +9,7 @@ check_package.py components PREFIX
 check_package.py debian PREFIX SHIP_BUILD
 check_package.py folders PREFIX
 check_package.py subproject SOURCES
-check_package.py unity SOURCES
+check_package.py unity SOURCES BUILD
 """
 import json
 import os
@@ -40,17 +40,28 @@ def run(command, folder, prefix):
     return done.stdout
 
 
-def check_headers(prefix):
+def is_first_of_its_source(header, sources):
+    """Whether a source of this name includes the header first: building it proves that the header
+    needs no other before it."""
+    source = Path(sources, *Path(header).parts[1:]).with_suffix(".cpp")
+    first = source.exists() and re.search(r"^#include [<\"](.*)[>\"]", source.read_text(), re.M)
+    return bool(first) and first[1] == header
+
+
+def check_headers(prefix, sources):
+    """Compiles all headers as one, each twice, and those alone that no source includes first."""
     include = Path(prefix) / "include"
     headers = sorted(str(p.relative_to(include)) for p in include.rglob("*.h"))
     assert len(headers) > 20, headers
+    alone = [header for header in headers if not is_first_of_its_source(header, sources)]
+    assert 0 < len(alone) < len(headers), alone
     with tempfile.TemporaryDirectory() as folder:
-        for header in headers:
-            source = Path(folder) / "one.cpp"
-            source.write_text(f'#include <{header}>\n#include <{header}>\n')
+        source = Path(folder) / "one.cpp"
+        for group in (headers, *([header] for header in alone)):
+            source.write_text("".join(f"#include <{header}>\n" for header in group * 2))
             run(["c++", "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wconversion", "-Werror",
                  f"-I{include}", str(source)], folder, prefix)
-    print(f"{len(headers)} headers")
+    print(f"{len(headers)} headers, {len(alone)} of them alone")
 
 
 def report_size(program, name):
@@ -164,21 +175,40 @@ def check_subproject(sources):
             assert warning not in " ".join(printed.split()), printed
 
 
-def check_unity(sources):
-    """The sources of the release preset, which compiles several as one."""
-    def check(entry):
-        command = re.sub(r" -o \S+", "", entry["command"]) + " -fsyntax-only -Werror"
-        run(command, entry["directory"], "")
+def is_up_to_date(stamp, depfile, command):
+    """Whether a command has succeeded since the files that it reads changed."""
+    if not stamp.exists() or stamp.read_text() != command:
+        return False
+    read = depfile.read_text().replace("\\\n", " ").split()[1:]
+    return all(os.path.exists(p) and os.stat(p).st_mtime < stamp.stat().st_mtime for p in read)
 
-    with tempfile.TemporaryDirectory() as folder:
-        run(["cmake", "--preset", "release", "-B", folder, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"],
-            sources, "")
-        entries = json.loads(Path(folder, "compile_commands.json").read_text())
-        combined = [entry for entry in entries if "/Unity/" in entry["file"]]
-        assert len(combined) > 20, combined
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
-            list(pool.map(check, combined))
-        print(f"{len(combined)} of {len(entries)} compilations combine sources")
+
+def check_unity(sources, folder):
+    """The sources of the release preset, which compiles several as one. What is as it was when it
+    last compiled is not compiled again."""
+    def check(entry):
+        place = Path(entry["directory"]) / re.search(r" -o (\S+)", entry["command"])[1]
+        stamp, depfile = place.with_suffix(".checked"), place.with_suffix(".d")
+        command = re.sub(r" -o \S+", "", entry["command"])
+        command += f" -fsyntax-only -Werror -MD -MT x -MF {depfile}"
+        if is_up_to_date(stamp, depfile, command):
+            return 0
+        stamp.unlink(missing_ok=True)
+        started = place.with_suffix(".started")
+        started.parent.mkdir(parents=True, exist_ok=True)
+        started.write_text(command)
+        run(command, entry["directory"], "")
+        started.rename(stamp)
+        return 1
+
+    run(["cmake", "--preset", "release", "-B", folder, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"],
+        sources, "")
+    entries = json.loads(Path(folder, "compile_commands.json").read_text())
+    combined = [entry for entry in entries if "/Unity/" in entry["file"]]
+    assert len(combined) > 20, combined
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        compiled = sum(pool.map(check, combined))
+    print(f"{len(combined)} of {len(entries)} compilations combine sources; {compiled} made again")
 
 
 def listing(folder):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -16,8 +17,8 @@
 namespace tetralight::test {
 
 /// The light transport of a bake in its simplest form: paths in cosine-weighted directions find
-/// emission and sky by chance, every light that rays cannot hit is sampled at every surface, and no
-/// path ends before its last bounce. Slow, and its mean is right by inspection.
+/// emission and sky by chance, every light that rays cannot hit is sampled at every surface, and
+/// dim paths end by Russian roulette. Slow, and its mean is right by inspection.
 class SimpleTracer {
   public:
     /// Keeps a reference.
@@ -69,12 +70,22 @@ class SimpleTracer {
             if (surface->is_back_face) return radiance;
             radiance += throughput * surface->emission;
             if (bounce == bounces_) return radiance;
-            throughput *= surface->albedo;
+            throughput *= surface->albedo * roulette(throughput * surface->albedo, random);
+            if (throughput == glm::vec3(0.0f)) return radiance;
             const glm::vec3 normal = surface->geometric_normal;
             const glm::vec3 origin = TraceScene::ray_origin(*surface, normal);
             radiance += throughput * reflected_light(*surface, origin, random);
             ray = {origin, sample_cosine_hemisphere(normal, random.next2())};
         }
+    }
+
+    /// Inverse of the probability that a path of this throughput continues; 0 if it ends. Of the
+    /// dim paths that continue, none becomes brighter than `dim`.
+    [[nodiscard]] static float roulette(glm::vec3 throughput, RandomStream& random) {
+        constexpr float dim = 0.1f;
+        const float largest = std::max({throughput.x, throughput.y, throughput.z});
+        if (largest >= dim) return 1.0f;
+        return random.next() * dim < largest ? dim / largest : 0.0f;
     }
 
     /// Divided by the albedo.
