@@ -27,6 +27,9 @@ struct Options {
     std::optional<std::string> only;
     /// The figures that `bake` measures alone: the second part of their names.
     std::optional<std::string> figure;
+    /// Folder into which `reflection` writes what the comparison with three.js reads, instead of
+    /// its figures.
+    std::optional<std::string> pmrem;
 };
 
 /// Two ways to do the same work. Each returns its seconds, so that preparation is not timed.

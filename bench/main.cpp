@@ -45,6 +45,10 @@ int main(int argc, char** argv) {
                    "dering or threads; and `lightmap`: directional, shadowmask or layers")
         ->check(CLI::IsMember({"time", "rays", "noise", "layers", "bounces", "dering", "threads",
                                "directional", "shadowmask"}));
+    app.add_option("--pmrem", options.pmrem,
+                   "Folder into which `reflection` writes cubes for the comparison with three.js, "
+                   "instead of its figures")
+        ->check(CLI::ExistingDirectory);
     CLI11_PARSE(app, argc, argv);
     for (const auto& [name, bench] : benches) {
         if (names.empty() || std::ranges::find(names, name) != names.end()) bench(options);

@@ -17,6 +17,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/bench/bake_scenes.h>
 #include <tetralight/bench/harness.h>
+#include <tetralight/bench/reflection_pmrem.h>
 #include <tetralight/pipeline/bake_reflections.h>
 #include <tetralight/reflection/sample_reflections.h>
 
@@ -275,11 +276,16 @@ void bench_blend() {
     report("reflection.blend", 255.0 * worst, "1/255");
 }
 
-void bench_scene(const std::string& path, const glm::dvec3& position, const std::string& name) {
+void bench_scene(const std::string& path, const glm::dvec3& position, const std::string& name,
+                 const std::optional<std::string>& pmrem) {
     auto scene = read_gltf(path);
     require(bool(scene), "the scene " + path);
     light_if_dark(*scene);
     const CubeImage cube = bake_cube(*scene, position, kSize, 64);
+    if (pmrem) {
+        write_pmrem_subject(*pmrem, name, cube);
+        return;
+    }
     bench_prefilter(cube, name);
     bench_sh(*scene, position, cube, name);
 }
@@ -288,8 +294,12 @@ void bench_scene(const std::string& path, const glm::dvec3& position, const std:
 
 void bench_reflection(const Options& options) {
     bench_scene(TETRALIGHT_SOURCE_DIR "/examples/scenes/courtyard.glb", {0.0, 1.5, 0.0},
-                "courtyard");
-    if (options.scene) bench_scene(*options.scene, {0.0, 2.0, 0.0}, "scene");
+                "courtyard", options.pmrem);
+    if (options.scene) bench_scene(*options.scene, {0.0, 2.0, 0.0}, "scene", options.pmrem);
+    if (options.pmrem) {
+        write_pmrem_checks(*options.pmrem, kSize);
+        return;
+    }
     bench_box();
     bench_blend();
 }
