@@ -281,11 +281,14 @@ void bench_scene(const std::string& path, const glm::dvec3& position, const std:
     auto scene = read_gltf(path);
     require(bool(scene), "the scene " + path);
     light_if_dark(*scene);
-    const CubeImage cube = bake_cube(*scene, position, kSize, 64);
     if (pmrem) {
-        write_pmrem_subject(*pmrem, name, cube);
+        for (const uint32_t size : {kSize, 2 * kSize}) {
+            write_pmrem_subject(*pmrem, str_cat(name, '.', size),
+                                bake_cube(*scene, position, size, 64));
+        }
         return;
     }
+    const CubeImage cube = bake_cube(*scene, position, kSize, 64);
     bench_prefilter(cube, name);
     bench_sh(*scene, position, cube, name);
 }

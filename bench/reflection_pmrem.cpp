@@ -20,7 +20,6 @@ namespace tetralight::bench {
 namespace {
 
 constexpr uint32_t kDirections = 2000;
-/// Our levels of cubes of 128 texels, and halfway between them.
 constexpr float kRoughnesses[] = {0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.75f, 0.875f, 1.0f};
 
 /// A part of a cube over which the lobe is taken as constant.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace tetralight {
 
@@ -25,12 +26,14 @@ ReflectionsView Reflections::view() const noexcept {
 
 float roughness_of_level(uint32_t level, uint32_t level_count) noexcept {
     if (level_count < 2) return 0.0f;
-    return static_cast<float>(level) / static_cast<float>(level_count - 1);
+    const float share = static_cast<float>(level) / static_cast<float>(level_count - 1);
+    return 1.0f - std::sqrt(1.0f - share);
 }
 
 float level_of_roughness(float roughness, uint32_t level_count) noexcept {
     if (level_count < 2 || !(roughness > 0.0f)) return 0.0f;
-    return std::min(roughness, 1.0f) * static_cast<float>(level_count - 1);
+    const float most_one = std::min(roughness, 1.0f);
+    return most_one * (2.0f - most_one) * static_cast<float>(level_count - 1);
 }
 
 uint32_t reflection_level_count(uint32_t size) noexcept {

@@ -105,8 +105,9 @@ struct Reflections {
     [[nodiscard]] ReflectionsView view() const noexcept;
 };
 
-/// The roughness (glTF's, the square root of GGX's α) that a level is blurred for: level / (levels
-/// - 1), so 0 for level 0 and 1 for the last.
+/// The roughness (glTF's, the square root of GGX's α) that a level is blurred for: 1 - sqrt(1 -
+/// level / (levels - 1)), so 0 for level 0 and 1 for the last. Levels are denser where lobes are
+/// narrow, and as those of Filament and three.js.
 [[nodiscard]] float roughness_of_level(uint32_t level, uint32_t level_count) noexcept;
 
 /// The level of a roughness in [0, 1], with a fraction.

@@ -465,7 +465,7 @@ typedef struct tetralight_reflections tetralight_reflections;
 typedef struct tetralight_reflections_info {
     /** Texels along each side of a face of level 0; half as many in each further level. */
     uint32_t size;
-    /** Level i is blurred for the roughness i / (level_count - 1). */
+    /** Level i is blurred for the roughness 1 - sqrt(1 - i / (level_count - 1)). */
     uint32_t level_count;
     /** Also the number of cubes. */
     uint32_t probe_count;

@@ -89,7 +89,13 @@ vec3 tetralight_project_on_box(TetralightReflectionProbe probe, vec3 position, v
     return normalize(mix(direction, from_probe * inversesqrt(square), influence));
 }
 
-// Radiance of one cube at a level: roughness * (number of levels - 1).
+// The level of a roughness, with a fraction. `last`: number of levels - 1.
+float tetralight_reflection_level(float roughness, float last) {
+    float most_one = clamp(roughness, 0.0f, 1.0f);
+    return most_one * (2.0f - most_one) * last;
+}
+
+// Radiance of one cube at a level.
 vec3 tetralight_sample_reflection_cube(TETRALIGHT_CUBE(cube), TetralightReflectionProbe probe,
                                        vec3 position, vec3 direction, float level) {
     vec3 along = tetralight_project_on_box(probe, position, direction);
@@ -108,7 +114,7 @@ vec3 tetralight_sample_reflection(TETRALIGHT_CUBES(cubes), TetralightReflectionP
 // normal.
 vec3 tetralight_sample_reflections(TETRALIGHT_CUBES(cubes), TetralightReflectionBlend blend,
                                    vec3 position, vec3 direction, float roughness) {
-    float level = clamp(roughness, 0.0f, 1.0f) * blend.weights.w;
+    float level = tetralight_reflection_level(roughness, blend.weights.w);
     vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
     if (blend.weights.x > 0.0f) {
         radiance += tetralight_sample_reflection(TETRALIGHT_PASS_CUBES(cubes), blend.first,

@@ -52,7 +52,7 @@ TetralightReflectionChoice choose_reflections(vec3 place) {
 vec3 mirrored_light(vec3 place, vec3 normal, vec3 to_eye, vec3 f0, float roughness, vec3 baked) {
     TetralightReflectionChoice choice = choose_reflections(place);
     vec3 weights = tetralight_reflection_weights(choice);
-    float level = clamp(roughness, 0.0, 1.0) * float(counts.w);
+    float level = tetralight_reflection_level(roughness, float(counts.w));
     vec3 mirrored = reflect(-to_eye, normal);
     vec3 seen = vec3(0.0), at_probes = vec3(0.0);
     for (int i = 0; i < 3; ++i) {

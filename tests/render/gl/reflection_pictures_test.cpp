@@ -178,7 +178,8 @@ TEST_F(GlReflections, AgreeOnTexturesNormalMapsAndUnlitSurfaces) {
     test::set_normal_map(scene, floor, {0.2f, -0.3f});
     scene.materials[1].is_unlit = true;
     const SceneLight lit = light(scene);
-    EXPECT_LE(difference(draw(scene, lit), trace(scene, lit)), 2 * kEdges);
+    // Edges of texels may fall on another pixel, too.
+    EXPECT_LE(difference(draw(scene, lit), trace(scene, lit)), 2.5 * kEdges);
 }
 
 TEST_F(GlReflections, BallsOfGizmosShowTheirLightAlone) {

@@ -179,7 +179,8 @@ TEST_F(ReflectionTwins, AgreeInGlsl450) {
 TEST_F(ReflectionTwins, AgreeInGlslEs300OnOneCube) {
     const auto results = run_fragment(
         task("uniform highp samplerCube cubes;\n",
-             "tetralight_sample_reflection_cube(cubes, blend.first, at.xyz, along.xyz, 2.0 * at.w)",
+             "tetralight_sample_reflection_cube(cubes, blend.first, at.xyz, along.xyz, "
+             "tetralight_reflection_level(at.w, 2.0))",
              GL_TEXTURE_CUBE_MAP),
         ShaderPart::Reflection);
     expect_twin(results, [&](const glm::dvec3& position, const glm::vec3& direction, float rough) {
