@@ -15,7 +15,8 @@ mkdir -p "$folder"
 "$tetralight" bake "$scene" --groups "$folder/places.json" --only-given-groups \
     -o "$folder/light.probes" "${layers[@]}" "${options[@]}"
 "$tetralight" lightmap "$scene" -o "$folder/light.lightmaps" "${layers[@]}" "${options[@]}"
-"$tetralight" reflect "$scene" --places "$folder/reflections.json" -o "$folder/light.ktx2" "${options[@]}"
+"$tetralight" reflect "$scene" --places "$folder/reflections.json" -o "$folder/light.ktx2" \
+    "${layers[@]}" "${options[@]}"
 
 # For engines: the scene with its lightmaps, and the three layers in one image.
 "$tetralight" export "$folder/light.lightmaps" --scene "$scene" -o "$folder/lit.glb"

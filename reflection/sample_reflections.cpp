@@ -164,10 +164,13 @@ glm::vec3 reflection_irradiance(const ReflectionsView& reflections, const Reflec
     });
 }
 
-float reflection_occlusion(glm::vec3 irradiance, glm::vec3 probe_irradiance) noexcept {
+float reflection_occlusion(glm::vec3 irradiance, glm::vec3 probe_irradiance,
+                           float roughness) noexcept {
+    constexpr float kMirror = 0.1f, kRough = 0.5f;
     const float here = luminance(irradiance), there = luminance(probe_irradiance);
     if (!(there > 0.0f)) return 1.0f;
-    return here > 0.0f ? std::min(here / there, 1.0f) : 0.0f;
+    const float ratio = here > 0.0f ? std::min(here / there, 1.0f) : 0.0f;
+    return glm::mix(1.0f, ratio, glm::smoothstep(kMirror, kRough, roughness));
 }
 
 }  // namespace tetralight

@@ -73,7 +73,10 @@ struct ReflectionBlend {
                                               glm::vec3 normal) noexcept;
 
 /// What reflections are multiplied with, so that dark corners do not shine: the luminance of the
-/// irradiance at the place over that at the probe, both on the surface's normal, in [0, 1].
-[[nodiscard]] float reflection_occlusion(glm::vec3 irradiance, glm::vec3 probe_irradiance) noexcept;
+/// irradiance at the place over that at the probe, both on the surface's normal, in [0, 1]. Rough
+/// surfaces see much of what lights them; a mirror sees one point of it, which the cube has. So the
+/// result is 1 below roughness 0.1 and this ratio above 0.5, with a smooth step between.
+[[nodiscard]] float reflection_occlusion(glm::vec3 irradiance, glm::vec3 probe_irradiance,
+                                         float roughness) noexcept;
 
 }  // namespace tetralight

@@ -23,7 +23,8 @@ glm::vec3 Mirror::radiance(const MirrorPoint& point, const glm::vec3& baked) con
             ? sample_reflections(reflections_, blend, point.position, mirrored, point.roughness)
             : sample_far_reflections(reflections_, blend, mirrored, point.roughness);
     const glm::vec3 at_probes = reflection_irradiance(reflections_, blend, point.normal);
-    const float occlusion = reflection_occlusion(baked * std::numbers::pi_v<float>, at_probes);
+    const float occlusion =
+        reflection_occlusion(baked * std::numbers::pi_v<float>, at_probes, point.roughness);
     const float n_dot_v = std::max(0.0f, glm::dot(point.to_eye, point.normal));
     const glm::vec2 terms = sample_split_sum(split_sum_, n_dot_v, point.roughness);
     return occlusion * seen * (point.f0 * terms.x + terms.y);

@@ -534,10 +534,11 @@ TETRALIGHT_API tetralight_status tetralight_reflections_sample(
 
 /** What reflections are multiplied with, so that dark corners do not shine, 0 to 1 (one float): the
  * luminance of `irradiance` (three floats, not divided by pi), that of light probes or a lightmap
- * on a unit normal, over that of the cubes on the same normal. */
+ * on a unit normal, over that of the cubes on the same normal. 1 for mirrors, below roughness
+ * 0.1; this ratio above 0.5. */
 TETRALIGHT_API tetralight_status tetralight_reflections_occlusion(
     const tetralight_reflections* reflections, const tetralight_reflection_blend* blend,
-    const float* normal, const float* irradiance, float* occlusion,
+    const float* normal, const float* irradiance, float roughness, float* occlusion,
     tetralight_error* error) TETRALIGHT_NOEXCEPT;
 
 /** Scale and bias of F0 (two floats) in the reflectance of a surface, for a table over n . v and

@@ -150,15 +150,16 @@ tetralight_status tetralight_reflections_sample(const tetralight_reflections* re
 tetralight_status tetralight_reflections_occlusion(const tetralight_reflections* reflections,
                                                    const tetralight_reflection_blend* blend,
                                                    const float* normal, const float* irradiance,
-                                                   float* occlusion,
+                                                   float roughness, float* occlusion,
                                                    tetralight_error* error) noexcept {
     if (auto wrong = check_blend(reflections, blend)) return finish(wrong, error);
     if (auto wrong = check_floats("normal", normal, 3)) return finish(wrong, error);
     if (auto wrong = check_floats("irradiance", irradiance, 3)) return finish(wrong, error);
+    if (auto wrong = check_unit("roughness", roughness)) return finish(wrong, error);
     if (auto wrong = check_pointer("occlusion", occlusion)) return finish(wrong, error);
     const glm::vec3 of_cubes =
         reflection_irradiance(reflections->file.view(), blend_of(*blend), glm::make_vec3(normal));
-    *occlusion = reflection_occlusion(glm::make_vec3(irradiance), of_cubes);
+    *occlusion = reflection_occlusion(glm::make_vec3(irradiance), of_cubes, roughness);
     return succeed(error);
 }
 

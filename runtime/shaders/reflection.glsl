@@ -196,11 +196,12 @@ vec3 tetralight_specular_f0(vec3 base_color, float metallic) {
 }
 
 // What reflections are multiplied with, so that dark corners do not shine: the luminance of the
-// irradiance at the place over that at the probes, both on the surface's normal, in [0, 1].
-float tetralight_reflection_occlusion(vec3 irradiance, vec3 probe_irradiance) {
+// irradiance at the place over that at the probes, both on the surface's normal, in [0, 1]. 1 for
+// mirrors, below roughness 0.1; this ratio above 0.5.
+float tetralight_reflection_occlusion(vec3 irradiance, vec3 probe_irradiance, float roughness) {
     vec3 luminance = vec3(0.2126f, 0.7152f, 0.0722f);
     float here = dot(irradiance, luminance);
     float there = dot(probe_irradiance, luminance);
     if (!(there > 0.0f)) return 1.0f;
-    return clamp(here / there, 0.0f, 1.0f);
+    return mix(1.0f, clamp(here / there, 0.0f, 1.0f), smoothstep(0.1f, 0.5f, roughness));
 }

@@ -264,12 +264,21 @@ TEST(ReflectionIrradiance, AddsTheProbesByTheirWeights) {
     EXPECT_LT(glm::distance(irradiance, 3.14159265f * glm::vec3(2, 3, 4)), 1e-4f);
 }
 
-TEST(ReflectionOcclusion, IsTheRatioOfLuminances) {
-    EXPECT_EQ(reflection_occlusion({1, 1, 1}, {4, 4, 4}), 0.25f);
-    EXPECT_NEAR(reflection_occlusion({0, 1, 0}, {1, 1, 1}), 0.7152f, 1e-6f);  // Rec.709
-    EXPECT_EQ(reflection_occlusion({3, 3, 3}, {1, 1, 1}), 1.0f);
-    EXPECT_EQ(reflection_occlusion({-1, -1, -1}, {1, 1, 1}), 0.0f);
-    EXPECT_EQ(reflection_occlusion({0, 0, 0}, {0, 0, 0}), 1.0f);  // a black cube needs no shade
+TEST(ReflectionOcclusion, OfRoughSurfacesIsTheRatioOfLuminances) {
+    for (const float roughness : {0.5f, 1.0f}) {
+        EXPECT_EQ(reflection_occlusion({1, 1, 1}, {4, 4, 4}, roughness), 0.25f);
+        EXPECT_NEAR(reflection_occlusion({0, 1, 0}, {1, 1, 1}, roughness), 0.7152f,
+                    1e-6f);  // Rec.709
+        EXPECT_EQ(reflection_occlusion({3, 3, 3}, {1, 1, 1}, roughness), 1.0f);
+        EXPECT_EQ(reflection_occlusion({-1, -1, -1}, {1, 1, 1}, roughness), 0.0f);
+        EXPECT_EQ(reflection_occlusion({0, 0, 0}, {0, 0, 0}, roughness), 1.0f);  // a black cube
+    }
+}
+
+TEST(ReflectionOcclusion, MirrorsHaveNone) {
+    for (const float roughness : {0.0f, 0.1f})
+        EXPECT_EQ(reflection_occlusion({1, 1, 1}, {4, 4, 4}, roughness), 1.0f);
+    EXPECT_NEAR(reflection_occlusion({1, 1, 1}, {4, 4, 4}, 0.3f), 0.625f, 1e-6f);  // halfway
 }
 
 }  // namespace

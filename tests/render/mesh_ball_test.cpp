@@ -187,14 +187,18 @@ TEST(RenderMeshBall, MirrorsReflectionProbesByFresnelInTheLightOfThePlace) {
     const Mirror mirror(cube.view(), true);
     BallLighting lighting;
     lighting.mirror = &mirror;
-    const glm::vec2 terms = sample_split_sum(make_split_sum_table(), 1.0f, 0.0f);
-    std::vector<BallInstance> spheres{{{0, 0, 0}, 2.0, kAlbedo, 1.0f, 1.0f}};
     const ProbeVolume volume = constant_volume(glm::vec3(1.0f));
-    expect_near(seen_from_above(spheres, nullptr, volume, 10.0, lighting),
-                1.5f * (kAlbedo * terms.x + terms.y));
-    spheres[0].metallic = 0.0f;
-    expect_near(seen_from_above(spheres, nullptr, volume, 10.0, lighting),
-                0.96f * kAlbedo + 1.5f * (0.04f * terms.x + terms.y));
+    // A mirror has all of the light, a rough sphere the half.
+    for (const float smoothness : {1.0f, 0.25f}) {
+        const glm::vec2 terms = sample_split_sum(make_split_sum_table(), 1.0f, 1.0f - smoothness);
+        const float light = smoothness == 1.0f ? 3.0f : 1.5f;
+        std::vector<BallInstance> spheres{{{0, 0, 0}, 2.0, kAlbedo, 1.0f, smoothness}};
+        expect_near(seen_from_above(spheres, nullptr, volume, 10.0, lighting),
+                    light * (kAlbedo * terms.x + terms.y));
+        spheres[0].metallic = 0.0f;
+        expect_near(seen_from_above(spheres, nullptr, volume, 10.0, lighting),
+                    0.96f * kAlbedo + light * (0.04f * terms.x + terms.y));
+    }
 }
 
 }  // namespace

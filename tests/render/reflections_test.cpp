@@ -67,11 +67,15 @@ TEST(Reflections, AMirrorShowsTheFaceThatItsNormalPointsTo) {
                 3.0f * (terms.x + terms.y), 1e-3f);
 }
 
-TEST(Reflections, ADarkPlaceDarkensThem) {
+TEST(Reflections, ADarkPlaceDarkensThoseOfRoughSurfaces) {
     // The light at the floor is a quarter of that at the cube.
-    const float bright = seen_from_above(metal(0.0f), constant_volume(1.0f), six_colors());
-    const float dark = seen_from_above(metal(0.0f), constant_volume(0.25f), six_colors());
-    EXPECT_NEAR(dark / bright, 0.25f, 1e-3f);
+    const auto darkened = [](float roughness) {
+        const float bright = seen_from_above(metal(roughness), constant_volume(1.0f), six_colors());
+        const float dark = seen_from_above(metal(roughness), constant_volume(0.25f), six_colors());
+        return dark / bright;
+    };
+    EXPECT_NEAR(darkened(0.6f), 0.25f, 1e-3f);
+    EXPECT_NEAR(darkened(0.0f), 1.0f, 1e-3f);
 }
 
 TEST(Reflections, ADielectricKeepsItsDiffuseLight) {

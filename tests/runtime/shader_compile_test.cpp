@@ -115,7 +115,7 @@ const std::vector<Use>& uses() {
             #ifdef TETRALIGHT_HAS_CUBE_ARRAYS
             light += tetralight_sample_reflections(cubes, blend, v.xyz, v.zxy, v.w);
             #endif
-            light *= tetralight_reflection_occlusion(v.xyz, v.zxy) * weights.x;
+            light *= tetralight_reflection_occlusion(v.xyz, v.zxy, v.w) * weights.x;
             return light * (f0 * scale_and_bias.x + scale_and_bias.y);)",
          R"(TetralightReflectionChoice choice = tetralight_no_reflection();
             float influence = tetralight_reflection_influence(blend.first, v.xyz);
@@ -126,7 +126,7 @@ const std::vector<Use>& uses() {
             float3 light = tetralight_sample_reflection_cube(cube, cube_sampler, blend.first,
                                                              v.xyz, v.yzx, 0.5);
             light += tetralight_sample_reflections(cubes, cubes_sampler, blend, v.xyz, v.zxy, v.w);
-            light *= tetralight_reflection_occlusion(v.xyz, v.zxy) * weights.x;
+            light *= tetralight_reflection_occlusion(v.xyz, v.zxy, v.w) * weights.x;
             return light * (f0 * scale_and_bias.x + scale_and_bias.y);)",
          "#ifdef VULKAN\n#define AT(number) layout(binding = number)\n#else\n#define AT(number)\n"
          "#endif\n#ifdef VULKAN\nlayout(binding = 6, std140)\n#else\nlayout(std140)\n#endif\n"

@@ -35,10 +35,10 @@ class CApiReflections : public testing::Test {
     tetralight_reflections* reflections = nullptr;
     tetralight_reflection_blend blend{};
     tetralight_error error{};
-    /// 0.2 m from the side of the box of probe 0, where it fades out.
+    /// 0.2 m outside the box of probe 0, where it fades out.
     const ReflectionProbe& box = data.probes[0];
     const glm::dvec3 place =
-        box.position + glm::dvec3(box.box_center) + 0.8 * glm::dvec3(box.axes[1]);
+        box.position + glm::dvec3(box.box_center) + 1.2 * glm::dvec3(box.axes[1]);
     const double position[3]{place.x, place.y, place.z};
     const float direction[3]{0.0f, 0.8f, 0.6f};
     float rgb[3]{-7.0f, -7.0f, -7.0f};
@@ -93,10 +93,10 @@ TEST_F(CApiReflections, OcclusionIsThatOfTheLibrary) {
     const glm::vec3 of_cube = evaluate_irradiance(data.probes[0].irradiance, normal);
     const float half[3]{0.5f * of_cube.x, 0.5f * of_cube.y, 0.5f * of_cube.z};
     float occlusion = -7.0f;
-    ASSERT_EQ(tetralight_reflections_occlusion(reflections, &all_box, direction, half, &occlusion,
-                                               &error),
+    ASSERT_EQ(tetralight_reflections_occlusion(reflections, &all_box, direction, half, 0.4f,
+                                               &occlusion, &error),
               TETRALIGHT_OK);
-    EXPECT_EQ(occlusion, reflection_occlusion({half[0], half[1], half[2]}, of_cube));
+    EXPECT_EQ(occlusion, reflection_occlusion({half[0], half[1], half[2]}, of_cube, 0.4f));
 }
 
 TEST_F(CApiReflections, SplitSumIsThatOfTheLibrary) {
@@ -152,11 +152,11 @@ TEST_F(CApiReflections, NullPointersAreErrors) {
     EXPECT_EQ(tetralight_reflections_texels(reflections, 0, nullptr, &error), bad);
     EXPECT_EQ(tetralight_reflections_blend(nullptr, position, &blend, &error), bad);
     EXPECT_EQ(tetralight_reflections_blend(reflections, position, nullptr, &error), bad);
-    EXPECT_EQ(tetralight_reflections_occlusion(reflections, &blend, nullptr, direction, &occlusion,
-                                               &error),
+    EXPECT_EQ(tetralight_reflections_occlusion(reflections, &blend, nullptr, direction, 1.0f,
+                                               &occlusion, &error),
               bad);
-    EXPECT_EQ(tetralight_reflections_occlusion(reflections, &blend, direction, direction, nullptr,
-                                               nullptr),
+    EXPECT_EQ(tetralight_reflections_occlusion(reflections, &blend, direction, direction, 1.0f,
+                                               nullptr, nullptr),
               bad);
     tetralight_reflections_close(nullptr);
 }

@@ -65,7 +65,8 @@ vec3 mirrored_light(vec3 place, vec3 normal, vec3 to_eye, vec3 f0, float roughne
         at_probes += weights[i] * tetralight_sample_sh9(reflection_probes[index].irradiance, normal);
     }
     vec2 terms = tetralight_split_sum(split_sum_table, max(dot(normal, to_eye), 0.0), roughness);
-    return seen * (f0 * terms.x + terms.y) * tetralight_reflection_occlusion(baked, at_probes);
+    return seen * (f0 * terms.x + terms.y) *
+           tetralight_reflection_occlusion(baked, at_probes, roughness);
 }
 )";
 

@@ -42,7 +42,7 @@ vec4 result(uint index, uint part) {
     if (part == 2u) return vec4(tetralight_reflection_weights(choice), 0.0);
     if (part == 3u) return choice.probes;
     return vec4(tetralight_split_sum(table, along.w, at.w),
-                tetralight_reflection_occlusion(abs(at.xyz), abs(along.xyz)), 0.0);
+                tetralight_reflection_occlusion(abs(at.xyz), abs(along.xyz), at.w), 0.0);
 }
 )";
 
@@ -147,9 +147,10 @@ class ReflectionTwins : public test::ShaderRunner {
             expect_same_choice(found[2], found[3], position);
             EXPECT_LT(glm::distance(glm::vec2(found[4]), sample_split_sum(table, along.w, at.w)),
                       3e-3f);
-            EXPECT_NEAR(found[4].z,
-                        reflection_occlusion(glm::abs(glm::vec3(at)), glm::abs(glm::vec3(along))),
-                        1e-5f);
+            EXPECT_NEAR(
+                found[4].z,
+                reflection_occlusion(glm::abs(glm::vec3(at)), glm::abs(glm::vec3(along)), at.w),
+                1e-5f);
         }
     }
 
