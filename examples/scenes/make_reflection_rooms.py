@@ -58,7 +58,7 @@ class Rooms(Gltf):
             if name == "metal":
                 material["pbrMetallicRoughness"].update(metallicFactor=1.0, roughnessFactor=int(number) / (BALLS - 1))
             if name == "steel":
-                material["pbrMetallicRoughness"].update(metallicFactor=1.0, roughnessFactor=0.25)
+                material["pbrMetallicRoughness"].update(metallicFactor=1.0, roughnessFactor=0.6)
             if name == "plastic":
                 material["pbrMetallicRoughness"]["roughnessFactor"] = int(number) / (BALLS - 1)
         return document
