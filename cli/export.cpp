@@ -84,6 +84,10 @@ struct Export {
             refuse(values, "map", "a glb has irradiance only");
         if (format == ExportFormat::Glb && !packed.empty())
             refuse(values, "pack", "a glb has irradiance only");
+        if (format == ExportFormat::Glb && values.is_given("level"))
+            refuse(values, "level", "a glb has all levels");
+        if (format == ExportFormat::Glb && probe_names.size() > 1)
+            refuse(values, "probe", "a glb has one image-based light");
         if (!packed.empty() && values.is_given("map"))
             refuse(values, "pack", "is given beside " + values.shown("map"));
         if (format != ExportFormat::Preview && !marked.empty())
@@ -118,11 +122,11 @@ struct Export {
             return Error{ErrorCode::InvalidArgument, "lightmaps", lightmaps_path,
                          start + "; --map, --pack and --mark are for lightmaps"};
         }
-        if (format != ExportFormat::Exr) {
-            return Error{ErrorCode::InvalidArgument, "as", "",
-                         start + ", which are written as exr"};
-        }
-        return export_reflection_images({lightmaps_path, output, probe_names, level}, common);
+        const ReflectionExport what{lightmaps_path, output, probe_names, scene_path, level};
+        if (format == ExportFormat::Glb) return export_reflection_scene(what, common);
+        if (format == ExportFormat::Exr) return export_reflection_images(what, common);
+        return Error{ErrorCode::InvalidArgument, "as", "",
+                     start + ", which are written as exr or glb"};
     }
 
     /// The files that are written, checked.

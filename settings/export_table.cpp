@@ -10,11 +10,12 @@ constexpr Setting kFiles[] = {
                 "File to write; exr and png write one file a page or cube: a_0.exr, a_1.exr"),
     {.name = "as",
      .type = Type::Choice,
-     .help = "exr = 32-bit float images, of a cube its six faces one below the other; ktx2 = one "
-             "array texture of 16-bit floats; png = RGBM "
-             "images; glb = the scene with TEXCOORD_1 and MX_lightmap; preview = PNG images for "
-             "looking "
-             "at, with the rectangle of each object",
+     .help =
+         "exr = 32-bit float images, of a cube its six faces one below the other; ktx2 = one "
+         "array texture of 16-bit floats; png = RGBM "
+         "images; glb = the scene with TEXCOORD_1 and MX_lightmap, or with a reflection probe as "
+         "EXT_lights_image_based; preview = PNG images for looking at, with the rectangle of "
+         "each object",
      .choices = "exr ktx2 png glb preview",
      .without = "by the extension of the output"},
     {.name = "map",
@@ -37,7 +38,7 @@ constexpr Setting kFiles[] = {
      .value_name = "LIST"},
     {.name = "scene",
      .type = Type::Path,
-     .help = "glTF 2.0 scene that the lightmaps were baked for",
+     .help = "glTF 2.0 scene that the lightmaps or reflection probes were baked for",
      .without = "no scene; glb needs one"},
     {.name = "mark",
      .type = Type::Text,
@@ -47,9 +48,9 @@ constexpr Setting kFiles[] = {
      .is_list = true},
     {.name = "probe",
      .type = Type::Text,
-     .help = "Write the reflection probe of this name only",
-     .without = "all reflection probes",
-     .value_name = "NODE",
+     .help = "Write the reflection probe of this name, or of this number from 0, only",
+     .without = "all reflection probes; in a glb the sky, or else the only one",
+     .value_name = "NAME",
      .is_list = true,
      .access = Access::Command},
     {.name = "level",
@@ -72,7 +73,8 @@ const Table kExport{
     .examples =
         "tetralight export courtyard.lightmaps -o courtyard.exr\n"
         "tetralight export courtyard.lightmaps --scene courtyard.glb -o lit.glb\n"
-        "tetralight export rooms.ktx2 -o rooms.exr",
+        "tetralight export rooms.ktx2 -o rooms.exr\n"
+        "tetralight export rooms.ktx2 --scene rooms.glb --probe hall -o lit.glb",
     .groups = kGroups};
 
 }  // namespace tetralight::settings

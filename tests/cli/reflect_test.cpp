@@ -213,6 +213,71 @@ TEST_F(Reflect, ExportWritesTheFacesOfEachCube) {
     ASSERT_TRUE(strip);
     EXPECT_EQ(strip->image.width, 8u);
     EXPECT_EQ(strip->image.height, 6u * 8u);
+    succeed({"export", "r.ktx2", "--probe", "1", "--level", "1", "-o", "numbered.exr"});
+    EXPECT_TRUE(read("numbered.exr") == read("one.exr"));
+}
+
+TEST_F(Reflect, ExportPutsOneCubeIntoTheScene) {
+    succeed(arguments("two.gltf", "r.ktx2", {"--sky", "3"}));
+    const auto exported = [&](const Arguments& more) {
+        Arguments all{"export", "r.ktx2", "--scene", "two.gltf", "-o", "lit.glb"};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_json(all);
+    };
+    const Json json = exported({});
+    EXPECT_EQ(json["output"], "lit.glb");
+    EXPECT_EQ(json["light"], "sky");
+    EXPECT_EQ(json["intensity"], 1.0);
+    EXPECT_EQ(json["levels"], 2);
+    EXPECT_EQ(json["face_size"], 16);
+    EXPECT_EQ(exported({"--probe", "left"})["light"], "left");
+    EXPECT_EQ(exported({"--probe", "1"})["light"], "right");
+    const std::string bytes = read("lit.glb");
+    const Json gltf = Json::parse(bytes.substr(20, bytes.find(std::string("BIN\0", 4)) - 24));
+    EXPECT_EQ(gltf["nodes"], Json::parse(kTwoProbes)["nodes"]);
+    EXPECT_EQ(gltf["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"], 0);
+    EXPECT_EQ(gltf["extensions"]["EXT_lights_image_based"]["lights"][0]["name"], "right");
+    EXPECT_EQ(gltf["images"].size(), 12u);
+    // The scene is whole: its probes are baked again.
+    succeed(arguments("lit.glb", "again.ktx2", {"--sky", "3"}));
+    EXPECT_EQ(names_in("again.ktx2"), Names({"left", "right", "sky"}));
+}
+
+TEST_F(Reflect, ExportTellsTheIntensityOfBrightLight) {
+    succeed(arguments("empty.gltf", "r.ktx2", {"--sky", "1000"}));
+    const std::string text =
+        succeed({"export", "r.ktx2", "--scene", "empty.gltf", "-o", "lit.glb"}).out;
+    EXPECT_EQ(text,
+              "lit.glb: image-based light \"sky\" of 16 x 16 texels a face, 2 levels, "
+              "intensity 4, because its images hold light up to 255\n");
+}
+
+TEST_F(Reflect, ExportRefusesWhatASceneCannotHold) {
+    succeed(arguments("two.gltf", "r.ktx2", {"--no-sky"}));
+    write("broken.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}],
+                             "extensions": {"EXT_lights_image_based": {"lights": 5}}})");
+    const std::pair<Arguments, std::string> orders[] = {
+        {{"two.gltf"}, "r.ktx2: has 2 reflection probes and no sky; choose one by --probe"},
+        {{"two.gltf", "--probe", "2"}, "r.ktx2: no reflection probe \"2\" is there"},
+        {{"two.gltf", "--probe", "hall"}, "r.ktx2: no reflection probe \"hall\" is there"},
+        {{"no.gltf", "--probe", "left"}, "no.gltf: "},
+        {{"broken.gltf", "--probe", "left"}, "broken.gltf: lights is not an array (5)"}};
+    for (const auto& [more, message] : orders) {
+        Arguments all{"export", "r.ktx2", "-o", "lit.glb", "--scene"};
+        all.insert(all.end(), more.begin(), more.end());
+        const std::string error = fail_and_keep("lit.glb", all);
+        EXPECT_TRUE(contains(error, message)) << error;
+    }
+    const Arguments wrong[] = {{"--probe", "left", "--probe", "right"}, {"--level", "0"}};
+    for (const Arguments& more : wrong) {
+        Arguments all{"export", "r.ktx2", "-o", "lit.glb", "--scene", "two.gltf"};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_TRUE(contains(misuse(all), more[0] + ": a glb has ")) << more[0];
+    }
+    EXPECT_TRUE(contains(misuse({"export", "r.ktx2", "-o", "lit.glb"}), "--scene is required"));
+    EXPECT_TRUE(contains(fail_and_keep("court.glb", {"export", "r.ktx2", "--scene", "court.glb",
+                                                     "-o", "court.glb", "--probe", "left"}),
+                         "court.glb: is an input of this command"));
 }
 
 TEST_F(Reflect, ExportRefusesWhatDoesNotFitCubes) {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include <tetralight/base/result.h>
+
+namespace tetralight {
+
+/// A light of the glTF extension EXT_lights_image_based, as the extension encodes and orders it.
+struct GltfImageBasedLight {
+    std::string name;
+    /// Factor on the light of the images and of the coefficients.
+    float intensity = 1.0f;
+    std::array<glm::vec3, 9> irradiance_coefficients{};
+    /// Texels along a side of a face of level 0, a power of two.
+    uint32_t size = 0;
+    /// PNG images of the six faces of each level.
+    std::vector<std::array<std::vector<std::byte>, 6>> levels;
+};
+
+/// The glTF scene at `path` with one more light, as the bytes of a .glb file with all buffers and
+/// images in it. The file's default scene uses this light instead of the one that it had.
+/// Everything else stays.
+///
+/// Returns the errors of reading the file; corrupt if a member on the way to the light is of
+/// another type than the extension says; invalid_argument (field "scenes") if there is no scene.
+[[nodiscard]] Result<std::vector<std::byte>> make_image_based_light_glb(
+    const std::string& path, const GltfImageBasedLight& light);
+
+}  // namespace tetralight
