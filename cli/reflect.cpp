@@ -21,6 +21,7 @@
 #include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/scene_options.h>
 #include <tetralight/pipeline/bake_reflections.h>
+#include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/pipeline/reflection_settings.h>
 #include <tetralight/reflection/reflection_file.h>
 
@@ -112,7 +113,16 @@ struct Reflect {
         common.warn(scene->warnings);
         const auto places = places_of(*scene);
         if (!places) return places.error();
-        return explain(*scene, {}, common);
+        const auto lightmaps = open_lightmaps(lightmaps_path);
+        if (!lightmaps) return lightmaps.error();
+        const LightmapsView maps = *lightmaps ? (*lightmaps)->view() : LightmapsView{};
+        if (auto status = check_reflections(*scene, *places, settings, maps); !status)
+            return in_file(status.error());
+        if (*lightmaps) {
+            if (auto status = check_lightmap_scene(maps, *scene); !status)
+                return in_file(status.error());
+        }
+        return explain(*scene, {MixedLighting::Indirect, settings.layers}, common);
     }
 
     Status run_bake() {
@@ -145,11 +155,16 @@ struct Reflect {
         return Ok{};
     }
 
+    /// With the name of the file that an error is about.
     [[nodiscard]] Error in_file(const Error& error) const {
-        if (error.code != ErrorCode::InvalidArgument) return error;
+        if (error.code != ErrorCode::InvalidArgument && error.code != ErrorCode::NotFound)
+            return error;
         const bool is_of_lightmaps = error.field == "lightmaps" || error.field == "scene";
-        return error.in(shown_path(
-            is_of_lightmaps && !lightmaps_path.empty() ? lightmaps_path : scene_options.path));
+        const bool is_of_places = error.field == "probes" || error.field == "name";
+        const std::string& path = is_of_lightmaps && !lightmaps_path.empty() ? lightmaps_path
+                                  : is_of_places && !places_path.empty()     ? places_path
+                                                                             : scene_options.path;
+        return error.in(shown_path(path));
     }
 
     [[nodiscard]] Result<std::vector<ReflectionPlace>> places_of(const Scene& scene) const {

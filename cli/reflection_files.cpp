@@ -132,11 +132,16 @@ Status relight_reflection_file(const std::string& path, const std::string& outpu
     Reflections reflections = file->copy();
     std::vector<LayerWeight> changes;
     for (const auto& [layer, weight] : weights) changes.push_back({layer, weight});
-    if (auto status = relight_reflections(reflections, changes); !status)
-        return status.error().in(shown_path(path));
+    const auto clamped = relight_reflections(reflections, changes);
+    if (!clamped) return clamped.error().in(shown_path(path));
+    if (*clamped > 0.0) {
+        common.warn({str_cat(shown_path(output), ": ", percent(*clamped),
+                             " of the light is brighter than a half can be, and was clamped")});
+    }
     if (auto status = write_reflection_file(output, reflections); !status) return status;
     const ReflectionsView all = reflections.view();
-    common.report(output, {{"output", output}, {"layers", layers_json(all)}},
+    common.report(output,
+                  {{"output", output}, {"layers", layers_json(all)}, {"clamped_share", *clamped}},
                   str_cat(output, ": ", cubes_text(all)));
     return Ok{};
 }

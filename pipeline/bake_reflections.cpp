@@ -18,9 +18,12 @@
 #include <tetralight/base/half.h>
 #include <tetralight/base/hash/sha256.h>
 #include <tetralight/base/hex.h>
+#include <tetralight/base/shown_path.h>
 #include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/utf8.h>
 #include <tetralight/pipeline/bake_key.h>
+#include <tetralight/pipeline/bake_metadata.h>
 #include <tetralight/pipeline/lighting_plan.h>
 #include <tetralight/pipeline/lightmap_cubes.h>
 #include <tetralight/pipeline/reflection_settings.h>
@@ -54,6 +57,11 @@ Status check_settings(const BakeReflectionsSettings& settings) {
                  "layers: reflection probes have no transfer of distant light"};
 }
 
+/// To hundredths.
+double rounded_percent(double share) {
+    return std::round(1e4 * share) / 100.0;
+}
+
 /// Hash of all that cubes depend on beside `light_key`.
 StoreKey cubes_key(const Scene& scene, const BakeSettings& settings,
                    const LightmapsView& lightmaps) {
@@ -70,10 +78,12 @@ StoreKey cubes_key(const Scene& scene, const BakeSettings& settings,
     return hash.digest();
 }
 
-std::string metadata(const Scene& scene, const BakeReflectionsSettings& settings) {
+std::string metadata(const Scene& scene, const BakeReflectionsSettings& settings,
+                     const ReflectionSources& sources) {
     nlohmann::ordered_json json;
     json["generator"] = "tetralight " TETRALIGHT_VERSION;
     json["scene"] = hex(scene_key(scene));
+    if (sources.lightmaps.info.page_count > 0) json["light"] = "lightmaps";
     const BakeReflectionsSettings defaults;
     for_each_reflection_setting(settings,
                                 [&](const char* name, const auto& member, Recorded record) {
@@ -104,20 +114,28 @@ ReflectionProbe probe_at(const ReflectionPlace& place) {
 class ReflectionBaker {
   public:
     ReflectionBaker(const Scene& scene, const BakeReflectionsSettings& settings,
-                    const LightingPlan& plan)
-        : scene_(scene), settings_(settings), plan_(plan.bake), has_rest_(plan.has_rest()) {
+                    const ReflectionSources& sources, const LightingPlan& plan)
+        : scene_(scene),
+          settings_(settings),
+          sources_(sources),
+          plan_(plan.bake),
+          has_rest_(plan.has_rest()) {
         settings_.bake.plan = plan.bake;
         baked_.warnings = plan.warnings;
+        if (is_of_another_scene(sources.lightmaps.metadata, scene)) {
+            baked_.warnings.emplace_back(
+                "the lightmaps were baked for other lights, surfaces or options than the scene has "
+                "now: reflections show both");
+        }
         Reflections& all = baked_.reflections;
         all.size = settings.cube_size;
-        all.metadata = metadata(scene, settings);
+        all.metadata = metadata(scene, settings, sources);
         if (settings.layers.empty()) return;
         all.layers.resize(plan.layer_names.size());
         for (const std::string& name : plan.layer_names) all.layer_names += name + '\n';
     }
 
     [[nodiscard]] Status add_places(std::span<const ReflectionPlace> places,
-                                    const ReflectionSources& sources,
                                     const BakeCallback& callback) {
         const auto paths = PathCubes::make(scene_, settings_.bake);
         if (!paths) return paths.error();
@@ -129,7 +147,7 @@ class ReflectionBaker {
             positions.push_back({probes.back().position, place.near_distance});
         }
         Stopwatch watch;
-        auto baked = bake(positions, *paths, sources, callback);
+        auto baked = bake(positions, *paths, callback);
         if (!baked) return baked.error();
         baked_.stored = std::move(baked->stored);
         baked_.bake_seconds = watch.lap();
@@ -162,27 +180,27 @@ class ReflectionBaker {
 
   private:
     [[nodiscard]] Result<StoredCubes> bake(std::span<const CubePosition> positions,
-                                           const PathCubes& paths, const ReflectionSources& sources,
+                                           const PathCubes& paths,
                                            const BakeCallback& callback) const {
         const BakeSettings& bake = settings_.bake;
         const CubeSampling sampling{settings_.cube_size, bake.sample_count, bake.seed,
                                     bake.thread_count, plan_.layer_count};
-        const StoreKey key = cubes_key(scene_, bake, sources.lightmaps);
-        if (sources.lightmaps.info.page_count == 0) {
+        const StoreKey key = cubes_key(scene_, bake, sources_.lightmaps);
+        if (sources_.lightmaps.info.page_count == 0) {
             const SampleCube sample = [&](const glm::dvec3& position, glm::vec3 direction,
                                           float spread, const Sampler& sampler,
                                           std::span<glm::vec3> layers) {
                 return paths.sample(position, direction, spread, sampler, layers);
             };
-            return bake_stored_cubes(positions, sampling, sample, key, sources.storage, callback);
+            return bake_stored_cubes(positions, sampling, sample, key, sources_.storage, callback);
         }
-        const auto cubes = LightmapCubes::make(scene_, paths, sources.lightmaps);
+        const auto cubes = LightmapCubes::make(scene_, paths, sources_.lightmaps);
         if (!cubes) return cubes.error();
         const SampleCube sample = [&](const glm::dvec3& position, glm::vec3 direction, float spread,
                                       const Sampler& sampler, std::span<glm::vec3>) {
             return cubes->sample(position, direction, spread, sampler);
         };
-        return bake_stored_cubes(positions, sampling, sample, key, sources.storage, callback);
+        return bake_stored_cubes(positions, sampling, sample, key, sources_.storage, callback);
     }
 
     void move_out_of_geometry(const TraceScene& traced, const ReflectionPlace& place,
@@ -209,9 +227,9 @@ class ReflectionBaker {
         Reflections& all = baked_.reflections;
         facts.clamped_share = clamped_share(cube);
         if (facts.clamped_share > 0.0) {
-            baked_.warnings.push_back(
-                str_cat("reflection probe \"", facts.name, "\": ", 100.0 * facts.clamped_share,
-                        " % of its light is brighter than a half can be, and was clamped"));
+            baked_.warnings.push_back(str_cat(
+                "reflection probe \"", facts.name, "\": ", rounded_percent(facts.clamped_share),
+                " % of its light is brighter than a half can be, and was clamped"));
         }
         probe.irradiance = irradiance_from_radiance(project_cube(cube));
         all.probes.push_back(probe);
@@ -254,6 +272,7 @@ class ReflectionBaker {
 
     const Scene& scene_;
     BakeReflectionsSettings settings_;
+    const ReflectionSources& sources_;
     const LightPlan& plan_;
     bool has_rest_;
     BakedReflections baked_;
@@ -309,28 +328,49 @@ CubeImage bake_sky_cube(const Environment& environment, uint32_t size, uint32_t 
     return std::move(cubes->front().image);
 }
 
+Status check_reflections(const Scene& scene, std::span<const ReflectionPlace> places,
+                         const BakeReflectionsSettings& settings, const LightmapsView& lightmaps) {
+    if (auto status = check_settings(settings); !status) return status;
+    if (!settings.layers.empty() && lightmaps.info.page_count > 0) {
+        return Error{ErrorCode::InvalidArgument, "layers", "",
+                     "layers: are baked by paths, not from lightmaps"};
+    }
+    for (size_t i = 0; i < places.size(); ++i) {
+        if (auto status = check_characters(places[i].name); !status)
+            return status.error().in(
+                str_cat("reflection probe ", i, ", \"", shown_path(places[i].name), "\""));
+    }
+    const auto plan = plan_lighting(scene, {MixedLighting::Indirect, settings.layers});
+    if (!plan) return plan.error();
+    const bool has_sky = settings.has_sky && scene.environment.radiance != glm::vec3(0.0f);
+    const size_t probe_count = places.size() + (has_sky ? 1 : 0);
+    if (probe_count == 0) {
+        return Error{ErrorCode::InvalidArgument, "probes", "",
+                     "there are neither reflection probes nor a sky"};
+    }
+    const size_t layer_count = settings.layers.empty() ? 0 : plan->layer_names.size();
+    const size_t cube_count = probe_count * (1 + layer_count);
+    if (cube_count <= kMaxReflectionCubes) return Ok{};
+    return Error{ErrorCode::InvalidArgument, "probes", "",
+                 str_cat(cube_count, " cubes, with those of the sky and of layers, are more than ",
+                         kMaxReflectionCubes)};
+}
+
 Result<BakedReflections> bake_reflections(const Scene& scene,
                                           std::span<const ReflectionPlace> places,
                                           const BakeReflectionsSettings& settings,
                                           const BakeCallback& callback,
                                           const ReflectionSources& sources) {
-    if (auto status = check_settings(settings); !status) return status.error();
-    if (!settings.layers.empty() && sources.lightmaps.info.page_count > 0) {
-        return Error{ErrorCode::InvalidArgument, "layers", "",
-                     "layers: are baked by paths, not from lightmaps"};
-    }
+    if (auto status = check_reflections(scene, places, settings, sources.lightmaps); !status)
+        return status.error();
     const auto plan = plan_lighting(scene, {MixedLighting::Indirect, settings.layers});
     if (!plan) return plan.error();
-    ReflectionBaker baker(scene, settings, *plan);
+    ReflectionBaker baker(scene, settings, sources, *plan);
     if (!places.empty()) {
-        if (auto status = baker.add_places(places, sources, callback); !status)
-            return status.error();
+        if (auto status = baker.add_places(places, callback); !status) return status.error();
     }
     if (settings.has_sky) baker.add_sky();
-    BakedReflections baked = baker.finish();
-    if (!baked.reflections.probes.empty()) return baked;
-    return Error{ErrorCode::InvalidArgument, "scene", "",
-                 "the scene has neither reflection probes nor a sky"};
+    return baker.finish();
 }
 
 }  // namespace tetralight

@@ -68,14 +68,21 @@ struct BakedReflections {
     double prefilter_seconds = 0.0;
 };
 
+/// What `bake_reflections` would refuse before it bakes. Returns invalid_argument for a size that
+/// is not a power of two or out of range, for a name with a control character or bytes that are not
+/// UTF-8, for more cubes than a file holds, for no places while there is no sky, and for layers
+/// with lightmaps; unsupported for layer "transfer"; and the errors of `plan_lighting`.
+[[nodiscard]] Status check_reflections(const Scene& scene, std::span<const ReflectionPlace> places,
+                                       const BakeReflectionsSettings& settings,
+                                       const LightmapsView& lightmaps = {});
+
 /// Bakes reflection probes at the places of a scene. Mirrors in their cubes would show the sources
 /// of light, so that punctual lights and suns are not in them; what surfaces reflect of these is.
 /// A pure function of (scene, places, settings, lightmaps), the same bits for any number of threads
 /// and whatever stores have of it.
 ///
-/// Returns invalid_argument for a size that is not a power of two or out of range, for no places
-/// while there is no sky, and for layers with lightmaps; unsupported for layer "transfer"; and the
-/// errors of `plan_lighting`, `bake_stored_cubes` and `LightmapCubes::make`.
+/// Returns the errors of `check_reflections`, `bake_stored_cubes` and `LightmapCubes::make`.
+/// Lightmaps of another state of the scene are a warning.
 [[nodiscard]] Result<BakedReflections> bake_reflections(const Scene& scene,
                                                         std::span<const ReflectionPlace> places,
                                                         const BakeReflectionsSettings& settings,

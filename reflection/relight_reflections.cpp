@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/reflection/relight_reflections.h>
 
+#include <algorithm>
 #include <vector>
 
 #include <tetralight/base/half.h>
@@ -20,10 +21,14 @@ Result<std::vector<float>> changed_weights(const Reflections& reflections,
     return layer_weights(named, changes);
 }
 
-/// Rewrites the texels of one level: of each probe `count`.
-void relight_level(const std::vector<ReflectionLayer>& layers, size_t count,
-                   std::span<const RadianceTexel> light_of_layers,
-                   std::span<RadianceTexel> texels) {
+constexpr double kLargestHalf = 65504.0;
+
+/// Rewrites the texels of one level: of each probe `count`. Returns the share of their light that
+/// halves cannot hold.
+double relight_level(const std::vector<ReflectionLayer>& layers, size_t count,
+                     std::span<const RadianceTexel> light_of_layers,
+                     std::span<RadianceTexel> texels) {
+    double all = 0.0, clamped = 0.0;
     for (size_t i = 0; i < texels.size(); ++i) {
         const size_t probe = i / count, texel = i % count;
         glm::vec3 sum(0.0f);
@@ -36,22 +41,28 @@ void relight_level(const std::vector<ReflectionLayer>& layers, size_t count,
         }
         for (int channel = 0; channel < 3; ++channel) {
             texels[i][static_cast<size_t>(channel)] = half_from_float_saturated(sum[channel]);
+            all += double{sum[channel]};
+            clamped += std::max(0.0, double{sum[channel]} - kLargestHalf);
         }
     }
+    return all > 0.0 ? clamped / all : 0.0;
 }
 
 }  // namespace
 
-Status relight_reflections(Reflections& reflections, std::span<const LayerWeight> changes) {
+Result<double> relight_reflections(Reflections& reflections, std::span<const LayerWeight> changes) {
     const auto weights = changed_weights(reflections, changes);
     if (!weights) return weights.error();
     std::vector<ReflectionLayer>& layers = reflections.layers;
     for (size_t k = 0; k < layers.size(); ++k) layers[k].weight = (*weights)[k];
-    if (layers.empty()) return Ok{};
+    if (layers.empty()) return 0.0;
+    double clamped_share = 0.0;
     for (uint32_t level = 0; level < reflections.levels.size(); ++level) {
         const size_t size = reflections.size >> level;
-        relight_level(layers, kCubeFaceCount * size * size, reflections.layer_levels[level],
-                      reflections.levels[level]);
+        const double share =
+            relight_level(layers, kCubeFaceCount * size * size, reflections.layer_levels[level],
+                          reflections.levels[level]);
+        if (level == 0) clamped_share = share;
     }
     for (size_t i = 0; i < reflections.probes.size(); ++i) {
         IrradianceSh sum{};
@@ -62,7 +73,7 @@ Status relight_reflections(Reflections& reflections, std::span<const LayerWeight
         }
         reflections.probes[i].irradiance = sum;
     }
-    return Ok{};
+    return clamped_share;
 }
 
 }  // namespace tetralight

@@ -32,7 +32,6 @@ constexpr Setting kFiles[] = {
      .help =
          "Lightmaps of the scene (`tetralight lightmap`): rays end at them and take their light, "
          "which is much faster than paths",
-     .extensions = ".lightmaps",
      .without = "paths",
      .excludes = "layers",
      .access = Access::Command},

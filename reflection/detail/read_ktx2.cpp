@@ -103,7 +103,8 @@ Status read_levels(std::span<const std::byte> bytes, Ktx2Cubes& cubes) {
         const uint64_t expected = level_bytes(cubes.header, i);
         if (level.size != expected || level.uncompressed_size != expected) {
             return corrupt(
-                field, str_cat("level ", i, " has ", level.size, " bytes instead of ", expected));
+                field, str_cat("level ", i, " has ", level.size, " bytes, ",
+                               level.uncompressed_size, " uncompressed, instead of ", expected));
         }
         const auto part = part_of(bytes, level.offset, level.size);
         if (!part || level.offset % sizeof(RadianceTexel) != 0) {

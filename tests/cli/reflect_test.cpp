@@ -188,8 +188,7 @@ TEST_F(Reflect, WarnsIfTheFileHoldsTheSkyAlone) {
 TEST_F(Reflect, NothingToBakeKeepsTheOldFile) {
     for (const Arguments& more : {Arguments{}, Arguments{"--sky", "1", "--no-sky"}}) {
         const std::string error = fail_and_keep("r.ktx2", arguments("empty.gltf", "r.ktx2", more));
-        EXPECT_TRUE(
-            contains(error, "empty.gltf: the scene has neither reflection probes nor a sky"))
+        EXPECT_TRUE(contains(error, "empty.gltf: there are neither reflection probes nor a sky"))
             << error;
     }
     write("broken.gltf", "{");

@@ -143,7 +143,7 @@ TEST(BakeReflections, RefusesWrongSettingsAndEmptyScenes) {
     EXPECT_EQ(error_text(bake_reflections(scene, {}, settings).error()),
               "cube_size: 24 is not a power of two from 8 to 4096");
     EXPECT_EQ(error_text(bake_reflections(sky_scene(glm::vec3(0.0f)), {}, small()).error()),
-              "the scene has neither reflection probes nor a sky");
+              "there are neither reflection probes nor a sky");
     settings = small();
     settings.bake.sample_count = 0;
     EXPECT_EQ(bake_reflections(scene, {}, settings).error().field, "samples");
@@ -289,6 +289,16 @@ TEST(BakeReflections, RefusesLightmapsThatAreOfNoUse) {
     Scene other = scene;
     other.instances.pop_back();
     EXPECT_NE(error(other, small()), "");
+    const auto warnings = [&](const Scene& used) {
+        return bake_reflections(used, places, small(), {}, {lightmaps.view(), {}})->warnings;
+    };
+    EXPECT_TRUE(warnings(scene).empty());
+    other = scene;
+    other.environment.radiance *= 2.0f;
+    ASSERT_EQ(warnings(other).size(), 1u);
+    EXPECT_EQ(warnings(other)[0],
+              "the lightmaps were baked for other lights, surfaces or options than the scene has "
+              "now: reflections show both");
     BakeReflectionsSettings layered = small();
     layered.layers = {"emission"};
     EXPECT_EQ(error(scene, layered), "layers: are baked by paths, not from lightmaps");
@@ -296,6 +306,28 @@ TEST(BakeReflections, RefusesLightmapsThatAreOfNoUse) {
     lightmaps.layers[0].weight = 0.5f;
     EXPECT_EQ(error(scene, small()),
               "the lightmaps were relit; reflections need their light as it was baked");
+}
+
+TEST(BakeReflections, IsRefusedBeforeItBegins) {
+    const Scene scene = sky_scene(glm::vec3(1.0f));
+    const auto error = [&](const std::vector<ReflectionPlace>& places,
+                           const std::vector<std::string>& layers) {
+        BakeReflectionsSettings settings = small();
+        settings.layers = layers;
+        const Status status = check_reflections(scene, places, settings);
+        return status ? "" : error_text(status.error());
+    };
+    std::vector places{place_at({0, 0, 0}), place_at({0, 1, 0})};
+    EXPECT_EQ(error(places, {}), "");
+    places[1].name = "ro\tom";
+    EXPECT_TRUE(error(places, {}).starts_with("reflection probe 1, \"")) << error(places, {});
+    places.assign(40'000, place_at({0, 0, 0}));
+    EXPECT_EQ(error(places, {}), "");
+    EXPECT_EQ(error(places, {"sky"}),
+              "80002 cubes, with those of the sky and of layers, are more than 65536");
+    EXPECT_NE(error({}, {"moon"}), "");
+    EXPECT_EQ(error({}, {"transfer"}),
+              "layers: reflection probes have no transfer of distant light");
 }
 
 TEST(BakeReflections, StoresGiveTheSameBytesAndOnlyBakeWhatIsMissing) {

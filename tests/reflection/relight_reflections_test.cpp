@@ -16,8 +16,9 @@ namespace {
 constexpr size_t kLayers = 2;
 
 void relight(Reflections& reflections, const std::vector<LayerWeight>& changes) {
-    const Status status = relight_reflections(reflections, changes);
-    ASSERT_TRUE(status) << error_text(status.error());
+    const auto clamped = relight_reflections(reflections, changes);
+    ASSERT_TRUE(clamped) << error_text(clamped.error());
+    EXPECT_EQ(*clamped, 0.0);
     EXPECT_TRUE(verify(reflections.view()));
 }
 
@@ -61,7 +62,10 @@ TEST(RelightReflections, TheLightIsTheSumOfTheLayersByTheirWeights) {
 
 TEST(RelightReflections, LightAboveTheLargestHalfIsThatOne) {
     Reflections all = test::make_layered_reflections();
-    relight(all, {{"sun", 1e8f}});
+    const auto clamped = relight_reflections(all, std::vector<LayerWeight>{{"sun", 1e8f}});
+    ASSERT_TRUE(clamped);
+    // Random light in [0, 1] of a mean of 0.5, times 1e8.
+    EXPECT_NEAR(*clamped, 1.0 - 65504.0 / 0.5e8, 1e-3);
     const auto sun = texels_of_layer(all, 0, 0);
     for (size_t i = 0; i < sun.size(); ++i) {
         if (float_from_half(sun[i][0]) * 1e8f < 65504.0f) continue;
@@ -73,7 +77,7 @@ TEST(RelightReflections, RefusesWrongWeightsAndChangesNothing) {
     const Reflections before = test::make_layered_reflections();
     Reflections all = before;
     const auto code_of = [&](const std::vector<LayerWeight>& changes) -> std::optional<ErrorCode> {
-        const Status status = relight_reflections(all, changes);
+        const auto status = relight_reflections(all, changes);
         EXPECT_FALSE(status);
         EXPECT_EQ(reflection_file_bytes(all), reflection_file_bytes(before));
         if (status) return std::nullopt;

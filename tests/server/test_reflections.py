@@ -215,17 +215,18 @@ class Bakes(ReflectionTest):
                 self.assertEqual(problem["field"], field)
         self.assertEqual(self.server.get("/v1/bakes").json()["bakes"], [])
 
-    def test_a_scene_with_nothing_to_reflect_fails_the_bake_with_the_reason(self):
+    def test_a_scene_with_nothing_to_reflect_is_refused(self):
         path = os.path.join(self.folder, "triangle.glb")
         with open(path, "wb") as file:
             file.write(triangle_scene())
         self.upload(self.server, "scenes", path, "bare")
-        answer = self.server.wait_for(self.begin(scene="bare"))
-        self.assertEqual(answer["state"], "failed")
+        answer = self.server.post("/v1/reflection-bakes", {"scene": "bare"})
+        problem = self.assert_problem(answer, 422, "bad_data")
         with self.assertRaises(subprocess.CalledProcessError) as failed:
             self.command("reflect", path, "-o", "bare.ktx2")
         reason = failed.exception.stderr.strip().split(path + ": ")[1]
-        self.assertIn(reason, answer["error"])
+        self.assertIn(reason, problem["detail"])
+        self.assertEqual(self.server.get("/v1/bakes").json()["bakes"], [])
 
     def test_a_cancelled_bake_ends_and_leaves_nothing(self):
         bake = self.begin(**ENDLESS)
