@@ -24,7 +24,7 @@ export interface Kept {
 
 export interface Bake {
     id: string;
-    kind: 'volumes' | 'lightmaps';
+    kind: 'volumes' | 'lightmaps' | 'reflections';
     state: 'queued' | 'running' | 'done' | 'failed' | 'cancelled' | 'deleted';
     name: string;
     created: number;
@@ -33,6 +33,8 @@ export interface Bake {
     probe_count?: number;
     texels_done?: number;  // of lightmaps
     texel_count?: number;
+    rows_done?: number;  // of reflection probes: rows of texels of the cubes
+    row_count?: number;
     at_target?: number | null;  // null: not known, or no target
     share_at_target?: number | null;
     preview?: number | null;  // the number of the newest
