@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The service of `tetralight serve`, as server/openapi.json describes it.
 
-export type Kind = 'scenes' | 'skies' | 'groups' | 'volumes';
+export type Kind = 'scenes' | 'skies' | 'groups' | 'volumes' | 'reflections';
 
 export interface StoredFile {
     id: string;
@@ -42,6 +42,7 @@ export interface Bake {
     seconds_left?: number | null;
     volume?: string;
     lightmaps?: string;
+    reflections?: string;
     error?: string;
     report?: Record<string, unknown>;
     request?: Record<string, unknown>;

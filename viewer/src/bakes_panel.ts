@@ -227,7 +227,7 @@ export class BakesPanel {
         this.followPreview(bake);
         if (bake.state === 'done' && old?.dataset.state !== 'done') {
             this.viewer.say(`The bake ${bake.name || bake.id} is done.`);
-            if (old !== null && bake.kind !== 'reflections') void this.viewer.alerts.attempt('open', () => this.open(bake));
+            if (old !== null) void this.viewer.alerts.attempt('open', () => this.open(bake));
             this.finished();
         }
         if (!isUnderWay(bake)) this.stopIfAllHaveEnded();
@@ -235,6 +235,7 @@ export class BakesPanel {
 
     private open(bake: Bake): Promise<void> {
         if (bake.kind === 'volumes') return this.viewer.openVolume(bake.volume!);
+        if (bake.kind === 'reflections') return this.viewer.openReflections(bake.reflections!);
         this.previews.forget();
         return this.viewer.openLightmaps(bake.lightmaps!, this.scenes.get(bake.id)!, bake.id);
     }
@@ -276,7 +277,7 @@ export class BakesPanel {
                        act('Cancel', () => this.viewer.api.request('POST', `/v1/bakes/${bake.id}/cancel`)));
             this.showProgress(row, bake);
         } else {
-            if (bake.state === 'done' && bake.kind !== 'reflections') row.append(act('Open', () => this.open(bake)));
+            if (bake.state === 'done') row.append(act('Open', () => this.open(bake)));
             row.append(act('Forget', () => this.viewer.api.remove(`/v1/bakes/${bake.id}`)));
         }
         if (bake.error) row.append(element('p', {class: 'error'}, bake.error));
