@@ -5,7 +5,7 @@ import * as three from 'three';
 
 import reflection from '../../runtime/shaders/reflection.glsl?raw';
 import {probesNear, ReflectionProbe, Reflections} from './reflections';
-import {addPosition, setMirrorShader, Shader, shShader} from './shaders';
+import {addPosition, setMirrorShader, Shader, shShader, uniformsOf} from './shaders';
 import {kTableSize, splitSumTable} from './split_sum';
 
 /** Of a mesh: fragment shaders have 16 textures at least, and other light needs some. */
@@ -33,34 +33,29 @@ type ProbeConstants = Record<'position' | 'box_center' | 'half_size' | 'x_axis' 
 export class Mirror {
     private readonly cubes: three.CubeTexture[];
     private readonly count: number;  // of cubes of a mesh
-    private readonly levels: {value: number};
     private readonly table = tableTexture();
 
     constructor(private readonly reflections: Reflections) {
         this.cubes = reflections.probes.map((_, probe) => cubeTexture(reflections, probe));
         this.count = Math.min(kMostCubes, reflections.probes.length);
-        this.levels = {value: reflections.levelCount - 1};
     }
 
     /** Returns what chooses the probes anew for surfaces that move. */
     showOn({material, shine, box}: ShinySurface): () => void {
-        const uniforms = this.emptyUniforms();
-        const choose = () => this.choose(box(), uniforms);
+        const choose = () => this.choose(box(), material);
         choose();
         const map = shine === 'instances' ? null : shine.map;
-        if (shine !== 'instances') uniforms.shineFactors.value.set(shine.metalness, shine.roughness);
-        if (map !== null) {
-            map.updateMatrix();
-            Object.assign(uniforms, {shineMap: {value: map}, metalnessMapTransform: {value: map.matrix}});
-        }
+        map?.updateMatrix();
+        setUniforms(material, {
+            reflectionLevels: this.reflections.levelCount - 1, splitSumTable: this.table,
+            ...shine === 'instances' ? {} : {shineFactors: new three.Vector2(shine.metalness, shine.roughness)},
+            ...map === null ? {} : {shineMap: map, metalnessMapTransform: map.matrix},
+        });
         Object.assign(material, {metalnessMap: map});  // three then gives the shader its UVs
         const kind = shine === 'instances' ? 'instances' : map === null ? 'factors' : 'map';
         setMirrorShader(material, {
             key: `${this.count} ${kind}`,
-            change: shader => {
-                Object.assign(shader.uniforms, uniforms);
-                addMirror(shader, this.count, kind);
-            },
+            change: shader => addMirror(shader, this.count, kind),
         });
         return choose;
     }
@@ -70,23 +65,23 @@ export class Mirror {
         this.table.dispose();
     }
 
-    private emptyUniforms() {
-        return {
-            reflectionCubes: {value: [] as three.CubeTexture[]},
-            reflectionProbes: {value: [] as ProbeConstants[]},
-            reflectionSh: {value: [] as three.Vector4[]},
-            reflectionLevels: this.levels,
-            splitSumTable: {value: this.table},
-            shineFactors: {value: new three.Vector2()},
-        };
+    private choose(box: three.Box3, material: three.Material): void {
+        const {probes} = this.reflections;
+        const chosen = probesNear(probes, box, this.count);
+        setUniforms(material, {
+            reflectionCubes: chosen.map(probe => this.cubes[probe]),
+            reflectionProbes: chosen.map(probe => constantsOf(probes[probe], probe)),
+            reflectionSh: chosen.flatMap(probe => Array.from(
+                {length: 7}, (_, i) => new three.Vector4().fromArray(probes[probe].irradiance, 4 * i))),
+        });
     }
+}
 
-    private choose(box: three.Box3, uniforms: ReturnType<Mirror['emptyUniforms']>): void {
-        const chosen = probesNear(this.reflections.probes, box, this.count);
-        uniforms.reflectionCubes.value = chosen.map(probe => this.cubes[probe]);
-        uniforms.reflectionProbes.value = chosen.map(probe => constantsOf(this.reflections.probes[probe], probe));
-        uniforms.reflectionSh.value = chosen.flatMap(probe => Array.from({length: 7}, (_, i) =>
-            new three.Vector4().fromArray(this.reflections.probes[probe].irradiance, 4 * i)));
+function setUniforms(material: three.Material, values: Record<string, unknown>): void {
+    const uniforms = uniformsOf(material);
+    for (const [name, value] of Object.entries(values)) {
+        if (uniforms[name] === undefined) uniforms[name] = {value};
+        else uniforms[name].value = value;
     }
 }
 

@@ -51,6 +51,19 @@ export interface MirrorShader {
 
 const mirrorShaders = new WeakMap<three.Material, MirrorShader>();
 
+type Uniforms = Record<string, three.IUniform>;
+const uniformsOfMaterials = new WeakMap<three.Material, Uniforms>();
+
+/** What all shaders of a material have: when a material returns to an earlier shader, three keeps the uniforms of
+ * the one that it compiled last. So a uniform stays the same object, and only its value changes. */
+export function uniformsOf(material: three.Material): Uniforms {
+    const known = uniformsOfMaterials.get(material);
+    if (known !== undefined) return known;
+    const made: Uniforms = {};
+    uniformsOfMaterials.set(material, made);
+    return made;
+}
+
 /** Adds what a material mirrors to whatever light it has, now and later. */
 export function setMirrorShader(material: three.Material, mirror: MirrorShader | null): void {
     if (mirror === null) mirrorShaders.delete(material);
@@ -61,6 +74,7 @@ export function setMirrorShader(material: three.Material, mirror: MirrorShader |
 /** Lights a material by a change of three's shader; `key` names the change. */
 function setLightShader(material: three.Material, key: string, change: (shader: Shader) => void): void {
     material.onBeforeCompile = shader => {
+        Object.assign(shader.uniforms, uniformsOf(material));
         change(shader);
         mirrorShaders.get(material)?.change(shader);
     };
@@ -87,8 +101,8 @@ function addLight(shader: Shader, declarations: string, light: string): void {
 
 /** Lights a material by a proxy volume of seven slabs, per pixel. */
 export function lightByLppv(material: three.Material, uniforms: LppvUniforms): void {
+    Object.assign(uniformsOf(material), uniforms);
     setLightShader(material, 'lppv', shader => {
-        Object.assign(shader.uniforms, uniforms);
         addLight(shader, shShader + lppv +
                  'uniform sampler3D lppv;\nuniform TetralightLppvConstants lppvConstants;\n',
                  'tetralight_sample_sh9(tetralight_sample_lppv_7(lppv, lppvConstants, probePosition), ' +
@@ -103,8 +117,8 @@ export function lightByLightmap(material: three.Material): void {
 
 /** Lights a material by the seven vec4 of one place. */
 export function lightBySh(material: three.Material, packed: {value: three.Vector4[]}): void {
+    uniformsOf(material).probeSh = packed;
     setLightShader(material, 'sh', shader => {
-        shader.uniforms.probeSh = packed;
         addLight(shader, shShader + 'uniform vec4 probeSh[7];\n',
                  'tetralight_sample_sh9(TetralightPackedSh(probeSh[0], probeSh[1], probeSh[2], probeSh[3], ' +
                  'probeSh[4], probeSh[5], probeSh[6]), probeNormal)');
