@@ -105,6 +105,37 @@ test('each pixel blends the probes by their influence', () => visit(
         expect(await grey(1)).toBeLessThan(20);
     }));
 
+/** The fraction of the canvas that is blue and nothing else. */
+const blueShare = (page: Page) => page.evaluate(() => {
+    const {stage} = (window as any).tetralight.viewer;  // eslint-disable-line
+    stage.drawNow();
+    const copy = document.createElement('canvas');
+    copy.width = copy.height = 200;
+    const context = copy.getContext('2d')!;
+    context.drawImage(stage.canvas as HTMLCanvasElement, 0, 0, 200, 200);
+    const {data} = context.getImageData(0, 0, 200, 200);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) count += Number(data[i + 2] > 2 * Math.max(data[i], data[i + 1], 20));
+    return count / (200 * 200);
+});
+
+test('spheres of metal in the mesh ball mirror the cubes', async () => {
+    const scene = await server.uploadCourtyard();
+    const volume = await server.bake({scene, samples: 16});
+    const blue = reflectionFile([{...inHall(), box: null}], [8], 1, () => [0, 0, 0.7]);
+    const link = `scene=${scene}&volume=${volume}&hidden=scene,probes,cells&tab=query&object=2.6,1.3,6` +
+        '&eye=2.6,1.3,12&target=2.6,1.3,6&exposure=1';
+    await visit(`${server.url}/#${link}`, async page => {
+        await store(page, {blue});
+        await page.reload();
+        await ready(page);
+        await page.getByLabel('1023 instances, one query a frame').check();
+        expect(await blueShare(page)).toBeLessThan(0.01);
+        await page.evaluate(() => (window as any).tetralight.viewer.openReflections('blue'));  // eslint-disable-line
+        await expect.poll(() => blueShare(page), {timeout: 20_000}).toBeGreaterThan(0.03);
+    });
+});
+
 test('stored files of reflection probes are baked, listed and opened', () => visit(
     `${server.url}/#scene=${mirror}&tab=bakes&${kFromAbove}`, async page => {
         await server.request('POST', '/v1/reflection-bakes', JSON.stringify(
