@@ -47,7 +47,8 @@ export function parseReflections(file: ArrayBuffer): Reflections {
         throw new Error('the file has no reflection probes');
     }
     if (format !== kHalf) throw new Error(`the reflection probes have texels of format ${format}`);
-    if (json.probes.length > layerCount) throw new Error(`the file has cubes for ${layerCount} of ${json.probes.length} probes`);
+    const {length} = json.probes;
+    if (length > layerCount) throw new Error(`the file has cubes for ${layerCount} of ${length} probes`);
     levels.forEach((bytes, level) => {
         const side = width >> level;
         if (bytes.byteLength !== 8 * side * side * kFaces * layerCount) {

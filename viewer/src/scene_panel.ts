@@ -17,7 +17,8 @@ export function scenePanel(viewer: Viewer): HTMLElement {
     const color = select([['light', 'Their light'], ['error', 'Error bars'], ['validity', 'Validity']],
                          viewer.color, value => viewer.setColor(value as ProbeColor));
 
-    const reflections = select([], '', id => void viewer.alerts.attempt('open', () => viewer.openReflections(id)));
+    const reflections = select([], '', id => void viewer.alerts.attempt('open', () => viewer.openReflections(id))
+                                                   .finally(() => showReflections(viewer, reflections)));
     const reflectionsRow = labelled('Reflection probes', reflections);
 
     const show = () => {
