@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** A .glb file: a square floor of 4 × 4 m around the origin with this albedo. */
-export function floorGlb(albedo: number): Uint8Array<ArrayBuffer> {
+/** A .glb file: a square floor of 4 × 4 m around the origin with this albedo. `shine`: metallicFactor, roughnessFactor. */
+export function floorGlb(albedo: number, shine: Record<string, number> = {metallicFactor: 0}): Uint8Array<ArrayBuffer> {
     const positions = new Float32Array([-2, 0, -2, -2, 0, 2, 2, 0, 2, 2, 0, -2]);
     const normals = new Float32Array([0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0]);
     const indices = new Uint16Array([0, 1, 2, 0, 2, 3]);
@@ -12,7 +12,7 @@ export function floorGlb(albedo: number): Uint8Array<ArrayBuffer> {
     const json = {
         asset: {version: '2.0'}, scene: 0, scenes: [{nodes: [0]}], nodes: [{mesh: 0, name: 'floor'}],
         meshes: [{primitives: [{attributes: {POSITION: 0, NORMAL: 1}, indices: 2, material: 0}]}],
-        materials: [{pbrMetallicRoughness: {baseColorFactor: [albedo, albedo, albedo, 1], metallicFactor: 0}}],
+        materials: [{pbrMetallicRoughness: {baseColorFactor: [albedo, albedo, albedo, 1], ...shine}}],
         accessors: [
             {bufferView: 0, componentType: 5126, count: 4, type: 'VEC3', min: [-2, 0, -2], max: [2, 0, 2]},
             {bufferView: 1, componentType: 5126, count: 4, type: 'VEC3'},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The service of `tetralight serve`, as server/openapi.json describes it.
 
-export type Kind = 'scenes' | 'skies' | 'groups' | 'volumes';
+export type Kind = 'scenes' | 'skies' | 'groups' | 'volumes' | 'reflections';
 
 export interface StoredFile {
     id: string;
@@ -24,7 +24,7 @@ export interface Kept {
 
 export interface Bake {
     id: string;
-    kind: 'volumes' | 'lightmaps';
+    kind: 'volumes' | 'lightmaps' | 'reflections';
     state: 'queued' | 'running' | 'done' | 'failed' | 'cancelled' | 'deleted';
     name: string;
     created: number;
@@ -33,6 +33,8 @@ export interface Bake {
     probe_count?: number;
     texels_done?: number;  // of lightmaps
     texel_count?: number;
+    rows_done?: number;  // of reflection probes: rows of texels of the cubes
+    row_count?: number;
     at_target?: number | null;  // null: not known, or no target
     share_at_target?: number | null;
     preview?: number | null;  // the number of the newest
@@ -40,6 +42,7 @@ export interface Bake {
     seconds_left?: number | null;
     volume?: string;
     lightmaps?: string;
+    reflections?: string;
     error?: string;
     report?: Record<string, unknown>;
     request?: Record<string, unknown>;

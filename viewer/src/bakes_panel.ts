@@ -3,7 +3,8 @@
 import {Missing} from './alerts';
 import {ApiError, Bake, titleOf} from './api';
 import {BakeField, bakeSections, OpenApi, settingsOf, valueOf} from './bake_fields';
-import {counted, formatCount, formatPercent, formatSeconds} from './colors';
+import {countsOf, formatRate, progressOf} from './bake_progress';
+import {counted, formatCount, formatPercent} from './colors';
 import {button, element, labelled, select} from './dom';
 import {Newest} from './newest';
 import type {Viewer} from './viewer';
@@ -13,7 +14,7 @@ const kOnlyChangedHint = 'Probes whose position is unchanged keep the light of t
 
 type Control = HTMLInputElement | HTMLSelectElement;
 
-type Result = Bake['kind'];
+type Result = 'volumes' | 'lightmaps';
 
 /** Of a result: where it is ordered, the schema of the order, and the label of its name. */
 const kOrders: Record<Result, {path: string; schema: string; label: string}> = {
@@ -234,6 +235,7 @@ export class BakesPanel {
 
     private open(bake: Bake): Promise<void> {
         if (bake.kind === 'volumes') return this.viewer.openVolume(bake.volume!);
+        if (bake.kind === 'reflections') return this.viewer.openReflections(bake.reflections!);
         this.previews.forget();
         return this.viewer.openLightmaps(bake.lightmaps!, this.scenes.get(bake.id)!, bake.id);
     }
@@ -271,7 +273,7 @@ export class BakesPanel {
             button(text, () => void this.viewer.alerts.attempt(text, () => work().then(() => this.refresh())));
         if (isUnderWay(bake)) {
             row.append(element('progress', {'aria-label': 'Progress'}), element('span', {class: 'facts'}),
-                       ...bake.kind === 'volumes' ? [] : [act('Show', async () => this.watchPreviews(bake.id))],
+                       ...bake.kind !== 'lightmaps' ? [] : [act('Show', async () => this.watchPreviews(bake.id))],
                        act('Cancel', () => this.viewer.api.request('POST', `/v1/bakes/${bake.id}/cancel`)));
             this.showProgress(row, bake);
         } else {
@@ -288,32 +290,11 @@ export class BakesPanel {
         const {done, count} = countsOf(bake);
         bar.max = Math.max(1, count);
         bar.value = done;
-        row.querySelector('.facts')!.textContent = this.progress(bake);
-    }
-
-    /** "120 of 255 probes, 100 at the target error (39 %), 1.4 million rays/s, 3 s left". */
-    private progress(bake: Bake): string {
-        const {done, count} = countsOf(bake);
-        if (count === 0) return bake.state === 'queued' ? 'queued' : 'preparing';
-        const words = [`${formatCount(done)} of ${formatCount(count)} ${bake.kind === 'volumes' ? 'probes' : 'texels'}`];
-        if (typeof bake.at_target === 'number') {
-            words.push(`${formatCount(bake.at_target)} at the target error (${formatPercent(bake.share_at_target!)})`);
-        }
-        if (typeof bake.rays_per_second === 'number') words.push(formatRate(bake.rays_per_second));
-        if (typeof bake.seconds_left === 'number') words.push(`${formatSeconds(bake.seconds_left)} left`);
-        return words.join(', ');
+        row.querySelector('.facts')!.textContent = progressOf(bake);
     }
 }
 
 const isUnderWay = ({state}: Bake) => state === 'queued' || state === 'running';
-
-function countsOf({probes_done, probe_count, texels_done, texel_count}: Bake): {done: number; count: number} {
-    return {done: probes_done ?? texels_done ?? 0, count: probe_count ?? texel_count ?? 0};
-}
-
-function formatRate(raysPerSecond: number): string {
-    return `${(raysPerSecond / 1e6).toFixed(1)} million rays/s`;
-}
 
 function reportLine(report: Record<string, unknown>): string {
     const words: string[] = [];

@@ -4,6 +4,8 @@
 import * as three from 'three';
 import type {GLTF} from 'three/addons/loaders/GLTFLoader.js';
 
+import {lightByLightmap} from './shaders';
+
 /** Where a mesh lies in the pages: uv_page = uv · scale + offset. */
 export interface LightmapPlace {
     mesh: three.Mesh;
@@ -149,7 +151,6 @@ function showPage(material: three.MeshLambertMaterial, page: three.Texture, plac
     material.lightMap.repeat.fromArray(place.scale);
     material.lightMap.offset.fromArray(place.offset);
     material.lightMapIntensity = scale;
-    material.onBeforeCompile = () => {};
-    material.customProgramCacheKey = () => 'lightmap';
+    lightByLightmap(material);
     material.needsUpdate = true;
 }

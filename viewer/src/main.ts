@@ -95,6 +95,7 @@ class Page {
         });
         this.acceptDrops(stage.parent);
         this.viewer.onChange(() => this.followShown());
+        this.viewer.onReflections(() => this.keepLink());
         void this.api.attend();
     }
 
@@ -112,10 +113,12 @@ class Page {
     }
 
     private async list(): Promise<[StoredFile[], StoredFile[]]> {
-        const [scenes, volumes] = await Promise.all([this.api.list('scenes'), this.api.list('volumes')]);
+        const [scenes, volumes, reflections] = await Promise.all(
+            [this.api.list('scenes'), this.api.list('volumes'), this.api.list('reflections')]);
         fill(this.scenes, 'Scene…', scenes);
         fill(this.volumes, 'Volume…', volumes);
         this.selectShown();
+        this.viewer.setReflectionFiles(reflections);
         this.showEmpty(scenes.length, volumes.length);
         return [scenes, volumes];
     }
@@ -129,6 +132,8 @@ class Page {
         if (volume !== undefined) await alerts.attempt('open', () => viewer.openVolume(volume, link.weights));
         const scene = link.scene ?? (viewer.sceneFile === null ? ready(scenes) : undefined);
         if (scene !== undefined) await viewer.openScene(scene);
+        const {reflections} = link;
+        if (reflections !== undefined) await alerts.attempt('open', () => viewer.openReflections(reflections));
         if (link.eye !== undefined && link.target !== undefined) viewer.stage.look(link.eye, link.target);
         this.expose(link.exposure);
         if (link.object !== undefined) this.query.moveTo(new three.Vector3(...link.object));
@@ -187,7 +192,7 @@ class Page {
 
     private uploadButton(): HTMLElement {
         const input = element('input', {
-            type: 'file', accept: '.glb,.probes,.json,.hdr,.exr', multiple: true, class: 'hidden',
+            type: 'file', accept: '.glb,.probes,.json,.hdr,.exr,.ktx2', multiple: true, class: 'hidden',
             'aria-label': 'Upload files', tabindex: -1,
             change: () => void this.upload([...input.files!]).finally(() => { input.value = ''; }),
         });
@@ -195,17 +200,19 @@ class Page {
     }
 
     private async upload(files: File[]): Promise<void> {
-        const kinds: Record<string, Kind> = {glb: 'scenes', probes: 'volumes', json: 'groups', hdr: 'skies', exr: 'skies'};
+        const kinds: Record<string, Kind> = {glb: 'scenes', probes: 'volumes', json: 'groups', hdr: 'skies', exr: 'skies',
+                                             ktx2: 'reflections'};
         alerts.succeed('upload');
         for (const file of files) {
             const dot = file.name.lastIndexOf('.');
             const kind = kinds[file.name.slice(dot + 1).toLowerCase()];
             try {
-                if (kind === undefined) throw new Error('is not a .glb, .probes, .json, .hdr or .exr file');
+                if (kind === undefined) throw new Error('is not a .glb, .probes, .json, .hdr, .exr or .ktx2 file');
                 this.status.say(`Uploading ${file.name}…`);
                 const stored = (await this.api.upload(kind, file, file.name.slice(0, dot))).file;
                 if (kind === 'scenes') await this.viewer.openScene(stored.id).then(() => this.expose());
                 if (kind === 'volumes') await this.viewer.openVolume(stored.id);
+                if (kind === 'reflections') await this.viewer.openReflections(stored.id);
                 if (kind === 'groups') await this.groups.open(stored.id);
             } catch (error) {
                 alerts.report('upload', error instanceof Unreachable ? error : `${file.name}: ${messageOf(error)}`);
@@ -231,6 +238,7 @@ class Page {
         return toLink({
             volume: viewer.volume?.file.id,
             scene: viewer.sceneFile?.id,
+            reflections: viewer.reflectionFile?.id,
             tab: this.tabs.current,
             eye: viewer.stage.camera.position.toArray(),
             target: viewer.stage.controls.target.toArray(),

@@ -2,6 +2,7 @@
 // 1023 instances that turn about a place, all lit by one query a frame.
 import * as three from 'three';
 
+import {hideMirror, Mirror} from './mirror';
 import {packedLight} from './packed_light';
 import {decodeAnswer, encodeQuery, WantedSh} from './query_binary';
 import {kPacked} from './sh';
@@ -15,11 +16,15 @@ export class MeshBall {
     private readonly packed: three.InstancedInterleavedBuffer;
     private readonly directions: three.Vector3[];
     private readonly distances: number[];
+    private readonly box = new three.Box3();
+    private mirror: Mirror | null = null;
+    private chooseCubes = () => {};
 
     constructor() {
         const geometry = new three.IcosahedronGeometry(1, 2);
         const material = new three.MeshLambertMaterial({color: 0xffffff});
         this.packed = setInstanceSh(geometry, new Float32Array(kCount * kPacked));
+        geometry.setAttribute('shine', new three.InstancedBufferAttribute(shines(), 2));
         lightInstances(material);
         this.mesh = new three.InstancedMesh(geometry, material, kCount);
         this.mesh.frustumCulled = false;
@@ -35,6 +40,16 @@ export class MeshBall {
         this.distances = this.directions.map((_, i) => Math.cbrt(((i * 0.618034) % 1) * 0.98 + 0.02));
     }
 
+    /** Every fourth instance is metal, of any roughness; without a mirror all are white and diffuse. */
+    mirrorBy(mirror: Mirror | null): void {
+        if (mirror === this.mirror) return;
+        this.mirror = mirror;
+        const material = this.mesh.material as three.Material;
+        this.chooseCubes = () => {};
+        if (mirror === null) hideMirror(material);
+        else this.chooseCubes = mirror.showOn({material, shine: 'instances', box: () => this.box});
+    }
+
     /** Moves all instances, and gives the question for their light. */
     turn(center: three.Vector3, radius: number, seconds: number): ArrayBuffer {
         const positions = new Float32Array(kCount * 3);
@@ -48,6 +63,8 @@ export class MeshBall {
             this.mesh.setMatrixAt(i, matrix.makeScale(size, size, size).setPosition(place));
         });
         this.mesh.instanceMatrix.needsUpdate = true;
+        this.box.setFromCenterAndSize(center, new three.Vector3().setScalar(2 * (radius + size)));
+        this.chooseCubes();
         return encodeQuery(positions, WantedSh.Packed);
     }
 
@@ -56,4 +73,12 @@ export class MeshBall {
         this.packed.array.set(light === null ? answer.sh : packedLight(volume, light, answer.locations));
         this.packed.needsUpdate = true;
     }
+}
+
+/** Metalness and roughness of each instance. */
+function shines(): Float32Array {
+    return Float32Array.from({length: 2 * kCount}, (_, at) => {
+        const i = Math.floor(at / 2);
+        return at % 2 === 0 ? Number(i % 4 === 0) : i * 0.7548777 % 1;
+    });
 }

@@ -72,6 +72,7 @@ export class QueryPanel {
         this.pointer = this.makePointer();
         viewer.onChange(() => this.settle());
         viewer.onLight(() => this.ask());
+        viewer.onReflections(() => this.ball.mirrorBy(viewer.shownMirror));
     }
 
     /** What can do nothing without a volume. */

@@ -4,6 +4,7 @@ import * as three from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 
 import {placesOf, SceneLightmaps} from './lightmaps';
+import type {ShinySurface} from './mirror';
 import {lightByLppv, LppvUniforms} from './shaders';
 
 const kShadowTexels = 2048;
@@ -21,6 +22,8 @@ export interface SceneModel {
     emitters: three.MeshLambertMaterial[];
     /** Of the meshes that the file gives a place in pages. */
     lightmaps: SceneLightmaps;
+    /** Those that mirror reflection probes. */
+    surfaces: ShinySurface[];
 }
 
 export async function loadScene(bytes: ArrayBuffer, field: LppvUniforms): Promise<SceneModel> {
@@ -29,9 +32,10 @@ export async function loadScene(bytes: ArrayBuffer, field: LppvUniforms): Promis
     const points: three.Object3D[] = [];
     const lights: three.Light[] = [];
     const emitters: three.MeshLambertMaterial[] = [];
+    const surfaces: ShinySurface[] = [];
     root.traverse(node => {
         if (node instanceof three.Points || node instanceof three.Line) points.push(node);
-        if (node instanceof three.Mesh) emitters.push(...prepareMesh(node, field));
+        if (node instanceof three.Mesh) emitters.push(...prepareMesh(node, field, surfaces));
         if (node instanceof three.Light && prepareLight(node)) lights.push(node);
     });
     for (const node of points) node.removeFromParent();  // groups of probes have balls of their own
@@ -41,7 +45,7 @@ export async function loadScene(bytes: ArrayBuffer, field: LppvUniforms): Promis
     const sky = (root.userData.sky as {radiance?: number[]} | undefined)?.radiance ?? null;
     const places = placesOf(gltf).filter(({mesh}) => mesh.material instanceof three.MeshLambertMaterial);
     const lightmaps = new SceneLightmaps(places, material => lightByLppv(material, field));
-    return {root, box, sky, lights, emitters, lightmaps, view: viewOf(gltf.cameras[0], box)};
+    return {root, box, sky, lights, emitters, lightmaps, surfaces, view: viewOf(gltf.cameras[0], box)};
 }
 
 function viewOf(camera: three.Camera | undefined, box: three.Box3): SceneModel['view'] {
@@ -53,14 +57,15 @@ function viewOf(camera: three.Camera | undefined, box: three.Box3): SceneModel['
     return {eye: eye.toArray(), target: target.toArray()};
 }
 
-/** Returns its materials whose emission a bake sees. */
-function prepareMesh(mesh: three.Mesh, field: LppvUniforms): three.MeshLambertMaterial[] {
+/** Returns its materials whose emission a bake sees, and adds what mirrors to `surfaces`. */
+function prepareMesh(mesh: three.Mesh, field: LppvUniforms, surfaces: ShinySurface[]): three.MeshLambertMaterial[] {
     mesh.castShadow = true;
     mesh.receiveShadow = true;
     const made = (Array.isArray(mesh.material) ? mesh.material : [mesh.material]).map(material => {
         const lambert = material instanceof three.MeshStandardMaterial ? lambertOf(material) : material;
         lambert.shadowSide = three.DoubleSide;  // three's default, back faces, lets light under what stands
         lightByLppv(lambert, field);
+        if (material instanceof three.MeshStandardMaterial) surfaces.push(shinySurface(mesh, material, lambert));
         return lambert;
     });
     mesh.material = made.length === 1 ? made[0] : made;
@@ -78,6 +83,11 @@ function lambertOf(material: three.MeshStandardMaterial): three.MeshLambertMater
         color, map, emissive, emissiveMap, emissiveIntensity, alphaMap, alphaTest, transparent, opacity,
         side, vertexColors, depthWrite, name, userData,
     });
+}
+
+function shinySurface(mesh: three.Mesh, material: three.MeshStandardMaterial, lambert: three.Material): ShinySurface {
+    const {metalness, roughness, metalnessMap: map} = material;
+    return {material: lambert, shine: {metalness, roughness, map}, box: () => new three.Box3().setFromObject(mesh)};
 }
 
 /** What probes hold of a light already is not shone again. False: they hold all of it. */
@@ -119,6 +129,7 @@ export function disposeScene(root: three.Object3D): void {
         const materials = Array.isArray(node.material) ? node.material : [node.material];
         for (const material of materials as three.MeshStandardMaterial[]) {
             material.map?.dispose();
+            material.metalnessMap?.dispose();
             material.dispose();
         }
     });

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is shown, how bright, and the weights of layers.
-import type {StoredFile} from './api';
+import {StoredFile, titleOf} from './api';
 import {counted, countedTetrahedra} from './colors';
 import {button, checkbox, element, labelled, numberToSend, select, slider} from './dom';
 import type {Stage} from './stage';
 import type {Part, ProbeColor, Viewer} from './viewer';
 
 const kParts: [Part, string][] = [['scene', 'Scene'], ['probes', 'Probes'], ['cells', 'Cells and hull'],
-                                    ['lightmaps', 'Lightmaps']];
+                                    ['lightmaps', 'Lightmaps'], ['reflections', 'Reflections']];
 
 export function scenePanel(viewer: Viewer): HTMLElement {
     const facts = element('p', {class: 'facts'});
@@ -17,11 +17,18 @@ export function scenePanel(viewer: Viewer): HTMLElement {
     const color = select([['light', 'Their light'], ['error', 'Error bars'], ['validity', 'Validity']],
                          viewer.color, value => viewer.setColor(value as ProbeColor));
 
+    const reflections = select([], '', id => void viewer.alerts.attempt('open', () => viewer.openReflections(id))
+                                                   .finally(() => showReflections(viewer, reflections)));
+    const reflectionsRow = labelled('Reflection probes', reflections);
+
     const show = () => {
-        const shown = kParts.filter(([part]) => part !== 'lightmaps' || viewer.hasLightmaps);
+        const shown = kParts.filter(([part]) => part === 'lightmaps' ? viewer.hasLightmaps :
+            part !== 'reflections' || viewer.reflectionFile !== null);
         parts.replaceChildren(...shown.map(([part, text]) =>
             checkbox(text, !viewer.hidden.has(part), isOn => viewer.show(part, isOn))));
         color.value = viewer.color;
+        showReflections(viewer, reflections);
+        reflectionsRow.hidden = reflections.options.length === 1;
         const {volume} = viewer;
         facts.textContent = volume === null ? 'No volume is open.' :
             counted(volume.probeCount, 'probe') +
@@ -39,11 +46,22 @@ export function scenePanel(viewer: Viewer): HTMLElement {
         light.replaceChildren(...layerSliders(viewer));
     };
     viewer.onChange(show);
+    viewer.onReflections(show);
     show();
 
-    return element('section', {'aria-label': 'View'}, facts, parts, exposureSlider(viewer.stage),
+    return element('section', {'aria-label': 'View'}, facts, parts, reflectionsRow, exposureSlider(viewer.stage),
                    labelled('Probes show', color, 'Error bars: green 0.1 %, red 10 % and more.'), size,
                    element('h2', {}, 'Light'), light);
+}
+
+/** The stored files to choose from, and the one that is open. */
+function showReflections(viewer: Viewer, choice: HTMLSelectElement): void {
+    const open = viewer.reflectionFile;
+    const files = viewer.reflectionFiles.filter(({state}) => state === 'ready');
+    if (open !== null && !files.some(({id}) => id === open.id)) files.push(open);
+    choice.replaceChildren(element('option', {value: ''}, 'none'),
+                           ...files.map(file => element('option', {value: file.id}, titleOf(file))));
+    choice.value = open?.id ?? '';
 }
 
 function exposureSlider(stage: Stage): HTMLElement {

@@ -41,13 +41,58 @@ vec4 probePlace = vec4(transformed, 1.0);
 probePosition = (modelMatrix * probePlace).xyz;
 `;
 
-type Shader = three.WebGLProgramParametersWithUniforms;
+export type Shader = three.WebGLProgramParametersWithUniforms;
+
+/** What a material does besides its light: `mirror.ts`. */
+export interface MirrorShader {
+    key: string;  // of programs that are the same
+    change: (shader: Shader) => void;
+}
+
+const mirrorShaders = new WeakMap<three.Material, MirrorShader>();
+
+type Uniforms = Record<string, three.IUniform>;
+const uniformsOfMaterials = new WeakMap<three.Material, Uniforms>();
+
+/** What all shaders of a material have: when a material returns to an earlier shader, three keeps the uniforms of
+ * the one that it compiled last. So a uniform stays the same object, and only its value changes. */
+export function uniformsOf(material: three.Material): Uniforms {
+    const known = uniformsOfMaterials.get(material);
+    if (known !== undefined) return known;
+    const made: Uniforms = {};
+    uniformsOfMaterials.set(material, made);
+    return made;
+}
+
+/** Adds what a material mirrors to whatever light it has, now and later. */
+export function setMirrorShader(material: three.Material, mirror: MirrorShader | null): void {
+    if (mirror === null) mirrorShaders.delete(material);
+    else mirrorShaders.set(material, mirror);
+    material.needsUpdate = true;
+}
+
+/** Lights a material by a change of three's shader; `key` names the change. */
+function setLightShader(material: three.Material, key: string, change: (shader: Shader) => void): void {
+    material.onBeforeCompile = shader => {
+        Object.assign(shader.uniforms, uniformsOf(material));
+        change(shader);
+        mirrorShaders.get(material)?.change(shader);
+    };
+    material.customProgramCacheKey = () => `${key} ${mirrorShaders.get(material)?.key ?? ''}`;
+}
+
+/** The world position as `probePosition`, once. */
+export function addPosition(shader: Shader): void {
+    const declaration = 'varying vec3 probePosition;\n';
+    if (shader.vertexShader.includes(declaration)) return;
+    shader.vertexShader = declaration + shader.vertexShader.replace('#include <project_vertex>', kPlace);
+    shader.fragmentShader = shader.fragmentShader.replace('#include <common>', `#include <common>\n${declaration}`);
+}
 
 function addLight(shader: Shader, declarations: string, light: string): void {
-    shader.vertexShader = 'varying vec3 probePosition;\n' +
-        shader.vertexShader.replace('#include <project_vertex>', kPlace);
+    addPosition(shader);
     shader.fragmentShader = shader.fragmentShader
-        .replace('#include <common>', `#include <common>\nvarying vec3 probePosition;\n${declarations}`)
+        .replace('void main() {', `${declarations}void main() {`)
         .replace('#include <lights_fragment_maps>',
                  `#include <lights_fragment_maps>\n` +
                  `vec3 probeNormal = inverseTransformDirection(normal, viewMatrix);\n` +
@@ -56,25 +101,28 @@ function addLight(shader: Shader, declarations: string, light: string): void {
 
 /** Lights a material by a proxy volume of seven slabs, per pixel. */
 export function lightByLppv(material: three.Material, uniforms: LppvUniforms): void {
-    material.onBeforeCompile = shader => {
-        Object.assign(shader.uniforms, uniforms);
+    Object.assign(uniformsOf(material), uniforms);
+    setLightShader(material, 'lppv', shader => {
         addLight(shader, shShader + lppv +
                  'uniform sampler3D lppv;\nuniform TetralightLppvConstants lppvConstants;\n',
                  'tetralight_sample_sh9(tetralight_sample_lppv_7(lppv, lppvConstants, probePosition), ' +
                  'probeNormal)');
-    };
-    material.customProgramCacheKey = () => 'lppv';
+    });
+}
+
+/** Lights a material by its lightmap, as three does. */
+export function lightByLightmap(material: three.Material): void {
+    setLightShader(material, 'lightmap', () => {});
 }
 
 /** Lights a material by the seven vec4 of one place. */
 export function lightBySh(material: three.Material, packed: {value: three.Vector4[]}): void {
-    material.onBeforeCompile = shader => {
-        shader.uniforms.probeSh = packed;
+    uniformsOf(material).probeSh = packed;
+    setLightShader(material, 'sh', shader => {
         addLight(shader, shShader + 'uniform vec4 probeSh[7];\n',
                  'tetralight_sample_sh9(TetralightPackedSh(probeSh[0], probeSh[1], probeSh[2], probeSh[3], ' +
                  'probeSh[4], probeSh[5], probeSh[6]), probeNormal)');
-    };
-    material.customProgramCacheKey = () => 'sh';
+    });
 }
 
 export const kInstanceSh = ['shaR', 'shaG', 'shaB', 'shbR', 'shbG', 'shbB', 'shC'];
@@ -82,7 +130,7 @@ export const instanceAttributes = kInstanceSh.map(name => `attribute vec4 ${name
 
 /** Lights the instances of a material by the attributes `kInstanceSh`, per vertex. */
 export function lightInstances(material: three.Material): void {
-    material.onBeforeCompile = shader => {
+    setLightShader(material, 'instances', shader => {
         addLight(shader, 'varying vec3 probeLight;\n', 'probeLight + 0.0 * probeNormal');
         shader.vertexShader = shShader + instanceAttributes + 'varying vec3 probeLight;\n' +
             shader.vertexShader.replace(
@@ -90,8 +138,7 @@ export function lightInstances(material: three.Material): void {
                 'probeLight = tetralight_sample_sh9(' +
                 'TetralightPackedSh(shaR, shaG, shaB, shbR, shbG, shbB, shC), ' +
                 'normalize(mat3(modelMatrix) * objectNormal));\nprobePosition = ');
-    };
-    material.customProgramCacheKey = () => 'instances';
+    });
 }
 
 /** The 28 floats of each instance as attributes of a geometry. */

@@ -5,6 +5,7 @@ export interface ViewState {
     volume?: string;
     scene?: string;
     groups?: string;
+    reflections?: string;
     tab?: string;
     eye?: number[];
     target?: number[];
@@ -19,7 +20,7 @@ const round = (x: number) => Number(x.toFixed(3));
 
 export function toLink(state: ViewState): string {
     const params = new URLSearchParams();
-    for (const key of ['volume', 'scene', 'groups', 'tab', 'color'] as const) {
+    for (const key of ['volume', 'scene', 'groups', 'reflections', 'tab', 'color'] as const) {
         const value = state[key];
         if (value !== undefined && value !== '') params.set(key, value);
     }
@@ -37,7 +38,7 @@ export function toLink(state: ViewState): string {
 export function fromLink(link: string): ViewState {
     const params = new URLSearchParams(link.replace(/^#/, ''));
     const state: ViewState = {};
-    for (const key of ['volume', 'scene', 'groups', 'tab', 'color'] as const) {
+    for (const key of ['volume', 'scene', 'groups', 'reflections', 'tab', 'color'] as const) {
         const value = params.get(key);
         if (value !== null) state[key] = value;
     }

@@ -9,14 +9,16 @@ import {badnessColor, errorBadness} from './colors';
 import {Gizmo} from './gizmo';
 import {LightField} from './light_field';
 import {LightmapPages, readPages, sectionsOf} from './lightmaps';
+import {hideMirror, Mirror} from './mirror';
 import {ProbeBalls} from './probe_balls';
+import {parseReflections} from './reflections';
 import {disposeScene, loadScene, SceneModel} from './scene_model';
 import type {Stage} from './stage';
 import {edgesOf, Light, readVolume, sumAmbient, sumLayers, Volume} from './volume';
 import {dimLights, dropLights, makeLights} from './volume_lights';
 
 export type ProbeColor = 'light' | 'validity' | 'error';
-export type Part = 'scene' | 'probes' | 'cells' | 'lightmaps';
+export type Part = 'scene' | 'probes' | 'cells' | 'lightmaps' | 'reflections';
 
 const kManyEdges = 30000;  // probes; drawing all their edges is slow
 
@@ -41,6 +43,11 @@ export class Viewer {
     private readonly selectionListeners: (() => void)[] = [];
     private readonly listeners: (() => void)[] = [];
     private readonly lightListeners: (() => void)[] = [];
+    /** The stored files, and the one that surfaces mirror. */
+    reflectionFiles: StoredFile[] = [];
+    reflectionFile: StoredFile | null = null;
+    private mirror: Mirror | null = null;
+    private readonly mirrorListeners: (() => void)[] = [];
     private hasEdges = false;
     private isHandedOver = false;
     private litBy = '';  // the bake or the lightmaps that the UVs of the scene are of
@@ -70,6 +77,11 @@ export class Viewer {
     /** Called when the light of probes is another. */
     onLight(listener: () => void): void {
         this.lightListeners.push(listener);
+    }
+
+    /** Called when there are other files of reflection probes, or surfaces mirror others. */
+    onReflections(listener: () => void): void {
+        this.mirrorListeners.push(listener);
     }
 
     /** Opens a volume with the scene of its bake, when that is known. */
@@ -118,6 +130,7 @@ export class Viewer {
         this.model = model;
         this.sceneFile = file;
         this.stage.scene.add(model.root);
+        this.applyMirror();
         if (!isKnown) this.stage.lookAtAll(model.box);
         if (!isKnown && model.view !== null) this.stage.look(model.view.eye, model.view.target);
         this.lightScene();
@@ -156,6 +169,37 @@ export class Viewer {
 
     get hasLightmaps(): boolean {
         return this.model?.lightmaps.hasPages ?? false;
+    }
+
+    /** Surfaces mirror stored reflection probes; '' shows none. */
+    async openReflections(reference: string): Promise<void> {
+        const path = `/v1/reflections/${encodeURIComponent(reference)}`;
+        const file = reference === '' ? null : await this.api.get<StoredFile>(path);
+        const mirror = file === null ? null : new Mirror(parseReflections(await this.api.bytes(`${path}/file`)));
+        this.mirror?.dispose();
+        this.mirror = mirror;
+        this.reflectionFile = file;
+        this.applyMirror();
+        for (const listener of this.mirrorListeners) listener();
+    }
+
+    setReflectionFiles(files: StoredFile[]): void {
+        this.reflectionFiles = files;
+        for (const listener of this.mirrorListeners) listener();
+    }
+
+    /** What surfaces mirror now. */
+    get shownMirror(): Mirror | null {
+        return this.hidden.has('reflections') ? null : this.mirror;
+    }
+
+    private applyMirror(): void {
+        const mirror = this.shownMirror;
+        for (const surface of this.model?.surfaces ?? []) {
+            if (mirror === null) hideMirror(surface.material);
+            else mirror.showOn(surface);
+        }
+        this.stage.draw();
     }
 
     closeScene(): void {
@@ -202,6 +246,9 @@ export class Viewer {
         if (isShown) this.hidden.delete(part);
         else this.hidden.add(part);
         this.applyParts();
+        if (part !== 'reflections') return;
+        this.applyMirror();
+        for (const listener of this.mirrorListeners) listener();
     }
 
     /** While groups are edited, their probes and cells are shown in place of the volume's. */
