@@ -182,7 +182,7 @@ vec3 mirroredLight(vec3 place, vec3 normal, vec3 f0, float roughness, vec3 baked
     vec3 toEye = normalize(cameraPosition - place);
     TetralightReflectionChoice choice = chooseReflections(place);
     vec3 weights = tetralight_reflection_weights(choice);
-    float level = clamp(roughness, 0.0, 1.0) * reflectionLevels;
+    float level = tetralight_reflection_level(roughness, reflectionLevels);
     vec3 mirrored = reflect(-toEye, normal);
     vec3 seen = vec3(0.0), atProbes = vec3(0.0);
     float weight;
@@ -194,7 +194,7 @@ ${Array.from({length: count}, (_, i) => `
         atProbes += weight * reflectionIrradiance(${i}, normal);
     }`).join('')}
     vec2 terms = tetralight_split_sum(splitSumTable, max(dot(normal, toEye), 0.0), roughness);
-    return seen * (f0 * terms.x + terms.y) * tetralight_reflection_occlusion(baked, atProbes);
+    return seen * (f0 * terms.x + terms.y) * tetralight_reflection_occlusion(baked, atProbes, roughness);
 }
 `;
 
