@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/image_based_light_glb.h>
 
-#include <new>
-#include <nlohmann/json.hpp>
-
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_parts.h>
 #include <tetralight/bake/scene/detail/json_members.h>
-#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -101,19 +97,8 @@ Result<std::vector<std::byte>> lit(const detail::GltfDocument& document,
 
 Result<std::vector<std::byte>> make_image_based_light_glb(const std::string& path,
                                                           const GltfImageBasedLight& light) {
-    const auto document = detail::read_gltf_document(path);
-    if (!document) return document.error();
-    try {
-        auto bytes = lit(*document, light);
-        if (!bytes) return bytes.error().in(path);
-        return bytes;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const nlohmann::json::exception& exception) {
-        // Of members that `read_gltf` does not read: `extensionsUsed`, for example.
-        return Error{ErrorCode::Corrupt,
-                     str_cat(path, ": is not glTF (", json_error_reason(exception), ")")};
-    }
+    return detail::rewrite_gltf(
+        path, [&](const detail::GltfDocument& document) { return lit(document, light); });
 }
 
 }  // namespace tetralight

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/lightmap_glb.h>
 
-#include <new>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
@@ -11,7 +9,6 @@
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 #include <tetralight/bake/scene/detail/lightmap_meshes.h>
 #include <tetralight/bake/scene/detail/lightmap_nodes.h>
-#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -71,19 +68,9 @@ Result<std::vector<std::byte>> lightmapped(const detail::GltfDocument& document,
 
 Result<std::vector<std::byte>> make_lightmap_glb(const std::string& path,
                                                  const GltfLightmaps& lightmaps) {
-    const auto document = detail::read_gltf_document(path);
-    if (!document) return document.error();
-    try {
-        auto bytes = lightmapped(*document, lightmaps);
-        if (!bytes) return bytes.error().in(path);
-        return bytes;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const nlohmann::json::exception& exception) {
-        // Of members that `read_gltf` does not read: animations, for example.
-        return Error{ErrorCode::Corrupt,
-                     str_cat(path, ": is not glTF (", json_error_reason(exception), ")")};
-    }
+    return detail::rewrite_gltf(path, [&](const detail::GltfDocument& document) {
+        return lightmapped(document, lightmaps);
+    });
 }
 
 }  // namespace tetralight

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <string_view>
 
 #include <tetralight/bake/scene/detail/error_field.h>
@@ -10,6 +11,7 @@
 #include <tetralight/bake/scene/detail/gltf_references.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
 #include <tetralight/base/file.h>
+#include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -222,6 +224,21 @@ Result<std::vector<std::byte>> GltfParts::glb() {
     if (!binary.empty()) json["buffers"] = GltfJson::array({{{"byteLength", binary.size()}}});
     for (const char* name : kViewCompressions) drop_unused_extension(name);
     return make_glb(json.dump(), binary);
+}
+
+Result<std::vector<std::byte>> rewrite_gltf(const std::string& path, const WriteGlb& write) {
+    const auto document = read_gltf_document(path);
+    if (!document) return document.error();
+    try {
+        auto bytes = write(*document);
+        if (!bytes) return bytes.error().in(path);
+        return bytes;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const nlohmann::json::exception& exception) {
+        return Error{ErrorCode::Corrupt,
+                     str_cat(path, ": is not glTF (", json_error_reason(exception), ")")};
+    }
 }
 
 }  // namespace tetralight::detail

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -64,5 +65,14 @@ class GltfParts {
     std::vector<uint32_t> free_views_;      ///< the lowest index last
     std::vector<uint32_t> free_accessors_;  ///< the lowest index last
 };
+
+/// Makes the bytes of a .glb file of a document.
+using WriteGlb = std::function<Result<std::vector<std::byte>>(const GltfDocument& document)>;
+
+/// What `write` makes of the glTF file at a path. Errors begin with the path. Returns corrupt also
+/// if `write` throws because JSON that `read_gltf` does not read is of a wrong type: animations,
+/// for example.
+[[nodiscard]] Result<std::vector<std::byte>> rewrite_gltf(const std::string& path,
+                                                          const WriteGlb& write);
 
 }  // namespace tetralight::detail
