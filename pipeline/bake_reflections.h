@@ -79,7 +79,7 @@ struct BakedReflections {
 /// Bakes reflection probes at the places of a scene. Mirrors in their cubes would show the sources
 /// of light, so that punctual lights and suns are not in them; what surfaces reflect of these is.
 /// A pure function of (scene, places, settings, lightmaps), the same bits for any number of threads
-/// and whatever stores have of it.
+/// and whether cubes are baked or come from stores.
 ///
 /// Returns the errors of `check_reflections`, `bake_stored_cubes` and `LightmapCubes::make`.
 /// Lightmaps of another state of the scene are a warning.

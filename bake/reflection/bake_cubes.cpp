@@ -145,26 +145,19 @@ Result<std::vector<BakedCube>> bake_cubes(std::span<const CubePosition> position
     return cubes;
 }
 
-Result<std::vector<BakedCube>> bake_cubes(const PathCubes& paths,
-                                          std::span<const CubePosition> positions, uint32_t size,
-                                          const BakeSettings& settings,
-                                          const BakeCallback& callback) {
-    const SampleCube sample = [&](const glm::dvec3& position, glm::vec3 direction, float spread,
-                                  const Sampler& sampler, std::span<glm::vec3> layers) {
-        return paths.sample(position, direction, spread, sampler, layers);
-    };
-    const CubeSampling sampling{size, settings.sample_count, settings.seed, settings.thread_count,
-                                settings.plan.layer_count};
-    return bake_cubes(positions, sampling, sample, callback);
-}
-
 Result<std::vector<BakedCube>> bake_cubes(const Scene& scene,
                                           std::span<const CubePosition> positions, uint32_t size,
                                           const BakeSettings& settings,
                                           const BakeCallback& callback) {
     const auto paths = PathCubes::make(scene, settings);
     if (!paths) return paths.error();
-    return bake_cubes(*paths, positions, size, settings, callback);
+    const SampleCube sample = [&](const glm::dvec3& position, glm::vec3 direction, float spread,
+                                  const Sampler& sampler, std::span<glm::vec3> layers) {
+        return paths->sample(position, direction, spread, sampler, layers);
+    };
+    const CubeSampling sampling{size, settings.sample_count, settings.seed, settings.thread_count,
+                                settings.plan.layer_count};
+    return bake_cubes(positions, sampling, sample, callback);
 }
 
 }  // namespace tetralight

@@ -69,16 +69,8 @@ struct CubeSampling {
                                                         const BakeCallback& callback = {},
                                                         const CubeFinished& finished = {});
 
-class PathCubes;
-
-/// The same by paths, for the settings that they were made with: `sample_count` is the number of
-/// paths per texel, `plan` has the layers.
-[[nodiscard]] Result<std::vector<BakedCube>> bake_cubes(const PathCubes& paths,
-                                                        std::span<const CubePosition> positions,
-                                                        uint32_t size, const BakeSettings& settings,
-                                                        const BakeCallback& callback = {});
-
-/// The same in one call. Returns also the errors of `PathCubes::make`.
+/// The same by paths through a scene (`PathCubes`). `settings.sample_count` is the number of paths
+/// per texel, `settings.plan` has the layers. Returns also the errors of `PathCubes::make`.
 [[nodiscard]] Result<std::vector<BakedCube>> bake_cubes(const Scene& scene,
                                                         std::span<const CubePosition> positions,
                                                         uint32_t size, const BakeSettings& settings,

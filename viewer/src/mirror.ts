@@ -40,7 +40,7 @@ export class Mirror {
         this.count = Math.min(kMostCubes, reflections.probes.length);
     }
 
-    /** Returns what chooses the probes anew for surfaces that move. */
+    /** Returns a function that chooses the probes again, for surfaces that have moved. */
     showOn({material, shine, box}: ShinySurface): () => void {
         const choose = () => this.choose(box(), material);
         choose();

@@ -64,7 +64,7 @@ export function uniformsOf(material: three.Material): Uniforms {
     return made;
 }
 
-/** Adds what a material mirrors to whatever light it has, now and later. */
+/** Adds reflections to the light of a material, also to light that is set later. */
 export function setMirrorShader(material: three.Material, mirror: MirrorShader | null): void {
     if (mirror === null) mirrorShaders.delete(material);
     else mirrorShaders.set(material, mirror);
