@@ -101,7 +101,7 @@ struct MeshBall {
         const ProbeVolumeView volume = with_walls(file->view(), walls);
         Scene scene;
         if (!scene_path.empty()) {
-            auto read = read_gltf(scene_path, NormalMaps::Read);
+            auto read = read_gltf(scene_path, {.normal_maps = NormalMaps::Read});
             if (!read) return read.error();
             common.warn(read->warnings);
             scene = std::move(*read);

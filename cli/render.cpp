@@ -147,7 +147,7 @@ struct Render {
         const std::vector<std::string> inputs{scene_path, volume_path, lightmap_path,
                                               reflection_path};
         if (auto status = check_output(output, inputs); !status) return status;
-        const auto scene = read_gltf(scene_path, NormalMaps::Read);
+        const auto scene = read_gltf(scene_path, {.normal_maps = NormalMaps::Read});
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         const auto file = open_probe_file(volume_path);

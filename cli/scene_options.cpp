@@ -20,7 +20,7 @@ SceneOptions::SceneOptions(const Values& values)
       sun_mode(values.text("sun_mode") == "baked" ? LightMode::Baked : LightMode::Mixed) {}
 
 Result<Scene> SceneOptions::read(NormalMaps normal_maps) const {
-    auto scene = read_gltf(path, normal_maps);
+    auto scene = read_gltf(path, {.normal_maps = normal_maps});
     if (!scene && read_probe_groups(path))
         return Error{ErrorCode::InvalidArgument, "scene", path,
                      path + ": contains probe groups, not a scene"};

@@ -44,7 +44,7 @@ void warn_about_skins(const detail::GltfDocument& document,
                       std::span<const detail::GltfWorldNode> nodes, Scene& scene) {
     for (const detail::GltfWorldNode& placed : nodes) {
         const detail::GltfNode& node = document.nodes[placed.node];
-        if (!node.has_skin || !placed.contributes_gi) continue;
+        if (node.skin == kNoIndex || !placed.contributes_gi) continue;
         scene.warnings.push_back(detail::gltf_place("node", placed.node, node.name) +
                                  ": skin is left out; its mesh stands as it was modelled");
     }
@@ -104,11 +104,11 @@ Status add_all(const detail::GltfDocument& document, NormalMaps normal_maps, Sce
 
 }  // namespace
 
-Result<Scene> read_gltf(const std::string& path, NormalMaps normal_maps) {
+Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
     const auto document = detail::read_gltf_document(path);
     if (!document) return document.error();
     Scene scene;
-    const auto status = add_all(*document, normal_maps, scene);
+    const auto status = add_all(*document, reading.normal_maps, scene);
     if (!status) return status.error().in(path);
     for (std::string& warning : scene.warnings) warning.insert(0, path + ": ");
     return scene;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include <tetralight/bake/scene/scene.h>
@@ -10,6 +12,28 @@ namespace tetralight {
 
 /// Whether a reader reads normal maps and tangents. Most bakes do not use them.
 enum class NormalMaps : bool { Skip, Read };
+
+/// What the intensities of lights are in.
+enum class LightUnit : uint8_t {
+    Lux,   ///< as glTF says, lux and candela: read as they are, as radiance is
+    Watt,  ///< the file has 683 times W/m² and W/sr, as Blender's "Standard" mode writes them
+};
+
+/// Lumens of a watt of green light, which exporters write instead of 1 (SI: luminous efficacy).
+inline constexpr double kLumensPerWatt = 683.0;
+
+/// What of a file is read, and how.
+struct SceneReading {
+    NormalMaps normal_maps = NormalMaps::Skip;
+    /// The name of a scene of the file, or its index; empty: the default scene.
+    std::string scene{};
+    /// Seconds: nodes, morph targets and skins stand as the animation has them then. Empty: as
+    /// they stand without an animation.
+    std::optional<double> time{};
+    /// The name of the animation, or its index; empty: the first one.
+    std::string animation{};
+    LightUnit light_unit = LightUnit::Lux;
+};
 
 /// Reads a glTF 2.0 scene (.gltf or .glb): its default scene's node hierarchy flattened into
 /// instances.
@@ -31,7 +55,6 @@ enum class NormalMaps : bool { Skip, Read };
 /// out of range, unsupported if the file requires an extension that is not listed here, and
 /// not_found (or the system's reason) if it refers to a file that cannot be read. Messages name the
 /// file, the element and the value; fields name the member: `materials[2].alphaCutoff`.
-[[nodiscard]] Result<Scene> read_gltf(const std::string& path,
-                                      NormalMaps normal_maps = NormalMaps::Skip);
+[[nodiscard]] Result<Scene> read_gltf(const std::string& path, const SceneReading& reading = {});
 
 }  // namespace tetralight

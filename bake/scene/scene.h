@@ -13,6 +13,7 @@
 #include <tetralight/bake/image/image.h>
 #include <tetralight/bake/scene/probe_adjustment.h>
 #include <tetralight/bake/scene/reflection_place.h>
+#include <tetralight/bake/scene/scene_parts.h>
 #include <tetralight/probes/light.h>
 #include <tetralight/probes/no_index.h>
 #include <tetralight/probes/probe_group.h>
@@ -159,11 +160,14 @@ struct Environment {
     bool operator==(const Environment&) const = default;
 };
 
-/// A perspective camera: it looks along its −Z, with +Y up in the picture.
+/// It looks along its −Z, with +Y up in the picture.
 struct Camera {
     std::string name;
     glm::dmat4 world_from_camera{1.0};
+    /// Of a perspective camera.
     double fov_y_radians = 0.8;
+    /// Orthographic cameras: half of the height of what they see, metres. 0: a perspective camera.
+    double half_height = 0.0;
 
     bool operator==(const Camera&) const = default;
 };
@@ -197,6 +201,8 @@ struct Scene {
     std::vector<ProbeAdjustment> probe_adjustments;
     std::vector<Portal> portals;
     std::vector<ReflectionPlace> reflection_places;
+    /// What was read of the file, and what was not.
+    std::vector<ScenePart> parts;
     /// Warnings for the user, one line each: parts that were skipped or replaced.
     std::vector<std::string> warnings;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,12 +19,25 @@
 
 namespace tetralight::detail {
 
+/// EXT_meshopt_compression of a buffer view: where its compressed bytes are.
+struct GltfMeshopt {
+    uint32_t buffer = 0;
+    uint64_t byte_offset = 0;
+    uint64_t byte_length = 0;
+    /// Bytes of an element, and their number.
+    uint64_t byte_stride = 0;
+    uint64_t count = 0;
+    std::string mode;
+    std::string filter = "NONE";
+};
+
 struct GltfBufferView {
     uint32_t buffer = 0;
     uint64_t byte_offset = 0;
     uint64_t byte_length = 0;
     /// 0 = tightly packed.
     uint64_t byte_stride = 0;
+    std::optional<GltfMeshopt> meshopt;
 };
 
 /// Elements that replace some of an accessor's.
@@ -42,7 +56,7 @@ struct GltfAccessor {
     uint64_t byte_offset = 0;
     /// glTF's code, 5120 (byte) to 5126 (float).
     uint32_t component_type = 0;
-    /// 1 to 4; 0 for matrices, which are not read.
+    /// 1 to 4; 16 for MAT4; 0 for other matrices, which are not read.
     uint32_t component_count = 0;
     bool is_normalized = false;
     uint64_t count = 0;
@@ -52,17 +66,71 @@ struct GltfAccessor {
 /// Accessors by the name of their attribute: `POSITION`, `TEXCOORD_0`, `TRANSLATION`.
 using GltfAttributes = std::map<std::string, uint32_t>;
 
+/// KHR_draco_mesh_compression of a primitive.
+struct GltfDraco {
+    uint32_t buffer_view = 0;
+    /// The id in the compressed data of each attribute.
+    std::map<std::string, uint32_t> attributes;
+};
+
 struct GltfPrimitive {
     GltfAttributes attributes;
     uint32_t indices = kNoIndex;
     uint32_t material = kNoIndex;
     /// glTF's code: 0 = points, 4 = triangles, 5 = strip, 6 = fan.
     uint32_t mode = 4;
+    /// Differences of POSITION, NORMAL and TANGENT, one map a morph target.
+    std::vector<GltfAttributes> targets;
+    std::optional<GltfDraco> draco;
 };
 
 struct GltfMesh {
     std::string name;
     std::vector<GltfPrimitive> primitives;
+    /// Default weights of the morph targets; empty: 0.
+    std::vector<double> weights;
+};
+
+struct GltfSkin {
+    std::string name;
+    /// Nodes.
+    std::vector<uint32_t> joints;
+    /// Accessor of a matrix for each joint; kNoIndex = unit matrices.
+    uint32_t inverse_bind_matrices = kNoIndex;
+};
+
+/// What an animation changes over time: a property of a node.
+struct GltfChannel {
+    /// kNoIndex: the target is not a node's (KHR_animation_pointer).
+    uint32_t node = kNoIndex;
+    /// "translation", "rotation", "scale" or "weights".
+    std::string path;
+    /// Accessors of the times, seconds, and of the values.
+    uint32_t input = 0;
+    uint32_t output = 0;
+    /// "LINEAR", "STEP" or "CUBICSPLINE".
+    std::string interpolation = "LINEAR";
+};
+
+struct GltfAnimation {
+    std::string name;
+    std::vector<GltfChannel> channels;
+};
+
+/// KHR_materials_pbrSpecularGlossiness.
+struct GltfSpecularGlossiness {
+    glm::dvec4 diffuse{1.0};
+    glm::dvec3 specular{1.0};
+    double glossiness = 1.0;
+    TextureUse diffuse_texture;
+    /// RGB: specular, sRGB; alpha: glossiness.
+    TextureUse specular_glossiness_texture;
+};
+
+/// KHR_materials_transmission.
+struct GltfTransmission {
+    double factor = 0.0;
+    TextureUse texture;  ///< times red
 };
 
 struct GltfMaterial {
@@ -85,12 +153,17 @@ struct GltfMaterial {
     TextureUse emission_texture;
     TextureUse normal_texture;
     double normal_scale = 1.0;
+    std::optional<GltfSpecularGlossiness> specular_glossiness;
+    std::optional<GltfTransmission> transmission;
 };
 
 struct GltfTexture {
     std::string name;
+    /// PNG or JPEG, or WebP of EXT_texture_webp where there is no other.
     uint32_t image = kNoIndex;
     uint32_t sampler = kNoIndex;
+    /// KTX2 of KHR_texture_basisu, which is not read.
+    uint32_t basisu_image = kNoIndex;
 };
 
 /// An encoded image: in a buffer view, in `encoded` (from a data URI), or in the file `uri`.
@@ -131,10 +204,24 @@ struct GltfLight {
     GltfLightExtras extras;
 };
 
+/// One of the two is set.
 struct GltfCamera {
     std::string name;
-    /// Empty if the camera is not a perspective one.
     std::optional<double> fov_y_radians;
+    /// Of an orthographic camera: half of the height of what it sees, metres.
+    std::optional<double> half_height;
+};
+
+/// EXT_lights_image_based.
+struct GltfImageBasedLight {
+    std::string name;
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    double intensity = 1.0;
+    /// RGB of the 9 coefficients of irradiance.
+    std::vector<glm::dvec3> irradiance_coefficients;
+    uint32_t image_size = 0;
+    /// Images of the faces +X, −X, +Y, −Y, +Z, −Z of each level.
+    std::vector<std::array<uint32_t, 6>> images;
 };
 
 /// `extras.probe_adjustment` of a node.
@@ -161,11 +248,19 @@ struct GltfReflectionProbe {
 struct GltfNode {
     std::string name;
     glm::dmat4 parent_from_node{1.0};
+    /// The parts of `parent_from_node`, which animations change. Not those of a node with a matrix.
+    glm::dvec3 translation{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 scale{1.0};
     std::vector<uint32_t> children;
     uint32_t mesh = kNoIndex;
     uint32_t light = kNoIndex;
     uint32_t camera = kNoIndex;
-    bool has_skin = false;
+    uint32_t skin = kNoIndex;
+    /// Weights of the morph targets, before those of the mesh; empty: those of the mesh.
+    std::vector<double> weights;
+    /// KHR_node_visibility. A node that is not visible hides its children.
+    bool is_visible = true;
     /// EXT_mesh_gpu_instancing.
     std::optional<GltfAttributes> instancing;
     // Extras that Tetralight defines.
@@ -200,6 +295,8 @@ struct GltfDocument {
     std::vector<GltfSampler> samplers;
     std::vector<GltfLight> lights;
     std::vector<GltfCamera> cameras;
+    std::vector<GltfSkin> skins;
+    std::vector<GltfAnimation> animations;
     std::vector<GltfNode> nodes;
     /// Roots of the default scene, which is the one that the file names, else its first one. Empty
     /// if there is no scene.
@@ -208,6 +305,8 @@ struct GltfDocument {
     uint32_t scene = 0;
     /// Radiance of the sky, from the default scene's `extras.sky`.
     std::optional<glm::dvec3> sky_radiance;
+    /// EXT_lights_image_based of the default scene.
+    std::optional<GltfImageBasedLight> image_based_light;
 };
 
 /// Reads and checks a .gltf or .glb file and its buffers, but not its image files.

@@ -22,7 +22,7 @@ GltfAttributes attributes_from(const std::map<std::string, int>& attributes) {
 }
 
 GltfBufferView converted(const tinygltf::BufferView& view) {
-    return {index_from(view.buffer), view.byteOffset, view.byteLength, view.byteStride};
+    return {index_from(view.buffer), view.byteOffset, view.byteLength, view.byteStride, {}};
 }
 
 GltfAccessor converted(const tinygltf::Accessor& accessor) {
@@ -50,11 +50,15 @@ GltfAccessor converted(const tinygltf::Accessor& accessor) {
 }
 
 GltfMesh converted(const tinygltf::Mesh& mesh) {
-    GltfMesh result{mesh.name, {}};
+    GltfMesh result;
+    result.name = mesh.name;
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
         result.primitives.push_back({attributes_from(primitive.attributes),
-                                     index_from(primitive.indices), index_from(primitive.material),
-                                     static_cast<uint32_t>(primitive.mode)});
+                                     index_from(primitive.indices),
+                                     index_from(primitive.material),
+                                     static_cast<uint32_t>(primitive.mode),
+                                     {},
+                                     {}});
     }
     return result;
 }
@@ -83,7 +87,7 @@ GltfMaterial converted(const tinygltf::Material& material) {
 }
 
 GltfTexture converted(const tinygltf::Texture& texture) {
-    return {texture.name, index_from(texture.source), index_from(texture.sampler)};
+    return {texture.name, index_from(texture.source), index_from(texture.sampler), kNoIndex};
 }
 
 GltfImage converted(const tinygltf::Image& image) {
@@ -108,7 +112,8 @@ GltfLight converted(const tinygltf::Light& light) {
 
 GltfCamera converted(const tinygltf::Camera& camera) {
     const bool is_perspective = camera.type == "perspective";
-    return {camera.name, is_perspective ? std::optional(camera.perspective.yfov) : std::nullopt};
+    return {camera.name, is_perspective ? std::optional(camera.perspective.yfov) : std::nullopt,
+            std::nullopt};
 }
 
 glm::dmat4 matrix_from(const tinygltf::Node& node) {
@@ -131,7 +136,7 @@ GltfNode converted(const tinygltf::Node& node) {
     for (const int child : node.children) result.children.push_back(index_from(child));
     result.mesh = index_from(node.mesh);
     result.camera = index_from(node.camera);
-    result.has_skin = node.skin >= 0;
+    result.skin = index_from(node.skin);
     if (const auto* light = find_extension(node.extensions, "KHR_lights_punctual")) {
         result.light = index_from(light->Get("light").GetNumberAsInt());
         result.light_extras = light_extras_from(node.extras);

@@ -92,14 +92,14 @@ struct GltfBuilder {
         return "glTF" + u32(2) + u32(chunks.size() + 12) + chunks;
     }
 
-    [[nodiscard]] Result<Scene> read(NormalMaps normal_maps = NormalMaps::Skip) const {
+    [[nodiscard]] Result<Scene> read(const SceneReading& reading = {}) const {
         const TempFolder folder;
-        return read_gltf(folder.write("scene.glb", glb()), normal_maps);
+        return read_gltf(folder.write("scene.glb", glb()), reading);
     }
 
     /// Message of the error that reading has to give, from behind the folder's name.
-    [[nodiscard]] std::string error(NormalMaps normal_maps = NormalMaps::Skip) const {
-        const auto scene = read(normal_maps);
+    [[nodiscard]] std::string error(const SceneReading& reading = {}) const {
+        const auto scene = read(reading);
         if (scene) return "(no error)";
         const std::string& message = error_text(scene.error());
         return message.substr(std::min(message.find("scene.glb"), message.size()));

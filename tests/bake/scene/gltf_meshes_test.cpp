@@ -100,7 +100,7 @@ TEST(GltfMeshes, TangentsAreReadWithNormalMaps) {
     gltf.primitive(0)["attributes"]["TANGENT"] =
         gltf.add_floats({1, 0, 0, 1, 0, 1, 0, -1, 0, 0, 1, 1}, "VEC4");
     EXPECT_TRUE(gltf.read()->meshes[0].tangents.empty());
-    const auto scene = gltf.read(NormalMaps::Read);
+    const auto scene = gltf.read({.normal_maps = NormalMaps::Read});
     ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->meshes[0].tangents,
               (std::vector<glm::vec4>{{1, 0, 0, 1}, {0, 1, 0, -1}, {0, 0, 1, 1}}));
@@ -111,10 +111,12 @@ TEST(GltfMeshes, NamesWhatIsWrongWithTangents) {
     gltf.add_triangle();
     auto& tangent = gltf.primitive(0)["attributes"]["TANGENT"];
     tangent = gltf.add_floats({1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
-    EXPECT_NE(gltf.error(NormalMaps::Read).find("TANGENT: accessor 1: is not of type VEC4"),
+    EXPECT_NE(gltf.error({.normal_maps = NormalMaps::Read})
+                  .find("TANGENT: accessor 1: is not of type VEC4"),
               std::string::npos);
     tangent = gltf.add_floats({1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
-    EXPECT_NE(gltf.error(NormalMaps::Read).find("TANGENT has 2 elements, POSITION has 3"),
+    EXPECT_NE(gltf.error({.normal_maps = NormalMaps::Read})
+                  .find("TANGENT has 2 elements, POSITION has 3"),
               std::string::npos);
 }
 

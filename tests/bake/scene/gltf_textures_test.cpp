@@ -114,7 +114,7 @@ TEST(GltfTextures, NormalMapsAreReadIfAskedFor) {
         {"scale", -0.5},
         {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}}}}}};
     EXPECT_TRUE(scene_of(gltf).normal_maps.empty());
-    const auto scene = gltf.read(NormalMaps::Read);
+    const auto scene = gltf.read({.normal_maps = NormalMaps::Read});
     ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_EQ(scene->textures.size(), 1u);
     ASSERT_EQ(scene->normal_maps.size(), 1u);
@@ -130,7 +130,7 @@ TEST(GltfTextures, NamesWhatIsWrongWithANormalMap) {
     GltfBuilder gltf = with_embedded_png();
     const auto error_with = [&](Json map) {
         gltf.json["materials"][0]["normalTexture"] = std::move(map);
-        return gltf.error(NormalMaps::Read);
+        return gltf.error({.normal_maps = NormalMaps::Read});
     };
     EXPECT_EQ(error_with({{"index", 0}, {"scale", 1e39}}),
               "scene.glb: material 0: normalTexture: scale 1e+39 is too large");
