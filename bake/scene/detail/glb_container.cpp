@@ -60,7 +60,7 @@ bool is_glb(Bytes bytes) {
     return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-Result<Bytes> glb_json(Bytes bytes) {
+Result<GlbChunks> glb_chunks(Bytes bytes) {
     if (bytes.size() < kGlbHeaderSize)
         return Error{ErrorCode::Corrupt, "is cut off in the GLB header"};
     const uint32_t version = read_u32(bytes, 4);
@@ -78,12 +78,17 @@ Result<Bytes> glb_json(Bytes bytes) {
     if (read_u32(bytes, kGlbHeaderSize + 4) != kJsonChunk) {
         return Error{ErrorCode::Corrupt, "first chunk is not JSON"};
     }
-    for (size_t offset = kGlbHeaderSize; offset < bytes.size();) {
+    GlbChunks chunks;
+    size_t index = 0;
+    for (size_t offset = kGlbHeaderSize; offset < bytes.size(); ++index) {
         const auto size = chunk_length(bytes, offset);
         if (!size) return size.error();
+        const Bytes data = bytes.subspan(offset + kChunkHeaderSize, *size);
+        if (index == 0) chunks.json = data;
+        if (index == 1 && read_u32(bytes, offset + 4) == kBinaryChunkType) chunks.binary = data;
         offset += kChunkHeaderSize + *size;
     }
-    return bytes.subspan(kGlbHeaderSize + kChunkHeaderSize, *json_length);
+    return chunks;
 }
 
 Result<std::vector<std::byte>> make_glb(std::string json, Bytes binary) {

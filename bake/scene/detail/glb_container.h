@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +14,15 @@ namespace tetralight::detail {
 /// True if the bytes begin like a .glb file.
 [[nodiscard]] bool is_glb(std::span<const std::byte> bytes);
 
-/// The JSON chunk of a .glb file. Returns corrupt if any chunk does not fit into the file: tinygltf
-/// would read past the end of a last chunk whose length is a few bytes too large.
-[[nodiscard]] Result<std::span<const std::byte>> glb_json(std::span<const std::byte> bytes);
+/// The chunks of a .glb file.
+struct GlbChunks {
+    std::span<const std::byte> json;
+    /// Empty if there is none.
+    std::optional<std::span<const std::byte>> binary;
+};
+
+/// Returns corrupt if any chunk does not fit into the file.
+[[nodiscard]] Result<GlbChunks> glb_chunks(std::span<const std::byte> bytes);
 
 /// A .glb file of this JSON and this binary chunk, which may be empty. Returns unsupported for more
 /// bytes than the format can count.

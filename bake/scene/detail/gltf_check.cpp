@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <tetralight/bake/scene/detail/error_field.h>
+#include <tetralight/bake/scene/detail/gltf_buffers.h>
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_rules.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
@@ -88,7 +89,7 @@ Status check_buffers(const json& document, GltfContainer container) {
     for (size_t i = 0; i < buffers->size(); ++i) {
         const json& buffer = (*buffers)[i];
         const bool is_embedded = container == GltfContainer::Glb && i == 0;
-        if (!buffer.contains("uri") && !is_embedded) {
+        if (!buffer.contains("uri") && !is_embedded && !is_fallback_buffer(buffer)) {
             return element_error("buffers", i, "uri", "", "has no uri");
         }
         if (buffer["byteLength"] == 0) {
@@ -110,6 +111,30 @@ Status check_image_uris(const json& document) {
     return Ok{};
 }
 
+/// Where EXT_meshopt_compression has the bytes of a buffer view. Views without it may not lie in
+/// buffers without bytes.
+Status check_compressed_view(const json& document, size_t i) {
+    const json& view = document["bufferViews"][i];
+    const json* meshopt = find_json(view, "extensions/EXT_meshopt_compression");
+    const json& place = meshopt == nullptr ? view : *meshopt;
+    const auto buffer = place["buffer"].get<size_t>();
+    const json& source = document["buffers"][buffer];
+    const char* member =
+        meshopt == nullptr ? "buffer" : "extensions.EXT_meshopt_compression.byteLength";
+    if (is_fallback_buffer(source)) {
+        return element_error("bufferViews", i, member, str_cat(buffer),
+                             str_cat("buffer ", buffer,
+                                     " has no bytes: it is a fallback of EXT_meshopt_compression"));
+    }
+    if (meshopt == nullptr) return Ok{};
+    const uint64_t end = size_or(place, "byteOffset", 0) + size_or(place, "byteLength", 0);
+    const uint64_t size = size_or(source, "byteLength", 0);
+    if (end <= size) return Ok{};
+    return element_error("bufferViews", i, member, str_cat(size_or(place, "byteLength", 0)),
+                         str_cat("EXT_meshopt_compression: its bytes end at ", end,
+                                 ", outside of buffer ", buffer, " (", size, " bytes)"));
+}
+
 Status check_buffer_views(const json& document) {
     const json* views = find_json(document, "bufferViews");
     if (views == nullptr) return Ok{};
@@ -128,6 +153,26 @@ Status check_buffer_views(const json& document) {
                 str_cat("bytes ", offset, " to ", offset + length, " are outside of buffer ",
                         buffer, " (", buffer_length, " bytes)"));
         }
+        if (auto status = check_compressed_view(document, i); !status) return status;
+    }
+    return Ok{};
+}
+
+/// The samplers of the channels of animations.
+Status check_animations(const json& document) {
+    const json* animations = find_json(document, "animations");
+    if (animations == nullptr) return Ok{};
+    for (size_t i = 0; i < animations->size(); ++i) {
+        const json& animation = (*animations)[i];
+        const size_t count = animation["samplers"].size();
+        for (size_t c = 0; c < animation["channels"].size(); ++c) {
+            const auto sampler = animation["channels"][c]["sampler"].get<size_t>();
+            if (sampler < count) continue;
+            return element_error("animations", i, str_cat("channels[", c, "].sampler").c_str(),
+                                 str_cat(sampler),
+                                 str_cat("channel ", c, ": sampler ", sampler, " is out of range (",
+                                         count, " samplers)"));
+        }
     }
     return Ok{};
 }
@@ -140,15 +185,19 @@ Status check_document(const json& document, GltfContainer container) {
     if (const auto status = check_default_scene(document); !status) return status;
     if (const auto status = check_buffers(document, container); !status) return status;
     if (const auto status = check_image_uris(document); !status) return status;
+    if (const auto status = check_animations(document); !status) return status;
     return check_buffer_views(document);
 }
 
 }  // namespace
 
-Status check_gltf_json(std::string_view json_text, GltfContainer container) {
-    if (auto status = check_json_shape(json_text); !status) return status;
+Result<json> parse_gltf_json(std::string_view json_text, GltfContainer container) {
+    if (auto status = check_json_shape(json_text); !status) return status.error();
     try {
-        return check_document(json::parse(json_text), container);
+        json document = json::parse(json_text);
+        const auto status = check_document(document, container);
+        if (!status) return status.error();
+        return document;
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {

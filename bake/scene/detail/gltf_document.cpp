@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/detail/gltf_document.h>
 
+#include <algorithm>
+#include <charconv>
 #include <exception>
 #include <limits>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/glb_container.h>
+#include <tetralight/bake/scene/detail/gltf_buffers.h>
 #include <tetralight/bake/scene/detail/gltf_check.h>
-#include <tetralight/bake/scene/detail/gltf_model.h>
+#include <tetralight/bake/scene/detail/gltf_elements.h>
+#include <tetralight/bake/scene/detail/gltf_members.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
 #include <tetralight/base/file.h>
@@ -20,97 +25,84 @@
 namespace tetralight::detail {
 namespace {
 
+using nlohmann::json;
 using Bytes = std::span<const std::byte>;
 
-bool pretend_file_exists(const std::string&, void*) {
-    return true;  // reading the file gives the system's reason if it is missing
+std::string scene_name(const json& scene) {
+    return string_at(scene, "name");
 }
 
-std::string keep_path(const std::string& path, void*) {
-    return path;
-}
-
-/// Reads the file of a buffer. `failure` is a `std::optional<Error>` that takes the reason.
-bool read_buffer_file(std::vector<unsigned char>* out, std::string*, const std::string& path,
-                      void* failure) {
-    const auto bytes = read_file(path);
-    if (!bytes) {
-        *static_cast<std::optional<Error>*>(failure) = bytes.error();
-        return false;
+/// The names of the scenes of a file, as a message lists them.
+std::string scene_list(const json& scenes) {
+    std::string list;
+    for (size_t i = 0; i < scenes.size(); ++i) {
+        if (i > 0) list += ", ";
+        list += str_cat(i, " \"", scene_name(scenes[i]), "\"");
     }
-    const auto* first = reinterpret_cast<const unsigned char*>(bytes->data());
-    out->assign(first, first + bytes->size());
-    return true;
+    return list.empty() ? "none" : list;
 }
 
-/// Keeps the encoded bytes of a data URI. Images in buffer views are read through the view.
-bool keep_encoded_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-                        const unsigned char* bytes, int size, void*) {
-    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
-    return true;
+/// The scene of this name, else the one whose index the text is.
+Result<uint32_t> find_scene(const json& document, const std::string& text) {
+    const json& scenes = array_at(document, "scenes");
+    if (text.empty()) return static_cast<uint32_t>(size_at(document, "scene", 0));
+    const auto named = std::ranges::find(scenes, text, scene_name);
+    if (named != scenes.end()) return static_cast<uint32_t>(named - scenes.begin());
+    uint32_t index = 0;
+    const char* end = text.data() + text.size();
+    const bool is_index = std::from_chars(text.data(), end, index).ptr == end;
+    if (is_index && index < scenes.size()) return index;
+    return Error{ErrorCode::InvalidArgument, "scene", quoted_value(text),
+                 str_cat("has no scene \"", quoted_value(text), "\"; it has ", scene_list(scenes))};
 }
 
-/// A message of tinygltf, which may have several lines and hold a whole data URI, as one short
-/// line.
-std::string one_line(std::string message) {
-    constexpr size_t kMaxLength = 200;
-    while (!message.empty() && message.back() == '\n') message.pop_back();
-    for (char& c : message) {
-        if (c == '\n') c = ' ';
+/// Decodes the images in data URIs.
+Status decode_image_uris(GltfDocument& document) {
+    for (size_t i = 0; i < document.images.size(); ++i) {
+        GltfImage& image = document.images[i];
+        if (!is_data_uri(image.uri)) continue;
+        const auto bytes = decode_data_uri(image.uri);
+        if (!bytes) return in_element(bytes.error(), "images", i, image.name);
+        const auto* first = reinterpret_cast<const std::byte*>(bytes->data());
+        image.encoded.assign(first, first + bytes->size());
     }
-    return message.size() <= kMaxLength ? message : message.substr(0, kMaxLength) + "...";
+    return Ok{};
 }
 
-Result<tinygltf::Model> parse_model(Bytes bytes, const std::string& folder) {
-    tinygltf::TinyGLTF parser;
-    parser.SetImageLoader(keep_encoded_image, nullptr);
-    parser.SetStoreOriginalJSONForExtrasAndExtensions(true);  // its values lack empty objects
-    std::optional<Error> failure;
-    parser.SetFsCallbacks({pretend_file_exists, keep_path, read_buffer_file, nullptr, &failure});
-    tinygltf::Model model;
-    std::string error;
-    std::string warning;
-    const auto* first = reinterpret_cast<const unsigned char*>(bytes.data());
-    const auto size = static_cast<unsigned>(bytes.size());
-    const bool is_parsed =
-        is_glb(bytes)
-            ? parser.LoadBinaryFromMemory(&model, &error, &warning, first, size, folder)
-            : parser.LoadASCIIFromString(&model, &error, &warning,
-                                         reinterpret_cast<const char*>(first), size, folder);
-    // tinygltf also reports errors of a model that it parsed: in parts that are not read, and that
-    // check_gltf_json() does not check (a skin without matrices, for example).
-    if (is_parsed) return model;
-    // The parser appends buffers one by one, so that the next one is the one it could not read.
-    if (failure) {
-        failure->value.clear();  // the path, where the file has a URI
-        return in_element(in_member(*failure, ".uri"), "buffers", model.buffers.size(), "");
-    }
-    return Error{ErrorCode::Corrupt, one_line(error.empty() ? "cannot parse glTF" : error)};
-}
-
-Result<GltfDocument> parse_document(Bytes bytes, const std::string& path) {
+Result<GltfDocument> parse_document(Bytes bytes, const std::string& path,
+                                    const std::string& scene) {
     if (bytes.size() > std::numeric_limits<uint32_t>::max()) {
         return Error{ErrorCode::Unsupported,
                      str_cat(bytes.size(), " bytes are too many for a glTF file")};
     }
     const auto container = is_glb(bytes) ? GltfContainer::Glb : GltfContainer::Gltf;
-    const auto chunk = container == GltfContainer::Glb ? glb_json(bytes) : Result<Bytes>(bytes);
-    if (!chunk) return chunk.error();
-    const std::string_view json_text(reinterpret_cast<const char*>(chunk->data()), chunk->size());
-    const auto status = check_gltf_json(json_text, container);
-    if (!status) return status.error();
-    auto model = parse_model(bytes, folder_of(path));
-    if (!model) return model.error();
-    return document_from(std::move(*model), path);
+    const auto chunks = container == GltfContainer::Glb
+                            ? glb_chunks(bytes)
+                            : Result<GlbChunks>(GlbChunks{bytes, std::nullopt});
+    if (!chunks) return chunks.error();
+    const std::string_view json_text(reinterpret_cast<const char*>(chunks->json.data()),
+                                     chunks->json.size());
+    const auto source = parse_gltf_json(json_text, container);
+    if (!source) return source.error();
+    const auto chosen = find_scene(*source, scene);
+    if (!chosen) return chosen.error();
+    auto buffers = read_buffers(*source, folder_of(path), chunks->binary);
+    if (!buffers) return buffers.error();
+    GltfDocument document = document_from(*source);
+    document.path = path;
+    document.buffers = std::move(*buffers);
+    choose_scene(*source, *chosen, document);
+    if (auto status = decode_image_uris(document); !status) return status.error();
+    return document;
 }
 
 }  // namespace
 
-Result<GltfDocument> read_gltf_document(const std::string& path) {
-    const auto bytes = read_file(path);
-    if (!bytes) return bytes.error();
+Result<GltfDocument> read_gltf_document(const std::string& path, const std::string& scene) {
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
     try {
-        auto document = parse_document(*bytes, path);
+        auto document = parse_document(file->bytes(), path, scene);
         if (!document) return document.error().in(path);
         return document;
     } catch (const std::bad_alloc&) {

@@ -298,19 +298,23 @@ struct GltfDocument {
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;
     std::vector<GltfNode> nodes;
-    /// Roots of the default scene, which is the one that the file names, else its first one. Empty
-    /// if there is no scene.
+    /// Roots of the scene that is read. Empty if there is no scene.
     std::optional<std::vector<uint32_t>> scene_roots;
-    /// Index of the default scene.
+    /// Index of that scene.
     uint32_t scene = 0;
-    /// Radiance of the sky, from the default scene's `extras.sky`.
+    /// Radiance of the sky, from the scene's `extras.sky`.
     std::optional<glm::dvec3> sky_radiance;
-    /// EXT_lights_image_based of the default scene.
+    /// EXT_lights_image_based of the scene.
     std::optional<GltfImageBasedLight> image_based_light;
+    /// What is in the file and is not read, or not as glTF defines it.
+    std::vector<ScenePart> parts;
 };
 
-/// Reads and checks a .gltf or .glb file and its buffers, but not its image files.
-[[nodiscard]] Result<GltfDocument> read_gltf_document(const std::string& path);
+/// Reads and checks a .gltf or .glb file and its buffers, but not its image files. The scene that
+/// is read is the one that `scene` names or whose index it is; empty: the default one. Returns
+/// invalid_argument if there is no such scene.
+[[nodiscard]] Result<GltfDocument> read_gltf_document(const std::string& path,
+                                                      const std::string& scene = "");
 
 /// How messages name an element: `mesh 3 "wall"`, or `mesh 3` if it has no name.
 [[nodiscard]] std::string gltf_place(const char* kind, size_t index, const std::string& name);

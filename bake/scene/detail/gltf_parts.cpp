@@ -73,9 +73,9 @@ Result<GltfJson> read_json(const std::string& path) {
     if (!bytes) return bytes.error();
     std::span<const std::byte> text = *bytes;
     if (is_glb(text)) {
-        const auto chunk = glb_json(text);
-        if (!chunk) return chunk.error().in(path);
-        text = *chunk;
+        const auto chunks = glb_chunks(text);
+        if (!chunks) return chunks.error().in(path);
+        text = chunks->json;
     }
     const auto* first = reinterpret_cast<const char*>(text.data());
     auto json = GltfJson::parse(first, first + text.size(), nullptr, false);

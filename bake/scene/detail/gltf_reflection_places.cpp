@@ -6,20 +6,15 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string_view>
 
 #include <tetralight/bake/scene/detail/error_field.h>
-#include <tetralight/bake/scene/detail/json_members.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
 
-using nlohmann::json;
-
-constexpr const char* kProbeKey = "reflection_probe";
 constexpr const char* kProbeMember = ".extras.reflection_probe";
 constexpr const char* kProbeName = "extras.reflection_probe";
 
@@ -30,11 +25,6 @@ std::string shown(const glm::dvec3& v) {
 /// Returns invalid_argument: `extras.reflection_probe: REASON`.
 Error node_error(std::string value, const std::string& reason) {
     return {ErrorCode::InvalidArgument, "", std::move(value), str_cat(kProbeName, ": ", reason)};
-}
-
-glm::dvec3 vec3_in(const json& object, const char* key, const glm::dvec3& otherwise) {
-    const auto value = object.find(key);
-    return value == object.end() ? otherwise : read_vec3(*value).value_or(otherwise);
 }
 
 /// The axes of a node: of length 1, and the scales along them.
@@ -107,24 +97,6 @@ Result<ReflectionPlace> converted(const GltfReflectionProbe& extras,
 }
 
 }  // namespace
-
-std::optional<GltfReflectionProbe> reflection_probe_from(const std::string& extras) {
-    if (extras.find(kProbeKey) == std::string::npos) return std::nullopt;
-    const json object = json::parse(extras);
-    const json* probe =
-        object.is_object() && object.contains(kProbeKey) ? &object[kProbeKey] : nullptr;
-    if (probe == nullptr || *probe == false) return std::nullopt;
-    GltfReflectionProbe result;
-    if (*probe == true) return result;
-    result.size = vec3_in(*probe, "size", result.size);
-    result.center = vec3_in(*probe, "center", result.center);
-    result.blend_distance = probe->value("blend_distance", result.blend_distance);
-    if (probe->contains("importance")) {
-        result.importance = read_int32((*probe)["importance"]).value_or(result.importance);
-    }
-    result.near_distance = probe->value("near", result.near_distance);
-    return result;
-}
 
 Result<std::vector<ReflectionPlace>> read_gltf_reflection_places(
     const GltfDocument& document, std::span<const GltfWorldNode> nodes) {

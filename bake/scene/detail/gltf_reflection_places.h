@@ -13,10 +13,6 @@
 
 namespace tetralight::detail {
 
-/// `reflection_probe` of a node's extras, which are JSON text or empty: an object, or `true` for
-/// one without members. Precondition: it obeys the rules (gltf_schema.h).
-[[nodiscard]] std::optional<GltfReflectionProbe> reflection_probe_from(const std::string& extras);
-
 /// The reflection probes of all nodes that have `extras.reflection_probe`: at the origins of their
 /// nodes, with boxes along the nodes' axes. Returns invalid_argument if a value is out of range, or
 /// if the node has a scale of zero or is sheared.

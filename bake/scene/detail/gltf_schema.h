@@ -10,18 +10,24 @@ namespace tetralight::detail {
 
 /// The type that the value of a property must have.
 enum class GltfKind {
-    Index,      ///< index of an element of `target`
-    IndexList,  ///< array of indices
-    IndexMap,   ///< object whose values are indices
-    Size,       ///< integer 0 .. 2^32 - 1
-    Integer,    ///< -2^31 .. 2^31 - 1
+    Index,         ///< index of an element of `target`
+    IndexList,     ///< array of indices
+    IndexLists,    ///< array of arrays of `length` indices
+    IndexMap,      ///< object whose values are indices
+    IndexMapList,  ///< array of such objects
+    Size,          ///< integer 0 .. 2^32 - 1
+    SizeMap,       ///< object whose values are such integers
+    Integer,       ///< -2^31 .. 2^31 - 1
     Number,
-    Numbers,  ///< array of `length` numbers
+    Numbers,      ///< array of `length` numbers; of any number of them if it is 0
+    NumbersList,  ///< array of arrays of `length` numbers
     Boolean,
+    BooleanOrBit,  ///< or 0 or 1, as exporters write it that have no boolean properties
     String,
     Object,
-    ObjectOrBoolean,
-    PrimitiveList,    ///< a mesh's primitives
+    ObjectOrBoolean,  ///< or 0 or 1
+    Part,             ///< object that obeys the rules of the part `target`
+    PartList,         ///< array of them
     RenderingLayers,  ///< array of integers 0 .. 31, not empty
 };
 
@@ -58,7 +64,15 @@ struct GltfSection {
 /// A path of keys as errors write it: `extras/sky` becomes `extras.sky`.
 [[nodiscard]] std::string member_path(std::string_view path);
 
-/// Rules for the elements of a mesh's `primitives`.
-[[nodiscard]] std::span<const GltfRule> gltf_primitive_rules();
+/// Rules for objects inside of elements, of which an element may have several.
+struct GltfPart {
+    const char* name;
+    /// What messages call one of a list.
+    const char* element;
+    std::span<const GltfRule> rules;
+};
+
+/// The part of this name, which a rule names as its target.
+[[nodiscard]] const GltfPart& gltf_part(std::string_view name);
 
 }  // namespace tetralight::detail

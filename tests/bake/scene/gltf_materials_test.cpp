@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
                           "extras.bake_emission \"dynamic\" is neither \"none\" nor \"baked\""},
         MaterialRejection{
             "BakeEmissionNumber",
-            {{"extras", {{"bake_emission", 1}}}},
+            {{"extras", {{"bake_emission", 2}}}},
             "extras.bake_emission \"(not a string)\" is neither \"none\" nor \"baked\""},
         MaterialRejection{
             "AlphaCutoff", {{"alphaCutoff", -1}}, "alphaCutoff -1 is negative or too large"}),

@@ -163,8 +163,8 @@ TEST(GltfNodes, RejectsLightmapExtrasThatAreOutOfRange) {
               "scene.glb: node 0: extras.lightmap_scale is -1, not a number from 0 to 1000000");
     EXPECT_EQ(error_of({{"lightmap_scale", "2"}}),
               "scene.glb: node 0: extras/lightmap_scale is not a number (\"2\")");
-    EXPECT_EQ(error_of({{"stitch_seams", 1}}),
-              "scene.glb: node 0: extras/stitch_seams is not a boolean (1)");
+    EXPECT_EQ(error_of({{"stitch_seams", 2}}),
+              "scene.glb: node 0: extras/stitch_seams is not a boolean (2)");
 }
 
 TEST(GltfNodes, AHundredThousandDeepIsNoLimit) {

@@ -169,7 +169,8 @@ TEST(ImageBasedLightGlb, MembersOfAnotherTypeAreNamed) {
     gltf.json["scenes"][1]["extensions"] = {{kExtension, 7}};
     error = refusal(gltf);
     EXPECT_EQ(error.field, "scenes[1].extensions.EXT_lights_image_based");
-    EXPECT_EQ(message_of(error), "scene.glb: scene 1: EXT_lights_image_based is not an object (7)");
+    EXPECT_EQ(message_of(error),
+              "scene.glb: scene 1: extensions/EXT_lights_image_based is not an object (7)");
 }
 
 TEST(ImageBasedLightGlb, ThereHasToBeAScene) {

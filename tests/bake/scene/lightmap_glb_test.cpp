@@ -226,7 +226,7 @@ TEST(LightmapGlb, AnimatedWeightsFollowTheMesh) {
     gltf.json["meshes"][mesh]["primitives"].push_back(gltf.primitive(mesh));
     gltf.add_root({{"mesh", mesh}, {"weights", {0.5}}});
     gltf.json["animations"] = Json::parse(
-        R"([{"samplers": [], "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}},
+        R"([{"samplers": [{"input": 0, "output": 0}, {"input": 0, "output": 0}], "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}},
              {"sampler": 1, "target": {"node": 0, "path": "scale"}}]}])");
     const Written result = written(gltf, {{kWhole}, {place(0), place(0)}, {}, 1.0});
     const Json& channels = result.json["animations"][0]["channels"];
@@ -278,9 +278,12 @@ TEST(LightmapGlb, RefusesAnimationsThatAreNotGltf) {
     const size_t mesh = add_square(gltf);
     gltf.json["meshes"][mesh]["primitives"].push_back(gltf.primitive(mesh));
     gltf.add_root({{"mesh", mesh}});
-    gltf.json["animations"] = Json::parse(R"([{"channels": [{"target": {"path": 7}}]}])");
+    gltf.json["animations"] = Json::parse(R"([{"samplers": [{"input": 0, "output": 0}],
+                                        "channels": [{"sampler": 0, "target": {"path": 7}}]}])");
     const std::string error = refusal(gltf, {{kWhole}, {place(0), place(0)}, {}, 1.0});
-    EXPECT_NE(error.find("scene.glb: is not glTF"), std::string::npos) << error;
+    EXPECT_NE(error.find("scene.glb: animation 0: channel 0: target/path is not a string (7)"),
+              std::string::npos)
+        << error;
 }
 
 TEST(LightmapGlb, RefusesLightmapsOfAnotherScene) {

@@ -156,8 +156,8 @@ TEST(GltfReflectionPlaces, InReflectionsIsInheritedAndCanBeSetAgain) {
 
 TEST(GltfReflectionPlaces, RefusesInReflectionsThatIsNoBoolean) {
     GltfBuilder gltf;
-    gltf.add_root({{"mesh", gltf.add_triangle()}, {"extras", {{"in_reflections", 0}}}});
-    EXPECT_EQ(gltf.error(), "scene.glb: node 0: extras/in_reflections is not a boolean (0)");
+    gltf.add_root({{"mesh", gltf.add_triangle()}, {"extras", {{"in_reflections", "no"}}}});
+    EXPECT_EQ(gltf.error(), "scene.glb: node 0: extras/in_reflections is not a boolean (\"no\")");
 }
 
 Result<std::vector<ReflectionPlace>> read_text(const std::string& text) {
