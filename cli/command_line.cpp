@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <tetralight/base/str_cat.h>
-#include <tetralight/settings/suggest.h>
+#include <tetralight/base/suggest.h>
 
 namespace tetralight::cli {
 namespace {
@@ -130,7 +130,7 @@ class CommandParser {
             if (!is_option(word)) continue;
             if (first.empty()) first = word;
             const std::string hint = is_number(word) ? "; several numbers are written 0,-1,0"
-                                                     : settings::did_you_mean(name, names);
+                                                     : did_you_mean(name, names);
             if (!message.empty()) message += message.back() == '?' ? " " : "; ";
             message += str_cat("there is no option ", name, hint);
         }
@@ -164,7 +164,7 @@ Error unknown_command(const std::string& word) {
     for (const Command& command : commands()) names.emplace_back(command.table->command);
     return usage(
         "", word,
-        str_cat("there is no command \"", word, "\"", settings::did_you_mean(word, names)));
+        str_cat("there is no command \"", word, "\"", did_you_mean(word, names)));
 }
 
 /// Options of the program: words without a command.
@@ -178,7 +178,7 @@ Result<CommandLine> parse_options(const std::vector<std::string>& words) {
     if (word != "--job" && !is_joined) {
         const std::vector<std::string> names{"--help", "--version", "--job"};
         return usage("", word,
-                     str_cat("there is no option ", word, settings::did_you_mean(word, names)));
+                     str_cat("there is no option ", word, did_you_mean(word, names)));
     }
     const size_t count = is_joined ? 1 : 2;
     if (words.size() < count) return usage("", word, "--job is given without a value");

@@ -10,7 +10,7 @@
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/settings/read_values.h>
-#include <tetralight/settings/suggest.h>
+#include <tetralight/base/suggest.h>
 
 namespace tetralight::cli {
 namespace {
@@ -36,7 +36,7 @@ Result<const Command*> command_of(const Json& json) {
     for (const Command& known : commands()) names.emplace_back(known.table->command);
     return Error{ErrorCode::InvalidArgument, "command", word,
                  str_cat("command: there is no command \"", word, "\"",
-                         settings::did_you_mean(word, names))};
+                         did_you_mean(word, names))};
 }
 
 /// The job was read from stdin, so that positions cannot come from there.

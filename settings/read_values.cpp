@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include <tetralight/base/str_cat.h>
-#include <tetralight/settings/suggest.h>
+#include <tetralight/base/suggest.h>
 #include <tetralight/settings/value_json.h>
 #include <tetralight/settings/value_text.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/settings/suggest.h>
+#include <tetralight/base/suggest.h>
 
 #include <algorithm>
 #include <vector>
 
-namespace tetralight::settings {
+namespace tetralight {
 namespace {
 
 /// Optimal string alignment distance.
@@ -47,4 +47,4 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
     return near.empty() ? "" : "; did you mean " + near + "?";
 }
 
-}  // namespace tetralight::settings
+}  // namespace tetralight

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/settings/suggest.h>
+#include <tetralight/base/suggest.h>
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-namespace tetralight::settings {
+namespace tetralight {
 namespace {
 
 const std::vector<std::string> kNames = {"--samples", "--seed", "--sky", "--max-samples"};
@@ -29,4 +29,4 @@ TEST(Suggest, SaysNothingIfNoneIsNear) {
 }
 
 }  // namespace
-}  // namespace tetralight::settings
+}  // namespace tetralight

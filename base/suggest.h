@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace tetralight::settings {
+namespace tetralight {
 
 /// The candidate that is nearest to a misspelled word: by insertions, deletions, changes and swaps
 /// of letters, at most a third of the word's length; a candidate that begins with the word counts
@@ -16,4 +16,4 @@ namespace tetralight::settings {
 [[nodiscard]] std::string did_you_mean(std::string_view word,
                                        std::span<const std::string> candidates);
 
-}  // namespace tetralight::settings
+}  // namespace tetralight
