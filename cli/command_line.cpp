@@ -162,9 +162,8 @@ Error unknown_command(const std::string& word) {
     std::vector<std::string> names;
     for (const auto& [name, kind] : kOwnCommands) names.emplace_back(name);
     for (const Command& command : commands()) names.emplace_back(command.table->command);
-    return usage(
-        "", word,
-        str_cat("there is no command \"", word, "\"", did_you_mean(word, names)));
+    return usage("", word,
+                 str_cat("there is no command \"", word, "\"", did_you_mean(word, names)));
 }
 
 /// Options of the program: words without a command.
@@ -177,8 +176,7 @@ Result<CommandLine> parse_options(const std::vector<std::string>& words) {
     const bool is_joined = word.starts_with("--job=");
     if (word != "--job" && !is_joined) {
         const std::vector<std::string> names{"--help", "--version", "--job"};
-        return usage("", word,
-                     str_cat("there is no option ", word, did_you_mean(word, names)));
+        return usage("", word, str_cat("there is no option ", word, did_you_mean(word, names)));
     }
     const size_t count = is_joined ? 1 : 2;
     if (words.size() < count) return usage("", word, "--job is given without a value");

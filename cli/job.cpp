@@ -8,9 +8,9 @@
 #include <tetralight/base/file.h>
 #include <tetralight/base/json/json_text.h>
 #include <tetralight/base/str_cat.h>
+#include <tetralight/base/suggest.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/settings/read_values.h>
-#include <tetralight/base/suggest.h>
 
 namespace tetralight::cli {
 namespace {
@@ -35,8 +35,7 @@ Result<const Command*> command_of(const Json& json) {
     std::vector<std::string> names;
     for (const Command& known : commands()) names.emplace_back(known.table->command);
     return Error{ErrorCode::InvalidArgument, "command", word,
-                 str_cat("command: there is no command \"", word, "\"",
-                         did_you_mean(word, names))};
+                 str_cat("command: there is no command \"", word, "\"", did_you_mean(word, names))};
 }
 
 /// The job was read from stdin, so that positions cannot come from there.

@@ -14,6 +14,8 @@
 #include <tetralight/bake/scene/detail/gltf_probe_adjustments.h>
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 #include <tetralight/bake/scene/detail/gltf_reflection_places.h>
+#include <tetralight/bake/scene/detail/part_list.h>
+#include <tetralight/bake/scene/detail/scene_contents.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight {
@@ -93,23 +95,41 @@ Status add_sky(const detail::GltfDocument& document, Scene& scene) {
                  str_cat("scene: extras.sky.radiance (", value, ") is negative")};
 }
 
-Status add_all(const detail::GltfDocument& document, NormalMaps normal_maps, Scene& scene) {
+Status add_all(const detail::GltfDocument& document, const SceneReading& reading, Scene& scene) {
     detail::GltfMeshes meshes;
-    const auto surfaces = add_surfaces(document, normal_maps, scene, meshes);
+    const auto surfaces = add_surfaces(document, reading.normal_maps, scene, meshes);
     if (!surfaces) return surfaces;
     const auto sky = add_sky(document, scene);
     if (!sky) return sky;
     return add_nodes(document, meshes, scene);
 }
 
+/// The table of what was read, and warnings of what is left out and changes the light.
+void add_parts(const detail::GltfDocument& document, Scene& scene) {
+    detail::PartList parts;
+    detail::add_contents(scene, parts);
+    parts.append(document.parts);
+    scene.parts = parts.parts();
+    for (const ScenePart& part : scene.parts) {
+        if (part.changes_light) scene.warnings.push_back(detail::part_warning(part));
+    }
+}
+
+/// Intensities that were written in lumens of watts, in watts.
+void divide_intensities(detail::GltfDocument& document) {
+    for (detail::GltfLight& light : document.lights) light.intensity /= kLumensPerWatt;
+}
+
 }  // namespace
 
 Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
-    const auto document = detail::read_gltf_document(path);
+    auto document = detail::read_gltf_document(path, reading.scene);
     if (!document) return document.error();
+    if (reading.light_unit == LightUnit::Watt) divide_intensities(*document);
     Scene scene;
-    const auto status = add_all(*document, reading.normal_maps, scene);
+    const auto status = add_all(*document, reading, scene);
     if (!status) return status.error().in(path);
+    add_parts(*document, scene);
     for (std::string& warning : scene.warnings) warning.insert(0, path + ": ");
     return scene;
 }

@@ -10,6 +10,7 @@
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_buffers.h>
 #include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_extension_table.h>
 #include <tetralight/bake/scene/detail/gltf_rules.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
 #include <tetralight/bake/scene/detail/json_members.h>
@@ -21,10 +22,22 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kSupportedExtensions[] = {
-    "KHR_texture_transform",   "KHR_materials_emissive_strength", "KHR_lights_punctual",
-    "EXT_mesh_gpu_instancing", "KHR_mesh_quantization",           "KHR_materials_unlit",
-};
+/// True if a file may require the extension.
+bool is_supported(const json& extension) {
+    if (!extension.is_string()) return false;
+    const GltfExtension* known = find_gltf_extension(extension.get_ref<const std::string&>());
+    return known != nullptr && known->may_be_required;
+}
+
+Error unsupported_extension(const json& extension) {
+    std::string message =
+        str_cat("required extension ", shown_json(extension), " is not supported");
+    const GltfExtension* known = extension.is_string()
+                                     ? find_gltf_extension(extension.get_ref<const std::string&>())
+                                     : nullptr;
+    if (known != nullptr && !known->remedy.empty()) message += str_cat("; ", known->remedy);
+    return {ErrorCode::Unsupported, "extensionsRequired", shown_json(extension), message};
+}
 
 uint64_t size_or(const json& element, const char* key, uint64_t otherwise) {
     const auto value = element.find(key);
@@ -48,12 +61,8 @@ Status check_required_extensions(const json& document) {
         return in_member(wrong_type(*required, "extensionsRequired", "an array"), "");
     }
     for (const json& extension : *required) {
-        const bool is_supported =
-            extension.is_string() &&
-            std::ranges::count(kSupportedExtensions, extension.get_ref<const std::string&>()) > 0;
-        if (is_supported) continue;
-        return Error{ErrorCode::Unsupported, "extensionsRequired", shown_json(extension),
-                     str_cat("required extension ", shown_json(extension), " is not supported")};
+        if (is_supported(extension)) continue;
+        return unsupported_extension(extension);
     }
     return Ok{};
 }

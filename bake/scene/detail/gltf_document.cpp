@@ -18,7 +18,10 @@
 #include <tetralight/bake/scene/detail/gltf_elements.h>
 #include <tetralight/bake/scene/detail/gltf_members.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
+#include <tetralight/bake/scene/detail/gltf_unknown_extras.h>
+#include <tetralight/bake/scene/detail/gltf_unread.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
+#include <tetralight/bake/scene/detail/part_list.h>
 #include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 
@@ -92,6 +95,10 @@ Result<GltfDocument> parse_document(Bytes bytes, const std::string& path,
     document.path = path;
     document.buffers = std::move(*buffers);
     choose_scene(*source, *chosen, document);
+    PartList parts;
+    add_unread_parts(*source, document, parts);
+    add_unknown_extras(*source, parts);
+    document.parts = parts.parts();
     if (auto status = decode_image_uris(document); !status) return status.error();
     return document;
 }

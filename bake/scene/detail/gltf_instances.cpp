@@ -105,7 +105,7 @@ Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
     for (uint32_t position = 0; position < nodes.size(); ++position) {
         const GltfWorldNode& placed = nodes[position];
         const GltfNode& node = document.nodes[placed.node];
-        if (node.mesh == kNoIndex || is_probe[placed.node]) continue;
+        if (node.mesh == kNoIndex || is_probe[placed.node] || !placed.is_visible) continue;
         const auto transforms = read_transforms(document, placed);
         if (!transforms) {
             return in_element(transforms.error(), "nodes", placed.node, node.name);

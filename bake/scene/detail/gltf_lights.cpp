@@ -122,7 +122,7 @@ Result<GltfLights> read_lights(const GltfDocument& document, std::span<const Glt
     GltfLights result;
     for (const GltfWorldNode& placed : nodes) {
         const GltfNode& node = document.nodes[placed.node];
-        if (node.light == kNoIndex) continue;
+        if (node.light == kNoIndex || !placed.is_visible) continue;
         const GltfLight& source = document.lights[node.light];
         const std::string place = gltf_place("light", node.light, source.name);
         const auto type = type_from(source.type);

@@ -29,6 +29,20 @@ glm::mat3 texture_matrix(const json& transform) {
 
 }  // namespace
 
+void for_each_element(
+    const json& document,
+    const std::function<void(const GltfSection&, const json&, const std::string&)>& visit) {
+    for (const GltfSection& section : gltf_sections()) {
+        const json& elements = array_at(document, section.path);
+        for (size_t i = 0; i < elements.size(); ++i) {
+            const json* name = find_json(elements[i], "name");
+            const bool is_named = name != nullptr && name->is_string();
+            visit(section, elements[i],
+                  gltf_place(section.element, i, is_named ? name->get<std::string>() : ""));
+        }
+    }
+}
+
 const json& array_at(const json& value, std::string_view path) {
     static const json kEmpty = json::array();
     const json* found = find_json(value, path);

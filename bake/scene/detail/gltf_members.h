@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <nlohmann/json_fwd.hpp>
@@ -11,11 +12,19 @@
 #include <vector>
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_schema.h>
 
 // Reads members of glTF's elements. All have one precondition: the document obeys the rules of
 // gltf_schema.h, so that a member that is there has its type. Paths of keys are separated by '/'.
 
 namespace tetralight::detail {
+
+/// Calls `visit` with each element of each section, its section and what messages call it:
+/// `node 3 "lamp"`.
+void for_each_element(
+    const nlohmann::json& document,
+    const std::function<void(const GltfSection& section, const nlohmann::json& element,
+                             const std::string& place)>& visit);
 
 /// The array of the document at this path; an empty one if there is none.
 [[nodiscard]] const nlohmann::json& array_at(const nlohmann::json& value, std::string_view path);

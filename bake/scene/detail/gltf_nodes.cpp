@@ -120,6 +120,7 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
     if (parent != nullptr) {
         placed.parent = parent->node;
         placed.world_from_node = parent->world_from_node * source.parent_from_node;
+        placed.is_visible = parent->is_visible;
         placed.contributes_gi = parent->contributes_gi;
         placed.is_walkable = parent->is_walkable;
         placed.is_in_reflections = parent->is_in_reflections;
@@ -127,6 +128,7 @@ Result<GltfWorldNode> place_node(const GltfDocument& document, uint32_t node,
         placed.light_probes = parent->light_probes;
         placed.anchored_by = parent->anchored_by;
     }
+    placed.is_visible = placed.is_visible && source.is_visible;
     placed.contributes_gi = source.contributes_gi.value_or(placed.contributes_gi);
     placed.is_walkable = source.is_walkable.value_or(placed.is_walkable);
     placed.is_in_reflections = source.is_in_reflections.value_or(placed.is_in_reflections);

@@ -15,6 +15,8 @@ struct GltfWorldNode {
     uint32_t node = 0;
     uint32_t parent = kNoIndex;
     glm::dmat4 world_from_node{1.0};
+    /// False: its mesh and its light are left out (KHR_node_visibility).
+    bool is_visible = true;
     bool contributes_gi = true;
     bool is_walkable = false;
     bool is_in_reflections = true;

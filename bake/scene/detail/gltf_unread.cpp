@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/scene/detail/gltf_unread.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include <tetralight/bake/scene/detail/gltf_extension_table.h>
+#include <tetralight/bake/scene/detail/gltf_members.h>
+#include <tetralight/bake/scene/detail/gltf_rules.h>
+#include <tetralight/bake/scene/detail/gltf_schema.h>
+#include <tetralight/base/str_cat.h>
+
+namespace tetralight::detail {
+namespace {
+
+using nlohmann::json;
+
+void add_extension(const std::string& name, const std::string& element, PartList& parts) {
+    const GltfExtension* known = find_gltf_extension(name);
+    ScenePart part;
+    part.name = name;
+    if (known == nullptr) {
+        part.use = PartUse::Ignored;
+        part.note = "is not known here; what it changes of surfaces and lights is left out";
+        part.changes_light = true;
+    } else {
+        part.use = known->use;
+        part.note = known->note;
+        part.remedy = known->remedy;
+        part.changes_light = known->changes_light;
+    }
+    parts.add(part, element);
+}
+
+/// The names of all extensions of a value and of what is in it, but not in its extras.
+void find_extensions(const json& value, std::set<std::string>& names) {
+    if (!value.is_structured()) return;
+    for (const auto& [key, member] : value.items()) {
+        if (value.is_object() && key == "extras") continue;
+        if (value.is_object() && key == "extensions" && member.is_object()) {
+            for (const auto& [name, extension] : member.items()) names.insert(name);
+        }
+        find_extensions(member, names);
+    }
+}
+
+void add_extensions(const json& source, PartList& parts) {
+    std::set<std::string> seen;
+    for_each_element(source,
+                     [&](const GltfSection&, const json& element, const std::string& place) {
+                         std::set<std::string> names;
+                         find_extensions(element, names);
+                         for (const std::string& name : names) add_extension(name, place, parts);
+                         seen.insert(names.begin(), names.end());
+                     });
+    std::set<std::string> of_file;
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        for (const json& name : array_at(source, list)) {
+            if (name.is_string()) of_file.insert(name.get<std::string>());
+        }
+    }
+    if (const json* extensions = find_json(source, "extensions"); extensions != nullptr) {
+        for (const auto& [name, extension] : extensions->items()) of_file.insert(name);
+    }
+    for (const std::string& name : of_file) {
+        if (!seen.contains(name)) add_extension(name, "the file", parts);
+    }
+}
+
+bool begins_with_any(const std::string& name, std::initializer_list<std::string_view> beginnings) {
+    return std::ranges::any_of(beginnings,
+                               [&](std::string_view begin) { return name.starts_with(begin); });
+}
+
+/// Attributes of a primitive that are not read.
+void add_attributes(const GltfPrimitive& primitive, const std::string& place, PartList& parts) {
+    static constexpr std::string_view kRead[] = {"POSITION",   "NORMAL",   "TANGENT",  "TEXCOORD_0",
+                                                 "TEXCOORD_1", "COLOR_0",  "JOINTS_0", "WEIGHTS_0",
+                                                 "JOINTS_1",   "WEIGHTS_1"};
+    for (const auto& [name, accessor] : primitive.attributes) {
+        if (std::ranges::find(kRead, name) != std::end(kRead)) continue;
+        ScenePart part{PartUse::Ignored, "attribute " + name, 0, {}, "", "", false};
+        if (begins_with_any(name, {"COLOR_"})) part.note = "only COLOR_0 counts";
+        if (begins_with_any(name, {"TEXCOORD_"})) part.note = "only sets 0 and 1 are read";
+        if (begins_with_any(name, {"JOINTS_", "WEIGHTS_"})) {
+            part.note = "only the first eight joints of a vertex count";
+            part.changes_light = true;
+        }
+        if (name.starts_with('_')) part.note = "belongs to the program that wrote the file";
+        if (part.note.empty()) part.note = "is not an attribute of glTF 2.0";
+        parts.add(part, place);
+    }
+    for (const GltfAttributes& target : primitive.targets) {
+        for (const auto& [name, accessor] : target) {
+            if (begins_with_any(name, {"POSITION", "NORMAL", "TANGENT"})) continue;
+            parts.add({PartUse::Ignored,
+                       "morphed " + name,
+                       0,
+                       {},
+                       "is read without its morphing",
+                       "",
+                       begins_with_any(name, {"COLOR_0", "TEXCOORD_0"})},
+                      place);
+        }
+    }
+}
+
+/// Meshes of nodes that are groups of probes, whose points are read.
+std::set<uint32_t> probe_meshes(const GltfDocument& document) {
+    std::set<uint32_t> meshes;
+    for (const GltfNode& node : document.nodes) {
+        if (node.is_probe_group) meshes.insert(node.mesh);
+    }
+    return meshes;
+}
+
+void add_primitives(const GltfDocument& document, PartList& parts) {
+    const std::set<uint32_t> of_probes = probe_meshes(document);
+    for (uint32_t i = 0; i < document.meshes.size(); ++i) {
+        const std::string place = gltf_place("mesh", i, document.meshes[i].name);
+        for (const GltfPrimitive& primitive : document.meshes[i].primitives) {
+            add_attributes(primitive, place, parts);
+            if (primitive.mode >= 4 || of_probes.contains(i)) continue;
+            parts.add({PartUse::Ignored,
+                       primitive.mode == 0 ? "points" : "lines",
+                       0,
+                       {},
+                       "have no area that reflects light",
+                       "",
+                       false},
+                      place);
+        }
+    }
+}
+
+void add_materials(const json& source, PartList& parts) {
+    for_each_element(
+        source, [&](const GltfSection& section, const json& element, const std::string& place) {
+            const std::string_view kind = section.name;
+            if (kind == "materials" && element.contains("occlusionTexture")) {
+                parts.add({PartUse::Ignored,
+                           "occlusion textures",
+                           0,
+                           {},
+                           "bakes find occlusion by rays",
+                           "",
+                           false},
+                          place);
+            }
+            constexpr uint64_t kNearest = 9728;
+            if (kind == "samplers" && element.value("magFilter", json()) == kNearest) {
+                parts.add({PartUse::Approximated,
+                           "samplers with NEAREST",
+                           0,
+                           {},
+                           "textures are filtered bilinearly",
+                           "",
+                           false},
+                          place);
+            }
+            if (kind == "cameras") {
+                const std::string type = string_at(element, "type");
+                if (type == "perspective" || type == "orthographic") return;
+                parts.add({PartUse::Ignored,
+                           "cameras",
+                           0,
+                           {},
+                           str_cat("type \"", type, "\" is neither perspective nor orthographic"),
+                           "",
+                           false},
+                          place);
+            }
+        });
+}
+
+/// Nodes that the scene does not lead to.
+void add_other_nodes(const GltfDocument& document, PartList& parts) {
+    if (!document.scene_roots) return;
+    std::vector<bool> is_reached(document.nodes.size(), false);
+    std::vector<uint32_t> pending = *document.scene_roots;
+    while (!pending.empty()) {
+        const uint32_t node = pending.back();
+        pending.pop_back();
+        if (is_reached[node]) continue;
+        is_reached[node] = true;
+        const auto& children = document.nodes[node].children;
+        pending.insert(pending.end(), children.begin(), children.end());
+    }
+    for (size_t i = 0; i < document.nodes.size(); ++i) {
+        if (is_reached[i]) continue;
+        parts.add({PartUse::Ignored,
+                   "nodes outside of the scene",
+                   0,
+                   {},
+                   "no node of the scene leads to them",
+                   "",
+                   false},
+                  gltf_place("node", i, document.nodes[i].name));
+    }
+}
+
+void add_other_scenes(const json& source, const GltfDocument& document, PartList& parts) {
+    const json& scenes = array_at(source, "scenes");
+    for (size_t i = 0; i < scenes.size(); ++i) {
+        if (i == document.scene) continue;
+        parts.add({PartUse::Ignored,
+                   "other scenes",
+                   0,
+                   {},
+                   str_cat("scene ", document.scene, " is read"),
+                   "--scene-name reads another one",
+                   false},
+                  gltf_place("scene", i, string_at(scenes[i], "name")));
+    }
+}
+
+}  // namespace
+
+void add_unread_parts(const json& source, const GltfDocument& document, PartList& parts) {
+    add_extensions(source, parts);
+    add_primitives(document, parts);
+    add_materials(source, parts);
+    add_other_scenes(source, document, parts);
+    add_other_nodes(document, parts);
+}
+
+}  // namespace tetralight::detail

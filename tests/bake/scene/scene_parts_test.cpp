@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/scene/scene_parts.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tests/bake/scene/gltf_builder.h"
+
+namespace tetralight {
+namespace {
+
+using Json = GltfBuilder::Json;
+
+/// A triangle with a material, and a light.
+GltfBuilder plain_scene() {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    gltf.primitive(mesh)["material"] = gltf.add("materials", {{"name", "paint"}});
+    gltf.add_root({{"name", "wall"}, {"mesh", mesh}});
+    const size_t light = gltf.add_light({{"name", "bulb"}, {"type", "point"}});
+    gltf.add_root({{"name", "lamp"}, {"extensions", GltfBuilder::light_extension(light)}});
+    return gltf;
+}
+
+Scene read(const GltfBuilder& gltf, const SceneReading& reading = {}) {
+    auto scene = gltf.read(reading);
+    EXPECT_TRUE(scene) << (scene ? "" : error_text(scene.error()));
+    return scene ? *scene : Scene();
+}
+
+/// The part of this name; an empty one if there is none.
+ScenePart part(const Scene& scene, const std::string& name) {
+    const auto found = std::ranges::find(scene.parts, name, &ScenePart::name);
+    return found == scene.parts.end() ? ScenePart() : *found;
+}
+
+/// The warnings, without the path before them.
+std::vector<std::string> warnings(const Scene& scene) {
+    std::vector<std::string> lines;
+    for (const std::string& warning : scene.warnings) {
+        lines.push_back(warning.substr(warning.find("scene.glb: ") + 11));
+    }
+    return lines;
+}
+
+TEST(SceneParts, CountsAndNamesWhatIsRead) {
+    const Scene scene = read(plain_scene());
+    EXPECT_EQ(part(scene, "triangles").count, 1u);
+    EXPECT_EQ(part(scene, "static objects").elements, std::vector<std::string>{"\"wall\""});
+    EXPECT_EQ(part(scene, "materials").elements, std::vector<std::string>{"\"paint\""});
+    EXPECT_EQ(part(scene, "point lights").elements, std::vector<std::string>{"\"lamp\""});
+    EXPECT_EQ(part(scene, "moving objects"), ScenePart());
+    EXPECT_TRUE(scene.warnings.empty());
+    for (const ScenePart& row : scene.parts) {
+        EXPECT_EQ(row.use, PartUse::Read) << row.name;
+        EXPECT_FALSE(row.changes_light) << row.name;
+    }
+}
+
+TEST(SceneParts, NamesAtMostSomeElementsOfMany) {
+    GltfBuilder gltf = plain_scene();
+    for (int i = 0; i < 20; ++i) gltf.add_root({{"name", "w"}, {"mesh", 0}});
+    const ScenePart row = part(read(gltf), "static objects");
+    EXPECT_EQ(row.count, 21u);
+    EXPECT_EQ(row.elements.size(), ScenePart::kMaxElements);
+}
+
+/// Something in a file that changes the light and that is not read.
+struct Unread {
+    const char* name;
+    /// Where in the document, and what.
+    const char* pointer;
+    Json value;
+    const char* warning;
+};
+
+void PrintTo(const Unread& unread, std::ostream* stream) {
+    *stream << unread.name;
+}
+
+class ScenePartsWarn : public testing::TestWithParam<Unread> {};
+
+TEST_P(ScenePartsWarn, OfWhatChangesTheLightAndIsNotRead) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json[Json::json_pointer(GetParam().pointer)] = GetParam().value;
+    const Scene scene = read(gltf);
+    EXPECT_EQ(warnings(scene), std::vector<std::string>{GetParam().warning});
+    const auto row = std::ranges::find(scene.parts, true, &ScenePart::changes_light);
+    ASSERT_NE(row, scene.parts.end());
+    EXPECT_EQ(row->use, PartUse::Ignored);
+    EXPECT_EQ(row->count, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ScenePartsWarn,
+    testing::Values(
+        Unread{"CamelCase",
+               "/nodes/0/extras",
+               {{"contributeGI", false}},
+               "extras \"contributeGI\" (node 0 \"wall\"): is no name that Tetralight reads; did "
+               "you mean \"contribute_gi\"?"},
+        Unread{"Dashes",
+               "/nodes/0/extras",
+               {{"Light-Probe-Group", true}},
+               "extras \"Light-Probe-Group\" (node 0 \"wall\"): is no name that Tetralight reads; "
+               "did you mean \"light_probe_group\"?"},
+        Unread{"OneLetter",
+               "/nodes/0/extras",
+               {{"lightmap_scal", 2}},
+               "extras \"lightmap_scal\" (node 0 \"wall\"): is no name that Tetralight reads; did "
+               "you mean \"lightmap_scale\"?"},
+        Unread{"OfTheMesh",
+               "/meshes/0/extras",
+               {{"contribute_gi", false}},
+               "extras \"contribute_gi\" (mesh 0): is read of nodes only; move it to the extras "
+               "of nodes"},
+        Unread{"SkyMember",
+               "/scenes/0/extras",
+               {{"sky", {{"radiance", {1, 1, 1}}, {"rotation", 90}}}},
+               "extras.sky \"rotation\" (scene 0): is no member that Tetralight reads; "
+               "docs/scenes.md lists the members"},
+        Unread{"ReflectionProbeMember",
+               "/nodes/0/extras",
+               {{"reflection_probe", {{"blendDistance", 1}}}},
+               "extras.reflection_probe \"blendDistance\" (node 0 \"wall\"): is no member that "
+               "Tetralight reads; did you mean \"blend_distance\"?"},
+        Unread{"AdjustmentMember",
+               "/nodes/0/extras",
+               {{"probe_adjustment",
+                 {{"shape", "box"}, {"size", {1, 1, 1}}, {"spacing", 1}, {"forbids", true}}}},
+               "extras.probe_adjustment \"forbids\" (node 0 \"wall\"): is no member that "
+               "Tetralight reads; did you mean \"forbid\"?"},
+        Unread{"Volume",
+               "/materials/0/extensions",
+               {{"KHR_materials_volume", {{"attenuationDistance", 1}}}},
+               "KHR_materials_volume (material 0 \"paint\"): light that shines through is not "
+               "absorbed"},
+        Unread{"UnknownExtension",
+               "/materials/0/extensions",
+               {{"ACME_glow", {{"power", 1}}}},
+               "ACME_glow (material 0 \"paint\"): is not known here; what it changes of surfaces "
+               "and lights is left out"},
+        Unread{"UnknownExtensionOfTheFile",
+               "/extensionsUsed",
+               {"ACME_fog"},
+               "ACME_fog (the file): is not known here; what it changes of surfaces and lights is "
+               "left out"}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+/// Something in a file that is not read and does not change the light.
+class ScenePartsTell : public testing::TestWithParam<Unread> {};
+
+TEST_P(ScenePartsTell, WithoutAWarning) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json[Json::json_pointer(GetParam().pointer)] = GetParam().value;
+    const Scene scene = read(gltf);
+    EXPECT_EQ(warnings(scene), std::vector<std::string>());
+    const ScenePart row = part(scene, GetParam().warning);
+    EXPECT_NE(row.use, PartUse::Read);
+    EXPECT_EQ(row.count, 1u);
+    EXPECT_FALSE(row.note.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ScenePartsTell,
+    testing::Values(
+        Unread{"OtherExtras", "/nodes/0/extras", {{"cycles_visibility", 3}}, "other extras"},
+        Unread{"CommonWord", "/materials/0/extras", {{"width", 3}}, "other extras"},
+        Unread{"Clearcoat",
+               "/materials/0/extensions",
+               {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}},
+               "KHR_materials_clearcoat"},
+        Unread{"ExtensionOfATexture",
+               "/materials/0/occlusionTexture",
+               {{"index", 0}, {"extensions", {{"EXT_mesh_features", Json::object()}}}},
+               "EXT_mesh_features"},
+        Unread{"OcclusionTexture",
+               "/materials/0/occlusionTexture",
+               {{"index", 0}},
+               "occlusion textures"},
+        Unread{"Lines",
+               "/meshes/0/primitives/1",
+               {{"attributes", {{"POSITION", 0}}}, {"mode", 1}},
+               "lines"},
+        Unread{"OtherColors", "/meshes/0/primitives/0/attributes/COLOR_1", 0, "attribute COLOR_1"},
+        Unread{"OwnAttribute", "/meshes/0/primitives/0/attributes/_ID", 0, "attribute _ID"},
+        Unread{"OtherScene", "/scenes/1", {{"name", "attic"}}, "other scenes"},
+        Unread{"OtherNode", "/nodes/2", {{"name", "lost"}}, "nodes outside of the scene"}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(SceneParts, AWordOnSeveralElementsIsOneWarning) {
+    GltfBuilder gltf = plain_scene();
+    for (const size_t node : {0, 1}) gltf.json["nodes"][node]["extras"] = {{"walkabel", true}};
+    EXPECT_EQ(warnings(read(gltf)),
+              std::vector<std::string>{"extras \"walkabel\" (node 0 \"wall\" and 1 more): is no "
+                                       "name that Tetralight reads; did you mean \"walkable\"?"});
+}
+
+TEST(SceneParts, BooleansOfExtrasMayBeBits) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["nodes"][0]["extras"] = {{"contribute_gi", 0}, {"walkable", 1}};
+    gltf.json["materials"][0]["extras"] = {{"bake_emission", 0}};
+    const Scene scene = read(gltf);
+    EXPECT_FALSE(scene.instances.at(0).contributes_gi);
+    EXPECT_TRUE(scene.instances.at(0).is_walkable);
+    EXPECT_FALSE(scene.materials.at(0).bakes_emission);
+    EXPECT_EQ(part(scene, "moving objects").count, 1u);
+}
+
+TEST(SceneParts, HiddenNodesHideTheirChildrenAndLights) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["nodes"][0]["children"] = {gltf.add("nodes", {{"mesh", 0}, {"name", "child"}})};
+    gltf.json["nodes"][2]["extensions"]["KHR_node_visibility"] = {{"visible", true}};
+    EXPECT_EQ(read(gltf).instances.size(), 2u);
+    for (const size_t node : {0, 1}) {
+        gltf.json["nodes"][node]["extensions"]["KHR_node_visibility"] = {{"visible", false}};
+    }
+    const Scene scene = read(gltf);
+    EXPECT_EQ(scene.instances.size(), 0u);
+    EXPECT_EQ(scene.lights.size(), 0u);
+}
+
+TEST(SceneParts, AnotherSceneIsReadByNameOrIndex) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["scenes"][0]["name"] = "hall";
+    gltf.json["scenes"][1] = {
+        {"name", "0"}, {"nodes", {1}}, {"extras", {{"sky", {{"radiance", {1, 2, 3}}}}}}};
+    EXPECT_EQ(read(gltf).instances.size(), 1u);
+    EXPECT_EQ(read(gltf, {.scene = "hall"}).instances.size(), 1u);
+    for (const char* name : {"0", "1"}) {  // a name comes before an index
+        const Scene scene = read(gltf, {.scene = name});
+        EXPECT_EQ(scene.instances.size(), 0u) << name;
+        EXPECT_EQ(scene.environment.radiance, glm::vec3(1, 2, 3)) << name;
+        EXPECT_EQ(part(scene, "other scenes").elements,
+                  std::vector<std::string>{"scene 0 \"hall\""});
+    }
+    EXPECT_EQ(gltf.error({.scene = "attic"}),
+              "scene.glb: has no scene \"attic\"; it has 0 \"hall\", 1 \"0\"");
+    EXPECT_EQ(gltf.error({.scene = "2"}),
+              "scene.glb: has no scene \"2\"; it has 0 \"hall\", 1 \"0\"");
+}
+
+TEST(SceneParts, LumensOfWattsBecomeWatts) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 683.0 * 4.0;
+    EXPECT_FLOAT_EQ(read(gltf).lights.at(0).intensity.x, 2732.0f);
+    EXPECT_FLOAT_EQ(read(gltf, {.light_unit = LightUnit::Watt}).lights.at(0).intensity.x, 4.0f);
+}
+
+}  // namespace
+}  // namespace tetralight
