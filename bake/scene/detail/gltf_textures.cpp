@@ -88,11 +88,29 @@ std::string name_of(const GltfTexture& texture, const GltfImage& image) {
 
 }  // namespace
 
+uint32_t first_image_alike(const GltfDocument& document, uint32_t image) {
+    const GltfImage& source = document.images[image];
+    for (uint32_t i = 0; i < image; ++i) {
+        const GltfImage& other = document.images[i];
+        const bool shares_view =
+            source.buffer_view != kNoIndex && source.buffer_view == other.buffer_view;
+        const bool shares_uri = source.buffer_view == kNoIndex && source.uri == other.uri;
+        if (shares_view || shares_uri) return i;
+    }
+    return image;
+}
+
 Result<uint32_t> GltfTextureReader::read(uint32_t gltf_texture) {
     const GltfTexture& source = document_.textures[gltf_texture];
     const std::string place = gltf_place("texture", gltf_texture, source.name);
+    if (source.image == kNoIndex && source.basisu_image != kNoIndex) {
+        return Error{ErrorCode::Unsupported, str_cat("textures[", gltf_texture, "].source"), "",
+                     place +
+                         ": has only a Basis Universal image (KHR_texture_basisu), which is not "
+                         "read; `gltf-transform ktxdecompress` makes it a PNG image"};
+    }
     if (source.image == kNoIndex) {
-        warnings.push_back(place + ": has no PNG or JPEG image; left out");
+        warnings.push_back(place + ": has no PNG, JPEG or WebP image; left out");
         return kNoIndex;
     }
     auto texture = find_or_decode(source);
@@ -106,10 +124,11 @@ Result<uint32_t> GltfTextureReader::find_or_decode(const GltfTexture& source) {
     Texture texture;
     const auto wrap = set_wrap_modes(document_, source.sampler, texture);
     if (!wrap) return wrap.error();
-    const std::array<uint32_t, 3> key = {source.image, static_cast<uint32_t>(texture.wrap_u),
+    const uint32_t image_index = first_image_alike(document_, source.image);
+    const std::array<uint32_t, 3> key = {image_index, static_cast<uint32_t>(texture.wrap_u),
                                          static_cast<uint32_t>(texture.wrap_v)};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    auto image = decode(document_, source.image);
+    auto image = decode(document_, image_index);
     if (!image) return image.error();
     texture.name = name_of(source, document_.images[source.image]);
     texture.image = std::move(*image);

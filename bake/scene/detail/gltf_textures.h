@@ -11,13 +11,19 @@
 
 namespace tetralight::detail {
 
-/// Decodes the textures that materials use: each image once for each pair of wrap modes.
+/// The first image of the document with the same bytes by reference: the same buffer view, file or
+/// data URI.
+[[nodiscard]] uint32_t first_image_alike(const GltfDocument& document, uint32_t image);
+
+/// Decodes the textures that materials use: images that share their bytes once for each pair of
+/// wrap modes.
 class GltfTextureReader {
   public:
     explicit GltfTextureReader(const GltfDocument& document) : document_(document) {}
 
     /// Index in `textures` of a glTF texture. Returns kNoIndex and adds a warning if only an
-    /// extension names its image.
+    /// extension that is not known names its image, and unsupported if it has no image but one of
+    /// KHR_texture_basisu.
     [[nodiscard]] Result<uint32_t> read(uint32_t gltf_texture);
 
     std::vector<Texture> textures;

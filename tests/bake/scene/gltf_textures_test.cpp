@@ -97,6 +97,42 @@ TEST(GltfTextures, SameImageAndWrapIsDecodedOnce) {
     EXPECT_EQ(scene.materials[0].emission_texture.texture, 0u);
 }
 
+TEST(GltfTextures, ImagesThatShareTheirBytesAreDecodedOnce) {
+    GltfBuilder gltf = with_embedded_png();
+    gltf.json["images"][1] = gltf.json["images"][0];
+    gltf.json["images"][1]["name"] = "the same bricks";
+    gltf.add("textures", {{"source", 1}});
+    gltf.json["materials"][0]["emissiveTexture"] = {{"index", 1}};
+    gltf.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
+    const Scene scene = scene_of(gltf);
+    EXPECT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.materials[0].emission_texture.texture, 0u);
+    // Other bytes, another texture.
+    gltf.json["images"][1]["bufferView"] = gltf.add_view(png_bytes());
+    EXPECT_EQ(scene_of(gltf).textures.size(), 2u);
+}
+
+TEST(GltfTextures, BasisUniversalIsReadByItsFallbackOrRefused) {
+    GltfBuilder gltf = with_embedded_png();
+    const size_t view = gltf.add_view(std::vector<uint8_t>{0xab, 'K', 'T', 'X'});
+    gltf.add("images", {{"bufferView", view}, {"mimeType", "image/ktx2"}});
+    gltf.json["extensionsRequired"] = {"KHR_texture_basisu"};
+    gltf.json["textures"][0]["extensions"]["KHR_texture_basisu"] = {{"source", 1}};
+    EXPECT_EQ(scene_of(gltf).textures.at(0).image, kImage);
+    gltf.json["textures"][0].erase("source");
+    EXPECT_EQ(gltf.error(),
+              "scene.glb: material 0: baseColorTexture: texture 0: has only a Basis Universal "
+              "image (KHR_texture_basisu), which is not read; `gltf-transform ktxdecompress` makes "
+              "it a PNG image");
+}
+
+TEST(GltfTextures, WebPIsReadWhereThereIsNoOtherImage) {
+    GltfBuilder gltf = with_embedded_png();
+    gltf.json["textures"][0]["extensions"]["EXT_texture_webp"] = {{"source", 0}};
+    gltf.json["textures"][0].erase("source");
+    EXPECT_EQ(scene_of(gltf).textures.size(), 1u);
+}
+
 TEST(GltfTextures, ImagesThatNothingUsesAreNotDecoded) {
     GltfBuilder gltf = with_embedded_png();
     gltf.add("images", {{"uri", "missing.png"}});
@@ -142,11 +178,11 @@ TEST(GltfTextures, NamesWhatIsWrongWithANormalMap) {
 
 TEST(GltfTextures, TextureWithoutSourceIsLeftOutWithAWarning) {
     GltfBuilder gltf = with_embedded_png();
-    gltf.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    gltf.json["textures"][0] = {{"extensions", {{"EXT_texture_avif", {{"source", 0}}}}}};
     const Scene scene = scene_of(gltf);
     EXPECT_EQ(scene.materials[0].base_color_texture.texture, kNoIndex);
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_TRUE(scene.warnings[0].ends_with("texture 0: has no PNG or JPEG image; left out"));
+    EXPECT_TRUE(scene.warnings[0].ends_with("texture 0: has no PNG, JPEG or WebP image; left out"));
 }
 
 TEST(GltfTextures, TransformMovesTurnsAndScales) {
