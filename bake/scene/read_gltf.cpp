@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <tetralight/bake/scene/detail/exporter_habits.h>
 #include <tetralight/bake/scene/detail/gltf_cameras.h>
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_instances.h>
@@ -108,6 +109,8 @@ Status add_all(const detail::GltfDocument& document, const SceneReading& reading
 void add_parts(const detail::GltfDocument& document, Scene& scene) {
     detail::PartList parts;
     detail::add_contents(scene, parts);
+    detail::add_light_unit(scene, parts);
+    detail::add_length_unit(scene, parts);
     parts.append(document.parts);
     scene.parts = parts.parts();
     for (const ScenePart& part : scene.parts) {

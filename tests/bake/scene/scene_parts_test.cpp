@@ -250,5 +250,47 @@ TEST(SceneParts, LumensOfWattsBecomeWatts) {
     EXPECT_FLOAT_EQ(read(gltf, {.light_unit = LightUnit::Watt}).lights.at(0).intensity.x, 4.0f);
 }
 
+/// Adds a sun and emission of 1.
+GltfBuilder with_sun(double lux) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["materials"][0]["emissiveFactor"] = {1, 0.5, 0};
+    const size_t light =
+        gltf.add_light({{"name", "sun"}, {"type", "directional"}, {"intensity", lux}});
+    gltf.add_root({{"name", "sun"}, {"extensions", GltfBuilder::light_extension(light)}});
+    return gltf;
+}
+
+TEST(SceneParts, LumensOfWattsBesideEmissionAreNoticed) {
+    const GltfBuilder gltf = with_sun(3.0 * 683.0);
+    EXPECT_EQ(warnings(read(gltf)),
+              std::vector<std::string>{
+                  "units of lights (\"sun\"): the sun is 2049 lux beside emission of 1, as "
+                  "exporters write it that count a watt as 683 lumens; --light-unit watt divides "
+                  "lights by 683"});
+    EXPECT_TRUE(warnings(read(gltf, {.light_unit = LightUnit::Watt})).empty());
+    EXPECT_TRUE(warnings(read(with_sun(3.0))).empty());
+    GltfBuilder bright = gltf;  // a scene in lux and nits
+    bright.json["materials"][0]["extensions"]["KHR_materials_emissive_strength"] = {
+        {"emissiveStrength", 5000}};
+    EXPECT_TRUE(warnings(read(bright)).empty());
+}
+
+TEST(SceneParts, CentimetresAreNoticed) {
+    const auto doors = [](double scale) {
+        GltfBuilder gltf;
+        const size_t mesh = gltf.add_mesh({0, 0, 0, 90, 0, 0, 90, 200, 0});
+        for (int i = 0; i < 4; ++i) {
+            gltf.add_root({{"mesh", mesh}, {"scale", {scale, scale, scale}}});
+        }
+        return gltf;
+    };
+    EXPECT_EQ(warnings(read(doors(1.0))),
+              std::vector<std::string>{
+                  "units of length (the scene): three of four objects are larger than 219 m; "
+                  "lights fade over distance in metres; if the unit is a centimetre, scale the "
+                  "scene by 0.01"});
+    EXPECT_TRUE(warnings(read(doors(0.01))).empty());
+}
+
 }  // namespace
 }  // namespace tetralight

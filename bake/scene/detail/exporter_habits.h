@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tetralight/bake/scene/detail/part_list.h>
+#include <tetralight/bake/scene/scene.h>
+
+// Mistakes of units that exporters make, found in what they write. They are guesses: rows of the
+// table with a remedy, and warnings.
+
+namespace tetralight::detail {
+
+/// Adds a row if lights are hundreds of times brighter than emission and sky, as in files of
+/// Blender's "Standard" lighting mode, which writes lumens of watts.
+void add_light_unit(const Scene& scene, PartList& parts);
+
+/// Adds a row if the objects are so large that their unit is more likely a centimetre than a metre.
+void add_length_unit(const Scene& scene, PartList& parts);
+
+}  // namespace tetralight::detail
