@@ -29,8 +29,10 @@ const std::map<std::string, std::string> kLibraries = {
     {"Eigen/", "Eigen"},
     {"Imf", "OpenEXR"},
     {"boost/", "Boost"},
+    {"draco/", "Draco"},
     {"embree", "Embree"},
     {"hwy/", "Highway"},
+    {"meshoptimizer.h", "meshoptimizer"},
     {"nanovdb/", "NanoVDB"},
     {"nlohmann/", "nlohmann-json"},
     {"openvdb/", "OpenVDB"},
@@ -88,7 +90,7 @@ TEST(Libraries, FoldersUseOnlyThoseOfTheirRow) {
 }
 
 TEST(Libraries, OnlyTheNamedFilesIncludeThoseWithVersions) {
-    const auto named = last_cells("([A-Z][A-Za-z0-9]+)");
+    const auto named = last_cells("([A-Za-z][A-Za-z0-9]+)");
     const auto users = find_users();
     const std::regex path("`([^`]+)`");
     size_t checked = 0;
