@@ -13,7 +13,7 @@ namespace tetralight::detail {
 /// them. If primitives with different compressed data share an accessor, the later ones get
 /// accessors of their own. Attributes that are not in the compressed data stay as they are.
 /// Returns corrupt if the data do not decode or do not fit the accessors, and unsupported for
-/// primitives that are not triangle lists.
+/// primitives that are not triangle lists. Precondition: decode_meshopt() has run.
 [[nodiscard]] Status decode_draco(GltfDocument& document);
 
 /// Bytes of the buffers that decode_draco() will add, by the counts of the accessors. 2^64 − 1 if
