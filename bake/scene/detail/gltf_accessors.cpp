@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <string>
 
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/base/str_cat.h>
@@ -185,39 +186,40 @@ Error component_type_error(const GltfAccessor& accessor, const char* reason) {
             str_cat("component type ", accessor.component_type, reason)};
 }
 
+std::string type_name(int component_count) {
+    if (component_count == 1) return "SCALAR";
+    return component_count == 16 ? "MAT4" : str_cat("VEC", component_count);
+}
+
 Status check_float_type(const GltfAccessor& accessor, int component_count) {
     if (accessor.component_count != static_cast<uint32_t>(component_count)) {
         return Error{ErrorCode::Corrupt, ".type", "",
-                     str_cat("is not of type VEC", component_count)};
+                     str_cat("is not of type ", type_name(component_count))};
     }
     const bool is_known = component_size(accessor.component_type) != 0;
     if (is_known && accessor.component_type != kUnsignedInt) return Ok{};
     return component_type_error(accessor, " is not supported here");
 }
 
-template <class Vector>
-Result<std::vector<Vector>> decode_vectors(const GltfDocument& document,
-                                           const GltfAccessor& accessor) {
-    constexpr int kComponentCount = Vector::length();
-    const auto type = check_float_type(accessor, kComponentCount);
+/// The components of all elements, one after the other.
+Result<std::vector<float>> decode_floats(const GltfDocument& document, const GltfAccessor& accessor,
+                                         int component_count) {
+    const auto type = check_float_type(accessor, component_count);
     if (!type) return type.error();
     const auto packed = packed_elements(document, accessor);
     if (!packed) return packed.error();
-    std::vector<Vector> vectors(accessor.count);
+    std::vector<float> values(accessor.count * accessor.component_count);
     const std::byte* bytes = packed->data();
-    for (size_t i = 0; i < vectors.size(); ++i) {
-        for (int axis = 0; axis < kComponentCount; ++axis) {
-            const float value = float_at(bytes, accessor.component_type, accessor.is_normalized);
-            if (!std::isfinite(value)) {
-                return Error{
-                    ErrorCode::Corrupt, str_cat("[", i, "][", axis, "]"), str_cat(value),
-                    str_cat("element ", i, " is not finite (component ", axis, " is ", value, ")")};
-            }
-            vectors[i][axis] = value;
-            bytes += component_size(accessor.component_type);
-        }
+    for (size_t i = 0; i < values.size(); ++i) {
+        values[i] = float_at(bytes, accessor.component_type, accessor.is_normalized);
+        bytes += component_size(accessor.component_type);
+        if (std::isfinite(values[i])) continue;
+        const size_t element = i / accessor.component_count, axis = i % accessor.component_count;
+        return Error{ErrorCode::Corrupt, str_cat("[", element, "][", axis, "]"), str_cat(values[i]),
+                     str_cat("element ", element, " is not finite (component ", axis, " is ",
+                             values[i], ")")};
     }
-    return vectors;
+    return values;
 }
 
 Error in_accessor(const Error& error, uint32_t accessor_index) {
@@ -225,10 +227,22 @@ Error in_accessor(const Error& error, uint32_t accessor_index) {
                      str_cat("accessors[", accessor_index, "]"));
 }
 
+Result<std::vector<float>> read_floats(const GltfDocument& document, uint32_t accessor_index,
+                                       int component_count) {
+    auto values = decode_floats(document, document.accessors[accessor_index], component_count);
+    if (!values) return in_accessor(values.error(), accessor_index);
+    return values;
+}
+
 template <class Vector>
 Result<std::vector<Vector>> read_vectors(const GltfDocument& document, uint32_t accessor_index) {
-    auto vectors = decode_vectors<Vector>(document, document.accessors[accessor_index]);
-    if (!vectors) return in_accessor(vectors.error(), accessor_index);
+    const auto values = read_floats(document, accessor_index, Vector::length());
+    if (!values) return values.error();
+    std::vector<Vector> vectors(values->size() / static_cast<size_t>(Vector::length()));
+    const float* value = values->data();
+    for (Vector& vector : vectors) {
+        for (int axis = 0; axis < Vector::length(); ++axis) vector[axis] = *value++;
+    }
     return vectors;
 }
 
@@ -252,6 +266,10 @@ Result<std::vector<uint32_t>> decode_indices(const GltfDocument& document,
 
 }  // namespace
 
+Result<std::vector<float>> read_scalars(const GltfDocument& document, uint32_t accessor_index) {
+    return read_floats(document, accessor_index, 1);
+}
+
 Result<std::vector<glm::vec2>> read_vec2s(const GltfDocument& document, uint32_t accessor_index) {
     return read_vectors<glm::vec2>(document, accessor_index);
 }
@@ -262,6 +280,17 @@ Result<std::vector<glm::vec3>> read_vec3s(const GltfDocument& document, uint32_t
 
 Result<std::vector<glm::vec4>> read_vec4s(const GltfDocument& document, uint32_t accessor_index) {
     return read_vectors<glm::vec4>(document, accessor_index);
+}
+
+Result<std::vector<glm::mat4>> read_mat4s(const GltfDocument& document, uint32_t accessor_index) {
+    const auto values = read_floats(document, accessor_index, 16);
+    if (!values) return values.error();
+    std::vector<glm::mat4> matrices(values->size() / 16);
+    for (size_t i = 0; i < values->size(); ++i) {
+        const auto number = static_cast<int>(i % 16);
+        matrices[i / 16][number / 4][number % 4] = (*values)[i];
+    }
+    return matrices;
 }
 
 Result<std::vector<glm::vec4>> read_colors(const GltfDocument& document, uint32_t accessor_index) {

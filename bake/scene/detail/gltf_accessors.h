@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -15,11 +16,15 @@
 
 namespace tetralight::detail {
 
+[[nodiscard]] Result<std::vector<float>> read_scalars(const GltfDocument& document,
+                                                      uint32_t accessor_index);
 [[nodiscard]] Result<std::vector<glm::vec2>> read_vec2s(const GltfDocument& document,
                                                         uint32_t accessor_index);
 [[nodiscard]] Result<std::vector<glm::vec3>> read_vec3s(const GltfDocument& document,
                                                         uint32_t accessor_index);
 [[nodiscard]] Result<std::vector<glm::vec4>> read_vec4s(const GltfDocument& document,
+                                                        uint32_t accessor_index);
+[[nodiscard]] Result<std::vector<glm::mat4>> read_mat4s(const GltfDocument& document,
                                                         uint32_t accessor_index);
 
 /// Colours of vertices, RGB (alpha is 1 then) or RGBA, none below 0.
