@@ -6,6 +6,7 @@
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
 #include <tetralight/bake/scene/detail/gltf_nodes.h>
 #include <tetralight/bake/scene/detail/gltf_parts.h>
+#include <tetralight/bake/scene/detail/gltf_pose.h>
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 #include <tetralight/bake/scene/detail/lightmap_meshes.h>
 #include <tetralight/bake/scene/detail/lightmap_nodes.h>
@@ -43,8 +44,10 @@ Result<std::vector<std::byte>> lightmapped(const detail::GltfDocument& document,
     if (!nodes) return nodes.error();
     const auto groups = detail::read_gltf_probe_groups(document, *nodes);
     if (!groups) return groups.error();
-    const auto meshes = detail::read_meshes(document, NormalMaps::Skip);
+    auto meshes = detail::read_meshes(document, NormalMaps::Skip);
     if (!meshes) return meshes.error();
+    const auto posed = detail::pose_meshes(document, *nodes, NormalMaps::Skip, *meshes);
+    if (!posed) return posed.error();
     const auto objects =
         detail::lightmap_objects(document, *nodes, groups->is_probe, *meshes, lightmaps.places);
     if (!objects) return objects.error();

@@ -2,6 +2,7 @@
 #include <tetralight/bake/scene/detail/gltf_instances.h>
 
 #include <tetralight/bake/scene/detail/gltf_accessors.h>
+#include <tetralight/bake/scene/detail/gltf_skin.h>
 #include <tetralight/bake/scene/detail/gltf_transform.h>
 #include <tetralight/base/str_cat.h>
 
@@ -106,15 +107,20 @@ Result<std::vector<MeshInstance>> read_instances(const GltfDocument& document,
         const GltfWorldNode& placed = nodes[position];
         const GltfNode& node = document.nodes[placed.node];
         if (node.mesh == kNoIndex || is_probe[placed.node] || !placed.is_visible) continue;
-        const auto transforms = read_transforms(document, placed);
+        const bool is_posed = meshes.posed_meshes_of.contains(placed.node);
+        const auto transforms = is_posed && is_skinned(document, node)
+                                    ? std::vector<glm::dmat4>{glm::dmat4(1.0)}
+                                    : read_transforms(document, placed);
         if (!transforms) {
             return in_element(transforms.error(), "nodes", placed.node, node.name);
         }
+        LightmapUse lightmap = placed.lightmap;
+        if (is_posed) lightmap.receive_gi = ReceiveGi::Probes;
         for (const glm::dmat4& world_from_mesh : *transforms) {
-            for (const uint32_t mesh : meshes.meshes_of[node.mesh]) {
+            for (const uint32_t mesh : meshes.meshes_of_node(document, placed.node)) {
                 instances.push_back({mesh, world_from_mesh, node.name, placed.contributes_gi,
                                      position, placed.is_walkable, placed.is_in_reflections,
-                                     placed.lightmap});
+                                     lightmap});
             }
         }
     }

@@ -74,20 +74,6 @@ bool has_area(const Mesh& mesh, const uint32_t* corners) {
     return glm::cross(b - a, c - a) != glm::dvec3(0.0);
 }
 
-/// Removes triangles that no ray can hit; returns their number.
-size_t remove_flat_triangles(Mesh& mesh) {
-    auto& indices = mesh.indices;
-    size_t kept = 0;
-    for (size_t i = 0; i < indices.size(); i += 3) {
-        if (!has_area(mesh, &indices[i])) continue;
-        std::copy_n(&indices[i], 3, &indices[kept]);
-        kept += 3;
-    }
-    const size_t removed = (indices.size() - kept) / 3;
-    indices.resize(kept);
-    return removed;
-}
-
 Status check_count(size_t count, const char* attribute, const Mesh& mesh) {
     if (count == mesh.positions.size()) return Ok{};
     return Error{
@@ -142,6 +128,55 @@ Status read_optional_attributes(const GltfDocument& document, const GltfAttribut
     return read_vertex_colors(document, attributes, mesh);
 }
 
+Status read_mesh(const GltfDocument& document, const GltfMesh& source, NormalMaps normal_maps,
+                 GltfMeshes& result) {
+    auto& meshes_of_source = result.meshes_of.emplace_back();
+    size_t flat_count = 0;
+    for (size_t i = 0; i < source.primitives.size(); ++i) {
+        const GltfPrimitive& primitive = source.primitives[i];
+        const std::string place = str_cat("primitive ", i);
+        if (primitive.mode > kTriangleFan) {
+            return Error{ErrorCode::Corrupt, str_cat(".primitives[", i, "].mode"),
+                         str_cat(primitive.mode),
+                         str_cat(place, ": mode ", primitive.mode, " is not known")};
+        }
+        if (!has_triangles(primitive)) continue;  // points and lines reflect no light
+        auto mesh = read_primitive(document, primitive, normal_maps);
+        if (!mesh) return in_member(mesh.error().in(place), str_cat(".primitives[", i, "]"));
+        flat_count += remove_flat_triangles(*mesh);
+        if (mesh->indices.empty()) continue;
+        meshes_of_source.push_back(static_cast<uint32_t>(result.meshes.size()));
+        result.meshes.push_back(std::move(*mesh));
+        result.primitive_of.push_back(static_cast<uint32_t>(i));
+    }
+    if (flat_count > 0) {
+        const std::string place = gltf_place("mesh", result.meshes_of.size() - 1, source.name);
+        const char* triangles = flat_count == 1 ? " triangle" : " triangles";
+        result.warnings.push_back(
+            str_cat(place, ": ", flat_count, triangles, " without area left out"));
+    }
+    return Ok{};
+}
+
+}  // namespace
+
+bool has_triangles(const GltfPrimitive& primitive) {
+    return primitive.mode >= kTriangles && primitive.mode <= kTriangleFan;
+}
+
+size_t remove_flat_triangles(Mesh& mesh) {
+    auto& indices = mesh.indices;
+    size_t kept = 0;
+    for (size_t i = 0; i < indices.size(); i += 3) {
+        if (!has_area(mesh, &indices[i])) continue;
+        std::copy_n(&indices[i], 3, &indices[kept]);
+        kept += 3;
+    }
+    const size_t removed = (indices.size() - kept) / 3;
+    indices.resize(kept);
+    return removed;
+}
+
 Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& primitive,
                             NormalMaps normal_maps) {
     const auto position = primitive.attributes.find("POSITION");
@@ -166,38 +201,6 @@ Result<Mesh> read_primitive(const GltfDocument& document, const GltfPrimitive& p
     mesh.indices = std::move(*indices);
     return mesh;
 }
-
-Status read_mesh(const GltfDocument& document, const GltfMesh& source, NormalMaps normal_maps,
-                 GltfMeshes& result) {
-    auto& meshes_of_source = result.meshes_of.emplace_back();
-    size_t flat_count = 0;
-    for (size_t i = 0; i < source.primitives.size(); ++i) {
-        const GltfPrimitive& primitive = source.primitives[i];
-        const std::string place = str_cat("primitive ", i);
-        if (primitive.mode > kTriangleFan) {
-            return Error{ErrorCode::Corrupt, str_cat(".primitives[", i, "].mode"),
-                         str_cat(primitive.mode),
-                         str_cat(place, ": mode ", primitive.mode, " is not known")};
-        }
-        if (primitive.mode < kTriangles) continue;  // points and lines reflect no light
-        auto mesh = read_primitive(document, primitive, normal_maps);
-        if (!mesh) return in_member(mesh.error().in(place), str_cat(".primitives[", i, "]"));
-        flat_count += remove_flat_triangles(*mesh);
-        if (mesh->indices.empty()) continue;
-        meshes_of_source.push_back(static_cast<uint32_t>(result.meshes.size()));
-        result.meshes.push_back(std::move(*mesh));
-        result.primitive_of.push_back(static_cast<uint32_t>(i));
-    }
-    if (flat_count > 0) {
-        const std::string place = gltf_place("mesh", result.meshes_of.size() - 1, source.name);
-        const char* triangles = flat_count == 1 ? " triangle" : " triangles";
-        result.warnings.push_back(
-            str_cat(place, ": ", flat_count, triangles, " without area left out"));
-    }
-    return Ok{};
-}
-
-}  // namespace
 
 Result<GltfMeshes> read_meshes(const GltfDocument& document, NormalMaps normal_maps) {
     GltfMeshes result;

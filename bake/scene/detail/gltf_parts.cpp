@@ -101,7 +101,10 @@ Result<GltfParts> GltfParts::open(const GltfDocument& document) {
     if (!json) return json.error();
     parts.json = std::move(*json);
     if (parts.json.contains("accessors")) parts.source_accessors = parts.json["accessors"];
-    for (const GltfBufferView& view : document.buffer_views) {
+    // Views behind those of the file have what its compressed primitives decode to.
+    const size_t view_count = parts.json.value("bufferViews", GltfJson::array()).size();
+    for (size_t i = 0; i < view_count; ++i) {
+        const GltfBufferView& view = document.buffer_views[i];
         const auto bytes = std::as_bytes(std::span(document.buffers[view.buffer]))
                                .subspan(view.byte_offset, view.byte_length);
         parts.views_.emplace_back(bytes.begin(), bytes.end());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <tetralight/bake/scene/detail/gltf_skin.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -30,6 +31,12 @@ size_t transform_count(const GltfDocument& document, const GltfNode& node) {
 Error count_error(size_t instances, size_t places) {
     return {ErrorCode::InvalidArgument, "instances", str_cat(places),
             str_cat("has ", instances, " instances, the lightmaps have ", places)};
+}
+
+Error posed_error(const GltfDocument& document, uint32_t node) {
+    return {ErrorCode::InvalidArgument, "instances", "",
+            str_cat(gltf_place("node", node, document.nodes[node].name),
+                    " is deformed by morph targets or a skin, so that it has no lightmap")};
 }
 
 Error triangle_error(const GltfDocument& document, uint32_t node, const Mesh& mesh,
@@ -75,10 +82,12 @@ Result<std::vector<LightmapObject>> lightmap_objects(const GltfDocument& documen
     size_t instance = 0;
     for (const GltfWorldNode& placed : nodes) {
         const GltfNode& node = document.nodes[placed.node];
-        if (node.mesh == kNoIndex || is_probe[placed.node]) continue;
-        LightmapObject object{placed.node, transform_count(document, node), {}};
+        if (node.mesh == kNoIndex || is_probe[placed.node] || !placed.is_visible) continue;
+        const bool is_posed = meshes.posed_meshes_of.contains(placed.node);
+        const bool is_in_world = is_posed && is_skinned(document, node);
+        LightmapObject object{placed.node, is_in_world ? 1 : transform_count(document, node), {}};
         const size_t primitives = document.meshes[node.mesh].primitives.size();
-        const auto& scene_meshes = meshes.meshes_of[node.mesh];
+        const auto& scene_meshes = meshes.meshes_of_node(document, placed.node);
         const size_t count = object.transform_count * scene_meshes.size();
         if (instance + count > places.size()) return count_error(instance + count, places.size());
         object.places.resize(object.transform_count * primitives);
@@ -89,6 +98,7 @@ Result<std::vector<LightmapObject>> lightmap_objects(const GltfDocument& documen
         }
         const bool has_lightmap = std::ranges::any_of(
             object.places, [](const GltfLightmapPlace& place) { return place.uvs != kNoIndex; });
+        if (has_lightmap && is_posed) return posed_error(document, placed.node);
         if (has_lightmap) objects.push_back(std::move(object));
     }
     if (instance != places.size()) return count_error(instance, places.size());
@@ -116,7 +126,9 @@ Result<LightmapMeshes> LightmapMeshes::write(const GltfDocument& document, const
         if (corner_uvs[uvs].size() != mesh.indices.size())
             return triangle_error(document, node, mesh, corner_uvs[uvs].size());
         const GltfJson& source = sources[place.first]["primitives"][place.second];
-        auto primitive = make_lightmap_primitive(document, parts, source, mesh, corner_uvs[uvs]);
+        const GltfPrimitive& elements = document.meshes[place.first].primitives[place.second];
+        auto primitive =
+            make_lightmap_primitive(document, parts, {source, elements}, mesh, corner_uvs[uvs]);
         if (!primitive) return primitive_error(document, place, primitive.error());
         result.add(place, uvs, std::move(*primitive));
     }

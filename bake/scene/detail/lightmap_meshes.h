@@ -28,7 +28,8 @@ struct LightmapObject {
 };
 
 /// The nodes of which an instance has a lightmap. `places` are in the order of `read_instances`.
-/// Returns invalid_argument (field "instances") if their number is not that of the instances.
+/// Returns invalid_argument (field "instances") if their number is not that of the instances, or if
+/// a node that morph targets or a skin deform has a lightmap.
 [[nodiscard]] Result<std::vector<LightmapObject>> lightmap_objects(
     const GltfDocument& document, std::span<const GltfWorldNode> nodes,
     const std::vector<bool>& is_probe, const GltfMeshes& meshes,

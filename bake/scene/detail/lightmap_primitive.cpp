@@ -69,14 +69,17 @@ uint32_t add_indices(GltfParts& parts, const SplitVertices& split) {
 }
 
 /// Copies the attributes of an object to the vertices of `split`, and changes their accessors.
+/// `read` has the accessors that the elements are in.
 Status split_attributes(const GltfDocument& document, GltfParts& parts, const SplitVertices& split,
-                        GltfJson& attributes) {
+                        const GltfAttributes& read, GltfJson& attributes) {
     for (const auto& [name, value] : attributes.items()) {
         const bool is_index =
             value.is_number_unsigned() && value.get<uint64_t>() < document.accessors.size();
         if (!is_index) return Error{ErrorCode::Corrupt, str_cat(name, " is not an accessor")};
         const auto accessor = value.get<uint32_t>();
-        const auto elements = read_raw_elements(document, accessor);
+        const auto source = read.find(name);
+        const auto elements =
+            read_raw_elements(document, source == read.end() ? accessor : source->second);
         if (!elements) return elements.error().in(name);
         for (const uint32_t vertex : split.sources) {
             if (vertex < elements->count) continue;
@@ -128,18 +131,19 @@ uint32_t lightmap_uv_set(const GltfJson& document, const GltfJson& primitive) {
 }  // namespace
 
 Result<LightmapPrimitive> make_lightmap_primitive(const GltfDocument& document, GltfParts& parts,
-                                                  const GltfJson& primitive, const Mesh& mesh,
+                                                  const SourcePrimitive& primitive,
+                                                  const Mesh& mesh,
                                                   std::span<const glm::vec2> corner_uvs) {
     const SplitVertices split = split_vertices(mesh.indices, corner_uvs);
-    LightmapPrimitive result{primitive, lightmap_uv_set(parts.json, primitive)};
+    LightmapPrimitive result{primitive.json, lightmap_uv_set(parts.json, primitive.json)};
     const std::string uv_name = str_cat("TEXCOORD_", result.uv_set);
     GltfJson& attributes = result.json["attributes"];
     attributes.erase(uv_name);
-    auto status = split_attributes(document, parts, split, attributes);
+    auto status = split_attributes(document, parts, split, primitive.read.attributes, attributes);
     if (!status) return status.error();
     if (result.json.contains("targets")) {
         for (GltfJson& target : result.json["targets"]) {
-            status = split_attributes(document, parts, split, target);
+            status = split_attributes(document, parts, split, {}, target);
             if (!status) return status.error().in("morph target");
         }
     }
