@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <tetralight/bake/scene/detail/exporter_habits.h>
+#include <tetralight/bake/scene/detail/gltf_animation.h>
 #include <tetralight/bake/scene/detail/gltf_cameras.h>
 #include <tetralight/bake/scene/detail/gltf_document.h>
 #include <tetralight/bake/scene/detail/gltf_instances.h>
@@ -12,9 +13,11 @@
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
 #include <tetralight/bake/scene/detail/gltf_nodes.h>
 #include <tetralight/bake/scene/detail/gltf_portals.h>
+#include <tetralight/bake/scene/detail/gltf_pose.h>
 #include <tetralight/bake/scene/detail/gltf_probe_adjustments.h>
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 #include <tetralight/bake/scene/detail/gltf_reflection_places.h>
+#include <tetralight/bake/scene/detail/gltf_skin.h>
 #include <tetralight/bake/scene/detail/part_list.h>
 #include <tetralight/bake/scene/detail/scene_contents.h>
 #include <tetralight/base/str_cat.h>
@@ -30,6 +33,10 @@ Status add_surfaces(const detail::GltfDocument& document, NormalMaps normal_maps
                     detail::GltfMeshes& meshes) {
     auto read = detail::read_meshes(document, normal_maps);
     if (!read) return read.error();
+    const auto nodes = detail::flatten_nodes(document);
+    if (!nodes) return nodes.error();
+    const auto posed = detail::pose_meshes(document, *nodes, normal_maps, *read);
+    if (!posed) return posed.error();
     auto materials = detail::read_materials(document, normal_maps);
     if (!materials) return materials.error();
     meshes = std::move(*read);
@@ -47,7 +54,8 @@ void warn_about_skins(const detail::GltfDocument& document,
                       std::span<const detail::GltfWorldNode> nodes, Scene& scene) {
     for (const detail::GltfWorldNode& placed : nodes) {
         const detail::GltfNode& node = document.nodes[placed.node];
-        if (node.skin == kNoIndex || !placed.contributes_gi) continue;
+        const bool is_left_out = node.skin != kNoIndex && !detail::is_skinned(document, node);
+        if (!is_left_out || !placed.contributes_gi) continue;
         scene.warnings.push_back(detail::gltf_place("node", placed.node, node.name) +
                                  ": skin is left out; its mesh stands as it was modelled");
     }
@@ -129,6 +137,12 @@ Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
     auto document = detail::read_gltf_document(path, reading.scene);
     if (!document) return document.error();
     if (reading.light_unit == LightUnit::Watt) divide_intensities(*document);
+    if (reading.time) {
+        const auto animation = detail::find_animation(*document, reading.animation);
+        if (!animation) return animation.error().in(path);
+        const auto moved = detail::pose_nodes(*document, *animation, *reading.time);
+        if (!moved) return moved.error().in(path);
+    }
     Scene scene;
     const auto status = add_all(*document, reading, scene);
     if (!status) return status.error().in(path);

@@ -15,8 +15,10 @@
 #include <tetralight/bake/scene/detail/glb_container.h>
 #include <tetralight/bake/scene/detail/gltf_buffers.h>
 #include <tetralight/bake/scene/detail/gltf_check.h>
+#include <tetralight/bake/scene/detail/gltf_draco.h>
 #include <tetralight/bake/scene/detail/gltf_elements.h>
 #include <tetralight/bake/scene/detail/gltf_members.h>
+#include <tetralight/bake/scene/detail/gltf_meshopt.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/gltf_unknown_extras.h>
 #include <tetralight/bake/scene/detail/gltf_unread.h>
@@ -95,6 +97,8 @@ Result<GltfDocument> parse_document(Bytes bytes, const std::string& path,
     document.path = path;
     document.buffers = std::move(*buffers);
     choose_scene(*source, *chosen, document);
+    if (auto status = decode_meshopt(document); !status) return status.error();
+    if (auto status = decode_draco(document); !status) return status.error();
     PartList parts;
     add_unread_parts(*source, document, parts);
     add_unknown_extras(*source, parts);
