@@ -31,13 +31,16 @@ const std::map<std::string, std::string> kLibraries = {
     {"boost/", "Boost"},
     {"embree", "Embree"},
     {"hwy/", "Highway"},
+    {"jerror.h", "libjpeg-turbo"},
+    {"jpeglib.h", "libjpeg-turbo"},
     {"nanovdb/", "NanoVDB"},
     {"nlohmann/", "nlohmann-json"},
     {"openvdb/", "OpenVDB"},
     {"sqlite3", "SQLite"},
-    {"stb_", "stb"},
+    {"spng.h", "libspng"},
     {"tbb/", "TBB"},
     {"tetgen.h", "TetGen"},
+    {"webp/", "libwebp"},
     {"xxhash", "xxHash"},
 };
 

@@ -6,9 +6,12 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfStdIO.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <new>
 
@@ -41,14 +44,30 @@ Result<ChannelNames> find_channels(const Imf::ChannelList& channels) {
     return names;
 }
 
-Result<ImageF> make_image(const Imath::Box2i& window) {
+Result<ImageSize> size_of(const Imath::Box2i& window) {
     const int64_t width = int64_t{window.max.x} - window.min.x + 1;
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-    if (width <= 0 || height <= 0) return Error{ErrorCode::Corrupt, "is empty"};
-    const auto columns = static_cast<uint64_t>(width), rows = static_cast<uint64_t>(height);
-    if (is_too_large(columns, rows)) return image_size_error(columns, rows);
-    ImageF image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
-    image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
+    return checked_image_size(static_cast<uint64_t>(std::max<int64_t>(width, 0)),
+                              static_cast<uint64_t>(std::max<int64_t>(height, 0)));
+}
+
+/// Reads the first header, which follows the magic number and the version.
+Result<ImageSize> read_size(const std::string& path) {
+    Imf::StdIFStream stream(path.c_str());
+    char first[8] = {};
+    stream.read(first, sizeof first);
+    int version = 0;
+    std::memcpy(&version, first + 4, sizeof version);
+    Imf::Header header;
+    header.readFrom(stream, version);
+    return size_of(header.dataWindow());
+}
+
+Result<ImageF> make_image(const Imath::Box2i& window) {
+    const auto size = size_of(window);
+    if (!size) return size.error();
+    ImageF image{size->width, size->height, {}};
+    image.pixels.resize(size_t{size->width} * size->height);
     return image;
 }
 
@@ -74,20 +93,34 @@ Result<ImageF> read_pixels(Imf::InputFile& file) {
     return image;
 }
 
-}  // namespace
-
-Result<ImageF> read_exr(const std::string& path) {
+/// Runs a step that calls OpenEXR, which throws. Error messages begin with `path`.
+template <class T, class Step>
+Result<T> guarded(const std::string& path, const Step& step) {
     try {
-        Imf::InputFile file(path.c_str());
-        auto image = read_pixels(file);
-        if (!image) return image.error().in(path);
-        return image;
+        Result<T> result = step();
+        if (!result) return result.error().in(path);
+        return result;
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
         return Error{ErrorCode::Corrupt,
                      str_cat(path, ": cannot read OpenEXR image (", exception.what(), ")")};
     }
+}
+
+}  // namespace
+
+Result<ImageSize> read_exr_size(const std::string& path) {
+    return guarded<ImageSize>(path, [&] { return read_size(path); });
+}
+
+Result<ImageF> read_exr(const std::string& path) {
+    return guarded<ImageF>(path, [&]() -> Result<ImageF> {
+        // Before the file is opened, for which OpenEXR allocates memory for each line.
+        if (const auto size = read_size(path); !size) return size.error();
+        Imf::InputFile file(path.c_str());
+        return read_pixels(file);
+    });
 }
 
 }  // namespace tetralight::detail

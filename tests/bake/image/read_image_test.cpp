@@ -25,10 +25,10 @@ std::string radiance_hdr(std::string_view size, std::string_view rgbe) {
     return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + std::string(size) + "\n" + std::string(rgbe);
 }
 
-TEST(DecodeImage8, RejectsWhatIsNoPngOrJpeg) {
+TEST(DecodeImage8, RejectsOtherFormats) {
     const auto image = decode_image8(bytes_of("GIF89a"), "photo.gif");
     ASSERT_FALSE(image);
-    EXPECT_EQ(error_text(image.error()), "photo.gif: is neither a PNG nor a JPEG image");
+    EXPECT_EQ(error_text(image.error()), "photo.gif: is neither a PNG nor a JPEG nor a WebP image");
 }
 
 TEST(DecodeImage8, RejectsEveryTruncationOfAPng) {
