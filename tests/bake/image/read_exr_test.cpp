@@ -73,6 +73,18 @@ TEST(ReadExr, RejectsAWindowThatIsTooLarge) {
     EXPECT_NE(error_text(image.error()).find("large.exr"), std::string::npos);
 }
 
+TEST(ReadExrSize, NeedsTheHeaderAlone) {
+    const TempFolder folder;
+    const std::string file = one_channel_exr('Y', {kHalfOne, kHalfTwo});
+    constexpr size_t kBehindHeader = 8 + 4 + 4 + 4;  // offsets, the scan line and its pixels
+    const auto header = file.substr(0, file.size() - kBehindHeader);
+    const auto size = detail::read_exr_size(folder.write("header.exr", header));
+    ASSERT_TRUE(size) << error_text(size.error());
+    EXPECT_EQ(*size, (ImageSize{2, 1}));
+    EXPECT_FALSE(
+        detail::read_exr_size(folder.write("cut.exr", header.substr(0, header.size() - 1))));
+}
+
 TEST(ReadExr, RejectsEveryTruncation) {
     const TempFolder folder;
     ASSERT_TRUE(write_exr(folder.path("whole.exr"), ImageF{4, 4, std::vector<glm::vec3>(16)}));
