@@ -8,6 +8,7 @@
 #include <tetralight/bake/image/detail/decode_jpeg.h>
 #include <tetralight/bake/image/detail/decode_png.h>
 #include <tetralight/bake/image/detail/decode_webp.h>
+#include <tetralight/bake/image/detail/exr_header.h>
 #include <tetralight/bake/image/detail/read_exr.h>
 #include <tetralight/bake/image/detail/starts_with.h>
 #include <tetralight/base/file.h>
@@ -65,21 +66,29 @@ uint64_t mend(ImageF& image) {
     return mended_pixel_count;
 }
 
-/// Calls the function for the format that the file has.
-template <class T>
-Result<T> by_hdr_format(const std::string& path, Result<T> (*for_exr)(const std::string& path),
-                        Result<T> (*for_hdr)(Bytes bytes)) {
+bool is_exr(Bytes bytes) {
+    return detail::starts_with(bytes, "\x76\x2f\x31\x01");
+}
+
+Error unknown_hdr_error() {
+    return {ErrorCode::Unsupported, "is neither a Radiance .hdr nor an OpenEXR image"};
+}
+
+Result<ImageSize> hdr_size(Bytes bytes) {
+    if (is_exr(bytes)) return detail::read_exr_size(bytes);
+    if (detail::is_hdr(bytes)) return detail::read_hdr_size(bytes);
+    return unknown_hdr_error();
+}
+
+Result<ImageF> read_any_hdr(const std::string& path) {
     const auto file = MappedFile::open(path);
     if (!file) return file.error();
     const auto bytes = file->bytes();
-    if (detail::starts_with(bytes, "\x76\x2f\x31\x01")) return for_exr(path);
-    if (!detail::is_hdr(bytes)) {
-        return Error{ErrorCode::Unsupported,
-                     path + ": is neither a Radiance .hdr nor an OpenEXR image"};
-    }
-    auto result = for_hdr(bytes);
-    if (!result) return result.error().in(path);
-    return result;
+    if (is_exr(bytes)) return detail::read_exr(path);
+    if (!detail::is_hdr(bytes)) return unknown_hdr_error().in(path);
+    auto image = detail::decode_hdr(bytes);
+    if (!image) return image.error().in(path);
+    return image;
 }
 
 }  // namespace
@@ -93,11 +102,15 @@ Result<Image8> decode_image8(Bytes bytes, const std::string& name) {
 }
 
 Result<ImageSize> read_hdr_image_size(const std::string& path) {
-    return by_hdr_format(path, detail::read_exr_size, detail::read_hdr_size);
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    auto size = hdr_size(file->bytes());
+    if (!size) return size.error().in(path);
+    return size;
 }
 
 Result<HdrImage> read_hdr_image(const std::string& path) {
-    auto image = by_hdr_format(path, detail::read_exr, detail::decode_hdr);
+    auto image = read_any_hdr(path);
     if (!image) return image.error();
     HdrImage result{std::move(*image), 0};
     result.mended_pixel_count = mend(result.image);

@@ -6,16 +6,16 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
-#include <ImfStdIO.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <new>
 
+#include <tetralight/bake/image/detail/exr_header.h>
 #include <tetralight/bake/image/detail/image_size.h>
+#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -44,27 +44,11 @@ Result<ChannelNames> find_channels(const Imf::ChannelList& channels) {
     return names;
 }
 
-Result<ImageSize> size_of(const Imath::Box2i& window) {
+Result<ImageF> make_image(const Imath::Box2i& window) {
     const int64_t width = int64_t{window.max.x} - window.min.x + 1;
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-    return checked_image_size(static_cast<uint64_t>(std::max<int64_t>(width, 0)),
-                              static_cast<uint64_t>(std::max<int64_t>(height, 0)));
-}
-
-/// Reads the first header, which follows the magic number and the version.
-Result<ImageSize> read_size(const std::string& path) {
-    Imf::StdIFStream stream(path.c_str());
-    char first[8] = {};
-    stream.read(first, sizeof first);
-    int version = 0;
-    std::memcpy(&version, first + 4, sizeof version);
-    Imf::Header header;
-    header.readFrom(stream, version);
-    return size_of(header.dataWindow());
-}
-
-Result<ImageF> make_image(const Imath::Box2i& window) {
-    const auto size = size_of(window);
+    const auto size = checked_image_size(static_cast<uint64_t>(std::max<int64_t>(width, 0)),
+                                         static_cast<uint64_t>(std::max<int64_t>(height, 0)));
     if (!size) return size.error();
     ImageF image{size->width, size->height, {}};
     image.pixels.resize(size_t{size->width} * size->height);
@@ -93,34 +77,30 @@ Result<ImageF> read_pixels(Imf::InputFile& file) {
     return image;
 }
 
-/// Runs a step that calls OpenEXR, which throws. Error messages begin with `path`.
-template <class T, class Step>
-Result<T> guarded(const std::string& path, const Step& step) {
+/// Checks the header before OpenEXR allocates what it says.
+Status check_header(const std::string& path) {
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    const auto size = read_exr_size(file->bytes());
+    if (!size) return size.error().in(path);
+    return Ok{};
+}
+
+}  // namespace
+
+Result<ImageF> read_exr(const std::string& path) {
+    if (const auto status = check_header(path); !status) return status.error();
     try {
-        Result<T> result = step();
-        if (!result) return result.error().in(path);
-        return result;
+        Imf::InputFile file(path.c_str());
+        auto image = read_pixels(file);
+        if (!image) return image.error().in(path);
+        return image;
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) {
         return Error{ErrorCode::Corrupt,
                      str_cat(path, ": cannot read OpenEXR image (", exception.what(), ")")};
     }
-}
-
-}  // namespace
-
-Result<ImageSize> read_exr_size(const std::string& path) {
-    return guarded<ImageSize>(path, [&] { return read_size(path); });
-}
-
-Result<ImageF> read_exr(const std::string& path) {
-    return guarded<ImageF>(path, [&]() -> Result<ImageF> {
-        // Before the file is opened, for which OpenEXR allocates memory for each line.
-        if (const auto size = read_size(path); !size) return size.error();
-        Imf::InputFile file(path.c_str());
-        return read_pixels(file);
-    });
 }
 
 }  // namespace tetralight::detail
