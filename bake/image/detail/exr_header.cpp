@@ -37,7 +37,7 @@ Result<ImageSize> size_from(const std::array<int32_t, 4>& window) {
 }
 
 /// Removes one header from the front of `rest`: attributes up to an empty name.
-Result<ImageSize> take_header(std::span<const std::byte>& rest) {
+Result<ImageSize> take_exr_header(std::span<const std::byte>& rest) {
     std::optional<std::array<int32_t, 4>> window;
     while (const auto name = take_text(rest)) {
         if (name->empty()) {
@@ -67,11 +67,11 @@ Result<ImageSize> read_exr_size(std::span<const std::byte> bytes) {
     uint32_t version = 0;
     std::memcpy(&version, bytes.data() + kVersionOffset, sizeof version);
     auto rest = bytes.subspan(kVersionEnd);
-    const auto first = take_header(rest);
+    const auto first = take_exr_header(rest);
     if (!first || (version & kSeveralParts) == 0) return first;
     // An empty header ends them.
     while (!rest.empty() && rest[0] != std::byte{0}) {
-        if (const auto other = take_header(rest); !other) return other.error();
+        if (const auto other = take_exr_header(rest); !other) return other.error();
     }
     return first;
 }
