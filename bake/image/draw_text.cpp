@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/image/draw_text.h>
 
-#include <stb_easy_font.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <vector>
+
+#include <tetralight/bake/image/detail/font.h>
 
 namespace tetralight {
 namespace {
 
-/// A corner of a rectangle as stb_easy_font writes it.
-struct FontVertex {
-    float x, y, z;
-    std::array<uint8_t, 4> color;
-};
-
-static_assert(sizeof(FontVertex) == 16);
+using detail::Glyph;
 
 /// Pixels of the image for one pixel of the font.
 constexpr float kScale = 2.0f;
+
+/// Pixels of the font from one line to the next.
+constexpr float kLineHeight = 12.0f;
 
 struct Rectangle {
     float min_x, min_y, max_x, max_y;
@@ -39,23 +34,38 @@ void fill(Image8& image, const Rectangle& r, const std::array<uint8_t, 4>& color
     }
 }
 
+/// Fills a rectangle for each pixel of a glyph, larger by `grow` on each side. `x` and `y` are the
+/// glyph's upper left corner.
+void draw_glyph(Image8& image, float x, float y, const Glyph& glyph, float grow,
+                const std::array<uint8_t, 4>& color) {
+    for (uint32_t row = 0; row < Glyph::kHeight; ++row) {
+        for (uint32_t column = 0; column < Glyph::kMaxWidth; ++column) {
+            if ((glyph.rows[row] >> column & 1u) == 0) continue;
+            const float left = x + kScale * static_cast<float>(column);
+            const float top = y + kScale * static_cast<float>(row);
+            fill(image, {left - grow, top - grow, left + kScale + grow, top + kScale + grow},
+                 color);
+        }
+    }
+}
+
 }  // namespace
 
 void draw_text(Image8& image, float x, float y, std::string_view text) {
-    std::string copy(text);
-    std::vector<FontVertex> vertices(80 * copy.size() + 4);
-    const int count = stb_easy_font_print(0.0f, 0.0f, copy.data(), nullptr, vertices.data(),
-                                          static_cast<int>(vertices.size() * sizeof(FontVertex)));
     for (const bool is_outline : {true, false}) {
-        const float grow = is_outline ? 1.0f : 0.0f;
-        for (int i = 0; i < count; ++i) {
-            const FontVertex& min = vertices[static_cast<size_t>(4 * i)];
-            const FontVertex& max = vertices[static_cast<size_t>(4 * i + 2)];
-            fill(image,
-                 {x + kScale * min.x - grow, y + kScale * min.y - grow, x + kScale * max.x + grow,
-                  y + kScale * max.y + grow},
-                 is_outline ? std::array<uint8_t, 4>{20, 20, 20, 255}
-                            : std::array<uint8_t, 4>{255, 255, 255, 255});
+        float column = 0.0f, line = 0.0f;  // in pixels of the font
+        for (const char character : text) {
+            if (character == '\n') {
+                column = 0.0f;
+                line += kLineHeight;
+                continue;
+            }
+            const Glyph& glyph = detail::glyph_of(character);
+            draw_glyph(image, x + kScale * column, y + kScale * line, glyph,
+                       is_outline ? 1.0f : 0.0f,
+                       is_outline ? std::array<uint8_t, 4>{20, 20, 20, 255}
+                                  : std::array<uint8_t, 4>{255, 255, 255, 255});
+            column += static_cast<float>(glyph.advance);
         }
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -14,8 +15,21 @@ namespace tetralight {
 /// hostile file fills memory.
 inline constexpr uint64_t kMaxImagePixels = uint64_t{16384} * 16384;
 
-/// Decodes PNG or JPEG bytes. Error messages begin with `name`. Returns unsupported for other
-/// formats and for images that are too large, corrupt if the bytes cannot be decoded.
+struct ImageSize {
+    uint32_t width = 0;
+    uint32_t height = 0;
+
+    bool operator==(const ImageSize&) const = default;
+};
+
+/// Reads the size in the header of PNG, JPEG or WebP bytes and decodes nothing. Errors as of
+/// `decode_image8`.
+[[nodiscard]] Result<ImageSize> read_image_size(std::span<const std::byte> bytes,
+                                                const std::string& name);
+
+/// Decodes PNG, JPEG or WebP bytes; recognizes the format by the first of them. Error messages
+/// begin with `name`. Returns unsupported for other formats and for images that are too large,
+/// corrupt if the bytes cannot be decoded.
 [[nodiscard]] Result<Image8> decode_image8(std::span<const std::byte> bytes,
                                            const std::string& name);
 
@@ -26,6 +40,9 @@ struct HdrImage {
     /// the largest finite half), or above 1e30 (replaced by 1e30).
     uint64_t mended_pixel_count = 0;
 };
+
+/// Reads the size in the header of a radiance image. Errors as of `read_hdr_image`.
+[[nodiscard]] Result<ImageSize> read_hdr_image_size(const std::string& path);
 
 /// Reads a radiance image: Radiance .hdr or OpenEXR .exr (any compression; channels R, G, B).
 /// Recognizes the format by the file's first bytes, not by its name. Errors as of `decode_image8`.

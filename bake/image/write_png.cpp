@@ -1,51 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <spng.h>
+
 #include <cstddef>
-#include <cstdint>
-#include <span>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include <tetralight/bake/image/detail/image_size.h>
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/base/contract.h>
 #include <tetralight/base/file.h>
-
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#define STBI_WRITE_NO_STDIO
-#include <stb_image_write.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
 
-void append_bytes(void* target, void* data, int size) {
-    auto& bytes = *static_cast<std::vector<std::byte>*>(target);
-    const auto* first = static_cast<const std::byte*>(data);
-    bytes.insert(bytes.end(), first, first + size);
-}
+/// The default of zlib, 6, takes half as long again and makes files 1 percent smaller.
+constexpr int kCompressionLevel = 4;
 
-/// The checksum of PNG chunks: CRC-32 of ISO 3309, as the PNG specification has it in annex D.
-uint32_t chunk_checksum(std::span<const std::byte> bytes) {
-    uint32_t checksum = 0xffffffffu;
-    for (const std::byte byte : bytes) {
-        checksum ^= std::to_integer<uint32_t>(byte);
-        for (int bit = 0; bit < 8; ++bit)
-            checksum = checksum >> 1 ^ ((checksum & 1u) != 0 ? 0xedb88320u : 0u);
+struct FreeEncoder {
+    void operator()(spng_ctx* context) const noexcept { spng_ctx_free(context); }
+};
+
+struct FreeBytes {
+    void operator()(void* bytes) const noexcept { std::free(bytes); }
+};
+
+std::vector<spng_text> png_texts(PngTexts& texts) {
+    std::vector<spng_text> chunks;
+    for (auto& [keyword, text] : texts) {
+        TETRALIGHT_ASSERT(!keyword.empty() && keyword.size() < sizeof(spng_text::keyword),
+                          "a keyword has 1 to 79 letters");
+        spng_text chunk{};
+        keyword.copy(chunk.keyword, keyword.size());
+        chunk.type = SPNG_TEXT;
+        chunk.length = text.size();
+        chunk.text = text.data();
+        chunks.push_back(chunk);
     }
-    return ~checksum;
+    return chunks;
 }
 
-void append_big_endian(std::vector<std::byte>& bytes, uint32_t value) {
-    for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<std::byte>(value >> shift));
-}
-
-std::vector<std::byte> text_chunk(const std::string& keyword, const std::string& text) {
-    const std::string content = "tEXt" + keyword + '\0' + text;
-    const auto bytes = std::as_bytes(std::span(content));
-    std::vector<std::byte> chunk;
-    append_big_endian(chunk, static_cast<uint32_t>(content.size() - 4));
-    chunk.insert(chunk.end(), bytes.begin(), bytes.end());
-    append_big_endian(chunk, chunk_checksum(bytes));
-    return chunk;
+/// Encodes into a buffer of the context; returns libspng's code.
+int encode(spng_ctx* context, const Image8& image, PngTexts texts) {
+    spng_ihdr header{};
+    header.width = image.width;
+    header.height = image.height;
+    header.bit_depth = 8;
+    header.color_type = SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
+    int code = spng_set_ihdr(context, &header);
+    if (code == 0) code = spng_set_option(context, SPNG_ENCODE_TO_BUFFER, 1);
+    if (code == 0) {
+        code = spng_set_option(context, SPNG_IMG_COMPRESSION_LEVEL, kCompressionLevel);
+    }
+    std::vector<spng_text> chunks = png_texts(texts);
+    if (code == 0 && !chunks.empty()) {
+        code = spng_set_text(context, chunks.data(), static_cast<uint32_t>(chunks.size()));
+    }
+    if (code != 0) return code;
+    return spng_encode_image(context, image.pixels.data(), 4 * image.pixels.size(), SPNG_FMT_PNG,
+                             SPNG_ENCODE_FINALIZE);
 }
 
 }  // namespace
@@ -56,20 +70,17 @@ Result<std::vector<std::byte>> encode_png(const Image8& image, const PngTexts& t
     if (auto status = detail::check_writable_size("image", image.width, image.height); !status) {
         return status.error();
     }
-    std::vector<std::byte> bytes;
-    const int width = static_cast<int>(image.width);
-    if (stbi_write_png_to_func(append_bytes, &bytes, width, static_cast<int>(image.height), 4,
-                               image.pixels.data(), width * 4) == 0) {
-        return Error{ErrorCode::OutOfResources, "cannot encode PNG image"};
+    const std::unique_ptr<spng_ctx, FreeEncoder> context(spng_ctx_new(SPNG_CTX_ENCODER));
+    int code = context ? encode(context.get(), image, texts) : SPNG_EMEM;
+    size_t size = 0;
+    std::unique_ptr<void, FreeBytes> buffer;
+    if (code == 0) buffer.reset(spng_get_png_buffer(context.get(), &size, &code));
+    if (code != 0) {
+        return Error{ErrorCode::OutOfResources,
+                     str_cat("cannot encode PNG image (", spng_strerror(code), ")")};
     }
-    constexpr size_t kHeaderEnd = 33;  // signature and IHDR
-    size_t end = kHeaderEnd;
-    for (const auto& [keyword, text] : texts) {
-        const std::vector<std::byte> chunk = text_chunk(keyword, text);
-        bytes.insert(bytes.begin() + static_cast<ptrdiff_t>(end), chunk.begin(), chunk.end());
-        end += chunk.size();
-    }
-    return bytes;
+    const auto* first = static_cast<const std::byte*>(buffer.get());
+    return std::vector<std::byte>(first, first + size);
 }
 
 Status write_png(const std::string& path, const Image8& image) {

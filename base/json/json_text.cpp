@@ -27,13 +27,13 @@ Status check_json_shape(std::string_view json) {
                              str_cat("JSON is nested deeper than ", kDeepestJson)};
             }
             member_counts[static_cast<size_t>(depth)] = 0;
-        } else if (c == ':' && depth >= 0) {
+        } else if (c == ':') {
             if (++member_counts[static_cast<size_t>(depth)] > kMostJsonMembers) {
                 return Error{ErrorCode::InvalidArgument,
                              str_cat("a JSON object has more than ", kMostJsonMembers, " members")};
             }
         } else if (c == ']' || c == '}') {
-            --depth;
+            if (--depth < 0) return Ok{};  // a parser reads no further
         }
     }
     return Ok{};

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include <tetralight/bake/scene/probe_groups_json.h>
@@ -12,29 +9,16 @@
 #include <tetralight/probes/build/validate.h>
 #include <tetralight/probes/probe_file.h>
 #include "tests/fuzz/mutator.h"
+#include "tests/fuzz/seed_files.h"
 #include "tests/fuzz/targets.h"
 #include "tests/support/temp_folder.h"
 
 namespace tetralight::fuzz {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// The files of tests/fuzz/groups, in the order of their names.
 const std::vector<std::string>& sound_texts() {
-    static const auto texts = [] {
-        std::vector<std::filesystem::path> paths;
-        for (const auto& entry : std::filesystem::directory_iterator(TETRALIGHT_FUZZ_GROUPS)) {
-            paths.push_back(entry.path());
-        }
-        std::ranges::sort(paths);
-        std::vector<std::string> all;
-        for (const auto& path : paths) all.push_back(text_of(path));
-        return all;
-    }();
+    static const std::vector<std::string> texts = seed_files(TETRALIGHT_FUZZ_SEEDS "/groups");
     return texts;
 }
 
@@ -71,7 +55,7 @@ std::string fuzz_probe_groups(uint64_t seed) {
 }
 
 std::string replay_probe_groups(const std::string& path) {
-    const Verdict verdict = judge(text_of(path));
+    const Verdict verdict = judge(read_text(path));
     const bool must_be_refused =
         std::filesystem::path(path).filename().string().starts_with("refused_");
     return must_be_refused && !verdict.is_refused ? "is not refused" : verdict.problem;

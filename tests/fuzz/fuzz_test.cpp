@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include <tetralight/bake/image/read_image.h>
+#include "tests/fuzz/sound_scene.h"
 #include "tests/fuzz/targets.h"
 
 namespace tetralight::fuzz {
@@ -29,6 +31,27 @@ TEST_P(Fuzz, TakesNothingOfTheCorpusWronglyAgain) {
         ++count;
     }
     EXPECT_GT(count, 0u);
+}
+
+TEST(FuzzSeeds, TheSceneIsReadWhole) {
+    const auto scene = sound_scene().read({.normal_maps = NormalMaps::Read});
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    EXPECT_EQ(scene->textures.size(), 3u);
+    EXPECT_EQ(scene->normal_maps.size(), 1u);
+    EXPECT_EQ(scene->probe_groups.size(), 1u);
+}
+
+TEST(FuzzSeeds, ImagesAreDecoded) {
+    size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TETRALIGHT_FUZZ_SEEDS "/images")) {
+        const std::string path = entry.path().string();
+        const bool is_decoded = entry.path().extension() == ".exr"
+                                    ? static_cast<bool>(read_hdr_image(path))
+                                    : static_cast<bool>(decode_image8(*read_file(path), path));
+        EXPECT_TRUE(is_decoded) << path;
+        ++count;
+    }
+    EXPECT_GT(count, 10u);
 }
 
 }  // namespace

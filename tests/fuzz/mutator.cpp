@@ -97,6 +97,30 @@ void Mutator::change_bytes(std::span<std::byte> bytes) {
     }
 }
 
+void Mutator::change_file(std::string& file) {
+    if (file.empty()) return;
+    const size_t place = below(file.size());
+    const size_t size = std::min(below(16) + 1, file.size() - place);
+    switch (below(8)) {
+        case 0:
+            file[place] = static_cast<char>(below(256));
+            return;
+        case 1:
+            file.erase(place, size);
+            return;
+        case 2:
+            file.insert(below(file.size() + 1), file.substr(place, size));
+            return;
+        case 3:
+            file.resize(place);
+            return;
+        case 4:
+            return change_text(file);
+        default:
+            change_bytes(std::as_writable_bytes(std::span(file).subspan(below(file.size()))));
+    }
+}
+
 void Mutator::change_text(std::string& text) {
     const size_t place = below(text.size() + 1);
     const size_t size = std::min(below(12) + 1, text.size() - place);

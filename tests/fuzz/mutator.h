@@ -21,6 +21,9 @@ class Mutator {
     /// largest, NaN, infinity...), flips a bit, or copies one part over another. The size stays.
     void change_bytes(std::span<std::byte> bytes);
 
+    /// Changes bytes, or inserts, removes or repeats some. Empty files stay so.
+    void change_file(std::string& file);
+
     /// Changes, inserts, removes or repeats a part of a text.
     void change_text(std::string& text);
 

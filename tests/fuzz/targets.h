@@ -20,6 +20,17 @@ namespace tetralight::fuzz {
 /// Groups of probes as JSON: read with an error, or merged and joined to a volume that is valid.
 [[nodiscard]] std::string fuzz_probe_groups(uint64_t seed);
 
+/// PNG, JPEG, WebP and OpenEXR files with bytes changed, and checksums of PNG repaired: decoded
+/// with an error, or to an image of the size that the header has.
+[[nodiscard]] std::string fuzz_images(uint64_t seed);
+
+/// The same for Radiance files.
+[[nodiscard]] std::string fuzz_hdr(uint64_t seed);
+
+/// glTF scenes with values of their JSON and bytes of their buffers and images changed: read with
+/// an error that names the file, or to a scene whose indices are in range.
+[[nodiscard]] std::string fuzz_gltf(uint64_t seed);
+
 // One case of the corpus: what was taken wrongly once (tests/fuzz/corpus/NAME).
 
 /// A text of `file_of_changes`: the file must be refused.
@@ -27,6 +38,10 @@ namespace tetralight::fuzz {
 
 /// JSON; must be refused if the name of the file begins with "refused_".
 [[nodiscard]] std::string replay_probe_groups(const std::string& path);
+
+/// An image or a glTF file; must be refused if the name of the file begins with "refused_".
+[[nodiscard]] std::string replay_image(const std::string& path);
+[[nodiscard]] std::string replay_gltf(const std::string& path);
 
 struct Target {
     std::string_view name;

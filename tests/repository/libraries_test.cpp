@@ -32,14 +32,17 @@ const std::map<std::string, std::string> kLibraries = {
     {"draco/", "Draco"},
     {"embree", "Embree"},
     {"hwy/", "Highway"},
+    {"jerror.h", "libjpeg-turbo"},
+    {"jpeglib.h", "libjpeg-turbo"},
     {"meshoptimizer.h", "meshoptimizer"},
     {"nanovdb/", "NanoVDB"},
     {"nlohmann/", "nlohmann-json"},
     {"openvdb/", "OpenVDB"},
     {"sqlite3", "SQLite"},
-    {"stb_", "stb"},
+    {"spng.h", "libspng"},
     {"tbb/", "TBB"},
     {"tetgen.h", "TetGen"},
+    {"webp/", "libwebp"},
     {"xxhash", "xxHash"},
 };
 

@@ -7,12 +7,15 @@
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <exception>
 #include <new>
 
+#include <tetralight/bake/image/detail/exr_header.h>
 #include <tetralight/bake/image/detail/image_size.h>
+#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -44,11 +47,11 @@ Result<ChannelNames> find_channels(const Imf::ChannelList& channels) {
 Result<ImageF> make_image(const Imath::Box2i& window) {
     const int64_t width = int64_t{window.max.x} - window.min.x + 1;
     const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-    if (width <= 0 || height <= 0) return Error{ErrorCode::Corrupt, "is empty"};
-    const auto columns = static_cast<uint64_t>(width), rows = static_cast<uint64_t>(height);
-    if (is_too_large(columns, rows)) return image_size_error(columns, rows);
-    ImageF image{static_cast<uint32_t>(width), static_cast<uint32_t>(height), {}};
-    image.pixels.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
+    const auto size = checked_image_size(static_cast<uint64_t>(std::max<int64_t>(width, 0)),
+                                         static_cast<uint64_t>(std::max<int64_t>(height, 0)));
+    if (!size) return size.error();
+    ImageF image{size->width, size->height, {}};
+    image.pixels.resize(size_t{size->width} * size->height);
     return image;
 }
 
@@ -74,9 +77,19 @@ Result<ImageF> read_pixels(Imf::InputFile& file) {
     return image;
 }
 
+/// Checks the header before OpenEXR allocates what it says.
+Status check_header(const std::string& path) {
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    const auto size = read_exr_size(file->bytes());
+    if (!size) return size.error().in(path);
+    return Ok{};
+}
+
 }  // namespace
 
 Result<ImageF> read_exr(const std::string& path) {
+    if (const auto status = check_header(path); !status) return status.error();
     try {
         Imf::InputFile file(path.c_str());
         auto image = read_pixels(file);

@@ -79,9 +79,11 @@ constexpr GltfRule kAccessors[] = {
     {"count", Size, "", 0, kRequired},
     {"type", String, "", 0, kRequired},
     {"sparse/count", Size, "", 0, kRequired},
+    {"sparse/indices", Object, "", 0, kRequired},
     {"sparse/indices/bufferView", Index, "bufferViews", 0, kRequired},
     {"sparse/indices/byteOffset", Size},
     {"sparse/indices/componentType", Size, "", 0, kRequired},
+    {"sparse/values", Object, "", 0, kRequired},
     {"sparse/values/bufferView", Index, "bufferViews", 0, kRequired},
     {"sparse/values/byteOffset", Size},
 };

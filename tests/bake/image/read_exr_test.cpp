@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include <tetralight/bake/image/detail/exr_header.h>
 #include <tetralight/bake/image/read_image.h>
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/base/error_text.h>
@@ -71,6 +72,27 @@ TEST(ReadExr, RejectsAWindowThatIsTooLarge) {
     const auto image = detail::read_exr(folder.write("large.exr", file));
     ASSERT_FALSE(image);
     EXPECT_NE(error_text(image.error()).find("large.exr"), std::string::npos);
+}
+
+TEST(ReadExrSize, NeedsTheHeaderAlone) {
+    const std::string file = one_channel_exr('Y', {kHalfOne, kHalfTwo});
+    constexpr size_t kBehindHeader = 8 + 4 + 4 + 4;  // offsets, the scan line and its pixels
+    const auto header = std::as_bytes(std::span(file)).first(file.size() - kBehindHeader);
+    const auto size = detail::read_exr_size(header);
+    ASSERT_TRUE(size) << error_text(size.error());
+    EXPECT_EQ(*size, (ImageSize{2, 1}));
+    for (size_t length = 0; length < header.size(); ++length) {
+        EXPECT_FALSE(detail::read_exr_size(header.first(length))) << length;
+    }
+}
+
+TEST(ReadExrSize, RefusesAnAttributeThatIsLargerThanTheFile) {
+    std::string file = one_channel_exr('Y', {kHalfOne, kHalfTwo});
+    const size_t length = file.find("compression") + 2 * sizeof("compression");
+    file.replace(length, 4, "\xff\xff\xff\x7f");
+    const auto size = detail::read_exr_size(std::as_bytes(std::span(file)));
+    ASSERT_FALSE(size);
+    EXPECT_EQ(error_text(size.error()), "cannot decode image (the header is cut off or damaged)");
 }
 
 TEST(ReadExr, RejectsEveryTruncation) {

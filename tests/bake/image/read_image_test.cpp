@@ -5,6 +5,7 @@
 
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/base/error_text.h>
+#include "tests/support/image_files.h"
 #include "tests/support/temp_folder.h"
 
 namespace tetralight {
@@ -20,15 +21,10 @@ std::span<const std::byte> bytes_of(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
-/// A Radiance file of flat RGBE pixels: value = mantissa / 256 * 2^(exponent - 128).
-std::string radiance_hdr(std::string_view size, std::string_view rgbe) {
-    return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + std::string(size) + "\n" + std::string(rgbe);
-}
-
-TEST(DecodeImage8, RejectsWhatIsNoPngOrJpeg) {
+TEST(DecodeImage8, RejectsOtherFormats) {
     const auto image = decode_image8(bytes_of("GIF89a"), "photo.gif");
     ASSERT_FALSE(image);
-    EXPECT_EQ(error_text(image.error()), "photo.gif: is neither a PNG nor a JPEG image");
+    EXPECT_EQ(error_text(image.error()), "photo.gif: is neither a PNG nor a JPEG nor a WebP image");
 }
 
 TEST(DecodeImage8, RejectsEveryTruncationOfAPng) {
@@ -51,11 +47,51 @@ TEST(DecodeImage8, RejectsASizeAboveTheCapBeforeDecoding) {
               "bomb.png: 32768 x 32768 pixels are more than the largest size (268435456 pixels)");
 }
 
+TEST(DecodeImage8, TellsTheFormatByContent) {
+    const std::string jpeg = test::constant_jpeg({200});
+    const auto image = decode_image8(bytes_of(jpeg), "named.png");
+    ASSERT_TRUE(image) << error_text(image.error());
+    EXPECT_EQ(image->pixels[63], (std::array<uint8_t, 4>{200, 200, 200, 255}));
+}
+
+TEST(DecodeImage8, NamesAWebpImageThatIsDamaged) {
+    const auto image = decode_image8(bytes_of("RIFFabcdWEBPnone"), "a.webp");
+    ASSERT_FALSE(image);
+    EXPECT_TRUE(error_text(image.error()).starts_with("a.webp: cannot decode image ("));
+}
+
+TEST(ReadImageSize, IsThatOfTheDecodedImage) {
+    EXPECT_EQ(*read_image_size(small_png(), "a.png"), (ImageSize{2, 1}));
+    const std::string jpeg = test::constant_jpeg({1, 2, 3}, {.sampling = 2});
+    EXPECT_EQ(*read_image_size(bytes_of(jpeg), "a.jpg"), (ImageSize{16, 16}));
+}
+
+TEST(ReadImageSize, NamesWhatIsWrong) {
+    const auto other = read_image_size(bytes_of("GIF89a"), "photo.gif");
+    ASSERT_FALSE(other);
+    EXPECT_EQ(error_text(other.error()), "photo.gif: is neither a PNG nor a JPEG nor a WebP image");
+    const auto large = read_image_size(bytes_of(test::png_file({20000, 20000}, "")), "a.png");
+    ASSERT_FALSE(large);
+    EXPECT_EQ(error_text(large.error()),
+              "a.png: 20000 x 20000 pixels are more than the largest size (268435456 pixels)");
+}
+
+TEST(ReadHdrImageSize, IsReadOfBothFormats) {
+    const TempFolder folder;
+    ASSERT_TRUE(write_exr(folder.path("a.exr"), ImageF{3, 2, std::vector<glm::vec3>(6)}));
+    EXPECT_EQ(*read_hdr_image_size(folder.path("a.exr")), (ImageSize{3, 2}));
+    const auto path = folder.write("a.hdr", test::radiance_file("-Y 7 +X 9", ""));
+    EXPECT_EQ(*read_hdr_image_size(path), (ImageSize{9, 7}));
+    const auto other = read_hdr_image_size(folder.write("a.txt", "hello"));
+    ASSERT_FALSE(other);
+    EXPECT_TRUE(error_text(other.error()).starts_with(folder.path("a.txt")));
+}
+
 TEST(ReadHdrImage, DecodesRadianceRgbe) {
     const TempFolder folder;
     // (128, 64, 32) / 256 * 2^(130 - 128) = (2, 1, 0.5); exponent 0 is black.
     const std::string rgbe("\x80\x40\x20\x82\x00\x00\x00\x00", 8);
-    const auto path = folder.write("a.hdr", radiance_hdr("-Y 1 +X 2", rgbe));
+    const auto path = folder.write("a.hdr", test::radiance_file("-Y 1 +X 2", rgbe));
     const auto read = read_hdr_image(path);
     ASSERT_TRUE(read) << error_text(read.error());
     EXPECT_EQ(read->image.width, 2u);
@@ -72,7 +108,7 @@ TEST(ReadHdrImage, TellsTheKindByContentNotByName) {
 
 TEST(ReadHdrImage, RejectsARadianceSizeAboveTheCap) {
     const TempFolder folder;
-    const auto path = folder.write("large.hdr", radiance_hdr("-Y 100000 +X 100000", ""));
+    const auto path = folder.write("large.hdr", test::radiance_file("-Y 100000 +X 100000", ""));
     const auto read = read_hdr_image(path);
     ASSERT_FALSE(read);
     EXPECT_NE(error_text(read.error()).find("100000 x 100000 pixels"), std::string::npos);
@@ -80,7 +116,7 @@ TEST(ReadHdrImage, RejectsARadianceSizeAboveTheCap) {
 
 TEST(ReadHdrImage, RejectsACutOffRadianceFile) {
     const TempFolder folder;
-    const auto path = folder.write("cut.hdr", radiance_hdr("-Y 4 +X 2", "\x80\x40\x20\x82"));
+    const auto path = folder.write("cut.hdr", test::radiance_file("-Y 4 +X 2", "\x80\x40\x20\x82"));
     const auto read = read_hdr_image(path);
     ASSERT_FALSE(read);
     EXPECT_TRUE(error_text(read.error()).starts_with(path));

@@ -243,7 +243,7 @@ TEST(GltfTextures, NamesAnImageThatCannotBeDecoded) {
     EXPECT_EQ(
         gltf.error(),
         "scene.glb: material 0: baseColorTexture: texture 0: image 0 \"bricks\": is neither a "
-        "PNG nor a JPEG image");
+        "PNG nor a JPEG nor a WebP image");
 }
 
 }  // namespace

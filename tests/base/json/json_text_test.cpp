@@ -89,6 +89,13 @@ TEST(JsonText, LimitsTheMembersOfAnObject) {
     EXPECT_TRUE(check_json_shape("]]]]:::"));  // the parser finds what is no JSON
 }
 
+TEST(JsonText, CountsNothingBehindABracketThatClosesNone) {
+    for (const std::string& text : {"]" + std::string(100, '['), std::string(5000, ']') + "{:[:"}) {
+        EXPECT_TRUE(check_json_shape(text));
+        EXPECT_FALSE(check_json_object(text));
+    }
+}
+
 TEST(JsonText, FindsAKeyThatAnObjectHasTwice) {
     EXPECT_EQ(find_duplicate_key(R"({"a": 1, "b": {"a": 2}, "c": [{"a": 3}, {"a": 4}]})"),
               std::nullopt);
