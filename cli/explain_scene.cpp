@@ -10,6 +10,7 @@
 #include <tetralight/cli/scene_parts_report.h>
 #include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/table.h>
+#include <tetralight/cli/walls_report.h>
 
 namespace tetralight::cli {
 namespace {
@@ -43,13 +44,8 @@ Json scene_json(const std::string& path, const Scene& scene, const SceneFacts& f
             {"memory_bytes", facts.memory_bytes}};
 }
 
-std::string position_text(const glm::dvec3& v) {
-    const glm::vec3 shown(v);
-    return str_cat(shown.x, " ", shown.y, " ", shown.z);
-}
-
 std::string scene_text(const std::string& path, const Scene& scene, const SceneFacts& facts) {
-    const std::string bounds = facts.bounds ? str_cat(position_text(facts.bounds->min), "  to  ",
+    const std::string bounds = facts.bounds ? str_cat(position_text(facts.bounds->min), " to ",
                                                       position_text(facts.bounds->max))
                                             : "none (no objects)";
     const std::string memory =

@@ -59,8 +59,9 @@ TEST_F(Explain, JsonHasThePartsAndTheSizeOfTheScene) {
 
 TEST_F(Explain, TextHasTheSameAndIsAnAnswerOfInfoToo) {
     const std::string out = succeed({"explain", "s.gltf"}).out;
-    for (const char* line : {"s.gltf\n  triangles  1\n  bounds     0 0 0  to  2 4 0\n  memory ",
-                             "what was read\n", "  point lights"}) {
+    for (const char* line :
+         {"s.gltf\n  triangles  1\n  bounds     (0, 0, 0) to (2, 4, 0)\n  memory ",
+          "what was read\n", "  point lights"}) {
         EXPECT_TRUE(contains(out, line)) << line << "\n" << out;
     }
     EXPECT_EQ(succeed({"info", "s.gltf"}).out, out);
