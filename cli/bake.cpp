@@ -12,6 +12,7 @@
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/scene_options.h>
+#include <tetralight/cli/scene_parts_report.h>
 #include <tetralight/pipeline/bake_volume.h>
 #include <tetralight/probes/probe_file.h>
 
@@ -66,7 +67,7 @@ struct Bake {
     [[nodiscard]] Status run_explain() const {
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
-        common.warn(scene->warnings);
+        common.warn(warnings_beside_parts(*scene));
         return explain(*scene, settings.lighting, common);
     }
 

@@ -21,6 +21,7 @@ constexpr Command kCommands[] = {
     {&settings::kLppv, run_lppv},
     {&settings::kRender, run_render},
     {&settings::kMeshball, run_meshball},
+    {&settings::kExplain, run_explain},
     {&settings::kInfo, run_info},
     {&settings::kValidate, run_validate},
     {&settings::kCheckLeaks, run_check_leaks},

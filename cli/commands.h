@@ -13,6 +13,7 @@ namespace tetralight::cli {
 Status run_backup(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_bake(const Values& values);
 Status run_check_leaks(const Values& values);
+Status run_explain(const Values& values);
 Status run_export(const Values& values);
 Status run_fsck(const Values& values);  // only with TETRALIGHT_BUILD_SERVER
 Status run_grid(const Values& values);

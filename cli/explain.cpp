@@ -7,6 +7,7 @@
 #include <tetralight/bake/scene/surface_color.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/light_words.h>
+#include <tetralight/cli/scene_parts_report.h>
 #include <tetralight/cli/table.h>
 #include <tetralight/runtime/runtime_lights.h>
 
@@ -114,13 +115,15 @@ Status explain(const Scene& scene, const LightingSettings& settings, const Commo
     const std::string mode = name_of(settings.mixed_lighting);
     size_t probe_count = 0;
     for (const ProbeGroup& group : scene.probe_groups) probe_count += group.positions.size();
-    common.print({{"mixed_lighting", mode},
-                  {"sources", sources},
-                  {"triangles", estimate_bake_memory(scene, 0).triangle_count},
-                  {"instances", scene.instances.size()},
-                  {"probe_groups", scene.probe_groups.size()},
-                  {"probes", probe_count}},
-                 str_cat("mixed lighting: ", mode, "\n", table_of(sources)));
+    common.print(
+        {{"mixed_lighting", mode},
+         {"sources", sources},
+         {"triangles", estimate_bake_memory(scene, 0).triangle_count},
+         {"instances", scene.instances.size()},
+         {"probe_groups", scene.probe_groups.size()},
+         {"probes", probe_count},
+         {"parts", parts_json(scene.parts)}},
+        str_cat(parts_text(scene.parts), "mixed lighting: ", mode, "\n", table_of(sources)));
     return Ok{};
 }
 

@@ -11,8 +11,8 @@
 
 namespace tetralight::cli {
 
-/// Prints what a bake takes from each light of a scene and what the runtime adds. Returns the
-/// errors of `plan_lighting`.
+/// Prints what was read of a scene, what a bake takes from each of its lights, and what the runtime
+/// adds. Returns the errors of `plan_lighting`.
 [[nodiscard]] Status explain(const Scene& scene, const LightingSettings& settings,
                              const CommonOptions& common);
 

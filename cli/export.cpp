@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <tetralight/bake/image/write_image.h>
-#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
@@ -14,6 +13,7 @@
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/reflection_files.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/pipeline/exported_texels.h>
 #include <tetralight/pipeline/lightmap_images.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
@@ -54,6 +54,9 @@ struct Export {
     std::string lightmaps_path;
     std::string output;
     std::string scene_path;
+    SceneReading reading;
+    /// What is wrong if the file contains reflection probes.
+    Status with_reflections;
     ExportFormat format;
     LightmapMap map;
     std::vector<std::string> packed;
@@ -68,6 +71,8 @@ struct Export {
         : lightmaps_path(values.text("lightmaps")),
           output(values.text("output")),
           scene_path(values.text("scene")),
+          reading(scene_reading(values)),
+          with_reflections(check_no_scene_reading(values, "is for lightmaps")),
           format(chosen_format(values)),
           map(choice<LightmapMap>(values, "map")),
           packed(values.texts("pack")),
@@ -122,6 +127,7 @@ struct Export {
             return Error{ErrorCode::InvalidArgument, "lightmaps", lightmaps_path,
                          start + "; --map, --pack and --mark are for lightmaps"};
         }
+        if (!with_reflections) return with_reflections;
         const ReflectionExport what{lightmaps_path, output, probe_names, scene_path, level};
         if (format == ExportFormat::Glb) return export_reflection_scene(what, common);
         if (format == ExportFormat::Exr) return export_reflection_images(what, common);
@@ -180,7 +186,7 @@ struct Export {
     }
 
     [[nodiscard]] Status write_scene(const LightmapsView& maps) const {
-        const auto scene = read_gltf(scene_path);
+        const auto scene = read_scene(scene_path, reading);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         const auto status = write_lightmap_glb(output, scene_path, *scene, maps);

@@ -6,7 +6,6 @@
 #include <span>
 
 #include <tetralight/bake/scene/probe_groups_json.h>
-#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/cli/amounts.h>
 #include <tetralight/probes/build/merge.h>
 
@@ -18,9 +17,9 @@ bool is_gltf(const std::string& path) {
     return extension == ".glb" || extension == ".gltf";
 }
 
-Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
+Result<std::vector<ProbeGroup>> read_groups(const std::string& path, const SceneReading& reading) {
     if (!is_gltf(path)) return read_probe_groups(path);
-    auto scene = read_gltf(path);
+    auto scene = read_gltf(path, reading);
     if (!scene) return scene.error();
     if (scene->probe_groups.empty()) {
         return Error{ErrorCode::NotFound, "groups", path,
@@ -31,10 +30,11 @@ Result<std::vector<ProbeGroup>> read_groups(const std::string& path) {
 
 }  // namespace
 
-Result<GroupFiles> GroupFiles::read(const std::vector<std::string>& paths) {
+Result<GroupFiles> GroupFiles::read(const std::vector<std::string>& paths,
+                                    const SceneReading& reading) {
     GroupFiles files;
     for (const std::string& path : paths) {
-        auto groups = read_groups(path);
+        auto groups = read_groups(path, reading);
         if (!groups) return groups.error();
         files.add(path, std::move(*groups));
     }

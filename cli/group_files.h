@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/result.h>
 #include <tetralight/probes/probe_group.h>
 
@@ -15,7 +16,8 @@ class GroupFiles {
   public:
     /// Reads every file: JSON group files, or the groups of glTF scenes. Returns an error if a
     /// scene has no group.
-    [[nodiscard]] static Result<GroupFiles> read(const std::vector<std::string>& paths);
+    [[nodiscard]] static Result<GroupFiles> read(const std::vector<std::string>& paths,
+                                                 const SceneReading& reading = {});
 
     /// Adds the groups of one file.
     void add(const std::string& path, std::vector<ProbeGroup> groups);

@@ -6,6 +6,7 @@
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
+#include <tetralight/cli/table.h>
 
 namespace tetralight::cli {
 namespace {
@@ -14,26 +15,7 @@ using settings::Setting;
 using settings::Table;
 using settings::Type;
 
-constexpr size_t kWidth = 96;
 constexpr size_t kHelpColumn = 30;
-
-/// Appends words, and begins a line at `indent` before one that would pass the width.
-void append_wrapped(std::string& text, std::string_view words, size_t indent) {
-    size_t column = text.size() - (text.rfind('\n') + 1);
-    settings::for_each_word(words, [&](std::string_view word) {
-        const bool is_first = column <= indent;
-        if (!is_first && column + 1 + word.size() > kWidth) {
-            text += "\n" + std::string(indent, ' ');
-            column = indent;
-        } else if (!is_first) {
-            text += ' ';
-            ++column;
-        }
-        text += word;
-        column += word.size();
-    });
-    text += '\n';
-}
 
 /// "  NAME      help", below each other.
 void append_row(std::string& text, const std::string& name, const std::string& help) {

@@ -5,10 +5,12 @@
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/common.h>
+#include <tetralight/cli/explain_scene.h>
 #include <tetralight/cli/info_probes.h>
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/reflection_files.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/volume_facts.h>
 #include <tetralight/pipeline/partial_bake.h>
 #include <tetralight/probes/build/check_metadata.h>
@@ -27,6 +29,10 @@ struct Info {
     std::string obj_path;
     std::string ply_path;
     bool shows_probes = false;
+    bool is_scene = false;
+    SceneReading reading;
+    /// What is wrong if the file is not a scene.
+    Status without_scene;
     CommonOptions common;
 
     explicit Info(const Values& values)
@@ -34,6 +40,9 @@ struct Info {
           obj_path(values.text("obj")),
           ply_path(values.text("ply")),
           shows_probes(values.flag("probes")),
+          is_scene(is_scene_file(path)),
+          reading(scene_reading(values, NormalMaps::Read)),
+          without_scene(check_no_scene_reading(values, "needs a glTF scene")),
           common(values) {
         if (obj_path == "-" && ply_path == "-") {
             refuse(values, "ply", values.shown("obj") + " goes to stdout already");
@@ -49,6 +58,8 @@ struct Info {
             if (output.empty()) continue;
             if (auto status = check_output(output, {path}); !status) return status;
         }
+        if (is_scene) return run_scene();
+        if (!without_scene) return without_scene;
         if (is_lightmap_file(path)) return run_lightmaps();
         if (is_reflection_file(path)) return run_reflections();
         const auto file = open_probe_file(path);
@@ -78,6 +89,12 @@ struct Info {
     /// Anything besides the description.
     [[nodiscard]] bool has_other() const {
         return !obj_path.empty() || !ply_path.empty() || shows_probes;
+    }
+
+    [[nodiscard]] Status run_scene() const {
+        if (!has_other()) return show_scene(path, reading, common);
+        return Error{ErrorCode::InvalidArgument, "volume", path,
+                     path + ": is a scene, which has no tetrahedra and no health of probes"};
     }
 
     [[nodiscard]] Status run_lightmaps() const {

@@ -14,6 +14,7 @@
 #include <tetralight/cli/preview_files.h>
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/scene_options.h>
+#include <tetralight/cli/scene_parts_report.h>
 #include <tetralight/lightmap/lightmap_file.h>
 #include <tetralight/pipeline/bake_lightmaps.h>
 #include <tetralight/pipeline/lightmap_part.h>
@@ -65,7 +66,7 @@ struct Lightmap {
     [[nodiscard]] Status run_explain() const {
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
-        common.warn(scene->warnings);
+        common.warn(warnings_beside_parts(*scene));
         if (auto status = check_lightmaps(*scene, settings); !status)
             return status.error().in(scene_options.path);
         return explain(*scene, settings.lighting, common);

@@ -7,7 +7,6 @@
 
 #include <tetralight/bake/parallel.h>
 #include <tetralight/bake/rays/trace_scene.h>
-#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/box.h>
 #include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
@@ -16,6 +15,7 @@
 #include <tetralight/cli/lppv_grid_options.h>
 #include <tetralight/cli/lppv_warnings.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/lppv/sparse_lppv.h>
 #include <tetralight/pipeline/lppv_coverage.h>
 #include <tetralight/pipeline/lppv_validity.h>
@@ -83,6 +83,7 @@ struct Survey {
 struct LppvCommand {
     std::string volume_path;
     std::string scene_path;
+    SceneReading reading;
     std::string output;
     LppvGridOptions grid;
     LppvFill fill;
@@ -96,6 +97,7 @@ struct LppvCommand {
     explicit LppvCommand(const Values& given)
         : volume_path(given.text("volume")),
           scene_path(given.text("scene")),
+          reading(scene_reading(given)),
           output(given.text("output")),
           grid(given),
           is_sparse(given.flag("sparse")),
@@ -141,7 +143,7 @@ struct LppvCommand {
         common.warn_if_unlit(volume_path, probes->view());
         Scene scene;
         if (!scene_path.empty()) {
-            auto read = read_gltf(scene_path);
+            auto read = read_scene(scene_path, reading);
             if (!read) return read.error();
             common.warn(read->warnings);
             scene = std::move(*read);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <tetralight/bake/image/write_image.h>
-#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/ball_options.h>
 #include <tetralight/cli/commands.h>
@@ -17,6 +16,7 @@
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/renderer_kind.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/view_options.h>
 #include <tetralight/probes/probe_file.h>
 #include <tetralight/reflection/reflection_file.h>
@@ -50,6 +50,7 @@ struct MeshBall {
 
     std::string volume_path;
     std::string scene_path;
+    SceneReading reading;
     std::string lightmap_path;
     std::string reflection_path;
     std::string output;
@@ -65,6 +66,7 @@ struct MeshBall {
     explicit MeshBall(const Values& values)
         : volume_path(values.text("volume")),
           scene_path(values.text("scene")),
+          reading(scene_reading(values, NormalMaps::Read)),
           lightmap_path(values.text("lightmaps")),
           reflection_path(values.text("reflections")),
           output(values.text("output")),
@@ -101,7 +103,7 @@ struct MeshBall {
         const ProbeVolumeView volume = with_walls(file->view(), walls);
         Scene scene;
         if (!scene_path.empty()) {
-            auto read = read_gltf(scene_path, {.normal_maps = NormalMaps::Read});
+            auto read = read_scene(scene_path, reading);
             if (!read) return read.error();
             common.warn(read->warnings);
             scene = std::move(*read);

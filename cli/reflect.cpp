@@ -20,6 +20,7 @@
 #include <tetralight/cli/progress.h>
 #include <tetralight/cli/reflection_files.h>
 #include <tetralight/cli/scene_options.h>
+#include <tetralight/cli/scene_parts_report.h>
 #include <tetralight/pipeline/bake_reflections.h>
 #include <tetralight/pipeline/lightmap_scene.h>
 #include <tetralight/pipeline/reflection_settings.h>
@@ -110,7 +111,7 @@ struct Reflect {
     [[nodiscard]] Status run_explain() const {
         const auto scene = scene_options.read();
         if (!scene) return scene.error();
-        common.warn(scene->warnings);
+        common.warn(warnings_beside_parts(*scene));
         const auto places = places_of(*scene);
         if (!places) return places.error();
         const auto lightmaps = open_lightmaps(lightmaps_path);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <tetralight/bake/image/write_image.h>
-#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
@@ -14,6 +13,7 @@
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/renderer_kind.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/show_settings.h>
 #include <tetralight/cli/view_options.h>
 #include <tetralight/probes/probe_file.h>
@@ -36,6 +36,7 @@ bool is_empty(const GizmoLines& group) {
 
 struct Render {
     std::string scene_path;
+    SceneReading reading;
     std::string volume_path;
     std::string lightmap_path;
     std::string reflection_path;
@@ -53,6 +54,7 @@ struct Render {
 
     explicit Render(const Values& values)
         : scene_path(values.text("scene")),
+          reading(scene_reading(values, NormalMaps::Read)),
           volume_path(values.text("volume")),
           lightmap_path(values.text("lightmaps")),
           reflection_path(values.text("reflections")),
@@ -147,7 +149,7 @@ struct Render {
         const std::vector<std::string> inputs{scene_path, volume_path, lightmap_path,
                                               reflection_path};
         if (auto status = check_output(output, inputs); !status) return status;
-        const auto scene = read_gltf(scene_path, {.normal_maps = NormalMaps::Read});
+        const auto scene = read_scene(scene_path, reading);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         const auto file = open_probe_file(volume_path);

@@ -5,13 +5,12 @@
 #include <glm/trigonometric.hpp>
 
 #include <tetralight/bake/scene/probe_adjustments_json.h>
-#include <tetralight/bake/scene/probe_groups_json.h>
-#include <tetralight/bake/scene/read_gltf.h>
 
 namespace tetralight::cli {
 
 SceneOptions::SceneOptions(const Values& values)
     : path(values.text("scene")),
+      reading(scene_reading(values)),
       adjustments(has_setting(values, "adjustments") ? values.text("adjustments") : ""),
       sky(values),
       sun_direction(vec3(values, "sun_direction")),
@@ -20,10 +19,9 @@ SceneOptions::SceneOptions(const Values& values)
       sun_mode(values.text("sun_mode") == "baked" ? LightMode::Baked : LightMode::Mixed) {}
 
 Result<Scene> SceneOptions::read(NormalMaps normal_maps) const {
-    auto scene = read_gltf(path, {.normal_maps = normal_maps});
-    if (!scene && read_probe_groups(path))
-        return Error{ErrorCode::InvalidArgument, "scene", path,
-                     path + ": contains probe groups, not a scene"};
+    SceneReading all = reading;
+    all.normal_maps = normal_maps;
+    auto scene = read_scene(path, all);
     if (!scene) return scene;
     if (auto status = add_adjustments(*scene); !status) return status.error();
     if (auto status = sky.apply(path, scene->environment, scene->warnings); !status) {

@@ -8,6 +8,7 @@
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/bake/scene/scene.h>
 #include <tetralight/base/result.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/sky_options.h>
 
 namespace tetralight::cli {
@@ -15,6 +16,7 @@ namespace tetralight::cli {
 /// The scene to work on, and light that the settings add to it.
 struct SceneOptions {
     std::string path;
+    SceneReading reading;
     std::string adjustments;
     SkyOptions sky;
     glm::dvec3 sun_direction{0.0};

@@ -7,6 +7,7 @@
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/group_files.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/tetgen_program.h>
 #include <tetralight/probes/build/make_probe_volume.h>
 #include <tetralight/probes/build/merge_warnings.h>
@@ -17,6 +18,7 @@ namespace {
 
 struct Tetrahedralize {
     std::vector<std::string> group_paths;
+    SceneReading reading;
     std::string output;
     std::string backend;
     MergeSettings merge_settings;
@@ -24,6 +26,7 @@ struct Tetrahedralize {
 
     explicit Tetrahedralize(const Values& values)
         : group_paths(values.texts("groups")),
+          reading(scene_reading(values)),
           output(values.text("output")),
           backend(values.text("backend")),
           merge_settings{.weld_tolerance = values.number("weld")},
@@ -49,7 +52,7 @@ struct Tetrahedralize {
 
     Status run() {
         if (auto status = check_output(output, group_paths); !status) return status;
-        const auto files = GroupFiles::read(group_paths);
+        const auto files = GroupFiles::read(group_paths, reading);
         if (!files) return files.error();
         const auto merged = merge(files->groups(), merge_settings);
         if (!merged) return files->locate(merged.error());

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/common.h>
 #include <tetralight/cli/paths.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/pipeline/lightmap_settings.h>
 #include <tetralight/pipeline/write_lightmap_glb.h>
 
@@ -21,19 +21,21 @@ LightmapLayoutSettings layout_settings(const Values& values) {
 
 struct Unwrap {
     std::string scene_path;
+    SceneReading reading;
     std::string output;
     LightmapLayoutSettings settings;
     CommonOptions common;
 
     explicit Unwrap(const Values& values)
         : scene_path(values.text("scene")),
+          reading(scene_reading(values)),
           output(values.text("output")),
           settings(layout_settings(values)),
           common(values) {}
 
     Status run() const {
         if (auto status = check_output(output, {scene_path}); !status) return status;
-        const auto scene = read_gltf(scene_path);
+        const auto scene = read_scene(scene_path, reading);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         const auto layout = make_lightmap_layout(*scene, settings);

@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/shown_path.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
@@ -12,6 +11,7 @@
 #include <tetralight/cli/lightmap_files.h>
 #include <tetralight/cli/paths.h>
 #include <tetralight/cli/reflection_files.h>
+#include <tetralight/cli/scene_reading.h>
 #include <tetralight/cli/walls_report.h>
 #include <tetralight/pipeline/bake_metadata.h>
 #include <tetralight/pipeline/unseen_places.h>
@@ -41,10 +41,14 @@ struct Validate {
     std::string path;
     /// Empty: unseen space is not measured.
     std::string scene_path;
+    SceneReading reading;
     CommonOptions common;
 
     explicit Validate(const Values& values)
-        : path(values.text("volume")), scene_path(values.text("scene")), common(values) {}
+        : path(values.text("volume")),
+          scene_path(values.text("scene")),
+          reading(scene_reading(values)),
+          common(values) {}
 
     Status run() {
         if (is_lightmap_file(path)) return validate_lightmaps(path, common);
@@ -88,7 +92,7 @@ struct Validate {
     [[nodiscard]] Result<std::optional<UnseenPlaces>> find_unseen_places(
         const ProbeVolumeView& volume) const {
         if (scene_path.empty()) return std::optional<UnseenPlaces>();
-        const auto scene = read_gltf(scene_path);
+        const auto scene = read_scene(scene_path, reading);
         if (!scene) return scene.error();
         common.warn(scene->warnings);
         const auto recorded = recorded_settings(volume.metadata);

@@ -130,11 +130,12 @@ constexpr Setting kStoring[] = {
      .access = Access::Command},
     {.name = "explain",
      .type = Type::Flag,
-     .help = "Bake nothing; print what a bake takes from each light of the scene, and what the "
-             "runtime adds",
+     .help = "Bake nothing; print what was read of the scene, what a bake takes from each of its "
+             "lights, and what the runtime adds",
      .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kSceneReading.rows},
                              {"Added light", kAddedLight},
                              {"Samples", kSampling},
                              {"Light transport", kTransport},

@@ -53,6 +53,7 @@ constexpr Setting kMeasure[] = {
     seed_setting("Seed of the places and of the traced light")};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kSceneReading.rows},
                              {"Light of the bake", kAddedLight},
                              {"Measurement", kMeasure},
                              {"Common options", kCommonSettings}};

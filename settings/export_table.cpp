@@ -63,7 +63,9 @@ constexpr Setting kFiles[] = {
      .value_name = "N",
      .access = Access::Command}};
 
-constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kOptionalRewrittenSceneReading},
+                             {"Common options", kCommonSettings}};
 
 }  // namespace
 

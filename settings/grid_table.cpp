@@ -170,6 +170,7 @@ constexpr ViewSettings preview_view() {
 constexpr ViewSettings kPreviewView = preview_view();
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kSceneReading.rows},
                              {"Placement", kPlacement},
                              {"With --mode adaptive", kAdaptive},
                              {"Groups", kOutput},

@@ -6,7 +6,8 @@ namespace {
 
 constexpr Setting kFiles[] = {
     input_file("volume",
-               "Probe volume, lightmaps or reflection probes (.probes, .lightmaps, .ktx2)"),
+               "Probe volume, lightmaps, reflection probes or scene (.probes, .lightmaps, .ktx2, "
+               ".glb, .gltf)"),
     {.name = "obj",
      .type = Type::Path,
      .help = "Also write the edges of the tetrahedra as line elements, for any viewer: Wavefront "
@@ -25,14 +26,17 @@ constexpr Setting kFiles[] = {
      .help = "Also list every probe with its health: validity, standard error, distance to the "
              "nearest surface and virtual offset (metres), mean irradiance"}};
 
-constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading a scene", kSceneReading.rows},
+                             {"Common options", kCommonSettings}};
 
 }  // namespace
 
 const Table kInfo{
     .command = "info",
     .summary =
-        "Describe a probe volume, lightmaps or reflection probes, or write tetrahedra as lines",
+        "Describe a probe volume, lightmaps, reflection probes or a scene, or write tetrahedra as "
+        "lines",
     .examples = "tetralight info courtyard.probes --obj courtyard_cells.obj",
     .groups = kGroups};
 

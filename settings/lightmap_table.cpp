@@ -128,14 +128,16 @@ constexpr Setting kStoring[] = {
      .help = "Before it bakes, write the scene with its UVs to this .glb file, as `tetralight "
              "unwrap` does",
      .without = "no file",
+     .excludes = "scene_name",
      .access = Access::Command},
     {.name = "explain",
      .type = Type::Flag,
-     .help = "Bake nothing; check the settings, and print what a bake takes from each light of the "
-             "scene",
+     .help = "Bake nothing; check the settings, and print what was read of the scene and what a "
+             "bake takes from each of its lights",
      .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kSceneReading.rows},
                              {"Added light", kAddedLightAlone},
                              {"Pages", kLightmapPages},
                              {"Texels", kTexels},

@@ -103,6 +103,7 @@ constexpr Setting kFileSettings[] = {
      .needs = "sparse"}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kOptionalSceneReading.rows},
                              {"Grid", kGridSettings},
                              {"Light", kLightSettings},
                              {"Contents of the file", kFileSettings},

@@ -81,6 +81,7 @@ constexpr Setting kBall[] = {
     kRenderer};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kOptionalSceneReading.rows},
                              {"Ball", kBall},
                              {"Camera", kPlainView},
                              {"Common options", kCommonSettings}};

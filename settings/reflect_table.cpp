@@ -106,11 +106,12 @@ constexpr Setting kStoring[] = {
     kProgressFile,
     {.name = "explain",
      .type = Type::Flag,
-     .help = "Bake nothing; check the settings, and print what a bake takes from each light of the "
-             "scene",
+     .help = "Bake nothing; check the settings, and print what was read of the scene and what a "
+             "bake takes from each of its lights",
      .access = Access::Command}};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kSceneReading.rows},
                              {"Added light", kAddedLightAlone},
                              {"Cubes", kCubes},
                              {"Light transport", kTransport},

@@ -79,6 +79,7 @@ constexpr Setting kShown[] = {
     kRenderer};
 
 constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kSceneReading.rows},
                              {"Contents", kShown},
                              {"Camera", kView.rows},
                              {"Common options", kCommonSettings}};

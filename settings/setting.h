@@ -115,8 +115,8 @@ struct Table {
     }
 };
 
-extern const Table kBackup, kBake, kCheckLeaks, kExport, kFsck, kGrid, kInfo, kLightmap, kLppv,
-    kMerge, kMeshball, kPrune, kQuery, kReflect, kRelight, kRender, kRestore, kServe,
+extern const Table kBackup, kBake, kCheckLeaks, kExplain, kExport, kFsck, kGrid, kInfo, kLightmap,
+    kLppv, kMerge, kMeshball, kPrune, kQuery, kReflect, kRelight, kRender, kRestore, kServe,
     kTetrahedralize, kUnwrap, kValidate;
 
 /// All of them, in the order in which a user meets them.

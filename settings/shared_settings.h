@@ -48,6 +48,56 @@ constexpr Setting scene_file(std::string_view help) {
     return input_file("scene", help);
 }
 
+/// How a glTF scene is read.
+struct SceneReadingSettings {
+    Setting rows[4];
+};
+
+/// `scene`: the setting of the scene if it may be left out.
+constexpr SceneReadingSettings scene_reading_settings(std::string_view scene) {
+    return {{{.name = "scene_name",
+              .type = Type::Text,
+              .help = "Read the scene of this name, or of this number from 0, of a file that has "
+                      "several",
+              .without = "the default scene of the file",
+              .value_name = "NAME",
+              .needs = scene},
+             {.name = "time",
+              .type = Type::Number,
+              .help = "Read the scene as its animation has it at this time",
+              .unit = "seconds",
+              .range = {0, 1e9},
+              .without = "as the scene stands without an animation",
+              .value_name = "SECONDS",
+              .needs = scene},
+             {.name = "animation",
+              .type = Type::Text,
+              .help = "Name of the animation, or its number in the file from 0",
+              .without = "the first animation",
+              .value_name = "NAME",
+              .needs = "time"},
+             {.name = "light_unit",
+              .type = Type::Choice,
+              .help = "Unit of the intensities of lights: lux = as glTF defines it; watt = the "
+                      "file has 683 times as much, as exporters write it that count a watt as 683 "
+                      "lumens (Blender: Lighting Mode: Standard), and intensities are divided by "
+                      "683",
+              .choices = "lux watt",
+              .default_text = "lux",
+              .needs = scene}}};
+}
+
+inline constexpr SceneReadingSettings kSceneReading = scene_reading_settings("");
+/// Of commands whose scene may be left out.
+inline constexpr SceneReadingSettings kOptionalSceneReading = scene_reading_settings("scene");
+/// Of commands that write the scene again, which works for the default scene only.
+inline constexpr std::span<const Setting> kRewrittenSceneReading =
+    std::span(kSceneReading.rows).subspan(1);
+inline constexpr std::span<const Setting> kOptionalRewrittenSceneReading =
+    std::span(kOptionalSceneReading.rows).subspan(1);
+/// Of commands that read no light.
+inline constexpr std::span<const Setting> kScenePose = std::span(kSceneReading.rows).first(3);
+
 constexpr Setting seed_setting(std::string_view help) {
     return {.name = "seed",
             .type = Type::Integer,

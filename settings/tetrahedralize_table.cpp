@@ -24,8 +24,10 @@ constexpr Setting kSettings[] = {
      .choices = "cgal tetgen",
      .default_text = "cgal"}};
 
-constexpr Group kGroups[] = {
-    {"Files", kFiles}, {"Settings", kSettings}, {"Common options", kCommonSettings}};
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading scenes", kScenePose},
+                             {"Settings", kSettings},
+                             {"Common options", kCommonSettings}};
 
 }  // namespace
 

@@ -8,8 +8,10 @@ constexpr Setting kFiles[] = {
     scene_file("glTF 2.0 scene (.glb or .gltf)"),
     output_file(".glb", "Scene with the UVs of lightmaps as TEXCOORD_1 (- = stdout)")};
 
-constexpr Group kGroups[] = {
-    {"Files", kFiles}, {"Pages", kLightmapPages}, {"Common options", kCommonSettings}};
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kRewrittenSceneReading},
+                             {"Pages", kLightmapPages},
+                             {"Common options", kCommonSettings}};
 
 }  // namespace
 

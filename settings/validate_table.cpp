@@ -14,7 +14,9 @@ constexpr Setting kFiles[] = {
      .without = "not measured",
      .access = Access::Command}};
 
-constexpr Group kGroups[] = {{"Files", kFiles}, {"Common options", kCommonSettings}};
+constexpr Group kGroups[] = {{"Files", kFiles},
+                             {"Reading the scene", kOptionalSceneReading.rows},
+                             {"Common options", kCommonSettings}};
 
 }  // namespace
 

@@ -116,6 +116,7 @@ class Files(VolumeTest):
         facts = server.get(f"/v1/scenes/{scene}").json()["facts"]
         self.assertEqual(facts["probes"], 255)
         self.assertGreater(facts["triangles"], 100)
+        self.assertIn("triangles", [part["name"] for part in facts["parts"]])
 
     def test_the_same_bytes_are_stored_once(self):
         server = self.start()

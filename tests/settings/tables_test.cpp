@@ -124,6 +124,17 @@ TEST(Tables, EveryCommandHasASummaryAndAnExampleOfItself) {
     }
 }
 
+TEST(Tables, CommandsWithASceneSayHowItIsRead) {
+    int count = 0;
+    for (const Table* table : all_tables()) {
+        if (table->find("scene") == nullptr) continue;
+        ++count;
+        for (const char* name : {"time", "animation", "light_unit"})
+            EXPECT_NE(table->find(name), nullptr) << table->command << " " << name;
+    }
+    EXPECT_GE(count, 12);
+}
+
 TEST(Tables, EverySettingHasHelpOnOneLine) {
     for_each_setting([](const Table&, const Setting& setting) {
         ASSERT_FALSE(setting.help.empty());

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/cli/scene_reading.h>
+
+#include <tetralight/settings/read_values.h>
+#include "tests/cli/command_fixture.h"
+
+namespace tetralight::test {
+namespace {
+
+using cli::scene_reading;
+using settings::Values;
+
+Values values_of(const settings::Table& table, settings::Json json) {
+    auto values = settings::values_from_json(table, json, settings::Access::Command);
+    EXPECT_TRUE(values);
+    return values ? *values : Values(table, settings::Form::Json);
+}
+
+TEST(SceneReadingSettings, DefaultsAreThoseOfTheLibrary) {
+    const SceneReading reading =
+        scene_reading(values_of(settings::kExplain, {{"scene", "s.glb"}}), NormalMaps::Read);
+    const SceneReading library;
+    EXPECT_EQ(reading.scene, library.scene);
+    EXPECT_EQ(reading.time, library.time);
+    EXPECT_EQ(reading.animation, library.animation);
+    EXPECT_EQ(reading.light_unit, library.light_unit);
+    EXPECT_EQ(reading.normal_maps, NormalMaps::Read);
+}
+
+TEST(SceneReadingSettings, EverySettingIsTaken) {
+    const SceneReading reading =
+        scene_reading(values_of(settings::kExplain, {{"scene", "s.glb"},
+                                                     {"scene_name", "night"},
+                                                     {"time", 0},
+                                                     {"animation", "1"},
+                                                     {"light_unit", "watt"}}));
+    EXPECT_EQ(reading.scene, "night");
+    EXPECT_EQ(reading.time, 0.0);
+    EXPECT_EQ(reading.animation, "1");
+    EXPECT_EQ(reading.light_unit, LightUnit::Watt);
+}
+
+TEST(SceneReadingSettings, CommandsWithFewerOfThemHaveTheDefaultsOfTheRest) {
+    const SceneReading groups = scene_reading(values_of(
+        settings::kTetrahedralize, {{"groups", {"s.glb"}}, {"output", "v.probes"}, {"time", 2}}));
+    EXPECT_EQ(groups.time, 2.0);
+    EXPECT_EQ(groups.light_unit, LightUnit::Lux);
+    const SceneReading unwrapped = scene_reading(values_of(
+        settings::kUnwrap, {{"scene", "s.glb"}, {"output", "u.glb"}, {"light_unit", "watt"}}));
+    EXPECT_EQ(unwrapped.scene, "");
+    EXPECT_EQ(unwrapped.light_unit, LightUnit::Watt);
+}
+
+class SceneFile : public CommandFixture {};
+
+TEST_F(SceneFile, IsKnownByItsContents) {
+    const std::pair<std::string, bool> files[] = {
+        {kEmptyScene, true},
+        {"\n  " + kEmptyScene, true},
+        {std::string("glTF\x02\0\0\0", 8), true},
+        {R"({"scenes": [{}], "asset": {"version": "2.0"}})", true},
+        {R"({"groups": [{"asset": 1}]})", false},
+        {R"({"name": "asset"})", false},
+        {R"(["asset"])", false},
+        {R"({"asset": {"version": "2.0"})", false},
+        {"asset", false},
+        {"", false},
+        {kFiveProbes, false}};
+    for (const auto& [bytes, is_scene] : files) {
+        write("file", bytes);
+        EXPECT_EQ(cli::is_scene_file(path("file")), is_scene) << bytes;
+    }
+    EXPECT_FALSE(cli::is_scene_file(path("missing")));
+}
+
+}  // namespace
+}  // namespace tetralight::test
