@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -20,6 +21,18 @@ TETRALIGHT = os.environ["TETRALIGHT_COMMAND"]
 BLENDER = shutil.which("blender")
 SYSTEM_PATH = "/usr/bin:/bin"  # Debian's Blender takes NumPy from the first python3 of PATH
 LUMENS = 683  # a watt, in the mode "Standard" of Blender's exporter
+
+
+def run_in_shell(commands, folder):
+    """Runs lines of docs as if Tetralight were installed and the folder were the repository."""
+    for name, target in (("examples", ROOT / "examples"), ("tetralight", TETRALIGHT)):
+        if not (folder / name).exists():
+            (folder / name).symlink_to(target)
+    path = f"{folder}:{SYSTEM_PATH}"
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, env=dict(os.environ, PATH=path),
+                          capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(done.stdout + done.stderr)
 
 
 def run_blender(script, out):
@@ -43,6 +56,18 @@ def read_glb(path):
     data = path.read_bytes()
     size, = struct.unpack_from("<I", data, 12)
     return json.loads(data[20:20 + size])
+
+
+def read_groups(path):
+    return json.loads(path.read_text())["groups"]
+
+
+def info(path):
+    return json.loads(tetralight("info", "--json", path).stdout)
+
+
+def probe_count(volume):
+    return info(volume)["probes"]
 
 
 def irradiance(coefficients, normal):
@@ -84,18 +109,28 @@ class Walk(FromBlender):
         group, = [node for node in nodes if "light_probe_group" in node.get("extras", {})]
         return len(group["children"])
 
-    def test_the_empties_are_probes(self):
-        found = json.loads(tetralight("info", "--json", self.bake()).stdout)
-        self.assertEqual([group["name"] for group in found["group_list"]], ["corner"])
-        self.assertEqual(found["probes"], self.group_size())
+    def test_the_commands_of_the_docs_make_the_picture(self):
+        page = (ROOT / "docs/scenes.md").read_text()
+        walk, grid = re.findall(r"```sh\n(.*?)```", page.split("## From Blender")[1].split("\n## ")[0], re.S)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            run_in_shell(walk, folder)
+            self.assert_lit((folder / "corner.png").read_bytes())
+            run_in_shell(grid, folder)
+            placed = read_groups(folder / "places.json")
+            self.assertEqual(probe_count(folder / "corner.probes"), sum(len(group["positions"]) for group in placed))
 
-    def test_the_grid_adds_probes(self):
-        grid = self.folder / "grid.json"
-        tetralight("grid", self.scene, "--spacing", 2, "-o", grid)
-        placed = sum(len(group["positions"]) for group in json.loads(grid.read_text())["groups"])
-        found = json.loads(tetralight("info", "--json", self.bake("--groups", grid, "--only-given-groups")).stdout)
-        self.assertGreater(placed, 0)
-        self.assertEqual(found["probes"], placed)
+    def assert_lit(self, png):
+        rows = read_rows(png)
+        middle = rows[len(rows) // 2]
+        across = [max(middle[i:i + 3]) for i in range(0, len(middle), 4)]
+        self.assertGreater(min(across), 40)  # shadows are not black, either
+        self.assertGreater(max(across) - min(across), 40)
+
+    def test_the_empties_are_probes(self):
+        volume = self.bake()
+        self.assertEqual([group["name"] for group in info(volume)["group_list"]], ["corner"])
+        self.assertEqual(probe_count(volume), self.group_size())
 
     def test_the_picture_is_lit(self):
         volume = self.bake()
@@ -116,10 +151,9 @@ class Walk(FromBlender):
     def test_the_cube_moves(self):
         lightmaps = self.folder / "corner.lightmaps"
         tetralight("lightmap", self.scene, "-o", lightmaps, "--samples", 4)
-        found = json.loads(tetralight("info", "--json", lightmaps).stdout)
         meshes = [node["name"] for node in read_glb(self.scene)["nodes"] if "mesh" in node]
         self.assertIn("Cube", meshes)
-        self.assertEqual(found["objects"], len(meshes) - 1)
+        self.assertEqual(info(lightmaps)["objects"], len(meshes) - 1)
 
 
 class Units(FromBlender):
