@@ -172,6 +172,10 @@ TEST_F(Lightmap, RefusesUnknownObjectsAndLayers) {
     EXPECT_TRUE(contains(fail(arguments("c.lightmaps", {"--layers", "transfer"})), "transfer"));
     EXPECT_TRUE(contains(misuse(arguments("c.probes", {})), ".lightmaps"));
     misuse(arguments("c.lightmaps", {"--max-samples", "16"}));
+    const std::string error = misuse(arguments("c.lightmaps", {"--max-samples", "127"}));
+    EXPECT_TRUE(contains(error, "--max-samples: 127 is less than the 128 samples of the first "
+                                "round"))
+        << error;
 }
 
 TEST_F(Lightmap, RenderUsesThemForStaticObjects) {
