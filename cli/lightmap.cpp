@@ -87,9 +87,10 @@ struct Lightmap {
         if (auto status = check_preview(prepared->layout.page_count); !status) return status;
         if (auto status = write_unwrapped(*prepared); !status) return status;
         const auto start = std::chrono::steady_clock::now();
-        const auto bake = bake_with_progress(*scene, *prepared);
+        const auto range = storing.range_of(prepared->baked.size());
+        if (!range) return range.error().in(scene_options.path);
+        const auto bake = bake_with_progress(*scene, *prepared, *range);
         if (!bake && bake.error().code == ErrorCode::Cancelled) return storing.interrupted();
-        if (!bake && bake.error().field == "texels") return bake.error().in(scene_options.path);
         if (!bake) return bake.error();
         storing.warn(bake->stored, common);
         record_samples(*prepared, *bake);
@@ -122,7 +123,8 @@ struct Lightmap {
     }
 
     [[nodiscard]] Result<TexelBake> bake_with_progress(const Scene& scene,
-                                                       const PreparedLightmaps& prepared) {
+                                                       const PreparedLightmaps& prepared,
+                                                       PlaceRange range) {
         BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds,
                                     storing.progress_file, "texels");
         LightmapPreview shown;
@@ -133,7 +135,7 @@ struct Lightmap {
             };
         }
         const auto bake = bake_texel_range(
-            scene, prepared, storing.range_of(prepared.baked.size()), storing.storage(),
+            scene, prepared, range, storing.storage(),
             [&](const BakeProgress& progress) { return display.show(progress); }, shown);
         // Texels of a range are all that its preview ever has.
         if (bake && storing.range && !preview.is_empty())
