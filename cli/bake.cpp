@@ -103,8 +103,8 @@ struct Bake {
 
     [[nodiscard]] Result<RangeBake> bake_with_progress(const Scene& scene,
                                                        const PreparedBake& prepared) {
-        BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds,
-                                    storing.progress_file);
+        ProgressFile file(storing.progress_file);
+        BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds, &file);
         return storing.bake(scene, prepared,
                             [&](const BakeProgress& progress) { return display.show(progress); });
     }

@@ -18,7 +18,7 @@ bool takes_default_target(const BakeSettings& settings, const Values& values) {
                        values.shown("target_error"), " or ", values.shown("time_budget")));
     }
     const uint64_t first = RoundPlan::first_round_samples(settings);
-    if (has_rounds && settings.max_sample_count > 0 && settings.max_sample_count < first) {
+    if (settings.max_sample_count > 0 && settings.max_sample_count < first) {
         refuse(values, "max_samples",
                str_cat(settings.max_sample_count, " is less than the ", first,
                        " samples of the first round"));

@@ -16,20 +16,20 @@ namespace {
 /// Seconds between two saves with `chunks`; more if saving takes long.
 constexpr double kFrequentSaves = 0.1;
 
-/// The range of a bake of probes or of texels; others have none.
-std::optional<IndexRange> range_of(const Values& values) {
+/// The setting for the range of a bake of probes or of texels; empty: it has none.
+const char* range_setting(const Values& values) {
     for (const char* setting : {"texels", "probes"}) {
-        if (has_setting(values, setting)) return index_range(values, setting);
+        if (has_setting(values, setting)) return setting;
     }
-    return std::nullopt;
+    return "";
 }
 
 /// Refuses a name that is not that of a part for a part, and that of a part for all.
 void check_extension(const Values& values, const std::string& output, bool is_part) {
     const std::string extension = std::filesystem::path(output).extension().string();
-    const std::string setting = has_setting(values, "texels") ? "texels" : "probes";
+    const std::string setting = range_setting(values);
     const std::string whole = setting == "texels" ? ".lightmaps" : ".probes";
-    if (!has_setting(values, setting) || extension != (is_part ? whole : ".part")) return;
+    if (setting.empty() || extension != (is_part ? whole : ".part")) return;
     refuse(values, "output",
            str_cat("with ", values.shown(setting), " a .part is written, without it ", whole,
                    ", not \"", output, "\""));
@@ -38,8 +38,8 @@ void check_extension(const Values& values, const std::string& output, bool is_pa
 }  // namespace
 
 BakeStoring::BakeStoring(const Values& values)
-    : range(cli::range_of(values)),
-      progress_file(values.text("progress_file")),
+    : progress_file(values.text("progress_file")),
+      range_setting_(range_setting(values)),
       output_(values.text("output")),
       is_resumed_(values.flag("resume")),
       chunk_folder_(values.text("chunks")),
@@ -47,13 +47,23 @@ BakeStoring::BakeStoring(const Values& values)
       store_limit_(values.number("store_limit")),
       reuse_path_(has_setting(values, "reuse") ? values.text("reuse") : "") {
     if (is_resumed_ && output_ == "-") refuse(values, "resume", "nothing is kept beside stdout");
+    if (*range_setting_ != '\0') {
+        range = index_range(values, range_setting_);
+        range_option_ = values.shown(range_setting_);
+    }
     check_extension(values, output_, range.has_value());
 }
 
-PlaceRange BakeStoring::range_of(size_t count) const {
+Result<PlaceRange> BakeStoring::range_of(size_t count) const {
     const auto all = static_cast<uint32_t>(count);
-    if (!range) return {0, all};
-    return {range->begin, range->end == IndexRange{}.end ? all : range->end};
+    if (!range) return PlaceRange{0, all};
+    const bool has_end = range->end != IndexRange{}.end;
+    const PlaceRange asked{range->begin, has_end ? range->end : all};
+    if (asked.begin <= asked.end && asked.end <= all) return asked;
+    const std::string text = str_cat(asked.begin, "..", has_end ? str_cat(asked.end) : "");
+    return Error{ErrorCode::InvalidArgument, range_setting_, text,
+                 str_cat(range_option_, ": ", text, " is not within the ", count, " ",
+                         range_setting_, " that are baked, 0..", count)};
 }
 
 /// Empty if the output is not a regular file: an interrupted bake is not kept.
@@ -110,9 +120,10 @@ BakeStorage BakeStoring::storage() {
 
 Result<RangeBake> BakeStoring::bake(const Scene& scene, const PreparedBake& prepared,
                                     const BakeCallback& show) {
+    const auto places = range_of(prepared.capture_positions.size());
+    if (!places) return places.error();
     const BakeStorage used = storage();
-    auto baked =
-        bake_range(scene, prepared, range_of(prepared.capture_positions.size()), used, show);
+    auto baked = bake_range(scene, prepared, *places, used, show);
     if (baked || baked.error().code != ErrorCode::Cancelled) return baked;
     return interrupted();
 }

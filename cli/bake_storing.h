@@ -34,8 +34,8 @@ class BakeStoring {
     /// Takes light from the volume of `reuse`, if there is one; warns if nothing can be reused.
     Status reuse(PreparedBake& prepared, const CommonOptions& common) const;
 
-    /// `range` of so many probes or texels.
-    [[nodiscard]] PlaceRange range_of(size_t count) const;
+    /// `range` of so many probes or texels. Returns invalid_argument if it is not within them.
+    [[nodiscard]] Result<PlaceRange> range_of(size_t count) const;
 
     /// Where light is loaded from and saved to.
     [[nodiscard]] BakeStorage storage();
@@ -57,6 +57,8 @@ class BakeStoring {
 
   private:
     [[nodiscard]] std::string path_beside() const;
+    const char* range_setting_ = "";  ///< "texels" or "probes"; empty: bakes have no ranges
+    std::string range_option_;        ///< as messages name it
     std::string output_;
     bool is_resumed_ = false;
     std::string chunk_folder_;

@@ -49,10 +49,9 @@ int print_usage_error(const Error& error, const FailureStyle& style) {
     if (style.is_json) print_json(error, {});  // nothing was written to stdout yet
     const std::string name =
         style.command.empty() ? "tetralight" : str_cat("tetralight ", style.command);
-    std::cerr << name << ": " << printable(error_text(error)) << '\n';
-    if (warnings_of_job() == nullptr) {
-        std::cerr << "Run " << name << " --help for more information.\n";
-    }
+    const std::string help =
+        warnings_of_job() == nullptr ? str_cat(" (see ", name, " --help)") : std::string();
+    std::cerr << name << ": " << printable(error_text(error)) << help << '\n';
     return kExitUsage;
 }
 

@@ -42,6 +42,7 @@ struct Lightmap {
     std::string output;
     BakeLightmapsSettings settings;
     BakeStoring storing;
+    ProgressFile progress;
     PreviewFiles preview;
     std::string unwrapped;
     bool is_explained = false;
@@ -52,6 +53,7 @@ struct Lightmap {
           output(values.text("output")),
           settings(lightmap_settings(values)),
           storing(values),
+          progress(storing.progress_file, kTexels),
           preview(values),
           unwrapped(values.text("unwrapped")),
           is_explained(values.flag("explain")),
@@ -88,9 +90,10 @@ struct Lightmap {
         if (auto status = check_preview(prepared->layout.page_count); !status) return status;
         if (auto status = write_unwrapped(*prepared); !status) return status;
         const auto start = std::chrono::steady_clock::now();
-        const auto bake = bake_with_progress(*scene, *prepared);
+        const auto range = storing.range_of(prepared->baked.size());
+        if (!range) return range.error().in(scene_options.path);
+        const auto bake = bake_with_progress(*scene, *prepared, *range);
         if (!bake && bake.error().code == ErrorCode::Cancelled) return storing.interrupted();
-        if (!bake && bake.error().field == "texels") return bake.error().in(scene_options.path);
         if (!bake) return bake.error();
         storing.warn(bake->stored, common);
         record_samples(*prepared, *bake);
@@ -123,19 +126,19 @@ struct Lightmap {
     }
 
     [[nodiscard]] Result<TexelBake> bake_with_progress(const Scene& scene,
-                                                       const PreparedLightmaps& prepared) {
-        BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds,
-                                    storing.progress_file, "texels");
+                                                       const PreparedLightmaps& prepared,
+                                                       PlaceRange range) {
+        BakeProgressDisplay display(common.is_quiet, settings.bake.time_budget_seconds, &progress);
         LightmapPreview shown;
         if (!preview.is_empty()) {
             shown.show = [&](const LightmapsView& maps) {
                 preview.write(maps);
-                display.set_preview(preview.revision());
+                progress.set_preview(preview.revision());
             };
         }
         const auto bake = bake_texel_range(
-            scene, prepared, storing.range_of(prepared.baked.size()), storing.storage(),
-            [&](const BakeProgress& progress) { return display.show(progress); }, shown);
+            scene, prepared, range, storing.storage(),
+            [&](const BakeProgress& made) { return display.show(made); }, shown);
         // Texels of a range are all that its preview ever has.
         if (bake && storing.range && !preview.is_empty())
             preview.write(preview_lightmaps(scene, prepared, *bake, nullptr).view());
@@ -144,6 +147,8 @@ struct Lightmap {
 
     Status write(PreparedLightmaps prepared, const TexelBake& bake) {
         const BakedLightmaps result = finish_lightmaps(std::move(prepared), bake);
+        if (settings.bake.target_error > 0.0)
+            progress.set_at_target(result.report.baked_count - result.report.over_target_count);
         common.warn(result.report.warnings);
         const LightmapsView maps = result.lightmaps.view();
         if (auto status = write_lightmap_file(output, maps); !status) return status;

@@ -133,6 +133,13 @@ Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path) {
     return std::optional(std::move(*file));
 }
 
+Error in_light_files(const Error& error, const LightPaths& paths) {
+    // Lightmaps that do not fit the probes.
+    const bool is_of_lightmaps = error.field == "lightmaps";
+    if (!is_of_lightmaps) return error.in(shown_path(paths.scene));
+    return error.in(str_cat(shown_path(paths.lightmaps), " and ", shown_path(paths.volume)));
+}
+
 bool is_lightmap_file(const std::string& path) {
     const auto file = MappedFile::open(path);
     return file && tetralight::is_lightmap_file(file->bytes());

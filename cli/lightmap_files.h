@@ -26,6 +26,14 @@ namespace tetralight::cli {
 /// Opens the lightmaps at a path; without a path there are none.
 [[nodiscard]] Result<std::optional<LightmapFile>> open_lightmaps(const std::string& path);
 
+/// The files that light a picture.
+struct LightPaths {
+    std::string scene, volume, lightmaps;
+};
+
+/// An error of `make_scene_light` with the files that it is about.
+[[nodiscard]] Error in_light_files(const Error& error, const LightPaths& paths);
+
 /// Prints what lightmaps hold: pages, objects, layers, errors and how they were made.
 [[nodiscard]] Status show_lightmaps(const std::string& path, const CommonOptions& common);
 

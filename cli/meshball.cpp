@@ -112,7 +112,7 @@ struct MeshBall {
         if (!lightmaps) return lightmaps.error();
         auto light = make_scene_light(scene, volume, ProbeLight::AsTheScene,
                                       *lightmaps ? (*lightmaps)->view() : LightmapsView{});
-        if (!light) return light.error().in(scene_path);
+        if (!light) return in_light_files(light.error(), {scene_path, volume_path, lightmap_path});
         std::optional<ReflectionFile> reflections;
         if (!reflection_path.empty()) {
             auto opened = open_reflection_file(reflection_path);

@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 
 #include <tetralight/cli/amounts.h>
@@ -15,26 +13,18 @@ namespace tetralight::cli {
 namespace {
 
 constexpr int kBarWidth = 32;
-constexpr double kSecondsBetweenWrites = 0.5;
 
 double ray_rate(const BakeProgress& progress, double seconds) {
     return static_cast<double>(progress.ray_count) / std::max(seconds, 1e-9);
 }
 
-/// In [0, 1].
-float share_at_target(const BakeProgress& progress) {
-    return static_cast<float>(progress.probes_at_target) /
-           static_cast<float>(std::max<size_t>(progress.probe_count, 1));
-}
-
 }  // namespace
 
 BakeProgressDisplay::BakeProgressDisplay(bool is_quiet, double time_budget_seconds,
-                                         std::string file, std::string noun)
+                                         ProgressFile* file)
     : is_quiet_(is_quiet),
       time_budget_seconds_(time_budget_seconds),
-      file_(std::move(file)),
-      noun_(std::move(noun)),
+      file_(file),
       is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 BakeProgressDisplay::~BakeProgressDisplay() {
@@ -57,8 +47,9 @@ std::optional<double> BakeProgressDisplay::seconds_left(const BakeProgress& prog
 }
 
 std::string BakeProgressDisplay::summary(const BakeProgress& progress, double seconds) const {
+    const ProgressUnit unit = file_ == nullptr ? ProgressUnit{} : file_->unit();
     std::string line = grouped(progress.probes_done) + "/" + grouped(progress.probe_count) + " " +
-                       noun_ + ", " + magnitude(ray_rate(progress, seconds)) + "rays/s";
+                       unit.plural + ", " + magnitude(ray_rate(progress, seconds)) + "rays/s";
     if (progress.has_target)
         line += ", " + grouped(progress.probes_at_target) + " at the target error (" +
                 percent(share_at_target(progress)) + ")";
@@ -71,7 +62,10 @@ std::string BakeProgressDisplay::summary(const BakeProgress& progress, double se
 bool BakeProgressDisplay::show(const BakeProgress& progress) {
     if (first_fraction_ < 0.0) first_fraction_ = progress.fraction_done;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    if (!file_.empty()) write_file(progress, elapsed.count());
+    if (file_ != nullptr) {
+        file_->show(progress, {elapsed.count(), ray_rate(progress, elapsed.count()),
+                               seconds_left(progress, elapsed.count())});
+    }
     if (!is_quiet_) {
         if (is_terminal_) {
             draw_bar(progress, elapsed.count());
@@ -95,33 +89,6 @@ void BakeProgressDisplay::print_line(const BakeProgress& progress, double second
     if (seconds < 1.0 || tenth == last_tenth_) return;
     last_tenth_ = tenth;
     std::cerr << "Progress: " << tenth * 10 << "%, " << summary(progress, seconds) << '\n';
-}
-
-/// Readers see the old facts or the new ones. A file that cannot be written stops no bake.
-void BakeProgressDisplay::write_file(const BakeProgress& progress, double seconds) {
-    const bool is_last = progress.probes_done == progress.probe_count;
-    const auto left = seconds_left(progress, seconds);
-    const bool is_news = is_last || (left && !has_told_time_left_);
-    if (seconds < next_write_seconds_ && !is_news) return;
-    has_told_time_left_ = left.has_value();
-    next_write_seconds_ = seconds + kSecondsBetweenWrites;
-    Json json{{"probes_done", progress.probes_done},
-              {"probe_count", progress.probe_count},
-              {"rays", progress.ray_count},
-              {"rays_per_second", ray_rate(progress, seconds)},
-              {"seconds_left", nullptr},
-              {"at_target", nullptr},
-              {"share_at_target", nullptr}};
-    if (left) json["seconds_left"] = *left;
-    if (progress.has_target) {
-        json["at_target"] = progress.probes_at_target;
-        json["share_at_target"] = share_at_target(progress);
-    }
-    if (preview_ > 0) json["preview"] = preview_;
-    const std::string beside = file_ + ".new";
-    std::ofstream(beside) << dump(json) << '\n';
-    std::error_code error;
-    std::filesystem::rename(beside, file_, error);
 }
 
 }  // namespace tetralight::cli

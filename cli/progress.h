@@ -7,6 +7,7 @@
 
 #include <tetralight/bake/bake_probes.h>
 #include <tetralight/cli/interrupt.h>
+#include <tetralight/cli/progress_file.h>
 
 namespace tetralight::cli {
 
@@ -15,18 +16,14 @@ namespace tetralight::cli {
 /// Ctrl-C and SIGTERM cancel the bake.
 class BakeProgressDisplay {
   public:
-    /// `time_budget_seconds` 0: none. `file` empty: none. `noun`: what is baked.
-    BakeProgressDisplay(bool is_quiet, double time_budget_seconds, std::string file = "",
-                        std::string noun = "probes");
+    /// `time_budget_seconds` 0: none. `file` null: none, and probes are counted.
+    BakeProgressDisplay(bool is_quiet, double time_budget_seconds, ProgressFile* file = nullptr);
     ~BakeProgressDisplay();
     BakeProgressDisplay(const BakeProgressDisplay&) = delete;
     BakeProgressDisplay& operator=(const BakeProgressDisplay&) = delete;
 
     /// Called by the bake; false after a signal.
     bool show(const BakeProgress& progress);
-
-    /// Names the newest preview of the bake in the file. Not while `show` runs.
-    void set_preview(uint64_t revision) { preview_ = revision; }
 
   private:
     /// The finished fraction of a bake `seconds` after it began.
@@ -38,16 +35,11 @@ class BakeProgressDisplay {
     [[nodiscard]] std::string summary(const BakeProgress& progress, double seconds) const;
     void draw_bar(const BakeProgress& progress, double seconds);
     void print_line(const BakeProgress& progress, double seconds);
-    void write_file(const BakeProgress& progress, double seconds);
 
     Interrupt interrupt_;
     bool is_quiet_;
     double time_budget_seconds_;
-    std::string file_;
-    std::string noun_;
-    uint64_t preview_ = 0;  ///< 0: none
-    double next_write_seconds_ = 0.0;
-    bool has_told_time_left_ = false;
+    ProgressFile* file_;
     double first_fraction_ = -1.0;  ///< finished by earlier runs; negative: unknown
     bool is_terminal_;
     bool is_bar_drawn_ = false;

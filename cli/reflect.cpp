@@ -140,7 +140,8 @@ struct Reflect {
         if (!places) return places.error();
         const auto lightmaps = open_lightmaps(lightmaps_path);
         if (!lightmaps) return lightmaps.error();
-        BakeProgressDisplay display(common.is_quiet, 0.0, storing.progress_file, "rows of texels");
+        ProgressFile file(storing.progress_file, kTexelRows);
+        BakeProgressDisplay display(common.is_quiet, 0.0, &file);
         const auto baked = bake_reflections(
             *scene, *places, settings,
             [&](const BakeProgress& progress) { return display.show(progress); },

@@ -77,9 +77,7 @@ struct Render {
                                       const ReflectionsView& reflections,
                                       const Camera& camera) const {
         auto light = make_scene_light(scene, volume, probes, lightmaps);
-        if (!light && light.error().field == "lightmaps")
-            return light.error().in(shown_path(lightmap_path));
-        if (!light) return light.error().in(scene_path);
+        if (!light) return in_light_files(light.error(), {scene_path, volume_path, lightmap_path});
         light->has_ambient_occlusion = has_ambient_occlusion;
         if (shadow_color) light->shadow_color = *shadow_color;
         if (shadow_color && lightmaps.info.mixed_lighting != MixedLighting::Subtractive) {

@@ -102,17 +102,6 @@ Status check_layer_texels(const Lightmaps& lightmaps) {
     return Ok{};
 }
 
-/// Names of layers mean the same as for probes.
-Result<std::vector<float>> changed_weights(const Lightmaps& lightmaps,
-                                           std::span<const LayerWeight> changes) {
-    std::vector<Layer> layers(lightmaps.layers.size());
-    for (size_t k = 0; k < layers.size(); ++k) layers[k].weight = lightmaps.layers[k].weight;
-    ProbeVolumeView named;
-    named.layers = layers;
-    named.layer_names = lightmaps.layer_names;
-    return layer_weights(named, changes);
-}
-
 void relight_texels(const WeightChange& change, float scale, Lightmaps& lightmaps) noexcept {
     write_relit(change, scale, lightmaps.irradiance, lightmaps.layer_irradiance);
     write_relit(change, scale, lightmaps.light, lightmaps.layer_light);
@@ -125,10 +114,11 @@ void relight_texels(const WeightChange& change, float scale, Lightmaps& lightmap
 }  // namespace
 
 Status relight_lightmaps(Lightmaps& lightmaps, std::span<const LayerWeight> changes) {
-    auto weights = changed_weights(lightmaps, changes);
+    std::vector<float> before;
+    for (const LightmapLayer& layer : lightmaps.layers) before.push_back(layer.weight);
+    auto weights = changed_weights(lightmaps.layer_names, before, changes);
     if (!weights) return weights.error();
-    const auto before = [](const LightmapLayer& layer) { return layer.weight; };
-    if (std::ranges::equal(*weights, lightmaps.layers, {}, {}, before)) return Ok{};
+    if (*weights == before) return Ok{};
     if (auto status = check_layer_texels(lightmaps); !status) return status;
     const LightmapsView view = lightmaps.view();
     const bool has_light = !view.light.empty() && !view.layer_light.empty();

@@ -12,6 +12,7 @@
 #include <tetralight/bake/path_tracer.h>
 #include <tetralight/bake/rays/trace_scene.h>
 #include <tetralight/bake/round_plan.h>
+#include <tetralight/bake/scene/mapped_normal.h>
 #include <tetralight/base/memory.h>
 #include <tetralight/base/stopwatch.h>
 #include <tetralight/base/str_cat.h>
@@ -166,6 +167,28 @@ void warn_of_dark_objects(const Scene& scene, const std::vector<bool>& is_lit,
                              names, ")"));
 }
 
+/// Warns of baked objects whose normal maps cannot be in their texels.
+void warn_of_lost_normal_maps(const Scene& scene, PreparedLightmaps& prepared) {
+    const std::string* first = nullptr;
+    size_t count = 0;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const MeshInstance& instance = scene.instances[i];
+        const bool is_asked =
+            takes_lightmap(scene, instance) && is_baked(scene, i, prepared.settings.only);
+        if (!is_asked || !lacks_normal_map_uvs(scene, scene.meshes[instance.mesh])) continue;
+        if (++count == 1) first = &instance.name;
+    }
+    if (count == 0) return;
+    prepared.report.warnings.push_back(
+        count == 1 ? str_cat("the normal map of 1 object is not baked: its mesh has no texture "
+                             "coordinates for it (\"",
+                             *first, "\")")
+                   : str_cat("the normal maps of ", count,
+                             " objects are not baked: their meshes have no texture coordinates for "
+                             "them (the first is \"",
+                             *first, "\")"));
+}
+
 /// Returns out_of_resources if the pages do not fit into the free memory.
 Status check_memory(const LightmapLayout& layout, size_t layer_count, bool has_cache,
                     bool is_filtered) {
@@ -273,6 +296,7 @@ Result<PreparedLightmaps> prepare_lightmaps(const Scene& scene,
     prepared.texels = std::move(*texels);
     select_texels(scene, prepared);
     if (settings.has_normal_maps) {
+        warn_of_lost_normal_maps(scene, prepared);
         prepared.mapped_normals = make_mapped_normals(scene, prepared.layout, prepared.maps,
                                                       prepared.texels, prepared.baked);
     }

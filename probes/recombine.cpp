@@ -20,9 +20,9 @@ constexpr size_t kFloats = 3 * size_t{kShCoefficientCount};
 /// Probes whose sums fit beside the layers they come from in the fastest cache.
 constexpr size_t kBlockSize = 32;
 
-std::string listed(const ProbeVolumeView& volume) {
+std::string listed(std::span<const std::string_view> layers) {
     std::string names;
-    for (const std::string_view name : split_names(volume.layer_names)) {
+    for (const std::string_view name : layers) {
         names += str_cat(names.empty() ? "" : ", ", "\"", name, "\"");
     }
     return names.empty() ? "it holds no layers" : "it holds " + names;
@@ -43,19 +43,17 @@ bool is_short_for(std::string_view name, std::string_view layer) {
     return name == layer || (colon != std::string_view::npos && name == layer.substr(colon + 1));
 }
 
-Result<size_t> find_named(const ProbeVolumeView& volume, std::string_view name) {
-    const uint32_t exact = find_layer(volume, name);
-    if (exact != kNoIndex) return size_t{exact};
-    const auto names = split_names(volume.layer_names);
+Result<size_t> find_named(std::span<const std::string_view> names, std::string_view name) {
+    const auto index = [&](auto place) { return static_cast<size_t>(place - names.begin()); };
+    if (const auto exact = std::ranges::find(names, name); exact != names.end())
+        return index(exact);
     const auto is_meant = [&](std::string_view layer) { return is_short_for(name, layer); };
     const auto count = std::ranges::count_if(names, is_meant);
-    if (count == 1) {
-        return static_cast<size_t>(std::ranges::find_if(names, is_meant) - names.begin());
-    }
+    if (count == 1) return index(std::ranges::find_if(names, is_meant));
     return Error{count == 0 ? ErrorCode::NotFound : ErrorCode::InvalidArgument, "weights",
                  std::string(name),
                  str_cat(count == 0 ? "there is no layer \"" : "there are several layers \"", name,
-                         "\"; ", listed(volume))};
+                         "\"; ", listed(names))};
 }
 
 Error too_bright(std::string_view layer, float weight) {
@@ -72,12 +70,12 @@ std::vector<float> layer_weights(const ProbeVolumeView& volume) {
     return weights;
 }
 
-Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
-                                         std::span<const LayerWeight> changes) {
-    std::vector<float> weights = layer_weights(volume);
+Result<std::vector<float>> changed_weights(std::string_view layer_names, std::vector<float> weights,
+                                           std::span<const LayerWeight> changes) {
+    const std::vector<std::string_view> names = split_names(layer_names);
     std::vector<bool> is_changed(weights.size(), false);
     for (const LayerWeight& change : changes) {
-        const auto layer = find_named(volume, change.name);
+        const auto layer = find_named(names, change.name);
         if (!layer) return layer.error();
         if (auto status = check_weight(change.name, change.weight); !status) return status.error();
         if (*layer >= weights.size()) continue;
@@ -89,6 +87,11 @@ Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
         weights[*layer] = change.weight;
     }
     return weights;
+}
+
+Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
+                                         std::span<const LayerWeight> changes) {
+    return changed_weights(volume.layer_names, layer_weights(volume), changes);
 }
 
 uint32_t find_layer(const ProbeVolumeView& volume, std::string_view name) noexcept {

@@ -26,11 +26,18 @@ struct LayerWeight {
     float weight = 1.0f;
 };
 
+/// Weights of layers with some of them replaced: of volumes, lightmaps and reflection probes.
+/// `layer_names` has one name a line, `weights` one weight a name. Returns not_found if no layer
+/// has a name (the message lists the layers), and invalid_argument if several have it or a weight
+/// is negative or not finite.
+[[nodiscard]] Result<std::vector<float>> changed_weights(std::string_view layer_names,
+                                                         std::vector<float> weights,
+                                                         std::span<const LayerWeight> changes);
+
 /// The weights that the volume's light has now.
 [[nodiscard]] std::vector<float> layer_weights(const ProbeVolumeView& volume);
 
-/// The same with some of them replaced. Returns not_found if no layer has a name (the message lists
-/// the layers), and invalid_argument if several have it or a weight is negative or not finite.
+/// The same with some of them replaced. Returns the errors of `changed_weights`.
 [[nodiscard]] Result<std::vector<float>> layer_weights(const ProbeVolumeView& volume,
                                                        std::span<const LayerWeight> changes);
 

@@ -2,6 +2,7 @@
 #include <tetralight/reflection/relight_reflections.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <tetralight/base/half.h>
@@ -9,17 +10,6 @@
 
 namespace tetralight {
 namespace {
-
-/// Names of layers mean the same as for probes.
-Result<std::vector<float>> changed_weights(const Reflections& reflections,
-                                           std::span<const LayerWeight> changes) {
-    std::vector<Layer> layers(reflections.layers.size());
-    for (size_t k = 0; k < layers.size(); ++k) layers[k].weight = reflections.layers[k].weight;
-    ProbeVolumeView named;
-    named.layers = layers;
-    named.layer_names = reflections.layer_names;
-    return layer_weights(named, changes);
-}
 
 constexpr double kLargestHalf = 65504.0;
 
@@ -51,9 +41,11 @@ double relight_level(const std::vector<ReflectionLayer>& layers, size_t count,
 }  // namespace
 
 Result<double> relight_reflections(Reflections& reflections, std::span<const LayerWeight> changes) {
-    const auto weights = changed_weights(reflections, changes);
-    if (!weights) return weights.error();
     std::vector<ReflectionLayer>& layers = reflections.layers;
+    std::vector<float> before;
+    for (const ReflectionLayer& layer : layers) before.push_back(layer.weight);
+    const auto weights = changed_weights(reflections.layer_names, std::move(before), changes);
+    if (!weights) return weights.error();
     for (size_t k = 0; k < layers.size(); ++k) layers[k].weight = (*weights)[k];
     if (layers.empty()) return 0.0;
     double clamped_share = 0.0;

@@ -22,18 +22,6 @@ constexpr const char* kNew = "new-";
 /// Before the number of a bake in a place of their list. Ids are hexadecimal.
 constexpr std::string_view kBefore = "before-";
 
-/// What a bake counts.
-struct CountMembers {
-    const char* done;
-    const char* all;
-};
-
-CountMembers count_members(Kind kind) {
-    if (kind == Kind::Reflections) return {"rows_done", "row_count"};
-    if (kind == Kind::Lightmaps) return {"texels_done", "texel_count"};
-    return {"probes_done", "probe_count"};
-}
-
 std::string random_id() {
     std::random_device device;
     std::array<char, 24> digits{};
@@ -50,6 +38,12 @@ const settings::Table& bake_table(Kind kind) {
 
 bool is_final(const std::string& state) {
     return state == "done" || state == "failed" || state == "cancelled";
+}
+
+CountMembers count_members(Kind kind) {
+    if (kind == Kind::Reflections) return {"rows_done", "row_count"};
+    if (kind == Kind::Lightmaps) return {"texels_done", "texel_count"};
+    return {"probes_done", "probe_count"};
 }
 
 Bakes::Bakes(const Settings& settings, Store& store, Log& log)

@@ -30,6 +30,14 @@ struct BakeOrder {
 /// The settings of bakes that make files of a kind.
 [[nodiscard]] const settings::Table& bake_table(Kind kind);
 
+/// The members for what a bake counts, in its progress file and in answers.
+struct CountMembers {
+    const char* done;
+    const char* all;
+};
+
+[[nodiscard]] CountMembers count_members(Kind kind);
+
 /// True of "done", "failed" and "cancelled".
 [[nodiscard]] bool is_final(const std::string& state);
 

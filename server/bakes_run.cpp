@@ -183,8 +183,9 @@ void Bakes::update_progress(const std::string& id) {
     const auto found = bakes_.find(id);
     if (found == bakes_.end()) return;
     Bake& bake = found->second;
-    bake.probes_done = pace.value("probes_done", bake.probes_done);
-    bake.probe_count = pace.value("probe_count", bake.probe_count);
+    const CountMembers members = count_members(bake.kind);
+    bake.probes_done = pace.value(members.done, bake.probes_done);
+    bake.probe_count = pace.value(members.all, bake.probe_count);
     bake.rays_per_second = pace.value("rays_per_second", Json());
     bake.seconds_left = pace.value("seconds_left", Json());
     bake.at_target = pace.value("at_target", Json());

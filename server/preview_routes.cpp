@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <utility>
 #include <vector>
 
 #include <tetralight/base/descriptor_io.h>
@@ -63,19 +64,36 @@ uint32_t page_number(const Request& request) {
                   text->substr(0, 200)};
 }
 
-/// Of several pages each has a file, `preview_0.png`; a single one is `preview.png`.
+bool is_file(const std::string& path) {
+    struct stat facts {};
+
+    return ::lstat(path.c_str(), &facts) == 0 && S_ISREG(facts.st_mode);
+}
+
+/// The pictures of all pages; empty before the first preview. Of several pages each has a file,
+/// `preview_0.png`; a single one is `preview.png`.
+std::vector<std::string> page_names(Service& service, const std::string& bake) {
+    const auto has = [&](const std::string& name) {
+        return is_file(service.bakes.preview_path(bake, name));
+    };
+    if (has("preview.png")) return {"preview.png"};
+    std::vector<std::string> names;
+    for (uint32_t page = 0;; ++page) {
+        std::string name = str_cat("preview_", page, ".png");
+        if (!has(name)) return names;
+        names.push_back(std::move(name));
+    }
+}
+
 Response page_picture(Service& service, const Request& request) {
     const uint32_t page = page_number(request);
-    const auto picture = [&](const std::string& name) {
-        return preview_response(service, request, name, "image/png");
-    };
-    if (page > 0) return picture(str_cat("preview_", page, ".png"));
-    try {
-        return picture("preview.png");
-    } catch (const Problem& problem) {
-        if (problem.status != 404) throw;
-    }
-    return picture("preview_0.png");
+    const std::vector<std::string> names = page_names(service, request.captures[0]);
+    if (names.empty()) throw no_preview();
+    if (page < names.size()) return preview_response(service, request, names[page], "image/png");
+    throw Problem{404, "not_found",
+                  str_cat("page: there is no page ", page, "; the preview has ", names.size(),
+                          names.size() == 1 ? " page" : " pages", ", from 0 on"),
+                  "page", str_cat(page)};
 }
 
 }  // namespace

@@ -165,8 +165,10 @@ double fitting_part(const Unwrap& charts, float density, uint32_t page_size) {
 
 /// Rounds a positive number down to two digits.
 double rounded_down(double value) {
-    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-    return std::floor(value / unit) * unit;
+    const double exponent = std::floor(std::log10(value)) - 1.0;
+    const double digits = std::floor(value / std::pow(10.0, exponent));
+    // A quotient of whole numbers is the number that its two digits name: 69 / 100, not 69 * 0.01.
+    return exponent < 0.0 ? digits / std::pow(10.0, -exponent) : digits * std::pow(10.0, exponent);
 }
 
 /// An error of `pack_charts` with the object and what helps.

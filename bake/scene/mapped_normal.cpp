@@ -95,6 +95,11 @@ bool has_normal_map(const Scene& scene, const Mesh& mesh) {
     return use.texture != kNoIndex && !mesh.uvs[use.uv_set].empty();
 }
 
+bool lacks_normal_map_uvs(const Scene& scene, const Mesh& mesh) {
+    const TextureUse& use = material_of(scene, mesh).normal_texture;
+    return use.texture != kNoIndex && mesh.uvs[use.uv_set].empty();
+}
+
 bool uses_tangents(const Scene& scene, const Mesh& mesh) {
     return !mesh.tangents.empty() &&
            keeps_directions(material_of(scene, mesh).normal_texture.image_from_mesh);

@@ -15,6 +15,10 @@ namespace tetralight {
 /// True if the mesh has a normal map and the texture coordinates for it.
 [[nodiscard]] bool has_normal_map(const Scene& scene, const Mesh& mesh);
 
+/// True if the material has a normal map that cannot be shown: the mesh lacks the texture
+/// coordinates for it.
+[[nodiscard]] bool lacks_normal_map_uvs(const Scene& scene, const Mesh& mesh);
+
 /// True if tangent space is that of the mesh's tangents: it has them, and no texture transform
 /// turns or mirrors the image. Else it comes from the UVs. Precondition: `has_normal_map`.
 [[nodiscard]] bool uses_tangents(const Scene& scene, const Mesh& mesh);

@@ -54,6 +54,9 @@ TEST(BakeSettings, AMaximumNeedsRounds) {
         cli::UsageError);
     EXPECT_THROW((void)cli::bake_settings(values_of({{"max_samples", 5}, {"samples", 6}})),
                  cli::UsageError);
+    // Rounds without a target have 128 samples at least.
+    EXPECT_THROW((void)cli::bake_settings(values_of({{"max_samples", 127}, {"samples", 64}})),
+                 cli::UsageError);
     const BakeSettings rounds =
         cli::bake_settings(values_of({{"max_samples", 512}, {"samples", 128}})).bake;
     EXPECT_EQ(rounds.max_sample_count, 512u);

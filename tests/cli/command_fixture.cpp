@@ -85,7 +85,8 @@ std::string CommandFixture::misuse(const Arguments& arguments) const {
     const CommandResult result = run(arguments);
     EXPECT_EQ(result.exit_code, 2) << joined(arguments) << "\n" << result.err;
     EXPECT_EQ(result.out, "") << joined(arguments);
-    EXPECT_NE(result.err, "") << joined(arguments);
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    EXPECT_TRUE(result.err.ends_with('\n')) << joined(arguments);
     return result.err;
 }
 

@@ -56,7 +56,8 @@ class CommandFixture : public testing::Test {
     void refuse_each(const std::vector<BadFile>& files, const std::string& output,
                      const std::function<Arguments(const std::string& name)>& arguments) const;
 
-    /// Runs a command that has to be refused as wrong usage. Returns stderr.
+    /// Runs a command that has to be refused as wrong usage: exit code 2, nothing on stdout and one
+    /// line on stderr. Returns that line.
     std::string misuse(const Arguments& arguments) const;
 
     /// Writes a small baked volume of the courtyard.

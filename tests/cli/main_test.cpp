@@ -208,12 +208,13 @@ TEST_P(EverySubcommand, SaysInPlainWordsThatAnOptionIsWrong) {
         return misuse(all);
     };
     for (const char* count : {"-1", "many", "1.5", "99999999999"}) {
-        EXPECT_TRUE(contains(
-            with({"-j", count}),
-            std::string("--threads: \"") + count + "\" is not a whole number from 0 to 65535\n"));
+        EXPECT_TRUE(contains(with({"-j", count}),
+                             std::string("--threads: \"") + count +
+                                 "\" is not a whole number from 0 to 65535 (see tetralight "));
     }
-    EXPECT_TRUE(contains(with({"-j", "1", "-j", "2"}), ": --threads is given more than once\n"));
-    EXPECT_TRUE(contains(with({"-j"}), ": --threads is given without a value\n"));
+    EXPECT_TRUE(contains(with({"-j", "1", "-j", "2"}),
+                         ": --threads is given more than once (see tetralight "));
+    EXPECT_TRUE(contains(with({"-j"}), ": --threads is given without a value (see tetralight "));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST_F(Merge, RefusesBadFilesAndKeepsTheOldVolume) {
 
 TEST_F(Merge, RefusesRangesBeyondTheProbes) {
     EXPECT_TRUE(contains(fail({"bake", kCourtyard, "-o", "a.part", "--probes", "250..256"}),
-                         "probes 250..256: there are 255 probes"));
+                         "--probes: 250..256 is not within the 255 probes that are baked, 0..255"));
 }
 
 TEST_F(Merge, PartsAndVolumesAreNotMistakenForEachOther) {

@@ -153,9 +153,9 @@ TEST_F(Relight, RefusesWeightsThatAreNegativeOrNoNumbers) {
               "tetralight: v.probes: layer \"sun\": weight nan is not a number\n");
     EXPECT_EQ(error("sun=inf"), "tetralight: v.probes: layer \"sun\": weight inf is not finite\n");
     EXPECT_EQ(error("sun=1e39"), "tetralight: v.probes: layer \"sun\": weight inf is not finite\n");
-    EXPECT_TRUE(
-        contains(misuse({"relight", "v.probes", "--weights", "sun=1, sun=2", "-o", "out.probes"}),
-                 "--weights: layer \"sun\" is given two weights\n"));
+    EXPECT_TRUE(contains(
+        misuse({"relight", "v.probes", "--weights", "sun=1, sun=2", "-o", "out.probes"}),
+        "--weights: layer \"sun\" is given two weights (see tetralight relight --help)\n"));
     for (const char* wrong : {"sun", "=1", "sun=", "sun=1x"}) {
         EXPECT_TRUE(contains(misuse({"relight", "v.probes", "--weights", wrong, "-o", "o.probes"}),
                              "is not of the form LAYER=WEIGHT"))

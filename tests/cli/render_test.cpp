@@ -132,6 +132,34 @@ TEST_F(Render, ShowsWhatLightmapsHold) {
     }
 }
 
+TEST_F(Render, WarnsOfAShadowColorThatChangesNothing) {
+    for (const std::string mode : {"shadowmask", "subtractive"}) {
+        succeed({"bake", kCourtyard, "-o", "v.probes", "-s", "1", "--mixed-lighting", mode});
+        succeed({"lightmap", kCourtyard, "-o", "c.lightmaps", "-t", "1", "--page-size", "64", "-s",
+                 "1", "--mixed-lighting", mode});
+        const std::string err =
+            succeed(arguments({"--lightmaps", "c.lightmaps", "--shadow-color", "1,0,0"})).err;
+        EXPECT_EQ(contains(err,
+                           "warning: the shadow color changes nothing: c.lightmaps is not "
+                           "subtractive\n"),
+                  mode == "shadowmask")
+            << err;
+    }
+}
+
+TEST_F(Render, NamesLightmapsAndProbesOfDifferentMixedLighting) {
+    succeed({"lightmap", kCourtyard, "-o", "c.lightmaps", "-t", "1", "--page-size", "64", "-s", "1",
+             "--mixed-lighting", "shadowmask"});
+    const std::string expected =
+        "c.lightmaps and v.probes: the lightmaps were baked with --mixed-lighting shadowmask and "
+        "the probes with indirect";
+    const std::string error = fail(arguments({"--lightmaps", "c.lightmaps"}));
+    EXPECT_TRUE(contains(error, expected)) << error;
+    const std::string of_ball = fail({"meshball", "v.probes", "--scene", kCourtyard, "--lightmaps",
+                                      "c.lightmaps", "-o", "m.png"});
+    EXPECT_TRUE(contains(of_ball, expected)) << of_ball;
+}
+
 TEST_F(Render, WarnsOfAVolumeWithoutLight) {
     succeed({"tetrahedralize", kCourtyard, "-o", "v.probes"});
     const std::string warning = "warning: v.probes: the volume holds no light";

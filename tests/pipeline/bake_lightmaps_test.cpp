@@ -115,6 +115,32 @@ TEST(BakeLightmaps, NormalMapsSeeTheirPartOfTheSky) {
         EXPECT_NEAR(double{value}, kPi, 0.03);
 }
 
+TEST(BakeLightmaps, WarnsOnceOfNormalMapsWithoutTextureCoordinates) {
+    const auto warnings = [](const MappedFloor& floor) {
+        const auto prepared = prepare_lightmaps(floor.scene, floor.settings);
+        EXPECT_TRUE(prepared) << error_text(prepared.error());
+        return prepared ? prepared->report.warnings : std::vector<std::string>();
+    };
+    MappedFloor floor;
+    floor.scene.instances[0].name = "first";
+    EXPECT_TRUE(warnings(floor).empty());
+    floor.scene.meshes[0].uvs[0].clear();
+    EXPECT_EQ(warnings(floor),
+              std::vector<std::string>{"the normal map of 1 object is not baked: its mesh has no "
+                                       "texture coordinates for it (\"first\")"});
+    floor.scene.instances.push_back(floor.scene.instances[0]);
+    floor.scene.instances[1].name = "second";
+    EXPECT_EQ(warnings(floor), std::vector<std::string>{
+                                   "the normal maps of 2 objects are not baked: their meshes have "
+                                   "no texture coordinates for them (the first is \"first\")"});
+    floor.settings.only = {"second"};
+    EXPECT_EQ(warnings(floor),
+              std::vector<std::string>{"the normal map of 1 object is not baked: its mesh has no "
+                                       "texture coordinates for it (\"second\")"});
+    floor.settings.has_normal_maps = false;
+    EXPECT_TRUE(warnings(floor).empty());
+}
+
 TEST(BakeLightmaps, NormalMapsFaceTheSunAndKeepItsLayer) {
     MappedFloor floor;
     floor.scene.environment.radiance = glm::vec3(1.0f);

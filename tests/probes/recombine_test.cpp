@@ -132,6 +132,13 @@ TEST(Recombine, NamesLayersInFullOrByWhatIsBehindTheColon) {
     EXPECT_EQ(*weights, (std::vector<float>{0.5f, 0.0f, 2.0f, 1.0f}));
 }
 
+TEST(Recombine, ChangesWeightsThatBelongToNoVolume) {
+    const LayerWeight change{"lamp", 3.0f};
+    const auto weights = changed_weights("sky\nlight:lamp\n", {0.5f, 1.0f}, std::span(&change, 1));
+    ASSERT_TRUE(weights) << error_text(weights.error());
+    EXPECT_EQ(*weights, (std::vector<float>{0.5f, 3.0f}));
+}
+
 TEST(Recombine, ListsTheLayersWhenANameIsMissing) {
     const ProbeVolume volume = make_layered_volume(5, 3);
     const LayerWeight change{"lantern", 0.0f};

@@ -184,6 +184,17 @@ class ServiceTest(unittest.TestCase):
         self.assertIn(answer.status, (200, 201), answer.body)
         return answer.json()["id"]
 
+    def refuse(self, server, kind, data):
+        """The one error of an upload that leaves nothing behind."""
+        problem = self.assert_problem(server.post(f"/v1/{kind}?name=bad", data, BINARY), 422, "bad_data")
+        self.assertEqual(problem["field"], "body")
+        # The folder of a request is deleted after its answer.
+        self.assertTrue(self.eventually(lambda: os.listdir(os.path.join(self.data, "work")) == []))
+        for folder in (kind, "quarantine"):
+            self.assertEqual(os.listdir(os.path.join(self.data, folder)), [], problem)
+        self.assertEqual(server.get("/v1/" + kind).json()[kind], [])
+        return problem["detail"]
+
     def order_of_hours(self, server):
         """A picture that takes longer than any test."""
         self.upload(server, "scenes", COURTYARD, "court")

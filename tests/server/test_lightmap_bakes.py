@@ -135,7 +135,8 @@ class Previews(LightmapBakeTest):
         server = self.start()
         bake = self.begin_maps(server, **ENDLESS)
         self.assertEqual(server.get(f"/v1/bakes/{bake}").json()["preview"], None)
-        self.assert_problem(server.get(f"/v1/bakes/{bake}/preview"), 404, "not_found")
+        problem = self.assert_problem(server.get(f"/v1/bakes/{bake}/preview"), 404, "not_found")
+        self.assertIn("no preview yet", problem["detail"])
         answer = self.wait_for_preview(server, bake)
         self.assertEqual(answer["preview"], 1)
         self.assertGreater(answer["texel_count"], 5000)
@@ -146,13 +147,16 @@ class Previews(LightmapBakeTest):
             self.assertEqual((picture.status, picture.headers["Content-Type"]), (200, "image/png"))
             self.assertEqual(picture.body[:8], b"\x89PNG\r\n\x1a\n")
             self.assertEqual(picture.body[16:24], (64).to_bytes(4, "big") * 2)
-        self.assert_problem(server.get(f"/v1/bakes/{bake}/preview?page=99"), 404, "not_found")
+        beyond = self.assert_problem(server.get(f"/v1/bakes/{bake}/preview?page=99"), 404, "not_found")
         problem = self.assert_problem(server.get(f"/v1/bakes/{bake}/preview?page=x"), 400, "invalid_value")
         self.assertEqual(problem["field"], "page")
         path = os.path.join(self.folder, "now.lightmaps")
         with open(path, "wb") as file:
             file.write(server.get(f"/v1/bakes/{bake}/preview/file").body)
         facts = json.loads(self.command("info", path, "--json"))
+        self.assertEqual((beyond["field"], beyond["value"]), ("page", "99"))
+        self.assertEqual(beyond["detail"],
+                         f"page: there is no page 99; the preview has {facts['pages']} pages, from 0 on")
         self.assertEqual((facts["page_size"], facts["has_directions"]), (64, False))
         self.assertGreater(facts["covered_texels"], answer["texel_count"])
         scene = server.get(f"/v1/bakes/{bake}/preview/scene").body
@@ -196,11 +200,17 @@ class Previews(LightmapBakeTest):
         server = self.start()
         bake = self.begin_maps(server, **ENDLESS)
         results = os.path.join(self.data, "bakes", bake, "results")
+        # The picture of a single page: this bake has several, and does not write it.
+        path = os.path.join(results, "preview.png")
+        for make, remove in ((lambda: os.symlink(COURTYARD, path), os.remove),
+                             (lambda: os.mkfifo(path), os.remove), (lambda: os.mkdir(path), os.rmdir)):
+            make()
+            answer = server.get(f"/v1/bakes/{bake}/preview")
+            self.assertIn(answer.status, (200, 404))
+            self.assertNotEqual(answer.body, read(COURTYARD))
+            remove(path)
         os.symlink(COURTYARD, os.path.join(results, "preview_7.png"))
-        os.mkfifo(os.path.join(results, "preview_8.png"))
-        os.mkdir(os.path.join(results, "preview_9.png"))
-        for page in (7, 8, 9):
-            self.assert_problem(server.get(f"/v1/bakes/{bake}/preview?page={page}"), 404, "not_found")
+        self.assert_problem(server.get(f"/v1/bakes/{bake}/preview?page=7"), 404, "not_found")
 
 
 class Exports(LightmapBakeTest):

@@ -71,17 +71,6 @@ class Upload(LightmapTest):
         self.assertEqual(server.get("/v1/lightmaps/court").json()["id"], maps)
         self.assert_problem(server.get("/v1/volumes/" + maps), 404, "not_found")
 
-    def refuse(self, server, kind, data):
-        """The one error of an upload that leaves nothing behind."""
-        problem = self.assert_problem(server.post(f"/v1/{kind}?name=bad", data, BINARY), 422, "bad_data")
-        self.assertEqual(problem["field"], "body")
-        # The folder of a request is deleted after its answer.
-        self.assertTrue(self.eventually(lambda: os.listdir(os.path.join(self.data, "work")) == []))
-        for folder in (kind, "quarantine"):
-            self.assertEqual(os.listdir(os.path.join(self.data, folder)), [], problem)
-        self.assertEqual(server.get("/v1/" + kind).json()[kind], [])
-        return problem["detail"]
-
     def test_a_damaged_section_is_refused_by_its_name(self):
         server = self.start()
         good = read(self.lightmap_file())

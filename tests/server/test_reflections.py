@@ -66,17 +66,6 @@ class Upload(ReflectionTest):
             self.assertEqual(problem["detail"], "there are no such reflections")
         self.assertEqual(os.listdir(os.path.join(self.data, "reflections")), [])
 
-    def refuse(self, server, kind, data):
-        """The one error of an upload that leaves nothing behind."""
-        problem = self.assert_problem(server.post(f"/v1/{kind}?name=bad", data, BINARY), 422, "bad_data")
-        self.assertEqual(problem["field"], "body")
-        # The folder of a request is deleted after its answer.
-        self.assertTrue(self.eventually(lambda: os.listdir(os.path.join(self.data, "work")) == []))
-        for folder in (kind, "quarantine"):
-            self.assertEqual(os.listdir(os.path.join(self.data, folder)), [], problem)
-        self.assertEqual(server.get("/v1/" + kind).json()[kind], [])
-        return problem["detail"]
-
     def test_damaged_files_are_refused_with_the_reason_that_info_gives(self):
         server = self.start()
         good = read(self.reflection_file())

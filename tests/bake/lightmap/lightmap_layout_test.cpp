@@ -152,6 +152,23 @@ TEST(LightmapLayout, TheErrorNamesALightmapScaleThatFits) {
     EXPECT_NE(error_of(scene, settings), "");
 }
 
+TEST(LightmapLayout, TheErrorNamesScalesByTwoDigits) {
+    Scene scene = boxes({moved({0, 0, 0})});
+    scene.instances[0].lightmap.scale = 3.0f;
+    for (uint32_t page_size = 20; page_size <= 100; page_size += 2) {
+        const std::string error =
+            error_of(scene, {.texels_per_meter = 20.0, .page_size = page_size});
+        const std::string before = "lower its extras.lightmap_scale from 3 to ";
+        const size_t found = error.find(before);
+        ASSERT_NE(found, std::string::npos) << error;
+        const size_t begin = found + before.size();
+        std::string digits = error.substr(begin, error.find(' ', begin) - begin);
+        std::erase(digits, '.');
+        digits.erase(0, digits.find_first_not_of('0'));
+        EXPECT_LE(digits.size(), 2u) << error;
+    }
+}
+
 TEST(LightmapLayout, RejectsSettingsThatAreOutOfRange) {
     const Scene scene = boxes({moved({0, 0, 0})});
     EXPECT_NE(error_of(scene, {.texels_per_meter = 0.0}), "");
