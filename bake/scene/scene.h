@@ -160,14 +160,11 @@ struct Environment {
     bool operator==(const Environment&) const = default;
 };
 
-/// It looks along its −Z, with +Y up in the picture.
+/// A perspective camera: it looks along its −Z, with +Y up in the picture.
 struct Camera {
     std::string name;
     glm::dmat4 world_from_camera{1.0};
-    /// Of a perspective camera.
     double fov_y_radians = 0.8;
-    /// Orthographic cameras: half of the height of what they see, metres. 0: a perspective camera.
-    double half_height = 0.0;
 
     bool operator==(const Camera&) const = default;
 };

@@ -164,9 +164,9 @@ class Units(FromBlender):
         super().setUpClass()
         run_blender(ROOT / "tests/cli/blender_lights.py", cls.folder)
 
-    def irradiance(self, name, normal):
+    def irradiance(self, name, normal, *options):
         volume = self.folder / f"{name}.probes"
-        tetralight("bake", self.folder / f"{name}.glb", "-o", volume, "--samples", 4096)
+        tetralight("bake", self.folder / f"{name}.glb", "-o", volume, "--samples", 4096, *options)
         answer = tetralight("query", volume, "--json", input="0 1 0\n").stdout
         return irradiance(json.loads(answer)["irradiance_sh"], normal)
 
@@ -181,6 +181,7 @@ class Units(FromBlender):
         self.assert_near(self.irradiance("sun", to_sun), 3 * self.FACING)
         self.assert_near(self.irradiance("sun_raw", to_sun), 3 * self.FACING)
         self.assert_near(self.irradiance("sun_standard", to_sun), 3 * self.FACING * LUMENS)
+        self.assert_near(self.irradiance("sun_standard", to_sun, "--light-unit", "watt"), 3 * self.FACING)
 
     def test_watts_of_points_and_spots_go_to_all_sides(self):
         watts, distance, up = 1000, 2, (0, 1, 0)
@@ -189,6 +190,7 @@ class Units(FromBlender):
             with self.subTest(kind):
                 self.assert_near(self.irradiance(kind, up), expected)
                 self.assert_near(self.irradiance(f"{kind}_standard", up), expected * LUMENS)
+                self.assert_near(self.irradiance(f"{kind}_standard", up, "--light-unit", "watt"), expected)
                 self.assert_near(self.irradiance(f"{kind}_raw", up), expected * 4 * math.pi)
 
     def test_strength_of_emission_is_radiance_in_every_mode(self):

@@ -16,7 +16,7 @@ namespace tetralight::detail {
 namespace {
 
 using nlohmann::json;
-using Bytes = std::vector<unsigned char>;
+using BufferBytes = std::vector<unsigned char>;
 
 /// The six bits of a character of base64 (RFC 4648); −1 for others.
 int base64_bits(char c) {
@@ -27,9 +27,9 @@ int base64_bits(char c) {
     return c == '/' ? 63 : -1;
 }
 
-Result<Bytes> decode_base64(std::string_view text) {
+Result<BufferBytes> decode_base64(std::string_view text) {
     while (text.ends_with('=')) text.remove_suffix(1);
-    Bytes bytes;
+    BufferBytes bytes;
     bytes.reserve(text.size() * 3 / 4);
     uint32_t bits = 0;
     int bit_count = 0;
@@ -48,7 +48,7 @@ Result<Bytes> decode_base64(std::string_view text) {
     return bytes;
 }
 
-Result<Bytes> read_uri(const std::string& uri, const std::string& folder) {
+Result<BufferBytes> read_uri(const std::string& uri, const std::string& folder) {
     if (is_data_uri(uri)) return decode_data_uri(uri);
     const auto relative = relative_path_from_uri(uri);
     if (!relative) return relative.error();
@@ -59,20 +59,20 @@ Result<Bytes> read_uri(const std::string& uri, const std::string& folder) {
         return error;
     }
     const auto* first = reinterpret_cast<const unsigned char*>(bytes->data());
-    return Bytes(first, first + bytes->size());
+    return BufferBytes(first, first + bytes->size());
 }
 
-Result<Bytes> read_buffer(const json& buffer, const std::string& folder,
-                          std::optional<std::span<const std::byte>> binary_chunk) {
-    if (is_fallback_buffer(buffer)) return Bytes();
+Result<BufferBytes> read_buffer(const json& buffer, const std::string& folder,
+                                std::optional<std::span<const std::byte>> binary_chunk) {
+    if (is_fallback_buffer(buffer)) return BufferBytes();
     const auto length = size_at(buffer, "byteLength", 0);
     const std::string uri = string_at(buffer, "uri");
-    Result<Bytes> bytes = Bytes();
+    Result<BufferBytes> bytes = BufferBytes();
     if (!uri.empty()) {
         bytes = read_uri(uri, folder);
     } else if (binary_chunk && length <= binary_chunk->size()) {
         const auto* first = reinterpret_cast<const unsigned char*>(binary_chunk->data());
-        bytes = Bytes(first, first + length);
+        bytes = BufferBytes(first, first + length);
     } else if (binary_chunk) {
         bytes->resize(binary_chunk->size());
     }
@@ -91,7 +91,7 @@ Result<Bytes> read_buffer(const json& buffer, const std::string& folder,
 
 }  // namespace
 
-Result<Bytes> decode_data_uri(std::string_view uri) {
+Result<BufferBytes> decode_data_uri(std::string_view uri) {
     constexpr std::string_view kMark = ";base64";
     const size_t comma = uri.find(',');
     if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(kMark)) {
@@ -105,9 +105,10 @@ bool is_fallback_buffer(const json& buffer) {
     return boolean_at(buffer, "extensions/EXT_meshopt_compression/fallback").value_or(false);
 }
 
-Result<std::vector<Bytes>> read_buffers(const json& document, const std::string& folder,
-                                        std::optional<std::span<const std::byte>> binary_chunk) {
-    std::vector<Bytes> buffers;
+Result<std::vector<BufferBytes>> read_buffers(
+    const json& document, const std::string& folder,
+    std::optional<std::span<const std::byte>> binary_chunk) {
+    std::vector<BufferBytes> buffers;
     const json& sources = array_at(document, "buffers");
     for (size_t i = 0; i < sources.size(); ++i) {
         const bool is_first = i == 0;

@@ -204,12 +204,10 @@ struct GltfLight {
     GltfLightExtras extras;
 };
 
-/// One of the two is set.
 struct GltfCamera {
     std::string name;
+    /// Empty if the camera is not a perspective one.
     std::optional<double> fov_y_radians;
-    /// Of an orthographic camera: half of the height of what it sees, metres.
-    std::optional<double> half_height;
 };
 
 /// EXT_lights_image_based.

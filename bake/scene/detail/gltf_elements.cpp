@@ -170,7 +170,6 @@ GltfCamera camera_from(const json& camera) {
     result.name = string_at(camera, "name");
     const std::string type = string_at(camera, "type");
     if (type == "perspective") result.fov_y_radians = number_at(camera, "perspective/yfov", 0.0);
-    if (type == "orthographic") result.half_height = number_at(camera, "orthographic/ymag", 0.0);
     return result;
 }
 

@@ -147,7 +147,7 @@ class Checker {
                                "an object or a boolean");
             case GltfKind::Part:
                 return check_part(value, rule, name);
-            case GltfKind::PartList:
+            case GltfKind::Parts:
                 return check_parts(value, rule, name);
             case GltfKind::RenderingLayers:
                 return check_rendering_layers(value, name);

@@ -57,7 +57,7 @@ constexpr GltfRule kNodes[] = {
 
 constexpr GltfRule kMeshes[] = {
     {"name", String},
-    {"primitives", PartList, "primitives", 0, kRequired},
+    {"primitives", Parts, "primitives", 0, kRequired},
     {"weights", Numbers},
 };
 
@@ -164,8 +164,8 @@ constexpr GltfRule kSkins[] = {
 
 constexpr GltfRule kAnimations[] = {
     {"name", String},
-    {"samplers", PartList, "samplers of animations", 0, kRequired},
-    {"channels", PartList, "channels", 0, kRequired},
+    {"samplers", Parts, "samplers of animations", 0, kRequired},
+    {"channels", Parts, "channels", 0, kRequired},
 };
 
 constexpr GltfRule kChannels[] = {

@@ -27,7 +27,7 @@ enum class GltfKind {
     Object,
     ObjectOrBoolean,  ///< or 0 or 1
     Part,             ///< object that obeys the rules of the part `target`
-    PartList,         ///< array of them
+    Parts,            ///< array of them
     RenderingLayers,  ///< array of integers 0 .. 31, not empty
 };
 

@@ -40,10 +40,10 @@ const std::vector<KnownExtras>& known_extras() {
     static const Names kOfLights{"mode",   "falloff", "shape", "indirect_multiplier",
                                  "radius", "angle",   "width", "height"};
     static const std::vector<KnownExtras> kKnown = [] {
-        Names of_nodes{"contribute_gi",     "walkable",     "in_reflections",   "receive_gi",
-                       "lightmap_scale",    "stitch_seams", "light_probes",     "probe_anchor",
-                       "light_probe_group", "dering",       "rendering_layers", "probe_adjustment",
-                       "reflection_probe",  "portal"};
+        Names of_nodes{"contribute_gi",     "walkable",     "in_reflections",    "receive_gi",
+                       "lightmap_scale",    "stitch_seams", "light_probes",      "probe_anchor",
+                       "light_probe_group", "dering",       "rendering_layers",  "probe_adjustment",
+                       "reflection_probe",  "portal",       "lightmap_rectangle"};
         of_nodes.insert(of_nodes.end(), kOfLights.begin(), kOfLights.end());
         return std::vector<KnownExtras>{
             {"nodes", "nodes", "extras", of_nodes},

@@ -162,12 +162,12 @@ void add_materials(const json& source, PartList& parts) {
             }
             if (kind == "cameras") {
                 const std::string type = string_at(element, "type");
-                if (type == "perspective" || type == "orthographic") return;
+                if (type == "perspective") return;
                 parts.add({PartUse::Ignored,
                            "cameras",
                            0,
                            {},
-                           str_cat("type \"", type, "\" is neither perspective nor orthographic"),
+                           str_cat("type \"", type, "\" is not perspective"),
                            "",
                            false},
                           place);
