@@ -16,9 +16,9 @@ constexpr const char* kMeshMembers[] = {"skin", "weights"};
 
 template <class Vector>
 GltfJson numbers(const Vector& vector) {
-    GltfJson json = GltfJson::array();
-    for (int i = 0; i < Vector::length(); ++i) json.push_back(vector[i]);
-    return json;
+    GltfJson array = GltfJson::array();
+    for (int i = 0; i < Vector::length(); ++i) array.push_back(vector[i]);
+    return array;
 }
 
 /// The transforms of EXT_mesh_gpu_instancing as members of nodes: `translation` and so on.
@@ -45,9 +45,9 @@ Result<std::vector<GltfJson>> instance_transforms(const GltfDocument& document,
 }
 
 /// Animated weights of a node become those of its children.
-void move_weight_channels(GltfJson& json, uint32_t node, const std::vector<uint32_t>& children) {
-    const auto animations = json.find("animations");
-    if (animations == json.end()) return;
+void move_weight_channels(GltfJson& root, uint32_t node, const std::vector<uint32_t>& children) {
+    const auto animations = root.find("animations");
+    if (animations == root.end()) return;
     for (GltfJson& animation : *animations) {
         GltfJson channels = GltfJson::array();
         for (const GltfJson& channel : animation["channels"]) {
@@ -75,9 +75,9 @@ Status LightmapNodes::write(const LightmapObject& object) {
     }
     const GltfPrimitivePlace primitive{node.mesh, 0};
     const uint32_t mesh = meshes_.mesh_of(primitive, object.places[0].uvs);
-    GltfJson& json = parts_.json["nodes"][object.node];
-    json["mesh"] = mesh;
-    const auto status = write_place(json, primitive, object.places[0]);
+    GltfJson& target = parts_.json["nodes"][object.node];
+    target["mesh"] = mesh;
+    const auto status = write_place(target, primitive, object.places[0]);
     if (!status) return in_element(status.error(), "nodes", object.node, node.name);
     return Ok{};
 }

@@ -36,10 +36,16 @@ struct GltfBuilder {
         return add("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}});
     }
 
+    /// Numbers in an element of this type: "VEC3" has 3, "MAT4" 16.
+    static size_t component_count(const std::string& type) {
+        if (type == "SCALAR") return 1;
+        const auto size = static_cast<size_t>(type.back() - '0');
+        return type.starts_with("MAT") ? size * size : size;
+    }
+
     template <class T>
     size_t add_accessor(const std::vector<T>& values, const char* type, int component_type) {
-        const size_t width =
-            std::strcmp(type, "SCALAR") == 0 ? 1 : static_cast<size_t>(type[3] - '0');
+        const size_t width = component_count(type);
         const size_t view = add_view(values);
         return add("accessors", {{"bufferView", view},
                                  {"componentType", component_type},
