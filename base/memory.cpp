@@ -26,6 +26,12 @@ uint64_t number_in(const char* path, const std::string& word) {
     return kUnknown;
 }
 
+/// Bytes of a line that gives kilobytes; kUnknown if there is none.
+uint64_t kilobytes_in(const char* path, const std::string& word) {
+    const uint64_t kilobytes = number_in(path, word);
+    return kilobytes > kUnknown / 1024 ? kUnknown : kilobytes * 1024;
+}
+
 /// Free memory within the limit of the control group of a container.
 uint64_t free_in_group() {
     const uint64_t limit = number_in("/sys/fs/cgroup/memory.max", "");  // "max" is no number
@@ -36,6 +42,12 @@ uint64_t free_in_group() {
 
 }  // namespace
 
+uint64_t add_bytes(uint64_t sum, uint64_t count, uint64_t size) {
+    constexpr uint64_t kMost = std::numeric_limits<uint64_t>::max();
+    const bool fits = size == 0 || count <= (kMost - sum) / size;
+    return fits ? sum + count * size : kMost;
+}
+
 std::string gigabytes(double bytes) {
     return str_cat(std::round(bytes / 1e8) / 10.0, " GB");
 }
@@ -45,9 +57,12 @@ std::string gigabytes(uint64_t bytes) {
 }
 
 uint64_t free_memory() {
-    const uint64_t kilobytes = number_in("/proc/meminfo", "MemAvailable:");
-    const uint64_t system = kilobytes > kUnknown / 1024 ? kUnknown : kilobytes * 1024;
-    return std::min(system, free_in_group());
+    return std::min(kilobytes_in("/proc/meminfo", "MemAvailable:"), free_in_group());
+}
+
+uint64_t resident_memory() {
+    const uint64_t bytes = kilobytes_in("/proc/self/status", "VmRSS:");
+    return bytes == kUnknown ? 0 : bytes;
 }
 
 }  // namespace tetralight

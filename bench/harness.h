@@ -93,6 +93,8 @@ void bench_query(const Options& options);
 void bench_reflection(const Options& options);
 void bench_relight(const Options& options);
 void bench_runtime(const Options& options);
+/// Reading scene files: time and memory.
+void bench_scene(const Options& options);
 void bench_tetrahedralize(const Options& options);
 
 }  // namespace tetralight::bench

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
         {"lightmap", bench_lightmap},
         {"lppv", bench_lppv},
         {"runtime", bench_runtime},
+        {"scene", bench_scene},
 #ifdef TETRALIGHT_HAS_SERVER
         {"server", bench_server},
 #endif

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/cli/explain_scene.h>
 
+#include <algorithm>
 #include <optional>
 
 #include <tetralight/bake/rays/memory_estimate.h>
 #include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/base/memory.h>
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/commands.h>
 #include <tetralight/cli/scene_parts_report.h>
@@ -15,21 +17,28 @@
 namespace tetralight::cli {
 namespace {
 
+/// Code, tables and threads that a process has behind its start: to read a scene, and to bake it.
+constexpr uint64_t kReadingCodeBytes = 3'000'000, kBakingCodeBytes = 10'000'000;
+
 /// What a scene contains, in numbers.
 struct SceneFacts {
     uint64_t triangle_count = 0;
     /// Of all instances; empty if there are none.
     std::optional<WorldBox> bounds;
-    /// Of a bake without probes.
-    uint64_t memory_bytes = 0;
+    /// The most memory that a process has that reads it, and that bakes it without probes.
+    uint64_t reading_bytes = 0;
+    uint64_t bake_bytes = 0;
 };
 
-SceneFacts scene_facts(const Scene& scene) {
+/// `program_bytes`: what the process had before it read the scene.
+SceneFacts scene_facts(const Scene& scene, uint64_t program_bytes) {
     SceneFacts facts;
     for (const MeshInstance& instance : scene.instances)
         facts.triangle_count += scene.meshes[instance.mesh].indices.size() / 3;
     facts.bounds = scene_bounds(scene, [](const MeshInstance&) { return true; });
-    facts.memory_bytes = estimate_bake_memory(scene, 0).total_bytes();
+    const uint64_t bake = scene.memory.scene_bytes() + estimate_bake_memory(scene, 0).total_bytes();
+    facts.reading_bytes = program_bytes + kReadingCodeBytes + scene.memory.peak_bytes();
+    facts.bake_bytes = std::max(facts.reading_bytes, program_bytes + kBakingCodeBytes + bake);
     return facts;
 }
 
@@ -41,15 +50,20 @@ Json scene_json(const std::string& path, const Scene& scene, const SceneFacts& f
             {"parts", parts_json(scene.parts)},
             {"bounds", bounds},
             {"triangles", facts.triangle_count},
-            {"memory_bytes", facts.memory_bytes}};
+            {"reading_memory_bytes", facts.reading_bytes},
+            {"memory_bytes", facts.bake_bytes}};
+}
+
+std::string bytes_text(uint64_t bytes) {
+    return magnitude(static_cast<double>(bytes)) + "B";
 }
 
 std::string scene_text(const std::string& path, const Scene& scene, const SceneFacts& facts) {
     const std::string bounds = facts.bounds ? str_cat(position_text(facts.bounds->min), " to ",
                                                       position_text(facts.bounds->max))
                                             : "none (no objects)";
-    const std::string memory =
-        magnitude(static_cast<double>(facts.memory_bytes)) + "B in a bake, without probes";
+    const std::string memory = str_cat(bytes_text(facts.reading_bytes), " to read it, ",
+                                       bytes_text(facts.bake_bytes), " to bake it without probes");
     std::string text = str_cat(
         printable(path), "\n",
         aligned(
@@ -64,10 +78,11 @@ std::string scene_text(const std::string& path, const Scene& scene, const SceneF
 
 Status show_scene(const std::string& path, const SceneReading& reading,
                   const CommonOptions& common) {
+    const uint64_t program_bytes = resident_memory();
     const auto scene = read_scene(path, reading);
     if (!scene) return scene.error();
     common.warn(warnings_beside_parts(*scene));
-    const SceneFacts facts = scene_facts(*scene);
+    const SceneFacts facts = scene_facts(*scene, program_bytes);
     common.print(scene_json(path, *scene, facts), scene_text(path, *scene, facts));
     return Ok{};
 }

@@ -12,6 +12,8 @@
 #include <tetralight/bake/image/detail/read_exr.h>
 #include <tetralight/bake/image/detail/starts_with.h>
 #include <tetralight/base/file.h>
+#include <tetralight/base/memory.h>
+#include <tetralight/base/str_cat.h>
 
 namespace tetralight {
 namespace {
@@ -80,12 +82,24 @@ Result<ImageSize> hdr_size(Bytes bytes) {
     return unknown_hdr_error();
 }
 
+/// Returns out_of_resources if an image of this size needs more memory than is free.
+Status check_memory(ImageSize size) {
+    const uint64_t bytes = uint64_t{size.width} * size.height * sizeof(glm::vec3);
+    const uint64_t free = free_memory();
+    if (bytes <= free) return Ok{};
+    return Error{ErrorCode::OutOfResources,
+                 str_cat("its ", size.width, " x ", size.height, " pixels need about ",
+                         gigabytes(bytes), " of memory, ", gigabytes(free), " are free")};
+}
+
 Result<ImageF> read_any_hdr(const std::string& path) {
     const auto file = MappedFile::open(path);
     if (!file) return file.error();
     const auto bytes = file->bytes();
+    const auto size = hdr_size(bytes);
+    if (!size) return size.error().in(path);
+    if (auto status = check_memory(*size); !status) return status.error().in(path);
     if (is_exr(bytes)) return detail::read_exr(path);
-    if (!detail::is_hdr(bytes)) return unknown_hdr_error().in(path);
     auto image = detail::decode_hdr(bytes);
     if (!image) return image.error().in(path);
     return image;

@@ -10,6 +10,7 @@
 #include <tetralight/bake/scene/detail/gltf_instances.h>
 #include <tetralight/bake/scene/detail/gltf_lights.h>
 #include <tetralight/bake/scene/detail/gltf_materials.h>
+#include <tetralight/bake/scene/detail/gltf_memory.h>
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
 #include <tetralight/bake/scene/detail/gltf_nodes.h>
 #include <tetralight/bake/scene/detail/gltf_portals.h>
@@ -144,6 +145,10 @@ Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
         if (!moved) return moved.error().in(path);
     }
     Scene scene;
+    scene.memory = document->memory;
+    scene.memory.image_bytes = detail::image_memory(*document, reading.normal_maps);
+    const auto fits = detail::check_reading_memory(scene.memory);
+    if (!fits) return fits.error().in(path);
     const auto status = add_all(*document, reading, scene);
     if (!status) return status.error().in(path);
     add_parts(*document, scene);

@@ -53,7 +53,8 @@ struct SceneReading {
 ///
 /// Returns corrupt if the file breaks the rules of glTF, invalid_argument if a value of extras is
 /// out of range, unsupported if the file requires an extension that is not listed here, and
-/// not_found (or the system's reason) if it refers to a file that cannot be read. Messages name the
+/// not_found (or the system's reason) if it refers to a file that cannot be read. If the scene
+/// needs more memory than is free, returns out_of_resources before it decodes it. Messages name the
 /// file, the element and the value; fields name the member: `materials[2].alphaCutoff`.
 [[nodiscard]] Result<Scene> read_gltf(const std::string& path, const SceneReading& reading = {});
 

@@ -13,6 +13,7 @@
 #include <tetralight/bake/image/image.h>
 #include <tetralight/bake/scene/probe_adjustment.h>
 #include <tetralight/bake/scene/reflection_place.h>
+#include <tetralight/bake/scene/scene_memory.h>
 #include <tetralight/bake/scene/scene_parts.h>
 #include <tetralight/probes/light.h>
 #include <tetralight/probes/no_index.h>
@@ -200,6 +201,8 @@ struct Scene {
     std::vector<ReflectionPlace> reflection_places;
     /// What was read of the file, and what was not.
     std::vector<ScenePart> parts;
+    /// What reading it took.
+    SceneMemory memory;
     /// Warnings for the user, one line each: parts that were skipped or replaced.
     std::vector<std::string> warnings;
 

@@ -13,9 +13,7 @@
 #include <exception>
 #include <new>
 
-#include <tetralight/bake/image/detail/exr_header.h>
 #include <tetralight/bake/image/detail/image_size.h>
-#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -77,19 +75,9 @@ Result<ImageF> read_pixels(Imf::InputFile& file) {
     return image;
 }
 
-/// Checks the header before OpenEXR allocates what it says.
-Status check_header(const std::string& path) {
-    const auto file = MappedFile::open(path);
-    if (!file) return file.error();
-    const auto size = read_exr_size(file->bytes());
-    if (!size) return size.error().in(path);
-    return Ok{};
-}
-
 }  // namespace
 
 Result<ImageF> read_exr(const std::string& path) {
-    if (const auto status = check_header(path); !status) return status.error();
     try {
         Imf::InputFile file(path.c_str());
         auto image = read_pixels(file);

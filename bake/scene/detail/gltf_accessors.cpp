@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/base/str_cat.h>
@@ -20,10 +21,6 @@ constexpr uint32_t kShort = 5122;
 constexpr uint32_t kUnsignedShort = 5123;
 constexpr uint32_t kUnsignedInt = 5125;
 constexpr uint32_t kFloat = 5126;
-
-/// Elements of an accessor without a buffer view, which are zeros: limited, so that a small file
-/// cannot fill memory.
-constexpr uint64_t kMaxZeroElements = 1 << 20;
 
 /// Bytes of one component; 0 if the type is unknown or not read.
 uint64_t component_size(uint32_t component_type) {
@@ -49,10 +46,15 @@ struct ElementRun {
     uint64_t element_size = 0;
 };
 
-/// Copies the elements of a run, tightly packed. No product overflows, since all numbers are below
-/// 2^33.
-Result<std::vector<std::byte>> gather(const GltfDocument& document, uint32_t view_index,
-                                      const ElementRun& run) {
+/// Where the elements of a run begin, and the bytes from one to the next. No product overflows,
+/// since all numbers are below 2^33.
+struct PlacedElements {
+    const std::byte* first = nullptr;
+    uint64_t stride = 0;
+};
+
+Result<PlacedElements> find_run(const GltfDocument& document, uint32_t view_index,
+                                const ElementRun& run) {
     const GltfBufferView& view = document.buffer_views[view_index];
     const uint64_t stride = view.byte_stride == 0 ? run.element_size : view.byte_stride;
     if (stride < run.element_size) {
@@ -68,12 +70,7 @@ Result<std::vector<std::byte>> gather(const GltfDocument& document, uint32_t vie
                              view_index, " (", view.byte_length, " bytes)")};
     }
     const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
-    const std::byte* source = buffer.data() + view.byte_offset + run.byte_offset;
-    std::vector<std::byte> packed(run.count * run.element_size);
-    for (uint64_t i = 0; i < run.count; ++i) {
-        std::memcpy(&packed[i * run.element_size], source + i * stride, run.element_size);
-    }
-    return packed;
+    return PlacedElements{buffer.data() + view.byte_offset + run.byte_offset, stride};
 }
 
 /// One unsigned integer of 1, 2 or 4 bytes.
@@ -110,75 +107,96 @@ Status replace_sparse(const GltfDocument& document, const GltfAccessor& accessor
     const uint64_t element_size = packed.size() / accessor.count;
     const uint64_t index_size = component_size(sparse.index_component_type);
     const auto indices =
-        gather(document, sparse.index_view, {sparse.index_byte_offset, sparse.count, index_size});
+        find_run(document, sparse.index_view, {sparse.index_byte_offset, sparse.count, index_size});
     if (!indices) return in_member(indices.error().in("sparse indices"), ".sparse.indices");
-    const auto values =
-        gather(document, sparse.value_view, {sparse.value_byte_offset, sparse.count, element_size});
+    const auto values = find_run(document, sparse.value_view,
+                                 {sparse.value_byte_offset, sparse.count, element_size});
     if (!values) return in_member(values.error().in("sparse values"), ".sparse.values");
     for (uint64_t i = 0; i < sparse.count; ++i) {
         const uint32_t index =
-            unsigned_at(&(*indices)[i * index_size], sparse.index_component_type);
+            unsigned_at(indices->first + i * indices->stride, sparse.index_component_type);
         if (index >= accessor.count) {
             return Error{ErrorCode::Corrupt, str_cat(".sparse.indices[", i, "]"), str_cat(index),
                          str_cat("sparse index ", index, " is out of range (", accessor.count,
                                  " elements)")};
         }
-        std::memcpy(&packed[index * element_size], &(*values)[i * element_size], element_size);
+        std::memcpy(&packed[index * element_size], values->first + i * values->stride,
+                    element_size);
     }
     return Ok{};
 }
 
-/// All elements of an accessor as packed bytes, sparse replacements included.
-Result<std::vector<std::byte>> packed_elements(const GltfDocument& document,
-                                               const GltfAccessor& accessor) {
+/// The elements of an accessor: where they are in the buffer, or packed in `copy` with the sparse
+/// ones replaced.
+struct AccessorElements {
+    PlacedElements placed;
+    std::vector<std::byte> copy;
+};
+
+Result<AccessorElements> find_elements(const GltfDocument& document, const GltfAccessor& accessor) {
     const uint64_t element_size =
         component_size(accessor.component_type) * accessor.component_count;
     if (accessor.count == 0) return Error{ErrorCode::Corrupt, ".count", "0", "has no elements"};
-    std::vector<std::byte> packed;
-    if (accessor.buffer_view != kNoIndex) {
-        auto gathered = gather(document, accessor.buffer_view,
-                               {accessor.byte_offset, accessor.count, element_size});
-        if (!gathered) return gathered.error();
-        packed = std::move(*gathered);
-    } else if (accessor.count > kMaxZeroElements) {
+    const bool is_zero = accessor.buffer_view == kNoIndex;
+    if (is_zero && accessor.count > kMaxZeroElements) {
         return Error{ErrorCode::Unsupported, ".count", str_cat(accessor.count),
                      str_cat(accessor.count, " elements without a buffer view are more than ",
                              kMaxZeroElements)};
-    } else {
-        packed.resize(accessor.count * element_size);
     }
+    AccessorElements elements;
+    if (!is_zero) {
+        const auto run = find_run(document, accessor.buffer_view,
+                                  {accessor.byte_offset, accessor.count, element_size});
+        if (!run) return run.error();
+        elements.placed = *run;
+        if (!accessor.sparse) return elements;
+    }
+    elements.copy.resize(accessor.count * element_size);
+    for (uint64_t i = 0; !is_zero && i < accessor.count; ++i) {
+        std::memcpy(&elements.copy[i * element_size],
+                    elements.placed.first + i * elements.placed.stride, element_size);
+    }
+    elements.placed = {elements.copy.data(), element_size};
     if (accessor.sparse) {
-        const auto status = replace_sparse(document, accessor, packed);
+        const auto status = replace_sparse(document, accessor, elements.copy);
         if (!status) return status.error();
     }
-    return packed;
+    return elements;
 }
 
-template <class Integer>
-float integer_at(const std::byte* bytes, bool is_normalized) {
-    Integer value = 0;
-    std::memcpy(&value, bytes, sizeof value);
-    const auto number = static_cast<float>(value);
-    if (!is_normalized) return number;
-    return std::max(number / static_cast<float>(std::numeric_limits<Integer>::max()), -1.0f);
-}
-
-float float_at(const std::byte* bytes, uint32_t component_type, bool is_normalized) {
-    switch (component_type) {
-        case kByte:
-            return integer_at<int8_t>(bytes, is_normalized);
-        case kUnsignedByte:
-            return integer_at<uint8_t>(bytes, is_normalized);
-        case kShort:
-            return integer_at<int16_t>(bytes, is_normalized);
-        case kUnsignedShort:
-            return integer_at<uint16_t>(bytes, is_normalized);
-        default:
-            break;
+/// Writes the elements' components one after the other: integers as they are or, if they are
+/// normalized, divided by the largest one.
+template <class Component>
+void copy_components(const PlacedElements& elements, const GltfAccessor& accessor,
+                     float* components) {
+    for (uint64_t i = 0; i < accessor.count; ++i) {
+        const std::byte* bytes = elements.first + i * elements.stride;
+        for (uint32_t axis = 0; axis < accessor.component_count; ++axis) {
+            Component value{};
+            std::memcpy(&value, bytes + axis * sizeof value, sizeof value);
+            *components = static_cast<float>(value);
+            if (std::is_integral_v<Component> && accessor.is_normalized) {
+                constexpr auto kLargest = static_cast<float>(std::numeric_limits<Component>::max());
+                *components = std::max(*components / kLargest, -1.0f);
+            }
+            ++components;
+        }
     }
-    float value = 0.0f;
-    std::memcpy(&value, bytes, sizeof value);
-    return value;
+}
+
+void copy_floats(const PlacedElements& elements, const GltfAccessor& accessor, float* components) {
+    switch (accessor.component_type) {
+        case kByte:
+            return copy_components<int8_t>(elements, accessor, components);
+        case kUnsignedByte:
+            return copy_components<uint8_t>(elements, accessor, components);
+        case kShort:
+            return copy_components<int16_t>(elements, accessor, components);
+        case kUnsignedShort:
+            return copy_components<uint16_t>(elements, accessor, components);
+        default:
+            return copy_components<float>(elements, accessor, components);
+    }
 }
 
 Error component_type_error(const GltfAccessor& accessor, const char* reason) {
@@ -201,24 +219,33 @@ Status check_float_type(const GltfAccessor& accessor, int component_count) {
     return component_type_error(accessor, " is not supported here");
 }
 
-/// The components of all elements, one after the other.
-Result<std::vector<float>> decode_floats(const GltfDocument& document, const GltfAccessor& accessor,
-                                         int component_count) {
-    const auto type = check_float_type(accessor, component_count);
-    if (!type) return type.error();
-    const auto packed = packed_elements(document, accessor);
-    if (!packed) return packed.error();
-    std::vector<float> values(accessor.count * accessor.component_count);
-    const std::byte* bytes = packed->data();
-    for (size_t i = 0; i < values.size(); ++i) {
-        values[i] = float_at(bytes, accessor.component_type, accessor.is_normalized);
-        bytes += component_size(accessor.component_type);
-        if (std::isfinite(values[i])) continue;
-        const size_t element = i / accessor.component_count, axis = i % accessor.component_count;
-        return Error{ErrorCode::Corrupt, str_cat("[", element, "][", axis, "]"), str_cat(values[i]),
+Status check_finite(std::span<const float> components, uint32_t component_count) {
+    for (size_t i = 0; i < components.size(); ++i) {
+        if (std::isfinite(components[i])) continue;
+        const size_t element = i / component_count, axis = i % component_count;
+        return Error{ErrorCode::Corrupt, str_cat("[", element, "][", axis, "]"),
+                     str_cat(components[i]),
                      str_cat("element ", element, " is not finite (component ", axis, " is ",
-                             values[i], ")")};
+                             components[i], ")")};
     }
+    return Ok{};
+}
+
+/// `Element`: a float, or a vector or matrix of floats.
+template <class Element>
+Result<std::vector<Element>> decode_floats(const GltfDocument& document,
+                                           const GltfAccessor& accessor) {
+    constexpr int kCount = sizeof(Element) / sizeof(float);
+    const auto type = check_float_type(accessor, kCount);
+    if (!type) return type.error();
+    const auto elements = find_elements(document, accessor);
+    if (!elements) return elements.error();
+    std::vector<Element> values(accessor.count);
+    auto* components = reinterpret_cast<float*>(values.data());
+    copy_floats(elements->placed, accessor, components);
+    const auto status =
+        check_finite(std::span(components, values.size() * kCount), accessor.component_count);
+    if (!status) return status.error();
     return values;
 }
 
@@ -227,23 +254,11 @@ Error in_accessor(const Error& error, uint32_t accessor_index) {
                      str_cat("accessors[", accessor_index, "]"));
 }
 
-Result<std::vector<float>> read_floats(const GltfDocument& document, uint32_t accessor_index,
-                                       int component_count) {
-    auto values = decode_floats(document, document.accessors[accessor_index], component_count);
+template <class Element>
+Result<std::vector<Element>> read_floats(const GltfDocument& document, uint32_t accessor_index) {
+    auto values = decode_floats<Element>(document, document.accessors[accessor_index]);
     if (!values) return in_accessor(values.error(), accessor_index);
     return values;
-}
-
-template <class Vector>
-Result<std::vector<Vector>> read_vectors(const GltfDocument& document, uint32_t accessor_index) {
-    const auto values = read_floats(document, accessor_index, Vector::length());
-    if (!values) return values.error();
-    std::vector<Vector> vectors(values->size() / static_cast<size_t>(Vector::length()));
-    const float* value = values->data();
-    for (Vector& vector : vectors) {
-        for (int axis = 0; axis < Vector::length(); ++axis) vector[axis] = *value++;
-    }
-    return vectors;
 }
 
 Result<std::vector<uint32_t>> decode_indices(const GltfDocument& document,
@@ -254,12 +269,13 @@ Result<std::vector<uint32_t>> decode_indices(const GltfDocument& document,
     if (!is_index_type(accessor.component_type)) {
         return component_type_error(accessor, " is not supported for indices");
     }
-    const auto packed = packed_elements(document, accessor);
-    if (!packed) return packed.error();
-    const uint64_t size = component_size(accessor.component_type);
+    const auto elements = find_elements(document, accessor);
+    if (!elements) return elements.error();
     std::vector<uint32_t> indices(accessor.count);
-    for (size_t i = 0; i < indices.size(); ++i) {
-        indices[i] = unsigned_at(&(*packed)[i * size], accessor.component_type);
+    const std::byte* bytes = elements->placed.first;
+    for (uint32_t& index : indices) {
+        index = unsigned_at(bytes, accessor.component_type);
+        bytes += elements->placed.stride;
     }
     return indices;
 }
@@ -267,30 +283,23 @@ Result<std::vector<uint32_t>> decode_indices(const GltfDocument& document,
 }  // namespace
 
 Result<std::vector<float>> read_scalars(const GltfDocument& document, uint32_t accessor_index) {
-    return read_floats(document, accessor_index, 1);
+    return read_floats<float>(document, accessor_index);
 }
 
 Result<std::vector<glm::vec2>> read_vec2s(const GltfDocument& document, uint32_t accessor_index) {
-    return read_vectors<glm::vec2>(document, accessor_index);
+    return read_floats<glm::vec2>(document, accessor_index);
 }
 
 Result<std::vector<glm::vec3>> read_vec3s(const GltfDocument& document, uint32_t accessor_index) {
-    return read_vectors<glm::vec3>(document, accessor_index);
+    return read_floats<glm::vec3>(document, accessor_index);
 }
 
 Result<std::vector<glm::vec4>> read_vec4s(const GltfDocument& document, uint32_t accessor_index) {
-    return read_vectors<glm::vec4>(document, accessor_index);
+    return read_floats<glm::vec4>(document, accessor_index);
 }
 
 Result<std::vector<glm::mat4>> read_mat4s(const GltfDocument& document, uint32_t accessor_index) {
-    const auto values = read_floats(document, accessor_index, 16);
-    if (!values) return values.error();
-    std::vector<glm::mat4> matrices(values->size() / 16);
-    for (size_t i = 0; i < values->size(); ++i) {
-        const auto number = static_cast<int>(i % 16);
-        matrices[i / 16][number / 4][number % 4] = (*values)[i];
-    }
-    return matrices;
+    return read_floats<glm::mat4>(document, accessor_index);
 }
 
 Result<std::vector<glm::vec4>> read_colors(const GltfDocument& document, uint32_t accessor_index) {
@@ -298,6 +307,7 @@ Result<std::vector<glm::vec4>> read_colors(const GltfDocument& document, uint32_
     if (document.accessors[accessor_index].component_count == 3) {
         const auto opaque = read_vec3s(document, accessor_index);
         if (!opaque) return opaque.error();
+        colors.reserve(opaque->size());
         for (const glm::vec3& color : *opaque) colors.emplace_back(color, 1.0f);
     } else {
         auto read = read_vec4s(document, accessor_index);

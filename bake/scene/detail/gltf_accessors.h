@@ -16,6 +16,10 @@
 
 namespace tetralight::detail {
 
+/// Elements of an accessor without a buffer view, which are zeros: limited, so that a small file
+/// cannot fill memory.
+inline constexpr uint64_t kMaxZeroElements = 1 << 20;
+
 [[nodiscard]] Result<std::vector<float>> read_scalars(const GltfDocument& document,
                                                       uint32_t accessor_index);
 [[nodiscard]] Result<std::vector<glm::vec2>> read_vec2s(const GltfDocument& document,

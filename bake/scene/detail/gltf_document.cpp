@@ -18,6 +18,7 @@
 #include <tetralight/bake/scene/detail/gltf_draco.h>
 #include <tetralight/bake/scene/detail/gltf_elements.h>
 #include <tetralight/bake/scene/detail/gltf_members.h>
+#include <tetralight/bake/scene/detail/gltf_memory.h>
 #include <tetralight/bake/scene/detail/gltf_meshopt.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/gltf_unknown_extras.h>
@@ -91,10 +92,12 @@ Result<GltfDocument> parse_document(Bytes bytes, const std::string& path,
     if (!source) return source.error();
     const auto chosen = find_scene(*source, scene);
     if (!chosen) return chosen.error();
-    auto buffers = read_buffers(*source, folder_of(path), chunks->binary);
-    if (!buffers) return buffers.error();
     GltfDocument document = document_from(*source);
     document.path = path;
+    document.memory = geometry_memory(*source, document, bytes);
+    if (auto status = check_reading_memory(document.memory); !status) return status.error();
+    auto buffers = read_buffers(*source, folder_of(path), chunks->binary);
+    if (!buffers) return buffers.error();
     document.buffers = std::move(*buffers);
     choose_scene(*source, *chosen, document);
     if (auto status = decode_meshopt(document); !status) return status.error();

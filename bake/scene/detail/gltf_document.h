@@ -306,11 +306,14 @@ struct GltfDocument {
     std::optional<GltfImageBasedLight> image_based_light;
     /// What is in the file and is not read, or not as glTF defines it.
     std::vector<ScenePart> parts;
+    /// What reading takes, without the images.
+    SceneMemory memory;
 };
 
 /// Reads and checks a .gltf or .glb file and its buffers, but not its image files. The scene that
 /// is read is the one that `scene` names or whose index it is; empty: the default one. Returns
-/// invalid_argument if there is no such scene.
+/// invalid_argument if there is no such scene, and out_of_resources, before anything is decoded, if
+/// there is not enough memory.
 [[nodiscard]] Result<GltfDocument> read_gltf_document(const std::string& path,
                                                       const std::string& scene = "");
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <tetralight/bake/scene/detail/error_field.h>
+#include <tetralight/base/memory.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -332,11 +333,9 @@ Status decode_draco(GltfDocument& document) {
 }
 
 uint64_t draco_decoded_bytes(const GltfDocument& document) {
-    constexpr uint64_t kMost = std::numeric_limits<uint64_t>::max();
     uint64_t sum = 0;
     const auto add = [&](uint32_t accessor) {
-        const uint64_t size = element_bytes(document.accessors[accessor]);
-        sum = size > kMost - sum ? kMost : sum + size;
+        sum = add_bytes(sum, element_bytes(document.accessors[accessor]));
     };
     for (const GltfMesh& mesh : document.meshes) {
         for (const GltfPrimitive& primitive : mesh.primitives) {

@@ -3,12 +3,12 @@
 
 #include <meshoptimizer.h>
 
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <tetralight/bake/scene/detail/error_field.h>
+#include <tetralight/base/memory.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -199,12 +199,9 @@ Status decode_meshopt(GltfDocument& document) {
 }
 
 uint64_t meshopt_decoded_bytes(const GltfDocument& document) {
-    constexpr uint64_t kMost = std::numeric_limits<uint64_t>::max();
     uint64_t sum = 0;
     for (const GltfBufferView& view : document.buffer_views) {
-        if (!view.meshopt) continue;
-        const uint64_t size = view.meshopt->count * view.meshopt->byte_stride;
-        sum = size > kMost - sum ? kMost : sum + size;
+        if (view.meshopt) sum = add_bytes(sum, view.meshopt->count, view.meshopt->byte_stride);
     }
     return sum;
 }

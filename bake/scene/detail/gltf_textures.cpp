@@ -2,6 +2,8 @@
 #include <tetralight/bake/scene/detail/gltf_textures.h>
 
 #include <span>
+#include <string_view>
+#include <utility>
 
 #include <tetralight/bake/image/read_image.h>
 #include <tetralight/bake/scene/detail/error_field.h>
@@ -88,16 +90,16 @@ std::string name_of(const GltfTexture& texture, const GltfImage& image) {
 
 }  // namespace
 
-uint32_t first_image_alike(const GltfDocument& document, uint32_t image) {
-    const GltfImage& source = document.images[image];
-    for (uint32_t i = 0; i < image; ++i) {
-        const GltfImage& other = document.images[i];
-        const bool shares_view =
-            source.buffer_view != kNoIndex && source.buffer_view == other.buffer_view;
-        const bool shares_uri = source.buffer_view == kNoIndex && source.uri == other.uri;
-        if (shares_view || shares_uri) return i;
+std::vector<uint32_t> images_alike(const GltfDocument& document) {
+    std::vector<uint32_t> alike;
+    std::map<std::pair<uint32_t, std::string_view>, uint32_t> known;
+    for (const GltfImage& image : document.images) {
+        std::string_view uri;
+        if (image.buffer_view == kNoIndex) uri = image.uri;
+        const auto index = static_cast<uint32_t>(alike.size());
+        alike.push_back(known.try_emplace({image.buffer_view, uri}, index).first->second);
     }
-    return image;
+    return alike;
 }
 
 Result<uint32_t> GltfTextureReader::read(uint32_t gltf_texture) {
@@ -124,7 +126,7 @@ Result<uint32_t> GltfTextureReader::find_or_decode(const GltfTexture& source) {
     Texture texture;
     const auto wrap = set_wrap_modes(document_, source.sampler, texture);
     if (!wrap) return wrap.error();
-    const uint32_t image_index = first_image_alike(document_, source.image);
+    const uint32_t image_index = alike_[source.image];
     const std::array<uint32_t, 3> key = {image_index, static_cast<uint32_t>(texture.wrap_u),
                                          static_cast<uint32_t>(texture.wrap_v)};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;

@@ -11,9 +11,9 @@
 
 namespace tetralight::detail {
 
-/// The first image of the document with the same bytes by reference: the same buffer view, file or
-/// data URI.
-[[nodiscard]] uint32_t first_image_alike(const GltfDocument& document, uint32_t image);
+/// For each image of the document the first one with the same bytes by reference: the same buffer
+/// view, file or data URI.
+[[nodiscard]] std::vector<uint32_t> images_alike(const GltfDocument& document);
 
 /// Decodes the textures that materials use: images that share their bytes once for each pair of
 /// wrap modes.
@@ -33,6 +33,7 @@ class GltfTextureReader {
     [[nodiscard]] Result<uint32_t> find_or_decode(const GltfTexture& source);
 
     const GltfDocument& document_;
+    std::vector<uint32_t> alike_ = images_alike(document_);
     /// By image index and the two wrap modes.
     std::map<std::array<uint32_t, 3>, uint32_t> known_;
 };

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tetralight/bake/image/detail/read_exr.h>
 
 #include <gtest/gtest.h>
 
@@ -50,15 +49,15 @@ constexpr uint16_t kHalfTwo = 0x4000;
 TEST(ReadExr, TakesLuminanceAloneAsGrey) {
     const TempFolder folder;
     const auto path = folder.write("y.exr", one_channel_exr('Y', {kHalfOne, kHalfTwo}));
-    const auto image = detail::read_exr(path);
+    const auto image = read_hdr_image(path);
     ASSERT_TRUE(image) << error_text(image.error());
-    EXPECT_EQ(image->pixels, (std::vector{glm::vec3(1.0f), glm::vec3(2.0f)}));
+    EXPECT_EQ(image->image.pixels, (std::vector{glm::vec3(1.0f), glm::vec3(2.0f)}));
 }
 
 TEST(ReadExr, NamesTheChannelThatIsMissing) {
     const TempFolder folder;
     const auto path = folder.write("r.exr", one_channel_exr('R', {kHalfOne, kHalfTwo}));
-    const auto image = detail::read_exr(path);
+    const auto image = read_hdr_image(path);
     ASSERT_FALSE(image);
     EXPECT_EQ(error_text(image.error()), path + ": has no channel G");
 }
@@ -69,7 +68,7 @@ TEST(ReadExr, RejectsAWindowThatIsTooLarge) {
     const size_t box = file.find("dataWindow") + sizeof("dataWindow") + sizeof("box2i") + 4;
     const uint32_t last[] = {100000 - 1, 100000 - 1};
     file.replace(box + 8, 8, std::string(reinterpret_cast<const char*>(last), 8));
-    const auto image = detail::read_exr(folder.write("large.exr", file));
+    const auto image = read_hdr_image(folder.write("large.exr", file));
     ASSERT_FALSE(image);
     EXPECT_NE(error_text(image.error()).find("large.exr"), std::string::npos);
 }

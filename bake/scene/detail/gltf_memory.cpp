@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tetralight/bake/scene/detail/gltf_memory.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <system_error>
+
+#include <tetralight/bake/image/read_image.h>
+#include <tetralight/bake/scene/detail/gltf_accessors.h>
+#include <tetralight/bake/scene/detail/gltf_buffers.h>
+#include <tetralight/bake/scene/detail/gltf_draco.h>
+#include <tetralight/bake/scene/detail/gltf_members.h>
+#include <tetralight/bake/scene/detail/gltf_meshes.h>
+#include <tetralight/bake/scene/detail/gltf_meshopt.h>
+#include <tetralight/bake/scene/detail/gltf_textures.h>
+#include <tetralight/bake/scene/detail/gltf_uri.h>
+#include <tetralight/base/file.h>
+#include <tetralight/base/str_cat.h>
+
+namespace tetralight::detail {
+namespace {
+
+/// Bytes of parsed JSON for a byte of its text, in files of many small elements.
+constexpr uint64_t kJsonBytesPerByte = 7;
+
+/// What Draco's decoder has for a triangle of the mesh that it decodes, until it is decoded.
+constexpr uint64_t kDracoBytesPerTriangle = 100;
+
+/// The bytes that read_buffers() reads for a buffer.
+uint64_t buffer_size(const nlohmann::json& buffer, const std::string& folder) {
+    if (is_fallback_buffer(buffer)) return 0;
+    const std::string uri = string_at(buffer, "uri");
+    if (uri.empty()) return size_at(buffer, "byteLength", 0);
+    if (is_data_uri(uri)) return uri.size() / 4 * 3;
+    const auto relative = relative_path_from_uri(uri);
+    std::error_code error;
+    const uint64_t size = relative ? std::filesystem::file_size(folder + *relative, error) : 0;
+    return error ? 0 : size;
+}
+
+uint64_t encoded_buffer_bytes(const nlohmann::json& json, const std::string& folder,
+                              uint64_t file_size) {
+    uint64_t sum = 0;
+    for (const nlohmann::json& buffer : array_at(json, "buffers")) {
+        const bool is_in_file = string_at(buffer, "uri").empty();
+        const uint64_t size = buffer_size(buffer, folder);
+        sum = add_bytes(sum, is_in_file ? std::min(size, file_size) : size);
+    }
+    return sum;
+}
+
+/// The elements of an accessor that are read: the reader refuses more than its buffer view has.
+uint64_t element_count(const GltfDocument& document, uint32_t accessor) {
+    const GltfAccessor& source = document.accessors[accessor];
+    const bool is_zero = source.buffer_view == kNoIndex;
+    return std::min(source.count, is_zero ? kMaxZeroElements
+                                          : document.buffer_views[source.buffer_view].byte_length);
+}
+
+/// Those of an accessor that Draco may have compressed.
+uint64_t element_count(const GltfDocument& document, const GltfPrimitive& primitive,
+                       uint32_t accessor) {
+    return primitive.draco ? document.accessors[accessor].count : element_count(document, accessor);
+}
+
+uint64_t attribute_count(const GltfDocument& document, const GltfPrimitive& primitive,
+                         const char* name) {
+    const auto attribute = primitive.attributes.find(name);
+    if (attribute == primitive.attributes.end()) return 0;
+    return element_count(document, primitive, attribute->second);
+}
+
+uint64_t primitive_bytes(const GltfDocument& document, const GltfPrimitive& primitive) {
+    constexpr std::pair<const char*, uint64_t> kAttributes[] = {
+        {"POSITION", sizeof(glm::vec3)},   {"NORMAL", sizeof(glm::vec3)},
+        {"TEXCOORD_0", sizeof(glm::vec2)}, {"TEXCOORD_1", sizeof(glm::vec2)},
+        {"COLOR_0", sizeof(glm::vec4)},    {"TANGENT", sizeof(glm::vec4)}};
+    uint64_t sum = sizeof(Mesh);
+    if (!has_triangles(primitive)) return sum;
+    for (const auto& [name, size] : kAttributes)
+        sum = add_bytes(sum, attribute_count(document, primitive, name), size);
+    const uint64_t corners = primitive.indices == kNoIndex
+                                 ? attribute_count(document, primitive, "POSITION")
+                                 : element_count(document, primitive, primitive.indices);
+    return add_bytes(sum, corners, sizeof(uint32_t));
+}
+
+uint64_t mesh_bytes(const GltfDocument& document, const GltfMesh& mesh) {
+    uint64_t sum = 0;
+    for (const GltfPrimitive& primitive : mesh.primitives)
+        sum = add_bytes(sum, primitive_bytes(document, primitive));
+    return sum;
+}
+
+/// What decoding the largest Draco mesh takes beside its result.
+uint64_t draco_decoder_bytes(const GltfDocument& document) {
+    uint64_t most = 0;
+    for (const GltfMesh& mesh : document.meshes) {
+        for (const GltfPrimitive& primitive : mesh.primitives) {
+            if (!primitive.draco || primitive.indices == kNoIndex) continue;
+            const uint64_t triangles = document.accessors[primitive.indices].count / 3;
+            most = std::max(most, add_bytes(0, triangles, kDracoBytesPerTriangle));
+        }
+    }
+    return most;
+}
+
+/// A node's instances, and its own vertices if a skin or morph targets move them.
+uint64_t node_bytes(const GltfDocument& document, const GltfNode& node) {
+    uint64_t sum = sizeof(SceneNode);
+    if (node.mesh == kNoIndex) return sum;
+    const GltfMesh& mesh = document.meshes[node.mesh];
+    const auto has_targets = [](const GltfPrimitive& source) { return !source.targets.empty(); };
+    if (node.skin != kNoIndex || std::ranges::any_of(mesh.primitives, has_targets))
+        sum = add_bytes(sum, mesh_bytes(document, mesh));
+    uint64_t instances = 1;
+    if (node.instancing) {
+        for (const auto& [name, accessor] : *node.instancing)
+            instances = std::max(instances, element_count(document, accessor));
+    }
+    for (size_t i = 0; i < mesh.primitives.size(); ++i)
+        sum = add_bytes(sum, instances, sizeof(MeshInstance));
+    return sum;
+}
+
+/// The structures of the document itself.
+uint64_t document_bytes(const GltfDocument& document) {
+    return document.nodes.size() * sizeof(GltfNode) +
+           document.accessors.size() * sizeof(GltfAccessor) +
+           document.buffer_views.size() * sizeof(GltfBufferView) +
+           document.materials.size() * sizeof(GltfMaterial);
+}
+
+/// The texels of an encoded image; 0 if its header does not tell.
+uint64_t texel_count(const GltfDocument& document, const GltfImage& image) {
+    Result<ImageSize> size = ImageSize();
+    if (image.buffer_view != kNoIndex) {
+        const GltfBufferView& view = document.buffer_views[image.buffer_view];
+        const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
+        size = read_image_size(buffer.subspan(view.byte_offset, view.byte_length), "");
+    } else if (!image.encoded.empty()) {
+        size = read_image_size(image.encoded, "");
+    } else if (const auto relative = relative_path_from_uri(image.uri); relative) {
+        const auto file = MappedFile::open(folder_of(document.path) + *relative);
+        if (file) size = read_image_size(file->bytes(), "");
+    }
+    return size ? uint64_t{size->width} * size->height : 0;
+}
+
+/// The images of texture uses that GltfTextureReader decodes: one for each image and pair of wrap
+/// modes.
+class UsedImages {
+  public:
+    explicit UsedImages(const GltfDocument& document) : document_(document) {}
+
+    void add(const TextureUse& use) {
+        if (use.texture == kNoIndex) return;
+        const GltfTexture& texture = document_.textures[use.texture];
+        if (texture.image == kNoIndex) return;
+        const bool has_sampler = texture.sampler != kNoIndex;
+        const GltfSampler sampler =
+            has_sampler ? document_.samplers[texture.sampler] : GltfSampler{10497, 10497};
+        used_.insert({alike_[texture.image], sampler.wrap_s, sampler.wrap_t});
+    }
+
+    [[nodiscard]] uint64_t bytes() const {
+        uint64_t sum = 0;
+        for (const auto& [image, wrap_s, wrap_t] : used_)
+            sum = add_bytes(sum, texel_count(document_, document_.images[image]), 4);
+        return sum;
+    }
+
+  private:
+    const GltfDocument& document_;
+    std::vector<uint32_t> alike_ = images_alike(document_);
+    std::set<std::array<uint32_t, 3>> used_;
+};
+
+}  // namespace
+
+SceneMemory geometry_memory(const nlohmann::json& json, const GltfDocument& document,
+                            std::span<const std::byte> file) {
+    SceneMemory memory;
+    const uint64_t encoded = encoded_buffer_bytes(json, folder_of(document.path), file.size());
+    const uint64_t text = file.size() - std::min<uint64_t>(file.size(), encoded);
+    memory.file_bytes = add_bytes(file.size(), text, kJsonBytesPerByte);
+    memory.file_bytes = add_bytes(memory.file_bytes, draco_decoder_bytes(document));
+    memory.buffer_bytes = add_bytes(encoded, document_bytes(document));
+    memory.buffer_bytes = add_bytes(memory.buffer_bytes, meshopt_decoded_bytes(document));
+    memory.buffer_bytes = add_bytes(memory.buffer_bytes, draco_decoded_bytes(document));
+    for (const GltfMesh& mesh : document.meshes)
+        memory.geometry_bytes = add_bytes(memory.geometry_bytes, mesh_bytes(document, mesh));
+    for (const GltfNode& node : document.nodes)
+        memory.geometry_bytes = add_bytes(memory.geometry_bytes, node_bytes(document, node));
+    return memory;
+}
+
+uint64_t image_memory(const GltfDocument& document, NormalMaps normal_maps) {
+    UsedImages images(document), maps(document);
+    for (const GltfMaterial& material : document.materials) {
+        images.add(material.base_color_texture);
+        if (material.is_unlit) continue;
+        if (material.metallic > 0.0 || material.roughness > 0.0)
+            images.add(material.metallic_roughness_texture);
+        if (material.emissive_factor != glm::dvec3(0.0)) images.add(material.emission_texture);
+        if (normal_maps == NormalMaps::Read) maps.add(material.normal_texture);
+    }
+    return add_bytes(images.bytes(), maps.bytes());
+}
+
+Status check_reading_memory(const SceneMemory& memory, uint64_t limit_bytes) {
+    if (memory.peak_bytes() <= limit_bytes) return Ok{};
+    return Error{
+        ErrorCode::OutOfResources,
+        str_cat("reading it needs about ", gigabytes(memory.peak_bytes()), " of memory (geometry ",
+                gigabytes(add_bytes(memory.buffer_bytes, memory.geometry_bytes)), ", images ",
+                gigabytes(memory.image_bytes), "), ", gigabytes(limit_bytes), " are free")};
+}
+
+}  // namespace tetralight::detail
