@@ -34,7 +34,6 @@ function dracoBlob(method, names) {
 }
 blobs.draco_edgebreaker = dracoBlob(draco.MESH_EDGEBREAKER_ENCODING, ['POSITION', 'NORMAL', 'TEXCOORD_0']);
 blobs.draco_sequential = dracoBlob(draco.MESH_SEQUENTIAL_ENCODING, ['POSITION', 'NORMAL', 'TEXCOORD_0']);
-blobs.draco_positions = dracoBlob(draco.MESH_EDGEBREAKER_ENCODING, ['POSITION']);
 
 // --- Meshopt ---
 await MeshoptEncoder.ready;
@@ -54,9 +53,6 @@ blobs.meshopt_exponential = meshopt(exponential, count, 12, 'ATTRIBUTES', 0);
 const normals = new Float32Array(count * 4);
 for (let i = 0; i < count; ++i) normals.set(box.normals.slice(3 * i, 3 * i + 3), 4 * i);
 blobs.meshopt_octahedral = meshopt(MeshoptEncoder.encodeFilterOct(normals, count, 4, 8), count, 4, 'ATTRIBUTES', 0);
-const turns = new Float32Array(box.rotations);
-blobs.meshopt_quaternion =
-    meshopt(MeshoptEncoder.encodeFilterQuat(turns, turns.length / 4, 8, 16), turns.length / 4, 8, 'ATTRIBUTES', 0);
 
 // --- Images of one color ---
 const [r, g, b] = box.color;
