@@ -31,7 +31,7 @@ def _():
 def _():
     gltf, positions = plain(), box_mesh()[0]
     target = gltf.add("accessors", {
-        "componentType": FLOAT, "count": 24, "type": "VEC3", "sparse": {
+        "componentType": FLOAT, "count": 24, "type": "VEC3", "min": [0, -0.6, 0], "max": [0, 0.6, 0], "sparse": {
             "count": 24, "indices": {"bufferView": gltf.view(packed([[i] for i in range(24)], USHORT)),
                                      "componentType": USHORT},
             "values": {"bufferView": gltf.view(packed([[0, p[1] * 1.5, 0] for p in positions]))}}})
@@ -44,6 +44,7 @@ def _():
 def _():
     gltf, indices = plain(), box_mesh()[3]
     accessor = gltf.accessor([0] * 36, UBYTE)
+    gltf.json["accessors"][accessor]["max"] = [23]
     gltf.json["accessors"][accessor]["sparse"] = {
         "count": 36, "indices": {"bufferView": gltf.view(packed([[i] for i in range(36)], UINT)),
                                  "componentType": UINT},
@@ -174,6 +175,7 @@ def _(kind):
 @variant("a second set of vertex colours", told="COLOR_1")
 def _():
     gltf = plain()
+    gltf.box["attributes"]["COLOR_0"] = gltf.accessor([[1, 1, 1]] * 24)
     gltf.box["attributes"]["COLOR_1"] = gltf.accessor([[0, 0, 1]] * 24)
     return gltf
 
@@ -281,6 +283,8 @@ def meshopt(target, name, count, stride, mode, filter=None, extension="EXT_mesho
         view = {"buffer": 1, "byteOffset": begin, "byteLength": count * stride, "extensions": {extension: {
             "buffer": 0, "byteOffset": offset, "byteLength": len(data), "byteStride": stride, "count": count,
             "mode": mode, **({"filter": filter} if filter else {})}}}
+        if mode == "ATTRIBUTES":
+            view["byteStride"] = stride
         accessor = gltf.json["accessors"][target(gltf)]
         accessor["bufferView"] = gltf.add("bufferViews", view)
         gltf.extension(extension, required=True)

@@ -345,7 +345,7 @@ def skinned(component=FLOAT):
     gltf.node("box").update(translation=[5, 5, 5], skin=0)
     joints = [gltf.add("nodes", {"name": "joint 0", **PLACE, "translation": [x, y + 1, z]}),
               gltf.add("nodes", {"name": "joint 1", "translation": [9, 9, 9]})]
-    gltf.json["scenes"][0]["nodes"] += joints
+    gltf.json["scenes"][0]["nodes"].append(gltf.add("nodes", {"name": "armature", "children": joints}))
     gltf.json["skins"] = [{"joints": joints, "inverseBindMatrices": gltf.accessor([matrix((0, -1, 0)), matrix()])}]
     gltf.box["attributes"]["JOINTS_0"] = gltf.accessor([[0, 1, 0, 0]] * count, UBYTE)
     one = {FLOAT: 1, UBYTE: 255, USHORT: 65535}[component]
@@ -378,6 +378,8 @@ def _():
 @variant("a third set of joints", told="JOINTS_2")
 def _():
     gltf = skinned()
+    for name in ("JOINTS_1", "WEIGHTS_1"):
+        gltf.box["attributes"][name] = gltf.box["attributes"][name[:-1] + "0"]
     gltf.box["attributes"]["JOINTS_2"] = gltf.accessor([[0, 0, 0, 0]] * 24, UBYTE)
     gltf.box["attributes"]["WEIGHTS_2"] = gltf.accessor([[0, 0, 0, 0]] * 24)
     return gltf
@@ -481,11 +483,8 @@ def _():
 def _():
     gltf = skinned()
     del gltf.json["skins"][0]["inverseBindMatrices"]
-    place = gltf.node("joint 0")
-    place.update(translation=[2 * c for c in PLACE["translation"]])
-    parent = gltf.add("nodes", {"name": "armature", "scale": [0.5] * 3, "children": [gltf.index("joint 0")]})
-    roots = gltf.json["scenes"][0]["nodes"]
-    roots[roots.index(gltf.index("joint 0"))] = parent
+    gltf.node("joint 0")["translation"] = [2 * c for c in PLACE["translation"]]
+    gltf.node("armature")["scale"] = [0.5] * 3
     doubled = [[2 * c for c in p] for p in box_mesh()[0]]
     gltf.box["attributes"]["POSITION"] = gltf.accessor(doubled)
     return gltf
@@ -560,7 +559,7 @@ def _():
 @variant("a joint outside of the scene", refused="not in the scene")
 def _():
     gltf = skinned()
-    gltf.json["scenes"][0]["nodes"].remove(gltf.index("joint 0"))
+    gltf.json["scenes"][0]["nodes"].remove(gltf.index("armature"))
     return gltf
 
 
