@@ -844,3 +844,28 @@ def _():
     gltf = plain()
     gltf.paint["normalTexture"] = {"index": gltf.texture(half_png((250, 128, 170), (6, 128, 170)))}
     return gltf
+
+
+variant("OPAQUE: alpha of vertices does not count", wrong=no_box)(alpha("OPAQUE", 1, vertex=0))
+
+
+@variant("colours of an accessor without bytes, which are black", twin=lambda: plain(color=[0, 0, 0]), wrong=plain)
+def _():
+    gltf = plain()
+    gltf.box["attributes"]["COLOR_0"] = gltf.add("accessors", {"componentType": FLOAT, "count": 24, "type": "VEC3"})
+    return gltf
+
+
+@variant("double-sided and mirrored", wrong=reversed_box)
+def _():
+    gltf = plain(positions=[[-x, y, z] for x, y, z in box_mesh()[0]])
+    gltf.node("box")["scale"] = [-1, 1, 1]
+    gltf.paint["doubleSided"] = True
+    return gltf
+
+
+@variant("unlit: cut away", twin=no_box, wrong=plain)
+def _():
+    gltf = alpha("MASK", 0.3)()
+    gltf.extension("KHR_materials_unlit", gltf.paint)
+    return gltf

@@ -345,7 +345,7 @@ def skinned(component=FLOAT):
     gltf.node("box").update(translation=[5, 5, 5], skin=0)
     joints = [gltf.add("nodes", {"name": "joint 0", **PLACE, "translation": [x, y + 1, z]}),
               gltf.add("nodes", {"name": "joint 1", "translation": [9, 9, 9]})]
-    gltf.json["scenes"][0]["nodes"].append(gltf.add("nodes", {"name": "armature", "children": joints}))
+    gltf.json["scenes"][0]["nodes"].append(gltf.add("nodes", {"name": "armature", "children": list(joints)}))
     gltf.json["skins"] = [{"joints": joints, "inverseBindMatrices": gltf.accessor([matrix((0, -1, 0)), matrix()])}]
     gltf.box["attributes"]["JOINTS_0"] = gltf.accessor([[0, 1, 0, 0]] * count, UBYTE)
     one = {FLOAT: 1, UBYTE: 255, USHORT: 65535}[component]
@@ -980,4 +980,88 @@ def _():
 def _():
     gltf = plain()
     gltf.paint["pbrMetallicRoughness"]["metallicFactor"] = "0"
+    return gltf
+
+
+@variant("rotations that are opposite numbers", wrong=lambda: moved_box(translation=PLACE["translation"]),
+         twin=lambda: moved_box(translation=PLACE["translation"], rotation=turn((0, 1, 0), 45)), options=AT_ONE)
+def _():  # a quaternion and its negative are the same rotation; the short way counts
+    return animated("rotation", [turn((0, 1, 0), 0), [-c for c in turn((0, 1, 0), 90)]])
+
+
+@variant("an animation: CUBICSPLINE rotation", wrong=plain, options=AT_ONE,
+         twin=lambda: moved_box(translation=PLACE["translation"], rotation=turn((0, 1, 0), 45)))
+def _():
+    still = [0, 0, 0, 0]
+    return animated("rotation", [still, turn((0, 1, 0), 0), still, still, turn((0, 1, 0), 90), still],
+                    mode="CUBICSPLINE")
+
+
+@variant("an animation: CUBICSPLINE weights", twin=stretched, wrong=plain, options=AT_ONE)
+def _():  # of each key: in-tangents of all targets, values, out-tangents
+    return animated("weights", [0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0], mode="CUBICSPLINE",
+                    make=lambda: morphed(lambda gltf: None))
+
+
+@variant("an animation: tangents of CUBICSPLINE", twin=lambda: moved_box(**{**PLACE, "translation": [0.3, 2.4, -0.2]}),
+         wrong=plain, options=AT_ONE)
+def _():  # at the middle: (from + to) / 2 + seconds / 8 (out-tangent of from - in-tangent of to)
+    still, rise = [0, 0, 0], [0, 1.6, 0]
+    return animated("translation", [still, PATH[0], rise, still, PATH[1], still], mode="CUBICSPLINE")
+
+
+@variant("an animation of one key", twin=raised, wrong=plain, options=AT_ONE)
+def _():
+    return animated("translation", [RAISED["translation"]], times=(0.5,))
+
+
+@variant("an animation after its last key", twin=raised, wrong=plain, options=("--time", "9"))
+def _():
+    return animated("translation", [PLACE["translation"], RAISED["translation"]])
+
+
+@variant("a mesh with two skins", twin=lambda: two_skins_twin(), wrong=plain)
+def _():
+    gltf = skinned()
+    x, y, z = SECOND["translation"]
+    joint = gltf.add("nodes", {"name": "joint 2", **SECOND, "translation": [x, y + 1, z]})
+    gltf.node("armature")["children"].append(joint)
+    gltf.json["skins"].append({"joints": [joint, gltf.index("joint 1")],
+                               "inverseBindMatrices": gltf.json["skins"][0]["inverseBindMatrices"]})
+    gltf.json["scenes"][0]["nodes"].append(gltf.add("nodes", {"name": "second", "mesh": 1, "skin": 1}))
+    return gltf
+
+
+def two_skins_twin():
+    gltf = plain()
+    gltf.json["scenes"][0]["nodes"].append(gltf.add("nodes", {"name": "second", "mesh": 1, **SECOND}))
+    return gltf
+
+
+@variant("a sun in a mirrored node", wrong=lambda: turned_sun())
+def _():
+    gltf = plain()
+    gltf.node("sun")["scale"] = [-1, 1, 3]
+    return gltf
+
+
+def turned_sun():
+    gltf = plain()
+    gltf.node("sun")["rotation"] = turn((1, 0, 0), -90)
+    return gltf
+
+
+@variant("instances of a node with a skin", told="skin")
+def _():
+    gltf = skinned()
+    gltf.extension("EXT_mesh_gpu_instancing", gltf.node("box"), {
+        "attributes": {"TRANSLATION": gltf.accessor([[0, 0, 0], [1, 0, 0]])}})
+    return gltf
+
+
+@variant("instances of a morphed mesh", twin=stretched, wrong=plain)
+def _():
+    gltf = morphed(lambda g: g.json["meshes"][1].update(weights=[0.5, 0]))
+    gltf.extension("EXT_mesh_gpu_instancing", gltf.node("box"), {
+        "attributes": {"TRANSLATION": gltf.accessor([[0, 0, 0]])}}, required=True)
     return gltf

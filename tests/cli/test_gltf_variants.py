@@ -19,7 +19,7 @@ OPEN = {
     # files that break the rules of glTF, and are read in some way
     "a member that glTF does not have", "a member in the wrong object", "an extension beside `extensions`",
     "a minimum version that is too new", "a matrix beside a translation",
-    "vertex colours of bytes that are not normalized",
+    "vertex colours of bytes that are not normalized", "instances of a node with a skin",
 }
 
 
