@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <tetralight/bake/scene/detail/error_field.h>
+#include <tetralight/bake/scene/detail/gltf_images.h>
 #include <tetralight/bake/scene/detail/gltf_textures.h>
 #include <tetralight/base/str_cat.h>
 
@@ -172,7 +173,9 @@ Result<Material> read_material(const GltfMaterial& source, GltfTextureReader& re
 
 Result<GltfMaterials> read_materials(const GltfDocument& document, NormalMaps normal_maps) {
     GltfMaterials result;
-    GltfTextureReader reader(document), normal_reader(document);
+    GltfImages images(document);
+    images.decode_ahead(image_uses(document, normal_maps));
+    GltfTextureReader reader(document, images), normal_reader(document, images);
     for (size_t i = 0; i < document.materials.size(); ++i) {
         const GltfMaterial& source = document.materials[i];
         auto material = read_material(source, reader);

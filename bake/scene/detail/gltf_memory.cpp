@@ -2,22 +2,18 @@
 #include <tetralight/bake/scene/detail/gltf_memory.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <system_error>
 
-#include <tetralight/bake/image/read_image.h>
 #include <tetralight/bake/scene/detail/gltf_accessors.h>
 #include <tetralight/bake/scene/detail/gltf_buffers.h>
 #include <tetralight/bake/scene/detail/gltf_draco.h>
+#include <tetralight/bake/scene/detail/gltf_images.h>
 #include <tetralight/bake/scene/detail/gltf_members.h>
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
 #include <tetralight/bake/scene/detail/gltf_meshopt.h>
-#include <tetralight/bake/scene/detail/gltf_textures.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
-#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -41,10 +37,10 @@ uint64_t buffer_size(const nlohmann::json& buffer, const std::string& folder) {
     return error ? 0 : size;
 }
 
-uint64_t encoded_buffer_bytes(const nlohmann::json& json, const std::string& folder,
+uint64_t encoded_buffer_bytes(const nlohmann::json& source, const std::string& folder,
                               uint64_t file_size) {
     uint64_t sum = 0;
-    for (const nlohmann::json& buffer : array_at(json, "buffers")) {
+    for (const nlohmann::json& buffer : array_at(source, "buffers")) {
         const bool is_in_file = string_at(buffer, "uri").empty();
         const uint64_t size = buffer_size(buffer, folder);
         sum = add_bytes(sum, is_in_file ? std::min(size, file_size) : size);
@@ -134,57 +130,12 @@ uint64_t document_bytes(const GltfDocument& document) {
            document.materials.size() * sizeof(GltfMaterial);
 }
 
-/// The texels of an encoded image; 0 if its header does not tell.
-uint64_t texel_count(const GltfDocument& document, const GltfImage& image) {
-    Result<ImageSize> size = ImageSize();
-    if (image.buffer_view != kNoIndex) {
-        const GltfBufferView& view = document.buffer_views[image.buffer_view];
-        const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
-        size = read_image_size(buffer.subspan(view.byte_offset, view.byte_length), "");
-    } else if (!image.encoded.empty()) {
-        size = read_image_size(image.encoded, "");
-    } else if (const auto relative = relative_path_from_uri(image.uri); relative) {
-        const auto file = MappedFile::open(folder_of(document.path) + *relative);
-        if (file) size = read_image_size(file->bytes(), "");
-    }
-    return size ? uint64_t{size->width} * size->height : 0;
-}
-
-/// The images of texture uses that GltfTextureReader decodes: one for each image and pair of wrap
-/// modes.
-class UsedImages {
-  public:
-    explicit UsedImages(const GltfDocument& document) : document_(document) {}
-
-    void add(const TextureUse& use) {
-        if (use.texture == kNoIndex) return;
-        const GltfTexture& texture = document_.textures[use.texture];
-        if (texture.image == kNoIndex) return;
-        const bool has_sampler = texture.sampler != kNoIndex;
-        const GltfSampler sampler =
-            has_sampler ? document_.samplers[texture.sampler] : GltfSampler{10497, 10497};
-        used_.insert({alike_[texture.image], sampler.wrap_s, sampler.wrap_t});
-    }
-
-    [[nodiscard]] uint64_t bytes() const {
-        uint64_t sum = 0;
-        for (const auto& [image, wrap_s, wrap_t] : used_)
-            sum = add_bytes(sum, texel_count(document_, document_.images[image]), 4);
-        return sum;
-    }
-
-  private:
-    const GltfDocument& document_;
-    std::vector<uint32_t> alike_ = images_alike(document_);
-    std::set<std::array<uint32_t, 3>> used_;
-};
-
 }  // namespace
 
-SceneMemory geometry_memory(const nlohmann::json& json, const GltfDocument& document,
+SceneMemory geometry_memory(const nlohmann::json& source, const GltfDocument& document,
                             std::span<const std::byte> file) {
     SceneMemory memory;
-    const uint64_t encoded = encoded_buffer_bytes(json, folder_of(document.path), file.size());
+    const uint64_t encoded = encoded_buffer_bytes(source, folder_of(document.path), file.size());
     const uint64_t text = file.size() - std::min<uint64_t>(file.size(), encoded);
     memory.file_bytes = add_bytes(file.size(), text, kJsonBytesPerByte);
     memory.file_bytes = add_bytes(memory.file_bytes, draco_decoder_bytes(document));
@@ -199,16 +150,13 @@ SceneMemory geometry_memory(const nlohmann::json& json, const GltfDocument& docu
 }
 
 uint64_t image_memory(const GltfDocument& document, NormalMaps normal_maps) {
-    UsedImages images(document), maps(document);
-    for (const GltfMaterial& material : document.materials) {
-        images.add(material.base_color_texture);
-        if (material.is_unlit) continue;
-        if (material.metallic > 0.0 || material.roughness > 0.0)
-            images.add(material.metallic_roughness_texture);
-        if (material.emissive_factor != glm::dvec3(0.0)) images.add(material.emission_texture);
-        if (normal_maps == NormalMaps::Read) maps.add(material.normal_texture);
+    constexpr uint64_t kBytesPerTexel = 4;
+    uint64_t sum = 0;
+    for (const GltfImageUse& use : image_uses(document, normal_maps)) {
+        const auto size = gltf_image_size(document, use.image);
+        if (size) sum = add_bytes(sum, uint64_t{size->width} * size->height, kBytesPerTexel);
     }
-    return add_bytes(images.bytes(), maps.bytes());
+    return sum;
 }
 
 Status check_reading_memory(const SceneMemory& memory, uint64_t limit_bytes) {

@@ -15,7 +15,8 @@ namespace tetralight::detail {
 
 /// The memory of all but the images. `file`: the bytes of the .gltf or .glb file. Precondition:
 /// nothing of the document is decoded yet; it needs no buffers.
-[[nodiscard]] SceneMemory geometry_memory(const nlohmann::json& json, const GltfDocument& document,
+[[nodiscard]] SceneMemory geometry_memory(const nlohmann::json& source,
+                                          const GltfDocument& document,
                                           std::span<const std::byte> file);
 
 /// Bytes of the images that materials use, decoded, by the headers of the images. Images without a

@@ -54,15 +54,15 @@ void erase_extension(GltfJson& element, const char* name) {
 }
 
 /// Removes a name from a list of names, and the list if nothing is left.
-void erase_name(GltfJson& json, const char* list, const char* name) {
-    const auto names = json.find(list);
-    if (names == json.end()) return;
+void erase_name(GltfJson& root, const char* list, const char* name) {
+    const auto names = root.find(list);
+    if (names == root.end()) return;
     GltfJson kept = GltfJson::array();
     for (const GltfJson& other : *names) {
         if (other != name) kept.push_back(other);
     }
     if (kept.empty()) {
-        json.erase(list);
+        root.erase(list);
     } else {
         *names = kept;
     }
@@ -78,8 +78,8 @@ Result<GltfJson> read_json(const std::string& path) {
         text = chunks->json;
     }
     const auto* first = reinterpret_cast<const char*>(text.data());
-    auto json = GltfJson::parse(first, first + text.size(), nullptr, false);
-    if (json.is_object()) return json;
+    auto root = GltfJson::parse(first, first + text.size(), nullptr, false);
+    if (root.is_object()) return root;
     return Error{ErrorCode::Corrupt, path + ": is not a JSON object"};
 }
 

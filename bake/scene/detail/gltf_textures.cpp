@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/bake/scene/detail/gltf_textures.h>
 
-#include <span>
-#include <string_view>
 #include <utility>
 
-#include <tetralight/bake/image/read_image.h>
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_uri.h>
-#include <tetralight/base/file.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
@@ -44,63 +40,12 @@ Status set_wrap_modes(const GltfDocument& document, uint32_t sampler_index, Text
     return Ok{};
 }
 
-/// Decodes the image file; `place` is what messages call the image.
-Result<Image8> decode_file(const GltfDocument& document, const GltfImage& image,
-                           const std::string& place) {
-    if (is_data_uri(image.uri)) {
-        return Error{ErrorCode::Unsupported, ".uri", quoted_value(image.uri),
-                     place + ": kind of data URI is not supported"};
-    }
-    const auto relative = relative_path_from_uri(image.uri);
-    if (!relative) return relative.error().in(place);
-    const std::string path = folder_of(document.path) + *relative;
-    const auto bytes = read_file(path);
-    if (!bytes) {
-        Error error = in_member(bytes.error().in(place), ".uri");
-        error.value = quoted_value(image.uri);
-        return error;
-    }
-    auto pixels = decode_image8(*bytes, str_cat(place, ": ", path));
-    if (!pixels) return in_member(pixels.error(), ".uri");
-    return pixels;
-}
-
-Result<Image8> decode_image(const GltfDocument& document, const GltfImage& image,
-                            const std::string& place) {
-    if (image.buffer_view != kNoIndex) {
-        const GltfBufferView& view = document.buffer_views[image.buffer_view];
-        const auto buffer = std::as_bytes(std::span(document.buffers[view.buffer]));
-        return decode_image8(buffer.subspan(view.byte_offset, view.byte_length), place);
-    }
-    if (!image.encoded.empty()) return decode_image8(image.encoded, place);
-    return decode_file(document, image, place);
-}
-
-Result<Image8> decode(const GltfDocument& document, uint32_t image_index) {
-    const GltfImage& image = document.images[image_index];
-    auto pixels = decode_image(document, image, gltf_place("image", image_index, image.name));
-    if (!pixels) return in_member(pixels.error(), str_cat("images[", image_index, "]"));
-    return pixels;
-}
-
 std::string name_of(const GltfTexture& texture, const GltfImage& image) {
     if (!texture.name.empty()) return texture.name;
     return image.name.empty() && !is_data_uri(image.uri) ? image.uri : image.name;
 }
 
 }  // namespace
-
-std::vector<uint32_t> images_alike(const GltfDocument& document) {
-    std::vector<uint32_t> alike;
-    std::map<std::pair<uint32_t, std::string_view>, uint32_t> known;
-    for (const GltfImage& image : document.images) {
-        std::string_view uri;
-        if (image.buffer_view == kNoIndex) uri = image.uri;
-        const auto index = static_cast<uint32_t>(alike.size());
-        alike.push_back(known.try_emplace({image.buffer_view, uri}, index).first->second);
-    }
-    return alike;
-}
 
 Result<uint32_t> GltfTextureReader::read(uint32_t gltf_texture) {
     const GltfTexture& source = document_.textures[gltf_texture];
@@ -126,11 +71,11 @@ Result<uint32_t> GltfTextureReader::find_or_decode(const GltfTexture& source) {
     Texture texture;
     const auto wrap = set_wrap_modes(document_, source.sampler, texture);
     if (!wrap) return wrap.error();
-    const uint32_t image_index = alike_[source.image];
+    const uint32_t image_index = images_.first_alike(source.image);
     const std::array<uint32_t, 3> key = {image_index, static_cast<uint32_t>(texture.wrap_u),
                                          static_cast<uint32_t>(texture.wrap_v)};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    auto image = decode(document_, image_index);
+    auto image = images_.take(image_index);
     if (!image) return image.error();
     texture.name = name_of(source, document_.images[source.image]);
     texture.image = std::move(*image);

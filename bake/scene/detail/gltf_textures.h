@@ -7,19 +7,17 @@
 #include <vector>
 
 #include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_images.h>
 #include <tetralight/base/result.h>
 
 namespace tetralight::detail {
-
-/// For each image of the document the first one with the same bytes by reference: the same buffer
-/// view, file or data URI.
-[[nodiscard]] std::vector<uint32_t> images_alike(const GltfDocument& document);
 
 /// Decodes the textures that materials use: images that share their bytes once for each pair of
 /// wrap modes.
 class GltfTextureReader {
   public:
-    explicit GltfTextureReader(const GltfDocument& document) : document_(document) {}
+    GltfTextureReader(const GltfDocument& document, GltfImages& images)
+        : document_(document), images_(images) {}
 
     /// Index in `textures` of a glTF texture. Returns kNoIndex and adds a warning if only an
     /// extension that is not known names its image, and unsupported if it has no image but one of
@@ -33,7 +31,7 @@ class GltfTextureReader {
     [[nodiscard]] Result<uint32_t> find_or_decode(const GltfTexture& source);
 
     const GltfDocument& document_;
-    std::vector<uint32_t> alike_ = images_alike(document_);
+    GltfImages& images_;
     /// By image index and the two wrap modes.
     std::map<std::array<uint32_t, 3>, uint32_t> known_;
 };
