@@ -156,15 +156,8 @@ Status SpecularGlossinessReader::read(const GltfSpecularGlossiness& gltf, Materi
     const std::vector<uint32_t> key = source->key();
     auto known = known_.find(key);
     if (known == known_.end()) known = known_.emplace(key, convert(*source)).first;
-    const ConvertedSurface& converted = known->second;
-    material.base_color = converted.base_color;
+    set_surface(known->second, source->color_use(), source->factors_use(), material);
     material.base_color.a *= source->diffuse.a;
-    material.base_color_texture = source->color_use();
-    material.base_color_texture.texture = converted.color_texture;
-    material.metallic = converted.metallic;
-    material.roughness = converted.roughness;
-    material.metallic_roughness_texture = source->factors_use();
-    material.metallic_roughness_texture.texture = converted.factors_texture;
     return Ok{};
 }
 

@@ -155,13 +155,7 @@ Status TransmissionReader::read(const GltfTransmission& gltf, Material& material
     is_colored_ = converted.is_colored;
     if (converted.opacity >= 1.0f) return Ok{};
     const TextureUse use = source.use();
-    material.base_color = converted.surface.base_color;
-    material.base_color_texture = use;
-    material.base_color_texture.texture = converted.surface.color_texture;
-    material.metallic = converted.surface.metallic;
-    material.roughness = converted.surface.roughness;
-    material.metallic_roughness_texture = use;
-    material.metallic_roughness_texture.texture = converted.surface.factors_texture;
+    set_surface(converted.surface, use, use, material);
     material.emission /= converted.opacity;
     material.alpha_mode = AlphaMode::Blend;
     return Ok{};

@@ -40,6 +40,13 @@ bool is_uniform(const Image8& image) {
                                [&](const auto& code) { return code == image.pixels.front(); });
 }
 
+TextureUse with_texture(const TextureUse& coordinates, uint32_t texture) {
+    if (texture == kNoIndex) return {};
+    TextureUse use = coordinates;
+    use.texture = texture;
+    return use;
+}
+
 }  // namespace
 
 glm::vec4 GridTexels::at(uint32_t x, uint32_t y) const {
@@ -118,6 +125,15 @@ ConvertedSurface append_converted(const ConvertedSurface& texel, Texture colors,
         textures.push_back(std::move(factors));
     }
     return result;
+}
+
+void set_surface(const ConvertedSurface& surface, const TextureUse& color_use,
+                 const TextureUse& factors_use, Material& material) {
+    material.base_color = surface.base_color;
+    material.base_color_texture = with_texture(color_use, surface.color_texture);
+    material.metallic = surface.metallic;
+    material.roughness = surface.roughness;
+    material.metallic_roughness_texture = with_texture(factors_use, surface.factors_texture);
 }
 
 void drop_unused_textures(std::vector<Material>& materials, std::vector<Texture>& textures) {

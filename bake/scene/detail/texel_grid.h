@@ -7,16 +7,12 @@
 #include <span>
 #include <vector>
 
+#include <tetralight/bake/image/read_image.h>
 #include <tetralight/bake/scene/scene.h>
 
 // Textures of a material texel by texel, for conversions that combine several of them.
 
 namespace tetralight::detail {
-
-struct ImageSize {
-    uint32_t width = 1;
-    uint32_t height = 1;
-};
 
 /// What the codes of a texture mean: sRGB colour with linear alpha, or linear numbers.
 enum class TexelEncoding : uint8_t { Color, Data };
@@ -35,7 +31,7 @@ class GridTexels {
   private:
     const Texture* texture_ = nullptr;
     TexelEncoding encoding_ = TexelEncoding::Data;
-    ImageSize size_{};
+    ImageSize size_;
     glm::vec4 everywhere_{1.0f};
 };
 
@@ -62,7 +58,7 @@ class TexelGrid {
 
     const std::vector<Texture>& textures_;
     TextureUse at_;
-    ImageSize size_{};
+    ImageSize size_{1, 1};
 };
 
 /// 8-bit codes of a linear colour, encoded as sRGB, and alpha.
@@ -86,6 +82,10 @@ struct ConvertedSurface {
 /// of `texel` count, which are those of any texel.
 [[nodiscard]] ConvertedSurface append_converted(const ConvertedSurface& texel, Texture colors,
                                                 Texture factors, std::vector<Texture>& textures);
+
+/// Gives a material a converted surface, with the coordinates of its two textures.
+void set_surface(const ConvertedSurface& surface, const TextureUse& color_use,
+                 const TextureUse& factors_use, Material& material);
 
 /// Removes the textures that no material uses.
 void drop_unused_textures(std::vector<Material>& materials, std::vector<Texture>& textures);
