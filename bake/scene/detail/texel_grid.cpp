@@ -63,7 +63,7 @@ glm::vec4 GridTexels::at(uint32_t x, uint32_t y) const {
 TexelGrid::TexelGrid(const std::vector<Texture>& textures, const TextureUse& at,
                      std::span<const TextureUse> uses)
     : textures_(textures), at_(at) {
-    ImageSize largest;
+    ImageSize largest{1, 1};
     for (const TextureUse& use : uses) {
         if (use.texture == kNoIndex || !has_coordinates_of(use)) continue;
         const Image8& image = textures[use.texture].image;
