@@ -42,9 +42,11 @@ Status add_surfaces(const detail::GltfDocument& document, NormalMaps normal_maps
     if (!materials) return materials.error();
     meshes = std::move(*read);
     scene.meshes = std::move(meshes.meshes);
+    detail::ignore_vertex_alpha(*materials, scene.meshes);
     scene.materials = std::move(materials->materials);
     scene.textures = std::move(materials->textures);
     scene.normal_maps = std::move(materials->normal_maps);
+    scene.parts = std::move(materials->parts);
     detail::assign_default_material(scene.materials, scene.meshes);
     append_warnings(scene, meshes.warnings);
     append_warnings(scene, materials->warnings);
@@ -121,6 +123,7 @@ void add_parts(const detail::GltfDocument& document, Scene& scene) {
     detail::add_light_unit(scene, parts);
     detail::add_length_unit(scene, parts);
     parts.append(document.parts);
+    parts.append(scene.parts);
     scene.parts = parts.parts();
     for (const ScenePart& part : scene.parts) {
         if (part.changes_light) scene.warnings.push_back(detail::part_warning(part));

@@ -7,6 +7,7 @@
 
 #include <tetralight/bake/bake_probes.h>
 #include <tetralight/base/error_text.h>
+#include "tests/bake/scene/gltf_builder.h"
 #include "tests/support/scenes.h"
 
 namespace tetralight {
@@ -103,6 +104,72 @@ TEST(Transparency, BouncesPassThroughAsRaysDo) {
     test::add_floor(scene, pane, 10'000.0f, 0.5f);
     EXPECT_NEAR(from_below(bake(scene)), 0.6 * kPi, 0.02 * kPi);
 }
+
+/// The material of a double-sided pane that lets a fraction of light through, read from glTF.
+Material pane_of_glass(float grey, float transmission) {
+    GltfBuilder gltf;
+    const size_t mesh = gltf.add_triangle();
+    gltf.primitive(mesh)["material"] = gltf.add(
+        "materials",
+        {{"doubleSided", true},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {grey, grey, grey, 1}}, {"metallicFactor", 0}}},
+         {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", transmission}}}}}});
+    gltf.add_root({{"mesh", mesh}});
+    const auto scene = gltf.read();
+    EXPECT_TRUE(scene);
+    return scene ? scene->materials.at(0) : Material();
+}
+
+struct Glass {
+    float grey = 1.0f;
+    float transmission = 1.0f;
+};
+
+class TransparencyOfGlass : public testing::TestWithParam<Glass> {
+  protected:
+    /// Fraction that shines through: of all but the 4 % that dielectrics mirror.
+    double through_ = 0.96 * static_cast<double>(GetParam().grey * GetParam().transmission);
+    /// Fraction that a rough pane reflects diffusely: half of 4 %, and what is not transmitted.
+    double reflected_ =
+        0.02 + 0.96 * static_cast<double>(GetParam().grey * (1.0f - GetParam().transmission));
+
+    /// Light from below at these heights over a ground, under a sun of π and a pane at 0.5 m.
+    [[nodiscard]] static std::vector<double> from_below_at(const std::vector<double>& heights,
+                                                           float ground_albedo, bool has_sun) {
+        Scene scene;
+        scene.environment.radiance = glm::vec3(has_sun ? 0.0f : 1.0f);
+        if (has_sun) test::add_sun(scene, LightMode::Mixed, glm::vec3(static_cast<float>(kPi)));
+        test::add_floor(scene, test::diffuse(glm::vec3(ground_albedo)), 10'000.0f);
+        test::add_floor(scene, pane_of_glass(GetParam().grey, GetParam().transmission), 10'000.0f,
+                        0.5f);
+        std::vector<glm::dvec3> positions;
+        for (const double height : heights) positions.emplace_back(0.3, height, 0.1);
+        BakeSettings settings;
+        settings.sample_count = 1 << 16;
+        settings.bounces = 1;
+        const auto baked = bake_probes(scene, positions, settings);
+        EXPECT_TRUE(baked) << error_text(baked.error());
+        std::vector<double> light;
+        for (const RadianceSh& radiance : baked->radiance) light.push_back(from_below(radiance));
+        return light;
+    }
+};
+
+TEST_P(TransparencyOfGlass, SunlightBelowAndAboveAPane) {
+    // One bounce: below the pane the ground alone is lit, by what shines through. Above it there is
+    // what the pane reflects, and the ground seen through the pane.
+    const auto light = from_below_at({0.25, 1.0}, 0.5f, true);
+    EXPECT_NEAR(light[0], 0.5 * through_ * kPi, 0.01 * kPi);
+    EXPECT_NEAR(light[1], (reflected_ + 0.5 * through_ * through_) * kPi, 0.01 * kPi);
+}
+
+TEST_P(TransparencyOfGlass, SkylightAboveAPaneOverABlackGround) {
+    EXPECT_NEAR(from_below_at({1.0}, 0.0f, false)[0], reflected_ * kPi, 0.01 * kPi);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TransparencyOfGlass,
+                         testing::Values(Glass{1.0f, 1.0f}, Glass{1.0f, 0.5f}, Glass{0.5f, 0.75f}));
 
 }  // namespace
 }  // namespace tetralight

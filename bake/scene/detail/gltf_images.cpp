@@ -90,6 +90,18 @@ class ImageUses {
     std::set<GltfImageUse> uses_;
 };
 
+/// What a material reflects.
+void add_surface(const GltfMaterial& material, ImageUses& uses) {
+    if (material.specular_glossiness && !material.is_unlit) {
+        uses.add(material.specular_glossiness->diffuse_texture);
+        uses.add(material.specular_glossiness->specular_glossiness_texture);
+        return;
+    }
+    uses.add(material.base_color_texture);
+    const bool uses_factors = material.metallic > 0.0 || material.roughness > 0.0;
+    if (uses_factors && !material.is_unlit) uses.add(material.metallic_roughness_texture);
+}
+
 /// Calls `work(i)` once for each i < count on all processors. Where there are no more threads,
 /// those that there are do the work.
 void on_all_processors(size_t count, const std::function<void(size_t)>& work) {
@@ -125,11 +137,10 @@ std::vector<uint32_t> images_alike(const GltfDocument& document) {
 std::vector<GltfImageUse> image_uses(const GltfDocument& document, NormalMaps normal_maps) {
     ImageUses surfaces(document), maps(document);
     for (const GltfMaterial& material : document.materials) {
-        surfaces.add(material.base_color_texture);
+        add_surface(material, surfaces);
         if (material.is_unlit) continue;
-        if (material.metallic > 0.0 || material.roughness > 0.0)
-            surfaces.add(material.metallic_roughness_texture);
         if (material.emissive_factor != glm::dvec3(0.0)) surfaces.add(material.emission_texture);
+        if (material.transmission) surfaces.add(material.transmission->texture);
         if (normal_maps == NormalMaps::Read) maps.add(material.normal_texture);
     }
     std::vector<GltfImageUse> uses;

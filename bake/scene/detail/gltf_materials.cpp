@@ -5,29 +5,16 @@
 
 #include <tetralight/bake/scene/detail/error_field.h>
 #include <tetralight/bake/scene/detail/gltf_images.h>
+#include <tetralight/bake/scene/detail/gltf_material_members.h>
+#include <tetralight/bake/scene/detail/gltf_specular_glossiness.h>
 #include <tetralight/bake/scene/detail/gltf_textures.h>
+#include <tetralight/bake/scene/detail/gltf_transmission.h>
+#include <tetralight/bake/scene/detail/part_list.h>
+#include <tetralight/bake/scene/detail/texel_grid.h>
 #include <tetralight/base/str_cat.h>
 
 namespace tetralight::detail {
 namespace {
-
-constexpr uint32_t kUvSetCount = 2;
-
-Result<float> factor_from(double value, const char* name) {
-    if (value >= 0.0 && value <= 1.0) return static_cast<float>(value);
-    return Error{ErrorCode::Corrupt, str_cat(".pbrMetallicRoughness.", name), str_cat(value),
-                 str_cat(name, " ", value, " is not in 0 to 1")};
-}
-
-Result<glm::vec4> base_color_from(const GltfMaterial& source) {
-    glm::vec4 color{};
-    for (int channel = 0; channel < 4; ++channel) {
-        const auto factor = factor_from(source.base_color[channel], "baseColorFactor");
-        if (!factor) return factor.error();
-        color[channel] = *factor;
-    }
-    return color;
-}
 
 constexpr const char* kEmissiveStrength =
     ".extensions.KHR_materials_emissive_strength.emissiveStrength";
@@ -61,53 +48,60 @@ Result<AlphaMode> alpha_mode_from(const std::string& mode) {
                  str_cat("alphaMode \"", mode, "\" is not OPAQUE, MASK or BLEND")};
 }
 
-bool is_finite(const glm::mat3& matrix) {
-    for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) {
-            if (!std::isfinite(matrix[column][row])) return false;
-        }
-    }
-    return true;
+/// The readers of surfaces, which share decoded and converted textures.
+struct SurfaceReaders {
+    SurfaceReaders(const GltfDocument& document, GltfImages& images)
+        : textures(document, images) {}
+
+    GltfTextureReader textures;
+    SpecularGlossinessReader specular_glossiness{textures};
+    TransmissionReader transmission{textures};
+};
+
+bool uses_specular_glossiness(const GltfMaterial& source) {
+    return source.specular_glossiness && !source.is_unlit;
 }
 
-/// The same use with an index of the scene's textures. `path` is the texture's member of the
-/// material, whose last part is `name`.
-Result<TextureUse> texture_use_from(TextureUse use, const char* path, GltfTextureReader& reader) {
-    if (use.texture == kNoIndex) return use;
-    const std::string name = path + std::string_view(path).rfind('.') + 1;
-    if (use.uv_set >= kUvSetCount) {
-        return Error{ErrorCode::Unsupported, str_cat(path, ".texCoord"), str_cat(use.uv_set),
-                     str_cat(name, ": texCoord ", use.uv_set, " is not supported (0 and 1 are)")};
-    }
-    if (!is_finite(use.image_from_mesh)) {
-        return Error{ErrorCode::Corrupt, str_cat(path, ".extensions.KHR_texture_transform"), "",
-                     str_cat(name, ": KHR_texture_transform is not finite")};
-    }
-    const auto texture = reader.read(use.texture);
-    if (!texture) return texture.error().in(name);
-    use.texture = *texture;
-    return use;
+bool uses_transmission(const GltfMaterial& source) {
+    return source.transmission && !source.is_unlit;
 }
 
 /// Reads the textures that have an effect. The image files of others may be missing.
-Status read_textures(const GltfMaterial& source, GltfTextureReader& reader, Material& material) {
-    const auto base_color = texture_use_from(source.base_color_texture,
+Status read_metallic_roughness_textures(const GltfMaterial& source, GltfTextureReader& reader,
+                                        Material& material) {
+    const auto base_color = read_texture_use(source.base_color_texture,
                                              ".pbrMetallicRoughness.baseColorTexture", reader);
     if (!base_color) return base_color.error();
     material.base_color_texture = *base_color;
-    if (material.is_unlit) return Ok{};
-    if (material.metallic > 0.0f || material.roughness > 0.0f) {
-        const auto factors =
-            texture_use_from(source.metallic_roughness_texture,
-                             ".pbrMetallicRoughness.metallicRoughnessTexture", reader);
-        if (!factors) return factors.error();
-        material.metallic_roughness_texture = *factors;
-    }
-    if (material.emission == glm::vec3(0.0f)) return Ok{};
-    const auto emission = texture_use_from(source.emission_texture, ".emissiveTexture", reader);
+    const bool uses_factors = material.metallic > 0.0f || material.roughness > 0.0f;
+    if (material.is_unlit || !uses_factors) return Ok{};
+    const auto factors = read_texture_use(source.metallic_roughness_texture,
+                                          ".pbrMetallicRoughness.metallicRoughnessTexture", reader);
+    if (!factors) return factors.error();
+    material.metallic_roughness_texture = *factors;
+    return Ok{};
+}
+
+Status read_emission_texture(const GltfMaterial& source, GltfTextureReader& reader,
+                             Material& material) {
+    if (material.is_unlit || material.emission == glm::vec3(0.0f)) return Ok{};
+    const auto emission = read_texture_use(source.emission_texture, ".emissiveTexture", reader);
     if (!emission) return emission.error();
     material.emission_texture = *emission;
     return Ok{};
+}
+
+/// Textures, and what is converted with them.
+Status read_surface(const GltfMaterial& source, SurfaceReaders& readers, Material& material) {
+    const auto reflection =
+        uses_specular_glossiness(source)
+            ? readers.specular_glossiness.read(*source.specular_glossiness, material)
+            : read_metallic_roughness_textures(source, readers.textures, material);
+    if (!reflection) return reflection.error();
+    const auto emission = read_emission_texture(source, readers.textures, material);
+    if (!emission) return emission.error();
+    if (!uses_transmission(source)) return Ok{};
+    return readers.transmission.read(*source.transmission, material);
 }
 
 /// Reads the normal map. Unlit materials have no use for one.
@@ -117,7 +111,7 @@ Status read_normal_map(const GltfMaterial& source, GltfTextureReader& reader, Ma
         return Error{ErrorCode::Corrupt, ".normalTexture.scale", str_cat(source.normal_scale),
                      str_cat("normalTexture: scale ", source.normal_scale, " is too large")};
     }
-    const auto use = texture_use_from(source.normal_texture, ".normalTexture", reader);
+    const auto use = read_texture_use(source.normal_texture, ".normalTexture", reader);
     if (!use) return use.error();
     material.normal_texture = *use;
     return Ok{};
@@ -130,23 +124,30 @@ Result<bool> bakes_emission_from(const std::string& word) {
                  str_cat("extras.bake_emission \"", word, "\" is neither \"none\" nor \"baked\"")};
 }
 
-Status read_factors(const GltfMaterial& source, Material& material) {
-    const auto base_color = base_color_from(source);
-    if (!base_color) return base_color.error();
-    const auto metallic = factor_from(source.metallic, "metallicFactor");
+Status read_metallic_roughness_factors(const GltfMaterial& source, Material& material) {
+    const auto color = read_factors(source.base_color, ".pbrMetallicRoughness.baseColorFactor");
+    if (!color) return color.error();
+    const auto metallic = read_factor(source.metallic, ".pbrMetallicRoughness.metallicFactor");
     if (!metallic) return metallic.error();
-    const auto roughness = factor_from(source.roughness, "roughnessFactor");
+    const auto roughness = read_factor(source.roughness, ".pbrMetallicRoughness.roughnessFactor");
     if (!roughness) return roughness.error();
-    const auto emission = emission_from(source);
-    if (!emission) return emission.error();
-    material.base_color = *base_color;
+    material.base_color = *color;
     material.metallic = *metallic;
     material.roughness = *roughness;
-    material.emission = *emission;
     return Ok{};
 }
 
-Result<Material> read_material(const GltfMaterial& source, GltfTextureReader& reader) {
+Status read_alpha(const GltfMaterial& source, Material& material) {
+    const auto mode = alpha_mode_from(source.alpha_mode);
+    if (!mode) return mode.error();
+    material.alpha_mode = *mode;
+    material.alpha_cutoff = static_cast<float>(source.alpha_cutoff);
+    if (source.alpha_cutoff >= 0.0 && std::isfinite(material.alpha_cutoff)) return Ok{};
+    return Error{ErrorCode::Corrupt, ".alphaCutoff", str_cat(source.alpha_cutoff),
+                 str_cat("alphaCutoff ", source.alpha_cutoff, " is negative or too large")};
+}
+
+Result<Material> read_material(const GltfMaterial& source, SurfaceReaders& readers) {
     Material material;
     material.name = source.name;
     material.is_double_sided = source.is_double_sided;
@@ -154,19 +155,30 @@ Result<Material> read_material(const GltfMaterial& source, GltfTextureReader& re
     const auto bakes_emission = bakes_emission_from(source.bake_emission.value_or("baked"));
     if (!bakes_emission) return bakes_emission.error();
     material.bakes_emission = *bakes_emission;
-    const auto factors = read_factors(source, material);
-    if (!factors) return factors.error();
-    const auto alpha_mode = alpha_mode_from(source.alpha_mode);
-    if (!alpha_mode) return alpha_mode.error();
-    material.alpha_mode = *alpha_mode;
-    material.alpha_cutoff = static_cast<float>(source.alpha_cutoff);
-    if (!(source.alpha_cutoff >= 0.0) || !std::isfinite(material.alpha_cutoff)) {
-        return Error{ErrorCode::Corrupt, ".alphaCutoff", str_cat(source.alpha_cutoff),
-                     str_cat("alphaCutoff ", source.alpha_cutoff, " is negative or too large")};
+    if (!uses_specular_glossiness(source)) {
+        const auto factors = read_metallic_roughness_factors(source, material);
+        if (!factors) return factors.error();
     }
-    const auto textures = read_textures(source, reader, material);
-    if (!textures) return textures.error();
+    const auto emission = emission_from(source);
+    if (!emission) return emission.error();
+    material.emission = *emission;
+    const auto alpha = read_alpha(source, material);
+    if (!alpha) return alpha.error();
+    const auto surface = read_surface(source, readers, material);
+    if (!surface) return surface.error();
     return material;
+}
+
+/// The table's row of glass that colours light.
+void add_colored_glass(const GltfDocument& document, size_t index, PartList& parts) {
+    parts.add({PartUse::Approximated,
+               "coloured glass",
+               0,
+               {},
+               "light that shines through is not coloured",
+               "",
+               true},
+              gltf_place("material", index, document.materials[index].name));
 }
 
 }  // namespace
@@ -175,23 +187,43 @@ Result<GltfMaterials> read_materials(const GltfDocument& document, NormalMaps no
     GltfMaterials result;
     GltfImages images(document);
     images.decode_ahead(image_uses(document, normal_maps));
-    GltfTextureReader reader(document, images), normal_reader(document, images);
+    SurfaceReaders readers(document, images);
+    GltfTextureReader normal_reader(document, images);
+    PartList parts;
+    bool has_converted = false;
     for (size_t i = 0; i < document.materials.size(); ++i) {
         const GltfMaterial& source = document.materials[i];
-        auto material = read_material(source, reader);
+        auto material = read_material(source, readers);
         if (!material) return in_element(material.error(), "materials", i, source.name);
         if (normal_maps == NormalMaps::Read && !material->is_unlit) {
             const auto status = read_normal_map(source, normal_reader, *material);
             if (!status) return in_element(status.error(), "materials", i, source.name);
         }
+        has_converted |= uses_specular_glossiness(source) || uses_transmission(source);
+        if (uses_transmission(source) && readers.transmission.is_colored()) {
+            add_colored_glass(document, i, parts);
+        }
+        result.ignores_vertex_alpha.push_back(source.alpha_mode == "OPAQUE");
         result.materials.push_back(std::move(*material));
     }
-    result.textures = std::move(reader.textures);
+    result.parts = parts.parts();
+    result.textures = std::move(readers.textures.textures);
+    if (has_converted) drop_unused_textures(result.materials, result.textures);
     result.normal_maps = std::move(normal_reader.textures);
-    result.warnings = std::move(reader.warnings);
+    result.warnings = std::move(readers.textures.warnings);
     result.warnings.insert(result.warnings.end(), normal_reader.warnings.begin(),
                            normal_reader.warnings.end());
     return result;
+}
+
+void ignore_vertex_alpha(const GltfMaterials& materials, std::vector<Mesh>& meshes) {
+    for (Mesh& mesh : meshes) {
+        if (mesh.material == kNoIndex) continue;
+        const bool was_opaque = materials.ignores_vertex_alpha[mesh.material];
+        const AlphaMode mode = materials.materials[mesh.material].alpha_mode;
+        if (!was_opaque || mode == AlphaMode::Opaque) continue;
+        for (glm::vec4& color : mesh.colors) color.a = 1.0f;
+    }
 }
 
 void assign_default_material(std::vector<Material>& materials, std::vector<Mesh>& meshes) {

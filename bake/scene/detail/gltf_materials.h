@@ -16,10 +16,18 @@ struct GltfMaterials {
     std::vector<Texture> textures;
     std::vector<Texture> normal_maps;
     std::vector<std::string> warnings;
+    /// Materials that are not read as their format defines them.
+    std::vector<ScenePart> parts;
+    /// Whether the file says that a material is opaque, which may let light through all the same.
+    std::vector<bool> ignores_vertex_alpha;
 };
 
 [[nodiscard]] Result<GltfMaterials> read_materials(const GltfDocument& document,
                                                    NormalMaps normal_maps);
+
+/// Sets the alpha of vertex colours to 1 where the file says that the material is opaque and it
+/// became one with an alpha.
+void ignore_vertex_alpha(const GltfMaterials& materials, std::vector<Mesh>& meshes);
 
 /// Gives meshes without a material glTF's default material, which is appended if any mesh needs it.
 void assign_default_material(std::vector<Material>& materials, std::vector<Mesh>& meshes);
