@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include <tetralight/bake/image/rgbd.h>
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/bake/scene/image_based_light_glb.h>
 #include <tetralight/base/file.h>
