@@ -74,13 +74,6 @@ Result<Image8> decode_image(const GltfDocument& document, const GltfImage& image
     return decode_file(document, image, place);
 }
 
-Result<Image8> decode(const GltfDocument& document, uint32_t image_index) {
-    const GltfImage& image = document.images[image_index];
-    auto pixels = decode_image(document, image, gltf_place("image", image_index, image.name));
-    if (!pixels) return in_member(pixels.error(), str_cat("images[", image_index, "]"));
-    return pixels;
-}
-
 std::string name_of(const GltfTexture& texture, const GltfImage& image) {
     if (!texture.name.empty()) return texture.name;
     return image.name.empty() && !is_data_uri(image.uri) ? image.uri : image.name;
@@ -98,6 +91,13 @@ uint32_t first_image_alike(const GltfDocument& document, uint32_t image) {
         if (shares_view || shares_uri) return i;
     }
     return image;
+}
+
+Result<Image8> decode_gltf_image(const GltfDocument& document, uint32_t image) {
+    const GltfImage& source = document.images[image];
+    auto pixels = decode_image(document, source, gltf_place("image", image, source.name));
+    if (!pixels) return in_member(pixels.error(), str_cat("images[", image, "]"));
+    return pixels;
 }
 
 Result<uint32_t> GltfTextureReader::read(uint32_t gltf_texture) {
@@ -128,7 +128,7 @@ Result<uint32_t> GltfTextureReader::find_or_decode(const GltfTexture& source) {
     const std::array<uint32_t, 3> key = {image_index, static_cast<uint32_t>(texture.wrap_u),
                                          static_cast<uint32_t>(texture.wrap_v)};
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    auto image = decode(document_, image_index);
+    auto image = decode_gltf_image(document_, image_index);
     if (!image) return image.error();
     texture.name = name_of(source, document_.images[source.image]);
     texture.image = std::move(*image);

@@ -15,6 +15,10 @@ namespace tetralight::detail {
 /// data URI.
 [[nodiscard]] uint32_t first_image_alike(const GltfDocument& document, uint32_t image);
 
+/// Decodes an image. Returns the errors of reading its file and of decoding; their field is that of
+/// the image.
+[[nodiscard]] Result<Image8> decode_gltf_image(const GltfDocument& document, uint32_t image);
+
 /// Decodes the textures that materials use: images that share their bytes once for each pair of
 /// wrap modes.
 class GltfTextureReader {
