@@ -170,6 +170,23 @@ Result<glm::dquat> sky_rotation(const GltfImageBasedLight& light) {
                  str_cat("rotation has a length of ", length)};
 }
 
+/// Sums of coefficients up to this stay far from the largest float.
+constexpr double kLargestCoefficient = 1e30;
+
+Status check_coefficients(const GltfImageBasedLight& light) {
+    for (size_t i = 0; i < light.irradiance_coefficients.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const double value = light.irradiance_coefficients[i][channel];
+            if (std::abs(value) <= kLargestCoefficient) continue;
+            return Error{ErrorCode::Corrupt,
+                         str_cat(".irradianceCoefficients[", i, "][", channel, "]"), str_cat(value),
+                         str_cat("irradianceCoefficients[", i, "][", channel, "] ", value,
+                                 " is not in the range -1e30 to 1e30")};
+        }
+    }
+    return Ok{};
+}
+
 /// Faces that can be read; none, and a warning, if there are coefficients instead.
 Result<std::optional<CubeFaces>> read_faces(const GltfDocument& document,
                                             const GltfImageBasedLight& light, GltfSky& sky) {
@@ -198,6 +215,7 @@ Result<GltfSky> read_sky(const GltfDocument& document, const GltfImageBasedLight
     if (!intensity) return intensity.error();
     const auto rotation = sky_rotation(light);
     if (!rotation) return rotation.error();
+    if (auto status = check_coefficients(light); !status) return status.error();
     const auto faces = read_faces(document, light, sky);
     if (!faces) return faces.error();
     if (*intensity == 0.0f) return sky;

@@ -393,6 +393,10 @@ TEST(GltfImageBasedLight, ErrorsNameTheLightAndTheValue) {
     EXPECT_EQ(error({{"intensity", -1}}), place + "intensity -1 is negative or too large");
     EXPECT_EQ(error({{"intensity", 1e300}}), place + "intensity 1e+300 is negative or too large");
     EXPECT_EQ(error({{"rotation", {0, 0, 0, 0}}}), place + "rotation has a length of 0");
+    Json coefficients = smooth_coefficients();
+    coefficients[4][2] = -1e31;
+    EXPECT_EQ(error({{"irradianceCoefficients", coefficients}}),
+              place + "irradianceCoefficients[4][2] -1e+31 is not in the range -1e30 to 1e30");
     EXPECT_EQ(error({{"specularImages", Json::array()}}),
               place + "has no images, and not the nine irradianceCoefficients");
     GltfBuilder gltf = lit_scene(4, smooth_cube(4));
