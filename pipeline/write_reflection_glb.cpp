@@ -2,10 +2,10 @@
 #include <tetralight/pipeline/write_reflection_glb.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include <tetralight/bake/image/rgbd.h>
 #include <tetralight/bake/image/write_image.h>
 #include <tetralight/bake/scene/image_based_light_glb.h>
 #include <tetralight/base/file.h>
@@ -15,10 +15,6 @@
 
 namespace tetralight {
 namespace {
-
-/// From our basis to that of Babylon.js (sphericalPolynomial.ts), which has the Condon-Shortley
-/// phase: minus for odd m. The mirrored x turns the signs of x and xz back, and that of xy.
-constexpr std::array<float, 9> kSigns{1, -1, 1, 1, -1, -1, 1, 1, 1};
 
 /// A face at the size of a level. Its roughness is level / (levels - 1), as readers of the
 /// extension look levels up, so that it is a blend of ours.
@@ -65,11 +61,13 @@ Result<GltfImageBasedLight> make_light(const ReflectionsView& all, size_t probe,
                                        const std::string& name) {
     GltfImageBasedLight light;
     light.name = name;
+    light.is_sky = all.probes[probe].is_everywhere();
     light.intensity = intensity_for(largest_channel(all, probe));
     light.size = all.size;
     const auto& irradiance = all.probes[probe].irradiance.coefficients;
-    for (size_t i = 0; i < kSigns.size(); ++i)
-        light.irradiance_coefficients[i] = kSigns[i] / light.intensity * irradiance[i];
+    for (size_t i = 0; i < irradiance.size(); ++i)
+        light.irradiance_coefficients[i] =
+            kImageBasedLightSigns[i] / light.intensity * irradiance[i];
     light.levels.resize(all.level_count);
     for (uint32_t level = 0; level < all.level_count; ++level) {
         for (uint32_t face = 0; face < kCubeFaceCount; ++face) {

@@ -35,11 +35,13 @@ GltfJson light_json(const GltfImageBasedLight& light, GltfJson images) {
     GltfJson coefficients = GltfJson::array();
     for (const glm::vec3& c : light.irradiance_coefficients)
         coefficients.push_back({c.x, c.y, c.z});
-    return {{"name", light.name},
-            {"intensity", light.intensity},
-            {"irradianceCoefficients", std::move(coefficients)},
-            {"specularImageSize", light.size},
-            {"specularImages", std::move(images)}};
+    GltfJson json = {{"name", light.name},
+                     {"intensity", light.intensity},
+                     {"irradianceCoefficients", std::move(coefficients)},
+                     {"specularImageSize", light.size},
+                     {"specularImages", std::move(images)}};
+    if (!light.is_sky) json["extras"] = {{"sky", false}};
+    return json;
 }
 
 /// `object[name]`, which becomes `otherwise` if it is not there. Returns corrupt if it is of

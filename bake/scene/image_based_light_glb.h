@@ -12,11 +12,20 @@
 
 namespace tetralight {
 
+/// Factors between irradiance E_i (docs/conventions.md) of glTF's world and coefficients of
+/// EXT_lights_image_based, either way. Babylon.js (sphericalPolynomial.ts) has the Condon-Shortley
+/// phase, minus for odd m, and shows the light in a world whose x is mirrored, which turns the
+/// signs of x and xz back, and that of xy.
+inline constexpr std::array<float, 9> kImageBasedLightSigns{1, -1, 1, 1, -1, -1, 1, 1, 1};
+
 /// A light of the glTF extension EXT_lights_image_based, as the extension encodes and orders it.
 struct GltfImageBasedLight {
     std::string name;
     /// Factor on the light of the images and of the coefficients.
     float intensity = 1.0f;
+    /// False if the light is that of a place in the scene: `read_gltf` does not take it for the sky
+    /// (`extras.sky: false` of the light).
+    bool is_sky = true;
     std::array<glm::vec3, 9> irradiance_coefficients{};
     /// Texels along a side of a face of level 0, a power of two.
     uint32_t size = 0;

@@ -7,6 +7,7 @@
 #include <tetralight/bake/scene/detail/gltf_animation.h>
 #include <tetralight/bake/scene/detail/gltf_cameras.h>
 #include <tetralight/bake/scene/detail/gltf_document.h>
+#include <tetralight/bake/scene/detail/gltf_image_based_light.h>
 #include <tetralight/bake/scene/detail/gltf_instances.h>
 #include <tetralight/bake/scene/detail/gltf_lights.h>
 #include <tetralight/bake/scene/detail/gltf_materials.h>
@@ -96,8 +97,7 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     return Ok{};
 }
 
-Status add_sky(const detail::GltfDocument& document, Scene& scene) {
-    if (!document.sky_radiance) return Ok{};
+Status add_constant_sky(const detail::GltfDocument& document, Scene& scene) {
     const glm::dvec3& radiance = *document.sky_radiance;
     scene.environment.radiance = glm::vec3(radiance);
     if (std::min({radiance.x, radiance.y, radiance.z}) >= 0.0) return Ok{};
@@ -105,6 +105,17 @@ Status add_sky(const detail::GltfDocument& document, Scene& scene) {
     return Error{ErrorCode::InvalidArgument,
                  str_cat("scenes[", document.scene, "].extras.sky.radiance"), value,
                  str_cat("scene: extras.sky.radiance (", value, ") is negative")};
+}
+
+/// The sky of the scene's extras, else its image-based light.
+Status add_sky(const detail::GltfDocument& document, Scene& scene) {
+    if (document.sky_radiance) return add_constant_sky(document, scene);
+    if (!document.image_based_light || !document.image_based_light->is_sky) return Ok{};
+    auto sky = detail::read_image_based_light(document, *document.image_based_light);
+    if (!sky) return sky.error();
+    scene.environment = std::move(sky->environment);
+    append_warnings(scene, sky->warnings);
+    return Ok{};
 }
 
 Status add_all(const detail::GltfDocument& document, const SceneReading& reading, Scene& scene) {
@@ -133,6 +144,9 @@ void add_parts(const detail::GltfDocument& document, Scene& scene) {
 /// Intensities that were written in lumens of watts, in watts.
 void divide_intensities(detail::GltfDocument& document) {
     for (detail::GltfLight& light : document.lights) light.intensity /= kLumensPerWatt;
+    for (detail::GltfAreaLight& light : document.area_lights) {
+        if (light.intensity) *light.intensity /= kLumensPerWatt;
+    }
 }
 
 }  // namespace

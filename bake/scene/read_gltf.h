@@ -40,16 +40,15 @@ struct SceneReading {
 ///
 /// Read: indexed and non-indexed triangles, strips and fans; base colour and emission with textures
 /// (KHR_texture_transform, KHR_materials_emissive_strength); normal maps and tangents if asked for;
-/// KHR_lights_punctual;
-/// EXT_mesh_gpu_instancing; KHR_mesh_quantization; `extras.contribute_gi`,
-/// `extras.portal` and `extras.reflection_probe` of a node; `extras.walkable`,
-/// `extras.in_reflections`, `extras.receive_gi`, `extras.lightmap_scale`, `extras.stitch_seams` and
-/// `extras.light_probes` of a node (inherited); perspective cameras; `extras.sky.radiance` of the
-/// scene, three numbers; KHR_materials_unlit; extras of a light or of its node, and of materials
-/// (docs/scenes.md); `extras.light_probe_group: true` of a node, whose POINTS primitive, or else
-/// whose child nodes, are the probes, with `extras.dering` and `extras.rendering_layers`;
-/// `extras.probe_adjustment` of a node. Unknown light types and missing optional features become
-/// warnings.
+/// KHR_lights_punctual; EXT_lights_area; EXT_lights_image_based of the scene, as its sky;
+/// EXT_mesh_gpu_instancing; KHR_mesh_quantization; `extras.contribute_gi`, `extras.portal` and
+/// `extras.reflection_probe` of a node; `extras.walkable`, `extras.in_reflections`,
+/// `extras.receive_gi`, `extras.lightmap_scale`, `extras.stitch_seams` and `extras.light_probes` of
+/// a node (inherited); perspective cameras; `extras.sky.radiance` of the scene, three numbers;
+/// KHR_materials_unlit; extras of a light or of its node, and of materials (docs/scenes.md);
+/// `extras.light_probe_group: true` of a node, whose POINTS primitive, or else whose child nodes,
+/// are the probes, with `extras.dering` and `extras.rendering_layers`; `extras.probe_adjustment` of
+/// a node. Unknown light types and missing optional features become warnings.
 ///
 /// Returns corrupt if the file breaks the rules of glTF, invalid_argument if a value of extras is
 /// out of range, unsupported if the file requires an extension that is not listed here, and

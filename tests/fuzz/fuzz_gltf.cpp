@@ -180,6 +180,17 @@ std::string problem_of(const Texture& texture) {
     return is_whole ? "" : "a texture has not all its pixels";
 }
 
+std::string problem_of(const Environment& sky) {
+    const ImageF& image = sky.image;
+    if (image.pixels.size() != size_t{image.width} * image.height) return "a sky is not whole";
+    const auto is_light = [](const glm::vec3& p) {
+        return std::isfinite(p.x + p.y + p.z) && std::min({p.x, p.y, p.z}) >= 0.0f;
+    };
+    const bool is_good = is_light(sky.radiance) && std::isfinite(sky.rotation_radians) &&
+                         std::ranges::all_of(image.pixels, is_light);
+    return is_good ? "" : "a sky is not light";
+}
+
 /// The first problem of the elements, empty if there is none.
 template <class Elements, class... Context>
 std::string first_problem(const Elements& elements, const Context&... context) {
@@ -198,9 +209,9 @@ std::string problem_of(const Scene& scene) {
     }
     if (scene.light_names.size() != scene.lights.size()) return "a light has no name";
     for (const std::string& problem :
-         {first_problem(scene.textures), first_problem(scene.normal_maps),
-          first_problem(scene.materials, scene), first_problem(scene.meshes, scene),
-          first_problem(scene.instances, scene)}) {
+         {problem_of(scene.environment), first_problem(scene.textures),
+          first_problem(scene.normal_maps), first_problem(scene.materials, scene),
+          first_problem(scene.meshes, scene), first_problem(scene.instances, scene)}) {
         if (!problem.empty()) return problem;
     }
     return {};

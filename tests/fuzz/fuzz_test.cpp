@@ -39,6 +39,8 @@ TEST(FuzzSeeds, TheSceneIsReadWhole) {
     EXPECT_EQ(scene->textures.size(), 3u);
     EXPECT_EQ(scene->normal_maps.size(), 1u);
     EXPECT_EQ(scene->probe_groups.size(), 1u);
+    EXPECT_EQ(scene->lights.size(), 5u);
+    EXPECT_FALSE(scene->environment.image.pixels.empty());
 }
 
 TEST(FuzzSeeds, ImagesAreDecoded) {

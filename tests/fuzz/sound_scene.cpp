@@ -126,6 +126,24 @@ void add_lights(GltfBuilder& gltf) {
     }
 }
 
+/// Area lights, and a sky of an image of one pixel.
+void add_lights_of_extensions(GltfBuilder& gltf) {
+    gltf.json["extensions"]["EXT_lights_area"]["lights"] = {
+        {{"type", "rect"}, {"intensity", 200}, {"size", 2}, {"rect", {{"aspect", 1.5}}}},
+        {{"type", "disk"}, {"intensity", 900}, {"color", {1, 0.5, 0.25}}}};
+    for (const size_t light : {0, 1})
+        gltf.add_root({{"extensions", {{"EXT_lights_area", {{"light", light}}}}}});
+    Json coefficients = Json::array();
+    for (int i = 0; i < 9; ++i) coefficients.push_back({10 - i, 1, 0.5});
+    const Json light = {{"rotation", {0.6, 0, 0, 0.8}},
+                        {"intensity", 2},
+                        {"irradianceCoefficients", coefficients},
+                        {"specularImageSize", 1},
+                        {"specularImages", Json::array({{3, 3, 3, 3, 3, 3}})}};
+    gltf.json["extensions"]["EXT_lights_image_based"]["lights"].push_back(light);
+    gltf.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+}
+
 void add_nodes(GltfBuilder& gltf) {
     gltf.add_root(
         {{"name", "group"},
@@ -193,8 +211,9 @@ GltfBuilder sound_scene() {
     add_other_modes(gltf);
     add_nodes(gltf);
     add_lights(gltf);
+    add_lights_of_extensions(gltf);
     add_animation(gltf);
-    gltf.json["scenes"][0]["extras"]["sky"]["radiance"] = {0.1, 0.2, 0.3};
+    gltf.json["scenes"][1]["extras"]["sky"]["radiance"] = {0.1, 0.2, 0.3};
     return gltf;
 }
 

@@ -14,6 +14,7 @@
 
 #include <tetralight/bake/image/read_image.h>
 #include <tetralight/bake/reflection/cube_image.h>
+#include <tetralight/bake/scene/environment.h>
 #include <tetralight/bake/scene/read_gltf.h>
 #include <tetralight/base/error_text.h>
 #include <tetralight/base/file.h>
@@ -237,6 +238,35 @@ TEST_F(WriteReflectionGlb, OurReaderReadsTheSceneAgain) {
     const auto scene = read_gltf(path_);
     ASSERT_TRUE(scene) << error_text(scene.error());
     EXPECT_TRUE(scene->warnings.empty());
+}
+
+TEST_F(WriteReflectionGlb, TheLightOfAPlaceIsNoSkyOfTheSceneThatIsReadAgain) {
+    Reflections all = two_probes(1.0f);
+    all.probes[1].half_size = glm::vec3(2.0f, 1.0f, 3.0f);
+    ASSERT_TRUE(write_reflection_glb(path_, scene_, all.view(), 1, "hall"));
+    const auto scene = read_gltf(path_);
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    EXPECT_TRUE(scene->warnings.empty());
+    EXPECT_EQ(scene->environment, Environment{});
+}
+
+TEST_F(WriteReflectionGlb, TheSkyIsReadAgain) {
+    for (const float scale : {1.0f, 500.0f}) {
+        const Reflections all = two_probes(scale);
+        ASSERT_TRUE(all.probes[1].is_everywhere());
+        ASSERT_TRUE(write_reflection_glb(path_, scene_, all.view(), 1, "sky"));
+        const auto scene = read_gltf(path_);
+        ASSERT_TRUE(scene) << error_text(scene.error());
+        EXPECT_TRUE(scene->warnings.empty());
+        for (const glm::vec3 axis : {glm::vec3(1, 0, 0), glm::vec3(-1, 0.2f, 0.1f),
+                                     glm::vec3(0.3f, 1, -2), glm::vec3(-1, -1, 1)}) {
+            const glm::vec3 direction = glm::normalize(axis);
+            const glm::vec3 expected = scale * smooth_light(direction);
+            // Texels are a tenth of a radian wide, and codes round by 1 %.
+            const glm::vec3 read = environment_radiance(scene->environment, direction);
+            EXPECT_LT(glm::length(read - expected), 0.04f * glm::length(expected)) << axis.x;
+        }
+    }
 }
 
 TEST_F(WriteReflectionGlb, AFailureKeepsTheOldFile) {

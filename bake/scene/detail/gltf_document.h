@@ -204,6 +204,21 @@ struct GltfLight {
     GltfLightExtras extras;
 };
 
+/// EXT_lights_area.
+struct GltfAreaLight {
+    std::string name;
+    /// "rect" or "disk".
+    std::string type;
+    glm::dvec3 color{1.0};
+    /// Luminance, cd/m²; empty: that of the extension.
+    std::optional<double> intensity;
+    /// Height of a rectangle, diameter of a disc, in metres at a scale of 1.
+    double size = 1.0;
+    /// Width of a rectangle over its height.
+    double aspect = 1.0;
+    GltfLightExtras extras;
+};
+
 struct GltfCamera {
     std::string name;
     /// Empty if the camera is not a perspective one.
@@ -213,6 +228,10 @@ struct GltfCamera {
 /// EXT_lights_image_based.
 struct GltfImageBasedLight {
     std::string name;
+    /// Which of the document's image-based lights it is.
+    uint32_t index = 0;
+    /// From extras. False: the light is that of a place in the scene, and not its sky.
+    bool is_sky = true;
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     double intensity = 1.0;
     /// RGB of the 9 coefficients of irradiance.
@@ -253,6 +272,7 @@ struct GltfNode {
     std::vector<uint32_t> children;
     uint32_t mesh = kNoIndex;
     uint32_t light = kNoIndex;
+    uint32_t area_light = kNoIndex;
     uint32_t camera = kNoIndex;
     uint32_t skin = kNoIndex;
     /// Weights of the morph targets, before those of the mesh; empty: those of the mesh.
@@ -292,6 +312,7 @@ struct GltfDocument {
     std::vector<GltfImage> images;
     std::vector<GltfSampler> samplers;
     std::vector<GltfLight> lights;
+    std::vector<GltfAreaLight> area_lights;
     std::vector<GltfCamera> cameras;
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;

@@ -165,6 +165,18 @@ GltfLight light_from(const json& light) {
     return result;
 }
 
+GltfAreaLight area_light_from(const json& light) {
+    GltfAreaLight result;
+    result.name = string_at(light, "name");
+    result.type = string_at(light, "type");
+    result.color = vec3_at(light, "color", result.color);
+    if (light.contains("intensity")) result.intensity = number_at(light, "intensity", 0.0);
+    result.size = number_at(light, "size", result.size);
+    result.aspect = number_at(light, "rect/aspect", result.aspect);
+    result.extras = light_extras_from(light);
+    return result;
+}
+
 GltfCamera camera_from(const json& camera) {
     GltfCamera result;
     result.name = string_at(camera, "name");
@@ -218,7 +230,9 @@ GltfNode node_from(const json& node) {
     result.weights = numbers_at(node, "weights");
     result.is_visible = boolean_at(node, "extensions/KHR_node_visibility/visible").value_or(true);
     result.light = index_at(node, "extensions/KHR_lights_punctual/light");
-    if (result.light != kNoIndex) result.light_extras = light_extras_from(node);
+    result.area_light = index_at(node, "extensions/EXT_lights_area/light");
+    const bool has_light = result.light != kNoIndex || result.area_light != kNoIndex;
+    if (has_light) result.light_extras = light_extras_from(node);
     if (const json* instancing = find_json(node, "extensions/EXT_mesh_gpu_instancing")) {
         result.instancing = index_map_at(*instancing, "attributes");
     }
@@ -229,6 +243,7 @@ GltfNode node_from(const json& node) {
 GltfImageBasedLight image_based_light_from(const json& light) {
     GltfImageBasedLight result;
     result.name = string_at(light, "name");
+    result.is_sky = boolean_at(light, "extras/sky").value_or(true);
     const glm::dvec4 q = vec4_at(light, "rotation", glm::dvec4(0.0, 0.0, 0.0, 1.0));
     result.rotation = glm::dquat(q.w, q.x, q.y, q.z);
     result.intensity = number_at(light, "intensity", result.intensity);
@@ -264,6 +279,7 @@ GltfDocument document_from(const json& source) {
     document.images = read_all(source, "images", image_from);
     document.samplers = read_all(source, "samplers", sampler_from);
     document.lights = read_all(source, "extensions/KHR_lights_punctual/lights", light_from);
+    document.area_lights = read_all(source, "extensions/EXT_lights_area/lights", area_light_from);
     document.cameras = read_all(source, "cameras", camera_from);
     document.skins = read_all(source, "skins", skin_from);
     document.animations = read_all(source, "animations", animation_from);
@@ -284,6 +300,7 @@ void choose_scene(const json& source, uint32_t scene, GltfDocument& document) {
     if (light == kNoIndex) return;
     document.image_based_light =
         image_based_light_from(array_at(source, "extensions/EXT_lights_image_based/lights")[light]);
+    document.image_based_light->index = light;
 }
 
 }  // namespace tetralight::detail

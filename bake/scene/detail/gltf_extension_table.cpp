@@ -14,9 +14,9 @@ constexpr std::string_view kData = "is data without light";
 
 /// Sorted by name.
 constexpr GltfExtension kExtensions[] = {
+    {"EXT_lights_area", Read},
     {"EXT_lights_ies", Ignored, false, true, "the light shines as without its profile", ""},
-    {"EXT_lights_image_based", Ignored, false, true, "the scene has no light from it",
-     "--sky takes an .hdr or .exr file"},
+    {"EXT_lights_image_based", Read},
     {"EXT_mesh_features", Ignored, false, false, kData, ""},
     {"EXT_mesh_gpu_instancing", Read},
     {"EXT_meshopt_compression", Read},

@@ -153,18 +153,22 @@ Result<ImageSize> gltf_image_size(const GltfDocument& document, uint32_t image) 
     return from_image<ImageSize>(document, image, read_image_size);
 }
 
+Result<Image8> decode_gltf_image(const GltfDocument& document, uint32_t image) {
+    return from_image<Image8>(document, image, decode_image8);
+}
+
 void GltfImages::decode_ahead(std::span<const GltfImageUse> uses) {
     std::set<uint32_t> distinct;
     for (const GltfImageUse& use : uses) distinct.insert(use.image);
     const std::vector<uint32_t> images(distinct.begin(), distinct.end());
     on_all_processors(images.size(), [&](size_t i) {
-        decoded_[images[i]] = from_image<Image8>(document_, images[i], decode_image8);
+        decoded_[images[i]] = decode_gltf_image(document_, images[i]);
     });
 }
 
 Result<Image8> GltfImages::take(uint32_t image) {
     auto& decoded = decoded_[image];
-    if (!decoded) return from_image<Image8>(document_, image, decode_image8);
+    if (!decoded) return decode_gltf_image(document_, image);
     auto pixels = std::move(*decoded);
     decoded.reset();
     return pixels;

@@ -34,7 +34,10 @@ struct GltfImageUse {
 /// The size of an image by its header. Errors name the image.
 [[nodiscard]] Result<ImageSize> gltf_image_size(const GltfDocument& document, uint32_t image);
 
-/// Decodes the images of a document.
+/// Decodes an image. Errors name the image.
+[[nodiscard]] Result<Image8> decode_gltf_image(const GltfDocument& document, uint32_t image);
+
+/// The images of a document, of which several can be decoded at a time.
 class GltfImages {
   public:
     explicit GltfImages(const GltfDocument& document)

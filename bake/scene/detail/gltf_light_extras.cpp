@@ -148,4 +148,17 @@ Status apply_light_extras(const GltfLightExtras& extras, Light& light) {
     return apply_shape(extras, light);
 }
 
+Status apply_area_light_extras(const GltfLightExtras& extras, Light& light) {
+    const std::pair<const char*, bool> others[] = {
+        {"falloff", extras.falloff.has_value()}, {"shape", extras.shape.has_value()},
+        {"radius", extras.radius.has_value()},   {"angle", extras.angle_degrees.has_value()},
+        {"width", extras.width.has_value()},     {"height", extras.height.has_value()}};
+    for (const auto& [name, is_there] : others) {
+        if (!is_there) continue;
+        return extra_error(name, "",
+                           " is not for lights of EXT_lights_area, which say it themselves");
+    }
+    return apply_mode(extras, light);
+}
+
 }  // namespace tetralight::detail

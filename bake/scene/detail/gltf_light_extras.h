@@ -15,4 +15,9 @@ namespace tetralight::detail {
 /// `.extras.NAME`, for unknown words, numbers out of range and extras that do not fit the type.
 [[nodiscard]] Status apply_light_extras(const GltfLightExtras& extras, Light& light);
 
+/// Sets mode and indirect multiplier of a light of EXT_lights_area from extras. Returns
+/// invalid_argument, with the field `.extras.NAME`, for unknown words, numbers out of range, and
+/// extras of the size, shape and falloff, which the extension defines.
+[[nodiscard]] Status apply_area_light_extras(const GltfLightExtras& extras, Light& light);
+
 }  // namespace tetralight::detail

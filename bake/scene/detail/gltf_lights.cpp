@@ -21,21 +21,33 @@ std::optional<LightType> type_from(const std::string& type) {
     return std::nullopt;
 }
 
-Status read_intensity(const GltfLight& source, Light& light) {
-    if (source.intensity < 0.0) {
-        return Error{ErrorCode::Corrupt, ".intensity", str_cat(source.intensity),
-                     str_cat("intensity ", source.intensity, " is negative")};
+std::optional<LightType> area_type_from(const std::string& type) {
+    if (type == "rect") return LightType::Rectangle;
+    if (type == "disk") return LightType::Disc;
+    return std::nullopt;
+}
+
+std::string unknown_type(const char* kind, size_t index, const std::string& name,
+                         const std::string& type) {
+    return str_cat(gltf_place(kind, index, name), ": type \"", type, "\" is not known; left out");
+}
+
+/// Sets colour times intensity times `factor`, which is 1 or the area of a light in m².
+Status set_intensity(const glm::dvec3& color, double intensity, double factor, Light& light) {
+    if (intensity < 0.0) {
+        return Error{ErrorCode::Corrupt, ".intensity", str_cat(intensity),
+                     str_cat("intensity ", intensity, " is negative")};
     }
     for (int channel = 0; channel < 3; ++channel) {
-        const double color = source.color[channel];
-        if (color < 0.0) {
-            return Error{ErrorCode::Corrupt, str_cat(".color[", channel, "]"), str_cat(color),
-                         str_cat("color ", color, " is negative")};
+        const double value = color[channel];
+        if (value < 0.0) {
+            return Error{ErrorCode::Corrupt, str_cat(".color[", channel, "]"), str_cat(value),
+                         str_cat("color ", value, " is negative")};
         }
-        light.intensity[channel] = static_cast<float>(color * source.intensity);
+        light.intensity[channel] = static_cast<float>(value * intensity * factor);
         if (std::isfinite(light.intensity[channel])) continue;
-        return Error{ErrorCode::Corrupt, ".intensity", str_cat(source.intensity),
-                     str_cat("intensity is not finite (", color, " * ", source.intensity, ")")};
+        return Error{ErrorCode::Corrupt, ".intensity", str_cat(intensity),
+                     str_cat("intensity is not finite (", value, " * ", intensity, ")")};
     }
     return Ok{};
 }
@@ -93,27 +105,130 @@ Status place_light(const glm::dmat4& world_from_node, Light& light) {
     return Ok{};
 }
 
-Result<Light> read_light(const GltfLight& source, LightType type, const GltfWorldNode& placed,
-                         const GltfNode& node) {
-    Light light;
-    light.type = type;
-    if (const auto status = read_intensity(source, light); !status) return status.error();
-    if (const auto status = read_range(source, light); !status) return status.error();
-    if (type == LightType::Spot) {
-        if (const auto status = read_cone(source, light); !status) return status.error();
-    }
+/// Applies extras and the node's transform. A field is that of the node where the node is at fault.
+Status finish_light(const GltfLightExtras& of_node, const GltfLightExtras& of_light,
+                    const GltfWorldNode& placed, Status (*apply)(const GltfLightExtras&, Light&),
+                    Light& light) {
     const std::string node_member = str_cat("nodes[", placed.node, "]");
-    const auto extras = merged_extras(node.light_extras, source.extras);
     Light alone = light;
-    if (const auto status = apply_light_extras(extras, light); !status) {
-        const auto of_node = apply_light_extras(node.light_extras, alone);
-        const bool is_of_node = !of_node && of_node.error().field == status.error().field;
+    if (const auto status = apply(merged_extras(of_node, of_light), light); !status) {
+        const auto without_light = apply(of_node, alone);
+        const bool is_of_node =
+            !without_light && without_light.error().field == status.error().field;
         return is_of_node ? in_member(status.error(), node_member) : status.error();
     }
     if (const auto status = place_light(placed.world_from_node, light); !status) {
         return in_member(status.error(), node_member);
     }
+    return Ok{};
+}
+
+Result<Light> read_light(const GltfLight& source, LightType type, const GltfWorldNode& placed,
+                         const GltfNode& node) {
+    Light light;
+    light.type = type;
+    const auto intensity = set_intensity(source.color, source.intensity, 1.0, light);
+    if (!intensity) return intensity.error();
+    if (const auto status = read_range(source, light); !status) return status.error();
+    if (type == LightType::Spot) {
+        if (const auto status = read_cone(source, light); !status) return status.error();
+    }
+    const auto status =
+        finish_light(node.light_extras, source.extras, placed, apply_light_extras, light);
+    if (!status) return status.error();
     return light;
+}
+
+/// The largest scale along an axis of a node, by which EXT_lights_area scales lights.
+double largest_axis(const glm::dmat4& world_from_node) {
+    double largest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        largest = std::max(largest, glm::length(glm::dvec3(world_from_node[axis])));
+    return largest;
+}
+
+/// Metres along a side of an area light.
+Result<float> side_from(double value, double scale, const char* member) {
+    const auto side = static_cast<float>(value * scale);
+    if (value > 0.0 && side > 0.0f && std::isfinite(side)) return side;
+    return Error{ErrorCode::Corrupt, str_cat(".", member), str_cat(value),
+                 str_cat(member, " ", value, " makes a light of ", value * scale, " m")};
+}
+
+Status set_sides(const GltfAreaLight& source, double scale, Light& light) {
+    const auto size = side_from(source.size, scale, "size");
+    if (!size) return size.error();
+    if (light.type == LightType::Disc) {
+        light.radius = *size / 2.0f;
+        return Ok{};
+    }
+    const auto width = side_from(source.aspect, *size, "rect.aspect");
+    if (!width) return width.error();
+    light.width = *width;
+    light.height = *size;
+    return Ok{};
+}
+
+/// What EXT_lights_area says a light has that does not say it, in cd/m².
+constexpr double kDefaultLuminance = 1000.0;
+
+/// Radiance is intensity over area (probes/light.h).
+Result<Light> read_area_light(const GltfAreaLight& source, LightType type,
+                              const GltfWorldNode& placed, const GltfNode& node) {
+    Light light;
+    light.type = type;
+    const double scale = largest_axis(placed.world_from_node);
+    if (const auto status = set_sides(source, scale, light); !status) return status.error();
+    const auto intensity = set_intensity(source.color, source.intensity.value_or(kDefaultLuminance),
+                                         light_area(light), light);
+    if (!intensity) return intensity.error();
+    const auto status =
+        finish_light(node.light_extras, source.extras, placed, apply_area_light_extras, light);
+    if (!status) return status.error();
+    return light;
+}
+
+/// Adds the light of KHR_lights_punctual of a node, if it has one.
+Status add_punctual_light(const GltfDocument& document, const GltfWorldNode& placed,
+                          GltfLights& lights) {
+    const GltfNode& node = document.nodes[placed.node];
+    if (node.light == kNoIndex) return Ok{};
+    const GltfLight& source = document.lights[node.light];
+    const auto type = type_from(source.type);
+    if (!type) {
+        lights.warnings.push_back(unknown_type("light", node.light, source.name, source.type));
+        return Ok{};
+    }
+    const auto light = read_light(source, *type, placed, node);
+    if (!light) return in_element(light.error(), "lights", node.light, source.name);
+    lights.lights.push_back(*light);
+    lights.names.push_back(node.name.empty() ? source.name : node.name);
+    return Ok{};
+}
+
+/// Adds the light of EXT_lights_area of a node, if it has one.
+Status add_area_light(const GltfDocument& document, const GltfWorldNode& placed,
+                      GltfLights& lights) {
+    const GltfNode& node = document.nodes[placed.node];
+    if (node.area_light == kNoIndex) return Ok{};
+    const GltfAreaLight& source = document.area_lights[node.area_light];
+    const auto type = area_type_from(source.type);
+    if (!type) {
+        lights.warnings.push_back(
+            unknown_type("area light", node.area_light, source.name, source.type));
+        return Ok{};
+    }
+    const auto light = read_area_light(source, *type, placed, node);
+    if (!light) return in_element(light.error(), "area lights", node.area_light, source.name);
+    if (!source.intensity) {
+        lights.warnings.push_back(
+            str_cat(gltf_place("area light", node.area_light, source.name),
+                    ": has no intensity, which stands for ", kDefaultLuminance,
+                    " cd/m² in EXT_lights_area, and for 1 in files of Babylon.js"));
+    }
+    lights.lights.push_back(*light);
+    lights.names.push_back(node.name.empty() ? source.name : node.name);
+    return Ok{};
 }
 
 }  // namespace
@@ -121,23 +236,13 @@ Result<Light> read_light(const GltfLight& source, LightType type, const GltfWorl
 Result<GltfLights> read_lights(const GltfDocument& document, std::span<const GltfWorldNode> nodes) {
     GltfLights result;
     for (const GltfWorldNode& placed : nodes) {
-        const GltfNode& node = document.nodes[placed.node];
-        if (node.light == kNoIndex || !placed.is_visible) continue;
-        const GltfLight& source = document.lights[node.light];
-        const std::string place = gltf_place("light", node.light, source.name);
-        const auto type = type_from(source.type);
-        if (!type) {
-            result.warnings.push_back(
-                str_cat(place, ": type \"", source.type, "\" is not known; left out"));
-            continue;
+        if (!placed.is_visible) continue;
+        for (const auto& add : {add_punctual_light, add_area_light}) {
+            const auto status = add(document, placed, result);
+            if (status) continue;
+            return in_element(status.error(), "nodes", placed.node,
+                              document.nodes[placed.node].name);
         }
-        const auto light = read_light(source, *type, placed, node);
-        if (!light) {
-            const Error error = in_element(light.error(), "lights", node.light, source.name);
-            return in_element(error, "nodes", placed.node, node.name);
-        }
-        result.lights.push_back(*light);
-        result.names.push_back(node.name.empty() ? source.name : node.name);
     }
     return result;
 }

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 
 #include <tetralight/bake/scene/detail/gltf_accessors.h>
 #include <tetralight/bake/scene/detail/gltf_buffers.h>
 #include <tetralight/bake/scene/detail/gltf_draco.h>
+#include <tetralight/bake/scene/detail/gltf_image_based_light.h>
 #include <tetralight/bake/scene/detail/gltf_images.h>
 #include <tetralight/bake/scene/detail/gltf_members.h>
 #include <tetralight/bake/scene/detail/gltf_meshes.h>
@@ -130,6 +132,51 @@ uint64_t document_bytes(const GltfDocument& document) {
            document.materials.size() * sizeof(GltfMaterial);
 }
 
+constexpr uint64_t kBytesPerTexel = 4;
+
+/// Texels of an image; 0 if its header does not tell.
+uint64_t texel_count(const GltfDocument& document, uint32_t image) {
+    const auto size = gltf_image_size(document, image);
+    return size ? uint64_t{size->width} * size->height : 0;
+}
+
+/// For each material whose textures are converted, their images: a colour and a texture of factors
+/// become as large as the largest of them.
+std::vector<std::set<uint32_t>> converted_images(const GltfDocument& document) {
+    std::vector<std::set<uint32_t>> converted;
+    for (const GltfMaterial& material : document.materials) {
+        if (material.is_unlit) continue;
+        std::set<uint32_t> images;
+        const auto add = [&](const TextureUse& use) {
+            if (use.texture == kNoIndex) return;
+            const uint32_t image = document.textures[use.texture].image;
+            if (image != kNoIndex) images.insert(image);
+        };
+        if (material.specular_glossiness) {
+            add(material.specular_glossiness->diffuse_texture);
+            add(material.specular_glossiness->specular_glossiness_texture);
+        }
+        if (material.transmission && material.transmission->factor > 0.0) {
+            add(material.base_color_texture);
+            add(material.metallic_roughness_texture);
+            add(material.transmission->texture);
+        }
+        if (!images.empty()) converted.push_back(std::move(images));
+    }
+    return converted;
+}
+
+/// The faces of an image-based light, and the sky that is made of them.
+uint64_t sky_bytes(const GltfDocument& document) {
+    const auto& light = document.image_based_light;
+    if (document.sky_radiance || !light || !light->is_sky || light->images.empty()) return 0;
+    uint64_t texels = 0;
+    for (const uint32_t image : light->images[0])
+        texels = add_bytes(texels, texel_count(document, image));
+    const uint64_t rows = sky_rows(light->image_size);
+    return add_bytes(add_bytes(0, texels, sizeof(glm::vec3)), 2 * rows * rows, sizeof(glm::vec3));
+}
+
 }  // namespace
 
 SceneMemory geometry_memory(const nlohmann::json& source, const GltfDocument& document,
@@ -150,11 +197,14 @@ SceneMemory geometry_memory(const nlohmann::json& source, const GltfDocument& do
 }
 
 uint64_t image_memory(const GltfDocument& document, NormalMaps normal_maps) {
-    constexpr uint64_t kBytesPerTexel = 4;
-    uint64_t sum = 0;
-    for (const GltfImageUse& use : image_uses(document, normal_maps)) {
-        const auto size = gltf_image_size(document, use.image);
-        if (size) sum = add_bytes(sum, uint64_t{size->width} * size->height, kBytesPerTexel);
+    uint64_t sum = sky_bytes(document);
+    for (const GltfImageUse& use : image_uses(document, normal_maps))
+        sum = add_bytes(sum, texel_count(document, use.image), kBytesPerTexel);
+    for (const std::set<uint32_t>& converted : converted_images(document)) {
+        uint64_t texels = 0;
+        for (const uint32_t image : converted)
+            texels = std::max(texels, texel_count(document, image));
+        sum = add_bytes(sum, texels, 2 * kBytesPerTexel);
     }
     return sum;
 }

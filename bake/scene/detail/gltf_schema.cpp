@@ -28,6 +28,7 @@ constexpr GltfRule kNodes[] = {
     {"rotation", Numbers, "", 4},
     {"scale", Numbers, "", 3},
     {"extensions/KHR_lights_punctual/light", Index, "lights", 0, kRequired},
+    {"extensions/EXT_lights_area/light", Index, "area lights", 0, kRequired},
     {"extensions/KHR_node_visibility/visible", Boolean},
     {"extensions/EXT_mesh_gpu_instancing/attributes", IndexMap, "accessors", 0, kRequired},
     {"extras/contribute_gi", BooleanOrBit},
@@ -200,6 +201,24 @@ constexpr GltfRule kLights[] = {
     {"extras/height", Number},
 };
 
+constexpr GltfRule kAreaLights[] = {
+    {"name", String},
+    {"type", String, "", 0, kRequired},
+    {"color", Numbers, "", 3},
+    {"intensity", Number},
+    {"size", Number},
+    {"rect", Object},
+    {"rect/aspect", Number},
+    {"extras/mode", String},
+    {"extras/falloff", String},
+    {"extras/shape", String},
+    {"extras/indirect_multiplier", Number},
+    {"extras/radius", Number},
+    {"extras/angle", Number},
+    {"extras/width", Number},
+    {"extras/height", Number},
+};
+
 constexpr GltfRule kImageBasedLights[] = {
     {"name", String},
     {"rotation", Numbers, "", 4},
@@ -207,6 +226,7 @@ constexpr GltfRule kImageBasedLights[] = {
     {"irradianceCoefficients", NumbersList, "", 3},
     {"specularImages", IndexLists, "images", 6},
     {"specularImageSize", Size},
+    {"extras/sky", BooleanOrBit},
 };
 
 constexpr GltfRule kCameras[] = {
@@ -228,6 +248,7 @@ constexpr GltfSection kSections[] = {
     {"skins", "skins", "skin", kSkins},
     {"animations", "animations", "animation", kAnimations},
     {"lights", "extensions/KHR_lights_punctual/lights", "light", kLights},
+    {"area lights", "extensions/EXT_lights_area/lights", "area light", kAreaLights},
     {"image-based lights", "extensions/EXT_lights_image_based/lights", "image-based light",
      kImageBasedLights},
     {"cameras", "cameras", "camera", kCameras},

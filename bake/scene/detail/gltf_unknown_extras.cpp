@@ -48,8 +48,10 @@ const std::vector<KnownExtras>& known_extras() {
         return std::vector<KnownExtras>{
             {"nodes", "nodes", "extras", of_nodes},
             {"lights", "lights", "extras", kOfLights},
+            {"lights", "area lights", "extras", kOfLights},
             {"materials", "materials", "extras", {"bake_emission"}},
             {"scenes", "scenes", "extras", {"sky"}},
+            {"image-based lights", "image-based lights", "extras", {"sky"}},
             {"extras.sky", "scenes", "extras/sky", {"radiance"}},
             {"extras.probe_adjustment",
              "nodes",

@@ -34,6 +34,26 @@ void add_extension(const std::string& name, const std::string& element, PartList
     parts.add(part, element);
 }
 
+/// Why the scene's image-based light is not its sky; empty if it is.
+std::string_view reason_for_no_sky(const GltfDocument& document) {
+    if (!document.image_based_light) return "";
+    if (document.sky_radiance) return "extras.sky of the scene is read instead";
+    if (document.image_based_light->is_sky) return "";
+    return "is the light of a place in the scene, and not its sky: its extras.sky is false";
+}
+
+/// The extensions of a section's element.
+void add_extensions_of(const std::set<std::string>& names, const std::string& place,
+                       std::string_view reason, PartList& parts) {
+    for (const std::string& name : names) {
+        if (name == "EXT_lights_image_based" && !reason.empty()) {
+            parts.add({PartUse::Ignored, name, 0, {}, std::string(reason), "", false}, place);
+        } else {
+            add_extension(name, place, parts);
+        }
+    }
+}
+
 /// The names of all extensions of a value and of what is in it, but not in its extras.
 void find_extensions(const json& value, std::set<std::string>& names) {
     if (!value.is_structured()) return;
@@ -46,15 +66,18 @@ void find_extensions(const json& value, std::set<std::string>& names) {
     }
 }
 
-void add_extensions(const json& source, PartList& parts) {
+void add_extensions(const json& source, const GltfDocument& document, PartList& parts) {
+    const json& scenes = array_at(source, "scenes");
+    const json* scene = scenes.empty() ? nullptr : &scenes[document.scene];
     std::set<std::string> seen;
-    for_each_element(source,
-                     [&](const GltfSection&, const json& element, const std::string& place) {
-                         std::set<std::string> names;
-                         find_extensions(element, names);
-                         for (const std::string& name : names) add_extension(name, place, parts);
-                         seen.insert(names.begin(), names.end());
-                     });
+    for_each_element(
+        source, [&](const GltfSection&, const json& element, const std::string& place) {
+            std::set<std::string> names;
+            find_extensions(element, names);
+            const bool is_scene = &element == scene;
+            add_extensions_of(names, place, is_scene ? reason_for_no_sky(document) : "", parts);
+            seen.insert(names.begin(), names.end());
+        });
     std::set<std::string> of_file;
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         for (const json& name : array_at(source, list)) {
@@ -219,7 +242,7 @@ void add_other_scenes(const json& source, const GltfDocument& document, PartList
 }  // namespace
 
 void add_unread_parts(const json& source, const GltfDocument& document, PartList& parts) {
-    add_extensions(source, parts);
+    add_extensions(source, document, parts);
     add_primitives(document, parts);
     add_materials(source, parts);
     add_other_scenes(source, document, parts);

@@ -21,6 +21,7 @@ GltfImageBasedLight two_levels() {
     GltfImageBasedLight light;
     light.name = "hall";
     light.intensity = 4.0f;
+    light.is_sky = false;
     light.size = 16;
     for (size_t i = 0; i < 9; ++i) light.irradiance_coefficients[i] = glm::vec3(i, -1, 0.5f);
     for (size_t level = 0; level < 2; ++level) {
@@ -55,10 +56,9 @@ struct Written {
     Scene scene;
 };
 
-Written written(const GltfBuilder& gltf) {
+Written written(const GltfBuilder& gltf, const GltfImageBasedLight& light = two_levels()) {
     const TempFolder folder;
-    const auto bytes =
-        make_image_based_light_glb(folder.write("scene.glb", gltf.glb()), two_levels());
+    const auto bytes = make_image_based_light_glb(folder.write("scene.glb", gltf.glb()), light);
     EXPECT_TRUE(bytes) << (bytes ? "" : error_text(bytes.error()));
     if (!bytes) return {};
     const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -100,6 +100,17 @@ TEST(ImageBasedLightGlb, TheLightHasTheMembersOfTheExtension) {
         EXPECT_EQ(light["irradianceCoefficients"][i], Json({static_cast<double>(i), -1.0, 0.5}));
     ASSERT_EQ(light["specularImages"].size(), 2u);
     for (const Json& faces : light["specularImages"]) EXPECT_EQ(faces.size(), 6u);
+}
+
+TEST(ImageBasedLightGlb, ALightThatIsNotTheSkySaysSo) {
+    GltfBuilder gltf;
+    gltf.add_root({{"mesh", gltf.add_triangle()}});
+    GltfImageBasedLight light = two_levels();
+    for (const bool is_sky : {false, true}) {
+        light.is_sky = is_sky;
+        const Json json = written(gltf, light).json["extensions"][kExtension]["lights"][0];
+        EXPECT_EQ(json.value("extras", Json()), is_sky ? Json() : Json({{"sky", false}}));
+    }
 }
 
 TEST(ImageBasedLightGlb, ItsImagesAreInTheFile) {
