@@ -2,7 +2,6 @@
 #include <tetralight/cli/grid_preview.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
