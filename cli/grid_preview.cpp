@@ -2,7 +2,6 @@
 #include <tetralight/cli/grid_preview.h>
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -38,8 +37,7 @@ std::vector<float> nearest_distances(const ProbeVolumeView& volume) {
 
 /// What the picture shows from its lower to its upper edge at a position, metres.
 double height_at(const Camera& camera, const glm::dvec3& position) {
-    return 2.0 * std::tan(0.5 * camera.fov_y_radians) *
-           glm::distance(position, glm::dvec3(camera.world_from_camera[3]));
+    return picture_height(camera).at(view_distance(camera, position));
 }
 
 /// Balls that do not touch, except those that would be too small to be visible.

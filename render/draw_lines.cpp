@@ -18,8 +18,8 @@ namespace {
 /// Distance of the near plane.
 constexpr double kNearest = 1e-4;
 
-/// A line is hidden if its depth exceeds that of a surface by this fraction. Probes may lie in a
-/// surface.
+/// A line is hidden if its depth exceeds that of a surface by this fraction of what the picture
+/// shows there from its lower to its upper edge. Probes may lie in a surface.
 constexpr double kDepthTolerance = 2e-3;
 
 /// A line in the picture: x and y in pixels, z = depth.
@@ -27,6 +27,14 @@ struct PictureLine {
     glm::dvec3 a{0.0};
     glm::dvec3 b{0.0};
 };
+
+/// Depth of a point of a line; `t`: its place in the picture, from 0 at `a` to 1 at `b`. What is
+/// linear in the picture is depth divided by the size of a pixel.
+double depth_at(const Projection& projection, const PictureLine& line, double t) {
+    const double toward_a = (1.0 - t) * projection.pixel_size(line.b.z);
+    const double toward_b = t * projection.pixel_size(line.a.z);
+    return glm::mix(line.a.z, line.b.z, toward_b / (toward_a + toward_b));
+}
 
 /// Clips at the near plane. Empty if the whole line is behind it.
 std::optional<PictureLine> project(const Projection& projection, const LineSegment& line) {
@@ -41,8 +49,9 @@ std::optional<PictureLine> project(const Projection& projection, const LineSegme
 /// Draws lines pixel by pixel along their major axis.
 class Pen {
   public:
-    Pen(Image8& image, const DepthImage& depth, const LineStyle& style)
-        : image_(image), depth_(depth), style_(style) {}
+    Pen(Image8& image, const DepthImage& depth, const Projection& projection,
+        const LineStyle& style)
+        : image_(image), depth_(depth), projection_(projection), style_(style) {}
 
     void draw(const PictureLine& line) {
         const glm::dvec2 a(line.a), offset = glm::dvec2(line.b) - a;
@@ -86,15 +95,16 @@ class Pen {
         const double distance = glm::distance(pixel, a + t * offset);
         const double coverage = std::clamp(0.5 * (1.0 + style_.width) - distance, 0.0, 1.0);
         if (coverage == 0.0) return;
-        const double depth = 1.0 / glm::mix(1.0 / line.a.z, 1.0 / line.b.z, t);
         const size_t index = static_cast<size_t>(y) * image_.width + static_cast<size_t>(x);
+        const double depth = depth_at(projection_, line, t);
         blend(image_.pixels[index], static_cast<float>(coverage) * opacity(index, depth));
     }
 
     [[nodiscard]] float opacity(size_t pixel, double depth) const {
+        const double tolerance = kDepthTolerance * image_.height * projection_.pixel_size(depth);
         int visible_count = 0;
         for (const float surface : depth_.depths[pixel]) {
-            visible_count += depth <= static_cast<double>(surface) * (1.0 + kDepthTolerance);
+            visible_count += depth <= static_cast<double>(surface) + tolerance;
         }
         return glm::mix(style_.hidden_opacity, style_.opacity,
                         static_cast<float>(visible_count) / 4.0f);
@@ -110,6 +120,7 @@ class Pen {
 
     Image8& image_;
     const DepthImage& depth_;
+    const Projection& projection_;
     const LineStyle& style_;
 };
 
@@ -120,16 +131,14 @@ DepthImage render_depth(const Camera& camera, const RenderSettings& settings,
     DepthImage image{settings.width, settings.height, {}};
     image.depths.resize(size_t{settings.width} * settings.height);
     const Projection projection(camera, settings.width, settings.height);
-    const glm::dvec3 eye(camera.world_from_camera[3]);
     parallel_for(settings.height, settings.thread_count, [&](size_t row) {
         for (uint32_t column = 0; column < settings.width; ++column) {
             for (int i = 0; i < 4; ++i) {
                 const double y = static_cast<double>(row) + (i / 2 == 0 ? 0.25 : 0.75);
-                const glm::vec3 direction =
-                    projection.direction(column + (i % 2 == 0 ? 0.25 : 0.75), y);
-                const auto distance = static_cast<double>(trace(eye, direction));
+                const ViewRay ray = projection.ray(column + (i % 2 == 0 ? 0.25 : 0.75), y);
+                const auto distance = static_cast<double>(trace(ray.origin, ray.direction));
                 image.depths[row * settings.width + column][i] =
-                    static_cast<float>(projection.depth(direction, distance));
+                    static_cast<float>(projection.depth(ray.direction, distance));
             }
         }
     });
@@ -141,7 +150,7 @@ void draw_lines(Image8& image, const DepthImage& depth, const Camera& camera,
     TETRALIGHT_ASSERT(image.width == depth.width && image.height == depth.height,
                       "picture and depth image must have the same size");
     const Projection projection(camera, image.width, image.height);
-    Pen pen(image, depth, style);
+    Pen pen(image, depth, projection, style);
     for (const LineSegment& line : lines) {
         const auto projected = project(projection, line);
         if (projected) pen.draw(*projected);

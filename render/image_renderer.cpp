@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include <tetralight/bake/image/fraction_byte.h>
 #include <tetralight/bake/image/srgb.h>
@@ -17,8 +19,7 @@ constexpr float kMiddleGrey = 0.18f;
 class View {
   public:
     View(const Camera& camera, const RenderSettings& settings, const TraceView& trace)
-        : eye_(camera.world_from_camera[3]),
-          projection_(camera, settings.width, settings.height),
+        : projection_(camera, settings.width, settings.height),
           settings_(settings),
           trace_(trace) {}
 
@@ -28,13 +29,13 @@ class View {
         for (uint32_t i = 0; i < n * n; ++i) {
             const double x = column + (i % n + 0.5) / n;
             const double y = row + (i / n + 0.5) / n;
-            sum += trace_(eye_, projection_.direction(x, y));
+            const ViewRay ray = projection_.ray(x, y);
+            sum += trace_(ray.origin, ray.direction);
         }
         return sum / static_cast<float>(n * n);
     }
 
   private:
-    glm::dvec3 eye_;
     Projection projection_;
     const RenderSettings& settings_;
     const TraceView& trace_;
@@ -42,16 +43,30 @@ class View {
 
 }  // namespace
 
-Projection::Projection(const Camera& camera, uint32_t width, uint32_t height)
-    : camera_(camera),
-      width_(width),
-      height_(height),
-      pixel_size_(2.0 * std::tan(0.5 * camera.fov_y_radians) / height) {}
+PictureHeight picture_height(const Camera& camera) {
+    if (camera.half_height) return {2.0 * *camera.half_height, 0.0};
+    return {0.0, 2.0 * std::tan(0.5 * camera.fov_y_radians)};
+}
 
-glm::vec3 Projection::direction(double x, double y) const {
-    const glm::dvec4 local((x - 0.5 * width_) * pixel_size_, (0.5 * height_ - y) * pixel_size_,
-                           -1.0, 0.0);
-    return glm::vec3(glm::normalize(glm::dvec3(camera_.world_from_camera * local)));
+double view_distance(const Camera& camera, const glm::dvec3& position) {
+    const glm::dvec3 offset = position - glm::dvec3(camera.world_from_camera[3]);
+    return camera.half_height ? -glm::dot(offset, glm::dvec3(camera.world_from_camera[2]))
+                              : glm::length(offset);
+}
+
+Projection::Projection(const Camera& camera, uint32_t width, uint32_t height)
+    : camera_(camera), width_(width), height_(height) {
+    const PictureHeight all = picture_height(camera);
+    pixel_ = {all.at_eye / height, all.per_metre / height};
+}
+
+ViewRay Projection::ray(double x, double y) const {
+    const glm::dvec2 place(x - 0.5 * width_, 0.5 * height_ - y);
+    const glm::dvec4 origin(pixel_.at_eye * place, 0.0, 1.0);
+    const glm::dvec4 direction(pixel_.per_metre * place, -1.0, 0.0);
+    const glm::dmat4& world_from_view = camera_.world_from_camera;
+    return {glm::dvec3(world_from_view * origin),
+            glm::vec3(glm::normalize(glm::dvec3(world_from_view * direction)))};
 }
 
 glm::dvec3 Projection::view_from_world(const glm::dvec3& position) const {
@@ -63,7 +78,7 @@ glm::dvec3 Projection::view_from_world(const glm::dvec3& position) const {
 }
 
 glm::dvec3 Projection::picture_from_view(const glm::dvec3& position) const {
-    const double pixels = 1.0 / (pixel_size_ * -position.z);
+    const double pixels = 1.0 / pixel_size(-position.z);
     return {0.5 * width_ + position.x * pixels, 0.5 * height_ - position.y * pixels, -position.z};
 }
 

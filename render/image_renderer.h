@@ -14,14 +14,38 @@ namespace tetralight {
 /// along -Z.
 [[nodiscard]] Camera look_at(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_radians);
 
-/// Projection of a pinhole camera with square pixels. Picture coordinates are pixels right and down
-/// from the upper left corner; the center of the first pixel is (0.5, 0.5).
+/// What a picture shows from its lower to its upper edge, metres: a linear function of depth.
+struct PictureHeight {
+    double at_eye = 0.0;     ///< 0 for perspective cameras
+    double per_metre = 0.0;  ///< 0 for orthographic cameras
+
+    [[nodiscard]] double at(double depth) const { return at_eye + per_metre * depth; }
+};
+
+[[nodiscard]] PictureHeight picture_height(const Camera& camera);
+
+/// Distance of a position from the start of the ray that sees it: from the eye, or from the plane
+/// through an orthographic camera.
+[[nodiscard]] double view_distance(const Camera& camera, const glm::dvec3& position);
+
+/// A ray of a picture, world space.
+struct ViewRay {
+    glm::dvec3 origin{0.0};
+    glm::vec3 direction{0.0f};  ///< unit
+};
+
+/// Projection of a perspective or orthographic camera with square pixels. Picture coordinates are
+/// pixels right and down from the upper left corner; the center of the first pixel is (0.5, 0.5).
 class Projection {
   public:
     Projection(const Camera& camera, uint32_t width, uint32_t height);
 
-    /// Unit world direction through a point of the picture.
-    [[nodiscard]] glm::vec3 direction(double x, double y) const;
+    /// The ray through a point of the picture. It starts at the eye, or in the plane through an
+    /// orthographic camera.
+    [[nodiscard]] ViewRay ray(double x, double y) const;
+
+    /// Width and height of a pixel at a depth, metres.
+    [[nodiscard]] double pixel_size(double depth) const { return pixel_.at(depth); }
 
     /// View space: right, up and back from the eye.
     [[nodiscard]] glm::dvec3 view_from_world(const glm::dvec3& position) const;
@@ -29,14 +53,14 @@ class Projection {
     /// Picture coordinates and depth (-z) of a position in view space. Precondition: z < 0.
     [[nodiscard]] glm::dvec3 picture_from_view(const glm::dvec3& position) const;
 
-    /// Depth of a point at a distance from the eye in a unit direction.
+    /// Depth of a point at a distance along a ray of the picture with this direction.
     [[nodiscard]] double depth(glm::vec3 direction, double distance) const;
 
   private:
     Camera camera_;
     double width_;
     double height_;
-    double pixel_size_;  // at depth 1
+    PictureHeight pixel_;  // of one row
 };
 
 struct RenderSettings {

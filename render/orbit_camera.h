@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include <tetralight/bake/scene/scene.h>
 
@@ -16,7 +17,7 @@ class OrbitCamera {
     /// Rotates about the vertical axis and up or down, not quite to the poles.
     void turn(double yaw_radians, double pitch_radians);
 
-    /// Multiplies the distance to the target.
+    /// Multiplies the distance to the target, and what an orthographic camera shows.
     void zoom(double factor);
 
     [[nodiscard]] Camera camera() const;
@@ -27,6 +28,7 @@ class OrbitCamera {
     double yaw_;
     double pitch_;
     double fov_y_radians_;
+    std::optional<double> half_height_;
 };
 
 }  // namespace tetralight

@@ -44,7 +44,7 @@ struct SceneReading {
 /// EXT_mesh_gpu_instancing; KHR_mesh_quantization; `extras.contribute_gi`, `extras.portal` and
 /// `extras.reflection_probe` of a node; `extras.walkable`, `extras.in_reflections`,
 /// `extras.receive_gi`, `extras.lightmap_scale`, `extras.stitch_seams` and `extras.light_probes` of
-/// a node (inherited); perspective cameras; `extras.sky.radiance` of the scene, three numbers;
+/// a node (inherited); cameras; `extras.sky.radiance` of the scene, three numbers;
 /// KHR_materials_unlit; extras of a light or of its node, and of materials (docs/scenes.md);
 /// `extras.light_probe_group: true` of a node, whose POINTS primitive, or else whose child nodes,
 /// are the probes, with `extras.dering` and `extras.rendering_layers`; `extras.probe_adjustment` of

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -161,11 +162,15 @@ struct Environment {
     bool operator==(const Environment&) const = default;
 };
 
-/// A perspective camera: it looks along its −Z, with +Y up in the picture.
+/// A camera: it looks along its −Z, with +Y up in the picture.
 struct Camera {
     std::string name;
     glm::dmat4 world_from_camera{1.0};
+    /// Vertical field of view of a perspective camera.
     double fov_y_radians = 0.8;
+    /// Half the height of the picture of an orthographic camera, metres, above 0. Empty for a
+    /// perspective camera.
+    std::optional<double> half_height = std::nullopt;
 
     bool operator==(const Camera&) const = default;
 };

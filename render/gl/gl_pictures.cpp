@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tetralight/render/gl/gl_pictures.h>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 #include <utility>
+
+#include <tetralight/bake/scene/scene_bounds.h>
 
 namespace tetralight {
 namespace {
 
 constexpr uint32_t kBallSubdivisions = 3;
+
+/// A sphere (xyz: center, w: radius) that holds all balls.
+std::optional<glm::dvec4> bounds_of(std::span<const LightBall> balls) {
+    std::optional<WorldBox> box;
+    for (const LightBall& ball : balls) {
+        const WorldBox bounds{ball.center - double{ball.radius}, ball.center + double{ball.radius}};
+        box = box ? union_of(*box, bounds) : bounds;
+    }
+    if (!box) return std::nullopt;
+    return glm::dvec4(box->center(), 0.5 * glm::length(box->size()));
+}
 
 /// Renders the scene with balls by a member function of the renderer.
 template <class Image>
@@ -16,8 +31,8 @@ Result<Image> draw(Renderer& renderer, std::span<const LightBall> balls,
                                                    std::span<const SphereInstances>),
                    const Camera& camera, const RenderSettings& settings) {
     InstanceBuffer instances = make_light_balls(renderer, balls, kBallSubdivisions);
-    SphereInstances spheres{&instances, balls.size(), kBallSubdivisions, kNoIndex,
-                            CastsShadows::No};
+    SphereInstances spheres{&instances, balls.size(),     kBallSubdivisions,
+                            kNoIndex,   CastsShadows::No, bounds_of(balls)};
     return (renderer.*draw)(camera, settings, std::span(&spheres, 1));
 }
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <tetralight/bake/scene/scene_bounds.h>
+#include <tetralight/render/gl/detail/clip_space.h>
 #include <tetralight/render/gl/detail/frame.h>
 #include <tetralight/render/gl/driver.h>
 #include <tetralight/runtime/shade.h>
@@ -122,14 +123,13 @@ Renderer::Renderer(const Scene& scene, const ProbeVolumeView& volume, const Scen
       origin_(scene.instances.empty()
                   ? volume.info.world_origin
                   : scene_center(scene, [](const MeshInstance&) { return true; })),
+      bounds_(caster_bounds(scene, settings.sphere_bounds, origin_)),
       sky_(packed_sky(volume)),
       volume_(moved(make_shader_volume(volume), volume, origin_)),
       meshes_(scene, light),
       instances_(scene.instances.size()),
-      shadows_(moved(light.lights, origin_), light.lightmaps,
-               caster_bounds(scene, settings.sphere_bounds, origin_), settings.shadow_map_size),
+      shadows_(moved(light.lights, origin_), light.lightmaps, bounds_, settings.shadow_map_size),
       frame_(make_gl_buffer()) {
-    near_ = 1e-5f * caster_bounds(scene, settings.sphere_bounds, origin_).w;
     for (const Lppv& lppv : light.proxy_volumes) proxies_.emplace_back(lppv, origin_);
     shadow_color_ = light.shadow_color;
     has_box_projection_ = light.has_box_projection;
@@ -202,7 +202,8 @@ Result<DepthImage> Renderer::depth(const Camera& camera, const RenderSettings& s
     glClearDepth(0.0);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_depth(clip_from_space(camera, target), spheres);
+    const detail::ClipSpace clip = clip_space(camera, target, spheres);
+    draw_depth(clip_from_space(camera, clip), spheres);
     const std::vector<float> depths = target.read_depth();
     if (auto status = messages_.check(); !status) return status.error();
     DepthImage image{settings.width, settings.height, {}};
@@ -211,7 +212,8 @@ Result<DepthImage> Renderer::depth(const Camera& camera, const RenderSettings& s
             auto& quarters = image.depths.emplace_back();
             for (uint32_t i = 0; i < 4; ++i) {
                 const float value = depths[(size_t{2} * row + i / 2) * width + 2 * column + i % 2];
-                quarters[i] = value > 0.0f ? near_ / value : std::numeric_limits<float>::infinity();
+                quarters[i] = value > 0.0f ? static_cast<float>(clip.depth(double{value}))
+                                           : std::numeric_limits<float>::infinity();
             }
         }
     }

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +34,10 @@
 
 namespace tetralight {
 
+namespace detail {
+class ClipSpace;
+}
+
 enum class CastsShadows : bool { No, Yes };
 
 /// Spheres that are drawn with the scene: instances of a unit sphere.
@@ -44,12 +50,16 @@ struct SphereInstances {
     /// For instances that are lit by a proxy volume: index into `SceneLight::proxy_volumes`.
     uint32_t proxy_volume = kNoIndex;
     CastsShadows casts_shadows = CastsShadows::Yes;
+    /// A sphere that holds all of them (xyz: center, w: radius, world space). Empty if
+    /// `RendererSettings::sphere_bounds` holds them.
+    std::optional<glm::dvec4> bounds = std::nullopt;
 };
 
 struct RendererSettings {
     /// Width and height of a shadow map in texels.
     uint32_t shadow_map_size = 2048;
-    /// Spheres (xyz: center, w: radius, world space) that bound all `SphereInstances`, for shadows.
+    /// Spheres (xyz: center, w: radius, world space) that bound all `SphereInstances` that cast
+    /// shadows.
     std::span<const glm::dvec4> sphere_bounds = {};
 };
 
@@ -103,16 +113,20 @@ class Renderer {
     void draw_shadows(std::span<const SphereInstances> spheres);
     void draw_depth(const glm::mat4& clip_from_space, std::span<const SphereInstances> spheres);
     void draw_surfaces(std::span<const SphereInstances> spheres);
-    void draw_blended(const glm::vec3& eye);
+    void draw_blended(const Camera& camera);
     void draw_batch(const Batch& batch, Pass pass);
     void draw_spheres(const SphereInstances& group, Pass pass);
     void write_frame(const Camera& camera, const RenderTarget& target);
-    [[nodiscard]] glm::mat4 clip_from_space(const Camera& camera, const RenderTarget& target) const;
+    [[nodiscard]] detail::ClipSpace clip_space(const Camera& camera, const RenderTarget& target,
+                                               std::span<const SphereInstances> spheres) const;
+    [[nodiscard]] glm::mat4 clip_from_space(const Camera& camera,
+                                            const detail::ClipSpace& clip) const;
 
     DebugMessages messages_;
     RendererShaders shaders_;
     glm::dvec3 origin_;
-    float near_ = 1e-3f;
+    /// A sphere around the scene and the spheres that cast shadows (xyz: center, w: radius).
+    glm::vec4 bounds_{0.0f, 0.0f, 0.0f, 1.0f};
     PackedSh sky_{};
     VolumeBuffers volume_;
     SceneMeshes meshes_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of a frame: shadow maps, depth, surfaces, sky, blended surfaces.
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
 
+#include <tetralight/render/gl/detail/clip_space.h>
 #include <tetralight/render/gl/detail/frame.h>
 #include <tetralight/render/gl/renderer.h>
 
@@ -19,29 +19,40 @@ void set_culling(bool is_on, bool is_mirrored) {
 
 }  // namespace
 
-glm::mat4 Renderer::clip_from_space(const Camera& camera, const RenderTarget& target) const {
-    const double height = std::tan(0.5 * camera.fov_y_radians);
-    const double width = height * target.width() / target.height();
+detail::ClipSpace Renderer::clip_space(const Camera& camera, const RenderTarget& target,
+                                       std::span<const SphereInstances> spheres) const {
+    const double near = 1e-5 * double{bounds_.w};
+    double far = std::numeric_limits<double>::infinity();
+    if (camera.half_height) {
+        // Surfaces at the far plane itself are not drawn.
+        const auto end = [&](const glm::dvec4& sphere) {
+            return view_distance(camera, glm::dvec3(sphere)) + 1.01 * sphere.w;
+        };
+        far = std::max(double{bounds_.w}, end(glm::dvec4(origin_, 0.0) + glm::dvec4(bounds_)));
+        for (const SphereInstances& group : spheres) {
+            if (group.bounds) far = std::max(far, end(*group.bounds));
+        }
+    }
+    return {camera, static_cast<double>(target.width()) / target.height(), near, far};
+}
+
+glm::mat4 Renderer::clip_from_space(const Camera& camera, const detail::ClipSpace& clip) const {
     glm::dmat4 view(1.0);  // rows: right, up, back
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3 axis(camera.world_from_camera[i]);
         for (int j = 0; j < 3; ++j) view[j][i] = axis[j];
     }
     view = glm::translate(view, origin_ - glm::dvec3(camera.world_from_camera[3]));
-    // Depth is near / distance: 1 at the near plane, 0 at infinity, with even relative precision.
-    glm::dmat4 clip(0.0);
-    clip[0][0] = 1.0 / width;
-    clip[1][1] = 1.0 / height;
-    clip[2][3] = -1.0;
-    clip[3][2] = near_;
-    return glm::mat4(clip * view);
+    return glm::mat4(clip.clip_from_view() * view);
 }
 
 void Renderer::write_frame(const Camera& camera, const RenderTarget& target) {
-    const double height = std::tan(0.5 * camera.fov_y_radians);
+    const double height = 0.5 * picture_height(camera).per_metre;
     const double width = height * target.width() / target.height();
     detail::Frame frame{};
-    frame.eye = glm::vec4(glm::vec3(glm::dvec3(camera.world_from_camera[3]) - origin_), 1.0f);
+    frame.eye = camera.half_height
+                    ? glm::vec4(camera.world_from_camera[2])
+                    : glm::vec4(camera.world_from_camera[3] - glm::dvec4(origin_, 0.0));
     frame.right = glm::vec4(camera.world_from_camera[0] * width);
     frame.up = glm::vec4(camera.world_from_camera[1] * height);
     frame.ahead = glm::vec4(-camera.world_from_camera[2]);
@@ -151,13 +162,14 @@ void Renderer::draw_surfaces(std::span<const SphereInstances> spheres) {
     for (const SphereInstances& group : spheres) draw_spheres(group, Pass::Lit);
 }
 
-void Renderer::draw_blended(const glm::vec3& eye) {
+void Renderer::draw_blended(const Camera& camera) {
     std::vector<const Batch*> blended;
     for (const Batch& batch : batches_) {
         if (meshes_.mesh(batch.mesh).alpha_mode == AlphaMode::Blend) blended.push_back(&batch);
     }
-    std::ranges::sort(blended, std::greater{},
-                      [&](const Batch* batch) { return glm::distance(batch->center, eye); });
+    std::ranges::sort(blended, std::greater{}, [&](const Batch* batch) {
+        return view_distance(camera, origin_ + glm::dvec3(batch->center));
+    });
     glDepthFunc(GL_GREATER);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);
@@ -182,7 +194,7 @@ Status Renderer::draw(const Camera& camera, const RenderTarget& target,
     glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     glDepthMask(GL_TRUE);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    const glm::mat4 matrix = clip_from_space(camera, target);
+    const glm::mat4 matrix = clip_from_space(camera, clip_space(camera, target, spheres));
     draw_depth(matrix, spheres);
 
     write_frame(camera, target);
@@ -197,7 +209,7 @@ Status Renderer::draw(const Camera& camera, const RenderTarget& target,
     glDisable(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLES, 0, 3);  // the depth test EQUAL passes where depth is still 0
     glUseProgram(shaders_.lit.name());
-    draw_blended(glm::vec3(glm::dvec3(camera.world_from_camera[3]) - origin_));
+    draw_blended(camera);
     target.resolve();
     instances_.end_draw();
     for (const SphereInstances& group : spheres) group.instances->end_draw();

@@ -16,6 +16,23 @@ const std::string kFarScene =
     "bufferViews": [{"buffer": 0, "byteLength": 36}],
     "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIA/"}]})";
 
+/// A white triangle of 1.1 m along +X and +Z that faces up, under an orthographic camera that looks
+/// down and shows 4 m from its lower to its upper edge.
+const std::string kPlanScene =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+    "nodes": [{"name": "sheet", "mesh": 0, "scale": [1.1, 1.1, 1.1]},
+              {"name": "front", "camera": 0, "translation": [0, 1, 5]},
+              {"name": "plan", "camera": 1, "translation": [0, 3, 0],
+               "rotation": [-0.70710678, 0, 0, 0.70710678], "scale": [5, 5, 5]}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}},
+                {"type": "orthographic",
+                 "orthographic": {"xmag": 9, "ymag": 2, "znear": 0.1, "zfar": 10}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 0, 1]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAA"}]})";
+
 class Render : public CommandFixture {
   protected:
     Render() { bake_courtyard("v.probes"); }
@@ -50,6 +67,22 @@ TEST_F(Render, TakesTheFirstCameraUnlessToldOtherwise) {
 
 TEST_F(Render, TakesACameraByName) {
     EXPECT_TRUE(picture({"--camera", "camera_interior"}) != picture({"--camera", "camera"}));
+}
+
+TEST_F(Render, TakesAnOrthographicCameraByName) {
+    write("plan.gltf", kPlanScene);
+    succeed({"render", "plan.gltf", "v.probes", "-o", "r.png", "--width", "24", "--height", "16",
+             "--antialias", "1", "--show", "albedo", "--camera", "plan"});
+    const auto image = decode_picture(read("r.png"));
+    ASSERT_TRUE(image);
+    for (uint32_t row = 0; row < 16; ++row) {
+        for (uint32_t column = 0; column < 24; ++column) {
+            // Pixels of 0.25 m; +X is right, +Z is down.
+            const double x = 0.25 * (column + 0.5 - 12.0), z = 0.25 * (row + 0.5 - 8.0);
+            const bool is_sheet = x > 0.0 && z > 0.0 && x + z < 1.1;
+            EXPECT_EQ(image->pixels[row * 24 + column][0] > 128, is_sheet) << column << " " << row;
+        }
+    }
 }
 
 TEST_F(Render, TakesACameraByPosition) {

@@ -17,13 +17,21 @@ const Camera kCamera = look_at({0, 0, 20}, {0, 0, 0}, 2.0 * std::atan(0.5));
 
 const LineStyle kStyle{glm::vec3(1.0f), 1.0f, 0.2f, 1.0f};
 
+/// Sees the same 20 × 20 metres at any depth.
+Camera orthographic() {
+    Camera camera = kCamera;
+    camera.half_height = 10.0;
+    return camera;
+}
+
 /// A black picture with white lines in front of, or behind, what has this depth.
-Image8 drawn(const std::vector<LineSegment>& lines, float depth = kFar) {
+Image8 drawn(const std::vector<LineSegment>& lines, float depth = kFar,
+             const Camera& camera = kCamera) {
     Image8 image{kSize, kSize, {}};
     image.pixels.assign(size_t{kSize} * kSize, {0, 0, 0, 255});
     DepthImage depths{kSize, kSize, {}};
     depths.depths.assign(size_t{kSize} * kSize, {depth, depth, depth, depth});
-    draw_lines(image, depths, kCamera, lines, kStyle);
+    draw_lines(image, depths, camera, lines, kStyle);
     return image;
 }
 
@@ -89,6 +97,27 @@ TEST(DrawLines, GoesBehindASurfaceWhereItsDepthDoes) {
     EXPECT_NEAR(row_pair(11), 0.2, 0.05);
 }
 
+TEST(DrawLines, HasTheSamePlaceAtAnyDepthInOrthographicPictures) {
+    for (const double z : {0.0, 15.0, -1000.0}) {
+        const Image8 image =
+            drawn({{glm::dvec3(-8, 0.5, z), glm::dvec3(8, 0.5, z)}}, kFar, orthographic());
+        for (uint32_t x = 3; x < 17; ++x) EXPECT_EQ(column_sum(image, x), 1.0) << x;
+        EXPECT_EQ(coverage(image, 10, 9), 1.0);
+        EXPECT_EQ(column_sum(image, 0), 0.0);
+    }
+}
+
+TEST(DrawLines, HasADepthThatIsLinearInOrthographicPictures) {
+    // From depth 16 at the left to 24 at the right: depth 18 is a quarter of the way, at x = -2.
+    const Image8 image =
+        drawn({{glm::dvec3(-4, 0.01, 4), glm::dvec3(4, 0.01, -4)}}, 18.0f, orthographic());
+    const auto row_pair = [&](uint32_t x) {
+        return coverage(image, x, 9) + coverage(image, x, 10);
+    };
+    EXPECT_NEAR(row_pair(7), 1.0, 0.05);
+    EXPECT_NEAR(row_pair(8), 0.2, 0.05);
+}
+
 TEST(DrawLines, LeavesOutWhatIsBehindTheEye) {
     EXPECT_EQ(sum_of(drawn({{glm::dvec3(-1, 0, 21), glm::dvec3(1, 0, 30)}})), 0.0);
     EXPECT_EQ(sum_of(drawn({{glm::dvec3(1, 1, 1), glm::dvec3(1, 1, 1)}})), 0.0);
@@ -102,8 +131,10 @@ TEST(RenderDepth, IsThatAlongTheViewOfAPlaneThatFacesIt) {
     const auto plane = [](const glm::dvec3& origin, glm::vec3 direction) {
         return static_cast<float>(-origin.z / static_cast<double>(direction.z));
     };
-    for (const auto& pixel : render_depth(kCamera, settings, plane).depths) {
-        for (const float depth : pixel) EXPECT_NEAR(depth, 20.0f, 1e-4f);
+    for (const Camera& camera : {kCamera, orthographic()}) {
+        for (const auto& pixel : render_depth(camera, settings, plane).depths) {
+            for (const float depth : pixel) EXPECT_NEAR(depth, 20.0f, 1e-4f);
+        }
     }
 }
 

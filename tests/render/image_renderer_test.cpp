@@ -59,6 +59,31 @@ TEST(LookAt, AxesAreOrthonormalAndRightHandedFromEverywhere) {
     }
 }
 
+/// The same camera with parallel rays.
+Camera with_half_height(Camera camera, double half_height) {
+    camera.half_height = half_height;
+    return camera;
+}
+
+TEST(PictureHeight, GrowsWithDepthInPerspectiveAlone) {
+    const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, 2.0 * std::atan(0.5));
+    EXPECT_NEAR(picture_height(camera).at(3.0), 3.0, 1e-12);
+    EXPECT_EQ(picture_height(with_half_height(camera, 4.0)).at(3.0), 8.0);
+}
+
+TEST(RenderView, RaysOfAnOrthographicCameraAreParallelAndStartInThePlaneThroughIt) {
+    const Camera camera = with_half_height(look_at({0, 0, 5}, {0, 0, 0}, 1.0), 2.0);
+    for (const glm::vec3& direction : render_view(camera, small(4, 2), show_direction).pixels) {
+        EXPECT_EQ(direction, glm::vec3(0, 0, -1));
+    }
+    const ImageF origins = render_view(
+        camera, small(4, 2), [](const glm::dvec3& origin, glm::vec3) { return glm::vec3(origin); });
+    for (size_t i = 0; i < 8; ++i) {  // pixels of 2 m
+        const auto column = static_cast<float>(i % 4), row = static_cast<float>(i / 4);
+        EXPECT_EQ(origins.pixels[i], glm::vec3(2.0f * column - 3.0f, 1.0f - 2.0f * row, 5.0f));
+    }
+}
+
 TEST(RenderView, RightOfTheTargetIsRightInThePictureAndUpIsUp) {
     // From +X towards the origin: −Z is on the right hand.
     const Camera camera = look_at({5, 0, 0}, {0, 0, 0}, 1.0);
@@ -130,15 +155,25 @@ TEST(Develop, BlackStaysBlack) {
     EXPECT_EQ(image.pixels[0], (std::array<uint8_t, 4>{0, 0, 0, 255}));
 }
 
-TEST(Projection, FindsThePlaceThatADirectionCameFrom) {
-    const Projection projection(look_at({1, 2, 3}, {-4, 1, 0}, 0.9), 640, 360);
-    for (const glm::dvec2 place : {glm::dvec2(0, 0), glm::dvec2(320, 180), glm::dvec2(600, 20)}) {
-        const glm::vec3 direction = projection.direction(place.x, place.y);
-        const glm::dvec3 seen = glm::dvec3(1, 2, 3) + 7.0 * glm::dvec3(direction);
-        const glm::dvec3 found = projection.picture_from_view(projection.view_from_world(seen));
-        EXPECT_NEAR(found.x, place.x, 1e-3);
-        EXPECT_NEAR(found.y, place.y, 1e-3);
-        EXPECT_NEAR(found.z, projection.depth(direction, 7.0), 1e-5);
+TEST(Projection, FindsThePlaceThatARayCameFrom) {
+    const Camera perspective = look_at({1, 2, 3}, {-4, 1, 0}, 0.9);
+    for (const Camera& camera : {perspective, with_half_height(perspective, 2.5)}) {
+        const Projection projection(camera, 640, 360);
+        for (const glm::dvec2 place :
+             {glm::dvec2(0, 0), glm::dvec2(320, 180), glm::dvec2(600, 20)}) {
+            const ViewRay ray = projection.ray(place.x, place.y);
+            const glm::dvec3 seen = ray.origin + 7.0 * glm::dvec3(ray.direction);
+            const glm::dvec3 view = projection.view_from_world(seen);
+            const glm::dvec3 found = projection.picture_from_view(view);
+            EXPECT_NEAR(found.x, place.x, 1e-3);
+            EXPECT_NEAR(found.y, place.y, 1e-3);
+            EXPECT_NEAR(found.z, projection.depth(ray.direction, 7.0), 1e-5);
+            EXPECT_NEAR(view_distance(camera, seen), 7.0, 1e-5);
+            // A pixel further right at the same depth.
+            const double step = projection.pixel_size(found.z);
+            EXPECT_NEAR(projection.picture_from_view(view + glm::dvec3(step, 0, 0)).x,
+                        found.x + 1.0, 1e-9);
+        }
     }
 }
 

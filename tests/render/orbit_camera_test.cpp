@@ -34,6 +34,15 @@ TEST(OrbitCamera, TurnsAtTheSameDistance) {
     EXPECT_NEAR(glm::distance(eye(orbit), kTarget + glm::dvec3(10, 0, 0)), 0.0, 1e-9);
 }
 
+TEST(OrbitCamera, ZoomsWhatAnOrthographicCameraShows) {
+    Camera start = look_at(kTarget + glm::dvec3(0, 0, 5), kTarget, 0.7);
+    EXPECT_EQ(OrbitCamera(start, kTarget).camera().half_height, std::nullopt);
+    start.half_height = 3.0;
+    OrbitCamera orbit(start, kTarget);
+    orbit.zoom(2.0);
+    EXPECT_EQ(orbit.camera().half_height, 6.0);
+}
+
 TEST(OrbitCamera, StopsShortOfThePoles) {
     OrbitCamera orbit(look_at(kTarget + glm::dvec3(0, 5, 0), kTarget, 0.7), kTarget);
     for (const double pitch : {9.0, -99.0}) {

@@ -64,6 +64,32 @@ TEST(RenderScene, EmissionIsAdded) {
                 kAlbedo + glm::vec3(5, 6, 7));
 }
 
+TEST(RenderScene, ABoxHasTheSameExtentsAtAnyDistanceInOrthographicPictures) {
+    // 8 m in 48 pixels: six a metre, and the origin in the middle.
+    RenderSettings settings;
+    settings.width = 64;
+    settings.height = 48;
+    settings.samples_per_axis = 1;
+    ProbeVolume volume;
+    for (const float z : {2.0f, -100.0f}) {
+        Scene scene;
+        test::add_box(scene, test::diffuse(glm::vec3(0.0f), glm::vec3(1.0f)), test::Facing::Outward,
+                      {-1.0f, 0.5f, z}, {1.5f, 2.0f, z + 1.0f});
+        Camera camera = look_at({0, 0, 5}, {0, 0, 0}, 1.0);
+        camera.half_height = 4.0;
+        const auto image = render_scene(scene, volume.view(), camera, settings);
+        ASSERT_TRUE(image);
+        for (uint32_t row = 0; row < 48; ++row) {
+            for (uint32_t column = 0; column < 64; ++column) {
+                const bool is_box =
+                    column >= 32 - 6 && column < 32 + 9 && row >= 24 - 12 && row < 24 - 3;
+                EXPECT_EQ(image->pixels[row * 64 + column], glm::vec3(is_box ? 1.0f : 0.0f))
+                    << column << " " << row;
+            }
+        }
+    }
+}
+
 TEST(RenderScene, SkyStandsBehind) {
     const ProbeVolume volume = constant_volume(glm::vec3(1.0f), {4, 5, 6});
     expect_near(seen(floor_scene(), volume, {0, 1, 0}, {0, 2, 1}), {4, 5, 6});

@@ -3,6 +3,7 @@
 import * as three from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 
+import {firstView, View} from './first_view';
 import {placesOf, SceneLightmaps} from './lightmaps';
 import type {ShinySurface} from './mirror';
 import {lightByLppv, LppvUniforms} from './shaders';
@@ -12,8 +13,8 @@ const kShadowTexels = 2048;
 export interface SceneModel {
     root: three.Group;
     box: three.Box3;
-    /** Where the file's first camera is and looks, or nothing. */
-    view: {eye: number[]; target: number[]} | null;
+    /** Of the file's first camera, or nothing. */
+    view: View | null;
     /** Radiance of a constant sky that the file says, or nothing. */
     sky: number[] | null;
     /** Of the file, those that are not baked as a whole. */
@@ -45,16 +46,7 @@ export async function loadScene(bytes: ArrayBuffer, field: LppvUniforms): Promis
     const sky = (root.userData.sky as {radiance?: number[]} | undefined)?.radiance ?? null;
     const places = placesOf(gltf).filter(({mesh}) => mesh.material instanceof three.MeshLambertMaterial);
     const lightmaps = new SceneLightmaps(places, material => lightByLppv(material, field));
-    return {root, box, sky, lights, emitters, lightmaps, surfaces, view: viewOf(gltf.cameras[0], box)};
-}
-
-function viewOf(camera: three.Camera | undefined, box: three.Box3): SceneModel['view'] {
-    if (camera === undefined) return null;
-    const eye = camera.getWorldPosition(new three.Vector3());
-    const direction = camera.getWorldDirection(new three.Vector3());
-    const distance = box.getCenter(new three.Vector3()).sub(eye).dot(direction);
-    const target = eye.clone().addScaledVector(direction, Math.max(1, distance));
-    return {eye: eye.toArray(), target: target.toArray()};
+    return {root, box, sky, lights, emitters, lightmaps, surfaces, view: firstView(gltf.cameras[0], box)};
 }
 
 /** Returns its materials whose emission a bake sees, and adds what mirrors to `surfaces`. */

@@ -4,13 +4,14 @@ import * as three from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 import {middleGreyExposure, takeToneMappingBack} from './exposure';
+import {kFov} from './first_view';
 import {Sky} from './sky';
 
 export class Stage {
     readonly renderer: three.WebGLRenderer;
     readonly scene = new three.Scene();
     readonly sky = new Sky();
-    readonly camera = new three.PerspectiveCamera(50, 1, 0.05, 2000);
+    readonly camera = new three.PerspectiveCamera(kFov, 1, 0.05, 2000);
     readonly controls: OrbitControls;
     readonly canvas: HTMLCanvasElement;
     /** Called when the exposure was found, not given. */

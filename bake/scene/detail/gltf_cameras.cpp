@@ -2,6 +2,7 @@
 #include <tetralight/bake/scene/detail/gltf_cameras.h>
 
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tetralight::detail {
 namespace {
@@ -24,9 +25,13 @@ std::vector<Camera> read_cameras(const GltfDocument& document,
         const GltfNode& node = document.nodes[placed.node];
         if (node.camera == kNoIndex) continue;
         const GltfCamera& source = document.cameras[node.camera];
-        if (!source.fov_y_radians) continue;
-        const std::string& name = node.name.empty() ? source.name : node.name;
-        cameras.push_back({name, without_scale(placed.world_from_node), *source.fov_y_radians});
+        if (!source.fov_y_radians && !source.half_height) continue;
+        Camera camera;
+        camera.name = node.name.empty() ? source.name : node.name;
+        camera.world_from_camera = without_scale(placed.world_from_node);
+        camera.fov_y_radians = source.fov_y_radians.value_or(camera.fov_y_radians);
+        camera.half_height = source.half_height;
+        cameras.push_back(std::move(camera));
     }
     return cameras;
 }

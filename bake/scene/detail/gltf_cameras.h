@@ -9,8 +9,8 @@
 
 namespace tetralight::detail {
 
-/// The scene's perspective cameras; others are left out. A camera is named after its node, or else
-/// by its own name.
+/// The scene's perspective and orthographic cameras; others are left out. A camera is named after
+/// its node, or else by its own name.
 [[nodiscard]] std::vector<Camera> read_cameras(const GltfDocument& document,
                                                std::span<const GltfWorldNode> nodes);
 

@@ -223,6 +223,8 @@ struct GltfCamera {
     std::string name;
     /// Empty if the camera is not a perspective one.
     std::optional<double> fov_y_radians;
+    /// `ymag`, above 0. Empty if the camera is not an orthographic one.
+    std::optional<double> half_height;
 };
 
 /// EXT_lights_image_based.

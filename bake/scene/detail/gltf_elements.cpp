@@ -182,6 +182,8 @@ GltfCamera camera_from(const json& camera) {
     result.name = string_at(camera, "name");
     const std::string type = string_at(camera, "type");
     if (type == "perspective") result.fov_y_radians = number_at(camera, "perspective/yfov", 0.0);
+    const double half_height = number_at(camera, "orthographic/ymag", 0.0);
+    if (type == "orthographic" && half_height > 0.0) result.half_height = half_height;
     return result;
 }
 

@@ -183,19 +183,22 @@ void add_materials(const json& source, PartList& parts) {
                            false},
                           place);
             }
-            if (kind == "cameras") {
-                const std::string type = string_at(element, "type");
-                if (type == "perspective") return;
-                parts.add({PartUse::Ignored,
-                           "cameras",
-                           0,
-                           {},
-                           str_cat("type \"", type, "\" is not perspective"),
-                           "",
-                           false},
-                          place);
-            }
         });
+}
+
+void add_cameras(const GltfDocument& document, const json& source, PartList& parts) {
+    for (uint32_t i = 0; i < document.cameras.size(); ++i) {
+        const GltfCamera& camera = document.cameras[i];
+        if (camera.fov_y_radians || camera.half_height) continue;
+        const json& element = array_at(source, "cameras")[i];
+        const std::string type = string_at(element, "type");
+        const std::string note =
+            type == "orthographic"
+                ? str_cat("ymag ", number_at(element, "orthographic/ymag", 0.0), " is not above 0")
+                : str_cat("type \"", type, "\" is neither perspective nor orthographic");
+        parts.add({PartUse::Ignored, "cameras", 0, {}, note, "", false},
+                  gltf_place("camera", i, camera.name));
+    }
 }
 
 /// Nodes that the scene does not lead to.
@@ -245,6 +248,7 @@ void add_unread_parts(const json& source, const GltfDocument& document, PartList
     add_extensions(source, document, parts);
     add_primitives(document, parts);
     add_materials(source, parts);
+    add_cameras(document, source, parts);
     add_other_scenes(source, document, parts);
     add_other_nodes(document, parts);
 }

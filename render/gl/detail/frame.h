@@ -9,9 +9,11 @@ namespace tetralight::detail {
 
 /// The uniform block `Frame` of the shaders (std140).
 struct Frame {
-    glm::vec4 eye;    ///< position in render space
-    glm::vec4 right;  ///< length: half the width of the picture at distance 1
-    glm::vec4 up;     ///< length: half the height of the picture at distance 1
+    /// Position of the eye in render space, w = 1. Orthographic cameras: unit vector to the eye,
+    /// w = 0.
+    glm::vec4 eye;
+    glm::vec4 right;  ///< length: what half the picture's width grows by per metre of depth
+    glm::vec4 up;     ///< length: what half the picture's height grows by per metre of depth
     glm::vec4 ahead;
     /// Lights; reflection probes; 1 = box projection; levels of the cubes - 1.
     glm::uvec4 counts;

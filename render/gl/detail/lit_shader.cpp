@@ -234,7 +234,8 @@ void main() {
         return;
     }
     vec3 flat_normal = normalize(cross(dFdx(position), dFdy(position)));
-    if (dot(flat_normal, eye.xyz - position) < 0.0) flat_normal = -flat_normal;
+    vec3 to_eye = eye.xyz - eye.w * position;
+    if (dot(flat_normal, to_eye) < 0.0) flat_normal = -flat_normal;
     vec3 unit_normal = dot(normal, normal) > 0.0
                            ? normalize(gl_FrontFacing ? normal : -normal) : flat_normal;
     if (instances[instance].is_round == 1u || any(isnan(flat_normal))) flat_normal = unit_normal;
@@ -248,7 +249,7 @@ void main() {
     ShadingPoint point;
     point.normal = unit_normal;
     point.flat_normal = flat_normal;
-    point.to_eye = normalize(eye.xyz - position);
+    point.to_eye = normalize(to_eye);
     point.f0 = mix(vec3(0.04), base.rgb, factors.x);
     point.roughness = factors.y;
     bool mirrors = reflects_probes();

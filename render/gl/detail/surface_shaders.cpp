@@ -130,8 +130,8 @@ void main() {
 
 const char* const kFrameText = R"(
 layout(std140, binding = 1) uniform Frame {
-    vec4 eye;
-    vec4 right;  // length: half the width of the picture at distance 1
+    vec4 eye;  // w = 1: a position; w = 0: a direction, of orthographic cameras
+    vec4 right;  // length: what half the width of the picture grows by per metre of depth
     vec4 up;
     vec4 ahead;
     uvec4 counts;  // lights, reflection probes, 1 = box projection, levels of the cubes - 1

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "tests/bake/scene/gltf_builder.h"
 
@@ -58,12 +61,42 @@ TEST(GltfCameras, LoseTheScaleOfTheirNode) {
     EXPECT_EQ(cameras[0].world_from_camera, glm::dmat4(1.0));
 }
 
-TEST(GltfCameras, OrthographicOnesAreLeftOut) {
+Json orthographic(double half_height) {
+    return {
+        {"name", "plan"},
+        {"type", "orthographic"},
+        {"orthographic", {{"xmag", 9.0}, {"ymag", half_height}, {"znear", 0.1}, {"zfar", 10.0}}}};
+}
+
+TEST(GltfCameras, OrthographicOnesHaveAHeightThatTheirNodeDoesNotScale) {
     GltfBuilder gltf;
-    const Json lens = {{"xmag", 1.0}, {"ymag", 1.0}, {"znear", 0.1}, {"zfar", 10.0}};
-    gltf.add("cameras", {{"type", "orthographic"}, {"orthographic", lens}});
-    gltf.add_root({{"camera", 0}});
-    EXPECT_TRUE(cameras_of(gltf).empty());
+    gltf.add_root({{"camera", gltf.add("cameras", perspective(0.5))}});
+    gltf.add_root({{"camera", gltf.add("cameras", orthographic(2.5))}, {"scale", {2, 3, 4}}});
+    const auto cameras = cameras_of(gltf);
+    ASSERT_EQ(cameras.size(), 2u);
+    EXPECT_EQ(cameras[0].half_height, std::nullopt);
+    EXPECT_EQ(cameras[1].half_height, 2.5);
+    EXPECT_EQ(cameras[1].name, "plan");
+    EXPECT_EQ(cameras[1].world_from_camera, glm::dmat4(1.0));
+}
+
+TEST(GltfCameras, AreIgnoredIfTheyShowNothing) {
+    GltfBuilder gltf;
+    for (const Json& camera :
+         {orthographic(0.0), orthographic(-1.0), orthographic(1.0), Json{{"type", "fisheye"}}}) {
+        gltf.add_root({{"camera", gltf.add("cameras", camera)}});
+    }
+    const auto scene = gltf.read();
+    ASSERT_TRUE(scene) << error_text(scene.error());
+    ASSERT_EQ(scene->cameras.size(), 1u);
+    EXPECT_EQ(scene->cameras[0].half_height, 1.0);
+    std::vector<std::string> notes;
+    for (const ScenePart& part : scene->parts) {
+        if (part.name == "cameras" && part.use == PartUse::Ignored) notes.push_back(part.note);
+    }
+    EXPECT_EQ(notes, (std::vector<std::string>{
+                         "ymag 0 is not above 0", "ymag -1 is not above 0",
+                         "type \"fisheye\" is neither perspective nor orthographic"}));
 }
 
 /// A document whose default scene has this sky.

@@ -146,6 +146,14 @@ TEST_F(GlReflections, AgreeWithRaysFromMirrorsToRoughMetal) {
     EXPECT_GT(difference(draw(scene, without), picture), 0.2);
 }
 
+TEST_F(GlReflections, AgreeWithRaysInOrthographicPictures) {
+    const Scene scene = balls_on_floor();
+    Camera camera = kCamera;
+    camera.half_height = 3.0;
+    const SceneLight lit = light(scene);
+    EXPECT_LE(difference(draw(scene, lit, camera), trace(scene, lit, camera)), kEdges);
+}
+
 TEST_F(GlReflections, AgreeOutsideAllBoxesWhereTheNearestCounts) {
     reflections_ = two_rooms(false);
     for (ReflectionProbe& probe : reflections_.probes) probe.half_size = glm::vec3(0.5f);

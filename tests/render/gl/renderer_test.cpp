@@ -30,6 +30,12 @@ namespace {
 const glm::vec3 kAlbedo(0.8f, 0.4f, 0.2f);
 const Camera kCamera = look_at({3, 5, 9}, {0, 1, 0}, 0.8);
 
+/// Sees 8 metres from the lower to the upper edge, by parallel rays.
+Camera orthographic(Camera camera = kCamera) {
+    camera.half_height = 4.0;
+    return camera;
+}
+
 RenderSettings small_settings() {
     RenderSettings settings;
     settings.width = 64;
@@ -383,19 +389,87 @@ TEST_F(GlRenderer, DepthAgreesWithRays) {
     const auto light = make_scene_light(scene, volume.view(), ProbeLight::AsTheScene);
     auto renderer = Renderer::make(scene, volume.view(), *light);
     ASSERT_TRUE(renderer);
-    const auto depth = renderer->depth(kCamera, small_settings(), {});
-    ASSERT_TRUE(depth) << error_text(depth.error());
     const auto shader = SceneShader::make(scene, volume.view());
-    const auto rays =
-        ray_traced_pictures(*shader, volume.view()).depth(kCamera, small_settings(), {});
-    size_t count = 0;
-    for (size_t i = 0; i < rays->depths.size(); ++i) {
-        for (size_t j = 0; j < 4; ++j) {
-            const float a = depth->depths[i][j], b = rays->depths[i][j];
-            count += a != b && !(std::abs(a - b) <= 1e-3f * b);
+    for (const Camera& camera : {kCamera, orthographic()}) {
+        const auto depth = renderer->depth(camera, small_settings(), {});
+        ASSERT_TRUE(depth) << error_text(depth.error());
+        const auto rays =
+            ray_traced_pictures(*shader, volume.view()).depth(camera, small_settings(), {});
+        size_t count = 0;
+        for (size_t i = 0; i < rays->depths.size(); ++i) {
+            for (size_t j = 0; j < 4; ++j) {
+                const float a = depth->depths[i][j], b = rays->depths[i][j];
+                count += a != b && !(std::abs(a - b) <= 1e-3f * b);
+            }
         }
+        EXPECT_LE(count, rays->depths.size() / 50);
     }
-    EXPECT_LE(count, rays->depths.size() / 50);
+}
+
+TEST_F(GlRenderer, OrthographicPicturesAgreeWithRays) {
+    ProbeVolume volume = varied_volume();
+    EXPECT_LE(difference(wall_on_floor(), volume, orthographic()), kEdges);
+    // Looking up, past the edge of the floor and through the sky.
+    const Camera low = orthographic(look_at({0, -1, 9}, {0, 1, 0}, 0.8));
+    EXPECT_LE(difference(box_on_floor(), volume, low), kEdges);
+    test::add_sun(volume, {0.5f, -1.0f, 0.3f});
+    EXPECT_LE(difference(box_on_floor(), volume, orthographic()), kShadowEdges);
+}
+
+TEST_F(GlRenderer, OrthographicPicturesDoNotDependOnTheDistance) {
+    const ProbeVolume volume = varied_volume();
+    const ImageF near = draw(box_on_floor(), volume, orthographic());
+    Camera camera = orthographic();
+    camera.world_from_camera[3] += 1e5 * camera.world_from_camera[2];
+    const ImageF far = draw(box_on_floor(), volume, camera);
+    ASSERT_EQ(near.pixels.size(), far.pixels.size());
+    size_t count = 0;
+    for (size_t i = 0; i < near.pixels.size(); ++i) {
+        count += !(glm::distance(near.pixels[i], far.pixels[i]) <= 0.01f);
+    }
+    EXPECT_LE(count, near.pixels.size() / 100);
+}
+
+TEST_F(GlRenderer, OrthographicCamerasDoNotSeeWhatIsBehindThem) {
+    const ProbeVolume volume = varied_volume();
+    Camera camera = orthographic();
+    camera.world_from_camera[3] -= 30.0 * camera.world_from_camera[2];
+    for (const glm::vec3& pixel : draw(box_on_floor(), volume, camera).pixels) {
+        EXPECT_NEAR(glm::distance(pixel, glm::vec3(0.2f, 0.3f, 0.5f)), 0.0f, 1e-3f);
+    }
+}
+
+TEST_F(GlRenderer, OrthographicPicturesShowBallsBehindTheScene) {
+    const Scene scene = box_on_floor();
+    const ProbeVolume volume = varied_volume();
+    const auto light = make_scene_light(scene, volume.view(), ProbeLight::AsTheScene);
+    auto pictures = GlPictures::make(scene, volume.view(), *light);
+    ASSERT_TRUE(pictures);
+    const LightBall ball{
+        {0, 5, -300}, 1.0f, irradiance_from_radiance(constant_radiance({1, 2, 3}))};
+    const Camera camera = orthographic(look_at({0, 5, 9}, {0, 5, 0}, 0.8));
+    const auto image = pictures->source().radiance(camera, small_settings(), std::span(&ball, 1));
+    ASSERT_TRUE(image) << error_text(image.error());
+    const glm::vec3 middle = image->pixels[24 * 64 + 32];
+    EXPECT_NEAR(glm::distance(middle, glm::vec3(1, 2, 3)), 0.0f, 1e-3f);
+}
+
+TEST_F(GlRenderer, OrthographicPicturesBlendInTheOrderOfDepth) {
+    // The centre of the front pane is farther from the eye than that of the one behind it.
+    const auto pane = [](Scene& scene, glm::vec3 emission, glm::vec3 corner, float width) {
+        Material material = test::diffuse(glm::vec3(0.0f), emission);
+        material.alpha_mode = AlphaMode::Blend;
+        material.base_color.a = 0.5f;
+        test::add_quad(scene, material, corner, {width, 0, 0}, {0, 2, 0});
+    };
+    Scene scene;
+    pane(scene, {1, 0, 0}, {-1, -1, 1}, 50.0f);
+    pane(scene, {0, 1, 0}, {-1, -1, -1}, 2.0f);
+    const ImageF image =
+        draw(scene, varied_volume(), orthographic(look_at({0, 0, 10}, {0, 0, 0}, 0.8)));
+    const glm::vec3 behind = 0.5f * glm::vec3(0, 1, 0) + 0.5f * glm::vec3(0.2f, 0.3f, 0.5f);
+    const glm::vec3 expected = 0.5f * glm::vec3(1, 0, 0) + 0.5f * behind;
+    EXPECT_NEAR(glm::distance(image.pixels[24 * 64 + 32], expected), 0.0f, 1e-3f);
 }
 
 TEST_F(GlRenderer, BallsShowTheirLight) {
