@@ -33,6 +33,7 @@ SceneReading scene_reading(const Values& values, NormalMaps normal_maps) {
     reading.animation = values.text("animation");
     if (has_setting(values, "light_unit"))
         reading.light_unit = choice<LightUnit>(values, "light_unit");
+    reading.has_other_sky = has_setting(values, "sky") && values.is_given("sky");
     return reading;
 }
 

@@ -114,10 +114,12 @@ Status add_all(const detail::GltfDocument& document, const SceneReading& reading
 }
 
 /// The table of what was read, and warnings of what is left out and changes the light.
-void add_parts(const detail::GltfDocument& document, Scene& scene) {
+void add_parts(const detail::GltfDocument& document, const SceneReading& reading, Scene& scene) {
     detail::PartList parts;
     detail::add_contents(scene, parts);
-    detail::add_light_unit(scene, parts);
+    if (reading.light_unit == LightUnit::Lux) {
+        detail::add_light_unit(document, scene, reading.has_other_sky, parts);
+    }
     detail::add_length_unit(scene, parts);
     parts.append(document.parts);
     scene.parts = parts.parts();
@@ -146,7 +148,7 @@ Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
     Scene scene;
     const auto status = add_all(*document, reading, scene);
     if (!status) return status.error().in(path);
-    add_parts(*document, scene);
+    add_parts(*document, reading, scene);
     for (std::string& warning : scene.warnings) warning.insert(0, path + ": ");
     return scene;
 }

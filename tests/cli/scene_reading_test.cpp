@@ -40,6 +40,13 @@ TEST(SceneReadingSettings, EverySettingIsTaken) {
     EXPECT_EQ(reading.light_unit, LightUnit::Watt);
 }
 
+TEST(SceneReadingSettings, ASkyOfTheCommandIsKnown) {
+    Json settings = {{"scene", "s.glb"}, {"output", "v.probes"}};
+    EXPECT_FALSE(scene_reading(values_of(settings::kBake, settings)).has_other_sky);
+    settings["sky"] = 0.5;
+    EXPECT_TRUE(scene_reading(values_of(settings::kBake, settings)).has_other_sky);
+}
+
 TEST(SceneReadingSettings, CommandsWithFewerOfThemHaveTheDefaultsOfTheRest) {
     const SceneReading groups = scene_reading(values_of(
         settings::kTetrahedralize, {{"groups", {"s.glb"}}, {"output", "v.probes"}, {"time", 2}}));

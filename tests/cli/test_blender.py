@@ -148,6 +148,17 @@ class Walk(FromBlender):
         for bright, dark in zip(pixel(lit, *front), pixel(unlit, *front)):
             self.assertGreater(bright, dark + 50)
 
+    def test_lumens_of_the_default_lamp_are_noticed(self):
+        lumens = self.folder / "corner_standard.glb"
+        code = (ROOT / "examples/blender/make_corner.py").read_text().replace('LIGHTING = "COMPAT"', 'LIGHTING = "SPEC"')
+        script = self.folder / "make_corner_standard.py"
+        script.write_text(code)
+        run_blender(script, lumens)
+        self.assertIn("--light-unit watt", tetralight("explain", lumens).stdout)
+        self.assertIn("--light-unit watt", tetralight("grid", lumens, "-o", self.folder / "places.json").stderr)
+        self.assertNotIn("--light-unit", tetralight("explain", lumens, "--light-unit", "watt").stdout)
+        self.assertNotIn("--light-unit", tetralight("explain", self.scene).stdout)
+
     def test_the_cube_moves(self):
         lightmaps = self.folder / "corner.lightmaps"
         tetralight("lightmap", self.scene, "-o", lightmaps, "--samples", 4)

@@ -283,6 +283,8 @@ struct GltfNode {
 struct GltfDocument {
     /// The file's path. URIs are relative to its folder, and messages begin with it.
     std::string path;
+    /// The program that wrote the file, as it calls itself: `asset.generator`.
+    std::string generator;
     std::vector<std::vector<unsigned char>> buffers;
     std::vector<GltfBufferView> buffer_views;
     std::vector<GltfAccessor> accessors;

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <tetralight/base/str_cat.h>
 #include "tests/bake/scene/gltf_builder.h"
 
 namespace tetralight {
@@ -273,6 +276,80 @@ TEST(SceneParts, LumensOfWattsBesideEmissionAreNoticed) {
     bright.json["materials"][0]["extensions"]["KHR_materials_emissive_strength"] = {
         {"emissiveStrength", 5000}};
     EXPECT_TRUE(warnings(read(bright)).empty());
+}
+
+/// A lamp of watts as an exporter writes it that counts a watt as 683 lumens.
+double standard_candela(double watts) {
+    return static_cast<float>(watts) * 683.0 / (4.0 * std::numbers::pi);
+}
+
+/// Lights of these types and intensities, and emission of 1.
+GltfBuilder with_lights(const std::vector<std::pair<std::string, double>>& lights) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["materials"][0]["emissiveFactor"] = {1, 0.5, 0};
+    gltf.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 0;
+    for (const auto& [type, intensity] : lights) {
+        const size_t light = gltf.add_light({{"type", type}, {"intensity", intensity}});
+        gltf.add_root({{"name", type}, {"extensions", GltfBuilder::light_extension(light)}});
+    }
+    return gltf;
+}
+
+TEST(SceneParts, LumensOfWattsOfLampsAreKnownByTheirDigits) {
+    for (const char* type : {"point", "spot"}) {
+        for (const double watts : {1000.0, 0.1, 37.7, 1e-4, 1e7, 123456.789}) {
+            const auto found = warnings(read(with_lights({{type, standard_candela(watts)}})));
+            ASSERT_EQ(found.size(), 1u) << type << watts;
+            EXPECT_TRUE(
+                found[0].starts_with(str_cat("units of lights (\"", type, "\"): the light")))
+                << found[0];
+            EXPECT_TRUE(found[0].ends_with("--light-unit watt divides lights by 683")) << found[0];
+            const double unitless = standard_candela(watts) / 683.0;
+            EXPECT_TRUE(warnings(read(with_lights({{type, unitless}}))).empty()) << watts;
+            EXPECT_TRUE(warnings(read(with_lights({{type, watts}}))).empty()) << watts;
+        }
+    }
+    EXPECT_EQ(
+        warnings(read(with_lights({{"point", standard_candela(1000.0)}}))).at(0),
+        "units of lights (\"point\"): the light is 54351.414 candela beside emission of 1, as "
+        "exporters write it that count a watt as 683 lumens; --light-unit watt divides lights by "
+        "683");
+}
+
+TEST(SceneParts, OneLightInAnotherUnitIsEvidenceAgainstLumensOfWatts) {
+    const double lamp = standard_candela(1000.0);
+    EXPECT_EQ(warnings(read(with_lights({{"point", lamp}, {"spot", lamp / 7.0}}))).size(), 0u);
+    EXPECT_EQ(warnings(read(with_lights({{"point", lamp}, {"directional", 3 * 683.0}}))).size(),
+              1u);
+    EXPECT_EQ(warnings(read(with_lights({{"point", lamp}, {"directional", 100000.0}}))).size(), 0u);
+}
+
+TEST(SceneParts, SunsOfLumensOfWattsAreKnownInFilesOfBlender) {
+    GltfBuilder gltf = with_lights({{"directional", static_cast<float>(0.2) * 683.0}});
+    EXPECT_EQ(warnings(read(gltf)).size(), 0u);
+    gltf.json["asset"]["generator"] = "Khronos glTF Blender I/O v3.4.50";
+    EXPECT_EQ(warnings(read(gltf)).size(), 1u);
+    gltf = with_lights({{"directional", static_cast<float>(0.05) * 683.0}});
+    gltf.json["asset"]["generator"] = "Khronos glTF Blender I/O v3.4.50";
+    EXPECT_EQ(warnings(read(gltf)).size(), 0u);
+}
+
+TEST(SceneParts, DaylightBesideEmissionIsNoMistake) {
+    EXPECT_EQ(warnings(read(with_sun(100000.0))).size(), 0u);
+    EXPECT_EQ(warnings(read(with_sun(6000.0))).size(), 1u);
+}
+
+TEST(SceneParts, LumensOfWattsMatterBesideEmissionOrASky) {
+    GltfBuilder gltf = with_lights({{"point", standard_candela(1000.0)}});
+    gltf.json["materials"][0].erase("emissiveFactor");
+    EXPECT_EQ(warnings(read(gltf)).size(), 0u);
+    const auto beside_sky = warnings(read(gltf, {.has_other_sky = true}));
+    ASSERT_EQ(beside_sky.size(), 1u);
+    EXPECT_NE(beside_sky[0].find("beside a sky,"), std::string::npos) << beside_sky[0];
+    gltf.json["scenes"][0]["extras"]["sky"] = {{"radiance", {0.1, 0.2, 0.05}}};
+    const auto beside_own_sky = warnings(read(gltf));
+    ASSERT_EQ(beside_own_sky.size(), 1u);
+    EXPECT_NE(beside_own_sky[0].find("beside emission of 0.2,"), std::string::npos);
 }
 
 TEST(SceneParts, CentimetresAreNoticed) {
