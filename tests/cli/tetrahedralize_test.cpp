@@ -81,7 +81,7 @@ TEST_F(Tetrahedralize, LeavesGroupsWithoutProbesOutAndSaysSo) {
     write("empty.json", R"({"groups": [{"name": "hall", "positions": []}]})");
     const CommandResult result =
         succeed({"tetrahedralize", "five.json", "empty.json", "-o", "v.probes"});
-    EXPECT_EQ(result.err, "warning: group \"hall\" has no probes\n");
+    EXPECT_EQ(result.err, "warning: empty.json: group \"hall\" has no probes\n");
     EXPECT_EQ(run_json({"info", "v.probes"})["probes"], 5);
 }
 
