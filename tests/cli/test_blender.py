@@ -215,8 +215,10 @@ class Units(FromBlender):
         self.assert_near(self.irradiance("bounce", (0, -1, 0)), albedo * 3, 0.02)
 
     def test_sky_of_custom_properties_shines_from_everywhere(self):
-        for normal in ((0, 1, 0), (0.6, -0.8, 0)):
-            self.assert_near(self.irradiance("sky", normal), 0.05 * math.pi)
+        for name in ("sky", "sky_array", "sky_number", "sky_text"):
+            for normal in ((0, 1, 0), (0.6, -0.8, 0)):
+                with self.subTest(name):
+                    self.assert_near(self.irradiance(name, normal), 0.05 * math.pi)
 
 
 if __name__ == "__main__":
