@@ -18,6 +18,7 @@
 #include <tetralight/bake/scene/detail/gltf_probe_groups.h>
 #include <tetralight/bake/scene/detail/gltf_reflection_places.h>
 #include <tetralight/bake/scene/detail/gltf_skin.h>
+#include <tetralight/bake/scene/detail/gltf_transform.h>
 #include <tetralight/bake/scene/detail/part_list.h>
 #include <tetralight/bake/scene/detail/scene_contents.h>
 #include <tetralight/base/str_cat.h>
@@ -61,8 +62,23 @@ void warn_about_skins(const detail::GltfDocument& document,
     }
 }
 
+void add_flat_groups(const detail::GltfDocument& document,
+                     std::span<const detail::GltfWorldNode> nodes, detail::PartList& parts) {
+    ScenePart part;
+    part.use = PartUse::Approximated;
+    part.name = "probe groups scaled to 0";
+    part.note = "their probes lie in a plane, on a line or at a point";
+    part.remedy = "give the group a scale above 0 on every axis";
+    part.changes_light = true;
+    for (const detail::GltfWorldNode& placed : nodes) {
+        const detail::GltfNode& node = document.nodes[placed.node];
+        if (!node.is_probe_group || detail::is_invertible(placed.world_from_node)) continue;
+        parts.add(part, detail::gltf_place("node", placed.node, node.name));
+    }
+}
+
 Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes& meshes,
-                 Scene& scene) {
+                 Scene& scene, detail::PartList& parts) {
     const auto nodes = detail::flatten_nodes(document);
     if (!nodes) return nodes.error();
     auto lights = detail::read_lights(document, *nodes);
@@ -75,7 +91,8 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     if (!portals) return portals.error();
     auto places = detail::read_gltf_reflection_places(document, *nodes);
     if (!places) return places.error();
-    auto instances = detail::read_instances(document, *nodes, probe_groups->is_probe, meshes);
+    auto instances =
+        detail::read_instances(document, *nodes, probe_groups->is_probe, meshes, parts);
     if (!instances) return instances.error();
     scene.lights = std::move(lights->lights);
     scene.light_names = std::move(lights->names);
@@ -87,8 +104,9 @@ Status add_nodes(const detail::GltfDocument& document, const detail::GltfMeshes&
     auto scene_nodes = detail::scene_nodes(document, *nodes);
     if (!scene_nodes) return scene_nodes.error();
     scene.nodes = std::move(*scene_nodes);
-    scene.cameras = detail::read_cameras(document, *nodes);
     append_warnings(scene, lights->warnings);
+    scene.cameras = detail::read_cameras(document, *nodes, scene.warnings);
+    add_flat_groups(document, *nodes, parts);
     warn_about_skins(document, *nodes, scene);
     return Ok{};
 }
@@ -104,23 +122,27 @@ Status add_sky(const detail::GltfDocument& document, Scene& scene) {
                  str_cat("scene: extras.sky.radiance (", value, ") is negative")};
 }
 
-Status add_all(const detail::GltfDocument& document, const SceneReading& reading, Scene& scene) {
+/// `parts`: what is not read as it is.
+Status add_all(const detail::GltfDocument& document, const SceneReading& reading, Scene& scene,
+               detail::PartList& parts) {
     detail::GltfMeshes meshes;
     const auto surfaces = add_surfaces(document, reading.normal_maps, scene, meshes);
     if (!surfaces) return surfaces;
     const auto sky = add_sky(document, scene);
     if (!sky) return sky;
-    return add_nodes(document, meshes, scene);
+    return add_nodes(document, meshes, scene, parts);
 }
 
 /// The table of what was read, and warnings of what is left out and changes the light.
-void add_parts(const detail::GltfDocument& document, const SceneReading& reading, Scene& scene) {
+void add_parts(const detail::GltfDocument& document, const SceneReading& reading,
+               const detail::PartList& not_read, Scene& scene) {
     detail::PartList parts;
     detail::add_contents(scene, parts);
     if (reading.light_unit == LightUnit::Lux) {
         detail::add_light_unit(document, scene, reading.has_other_sky, parts);
     }
     detail::add_length_unit(scene, parts);
+    parts.append(not_read.parts());
     parts.append(document.parts);
     scene.parts = parts.parts();
     for (const ScenePart& part : scene.parts) {
@@ -146,9 +168,10 @@ Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
         if (!moved) return moved.error().in(path);
     }
     Scene scene;
-    const auto status = add_all(*document, reading, scene);
+    detail::PartList not_read;
+    const auto status = add_all(*document, reading, scene, not_read);
     if (!status) return status.error().in(path);
-    add_parts(*document, reading, scene);
+    add_parts(*document, reading, not_read, scene);
     for (std::string& warning : scene.warnings) warning.insert(0, path + ": ");
     return scene;
 }

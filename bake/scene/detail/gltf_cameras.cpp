@@ -3,6 +3,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <tetralight/bake/scene/detail/gltf_transform.h>
+
 namespace tetralight::detail {
 namespace {
 
@@ -17,14 +19,19 @@ glm::dmat4 without_scale(glm::dmat4 matrix) {
 
 }  // namespace
 
-std::vector<Camera> read_cameras(const GltfDocument& document,
-                                 std::span<const GltfWorldNode> nodes) {
+std::vector<Camera> read_cameras(const GltfDocument& document, std::span<const GltfWorldNode> nodes,
+                                 std::vector<std::string>& warnings) {
     std::vector<Camera> cameras;
     for (const GltfWorldNode& placed : nodes) {
         const GltfNode& node = document.nodes[placed.node];
         if (node.camera == kNoIndex) continue;
         const GltfCamera& source = document.cameras[node.camera];
         if (!source.fov_y_radians) continue;
+        if (!is_invertible(placed.world_from_node)) {
+            warnings.push_back(gltf_place("node", placed.node, node.name) +
+                               ": is scaled to 0, so that its camera looks nowhere; left out");
+            continue;
+        }
         const std::string& name = node.name.empty() ? source.name : node.name;
         cameras.push_back({name, without_scale(placed.world_from_node), *source.fov_y_radians});
     }

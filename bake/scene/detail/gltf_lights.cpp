@@ -65,8 +65,24 @@ Status read_cone(const GltfLight& source, Light& light) {
     return Ok{};
 }
 
+/// The node's X axis, without what of it is along Z; 0 if there is none.
+glm::dvec3 tangent_from(const glm::dmat4& world_from_node) {
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(world_from_node[2]));
+    const glm::dvec3 x(world_from_node[0]);
+    return x - forward * glm::dot(forward, x);
+}
+
+/// What a light does not have on a node that is scaled to 0; null if it has all that it needs.
+const char* missing_axis(const glm::dmat4& world_from_node, LightType type) {
+    if (type == LightType::Point) return nullptr;
+    if (glm::dvec3(world_from_node[2]) == glm::dvec3(0.0)) return "direction";
+    const bool has_width =
+        type != LightType::Rectangle || glm::length(tangent_from(world_from_node)) > 0.0;
+    return has_width ? nullptr : "width";
+}
+
 /// Lights shine along their node's −Z; a rectangle's width is along its X. The node's scale and
-/// mirroring have no effect (KHR_lights_punctual).
+/// mirroring have no effect (KHR_lights_punctual). Precondition: no axis is missing.
 Status place_light(const glm::dmat4& world_from_node, Light& light) {
     light.position = glm::vec3(world_from_node[3]);
     for (int axis = 0; axis < 3; ++axis) {
@@ -77,22 +93,18 @@ Status place_light(const glm::dmat4& world_from_node, Light& light) {
     if (light.type == LightType::Point) return Ok{};
     const glm::dvec3 direction = -glm::dvec3(world_from_node[2]);
     const double length = glm::length(direction);
-    if (!(length > 0.0) || !std::isfinite(length)) {
+    if (!std::isfinite(length)) {
         return Error{ErrorCode::Corrupt,
                      str_cat("direction is undefined: its node is scaled to ", length)};
     }
     light.direction = glm::vec3(direction / length);
-    if (light.type != LightType::Rectangle) return Ok{};
-    const glm::dvec3 forward = direction / length;
-    const glm::dvec3 x(world_from_node[0]);
-    const glm::dvec3 across = x - forward * glm::dot(forward, x);
-    if (!(glm::length(across) > 0.0)) {
-        return Error{ErrorCode::Corrupt, "width is undefined: its node has no X axis"};
+    if (light.type == LightType::Rectangle) {
+        light.tangent = glm::vec3(glm::normalize(tangent_from(world_from_node)));
     }
-    light.tangent = glm::vec3(glm::normalize(across));
     return Ok{};
 }
 
+/// Without a place if an axis is missing.
 Result<Light> read_light(const GltfLight& source, LightType type, const GltfWorldNode& placed,
                          const GltfNode& node) {
     Light light;
@@ -110,6 +122,7 @@ Result<Light> read_light(const GltfLight& source, LightType type, const GltfWorl
         const bool is_of_node = !of_node && of_node.error().field == status.error().field;
         return is_of_node ? in_member(status.error(), node_member) : status.error();
     }
+    if (missing_axis(placed.world_from_node, light.type) != nullptr) return light;
     if (const auto status = place_light(placed.world_from_node, light); !status) {
         return in_member(status.error(), node_member);
     }
@@ -135,6 +148,12 @@ Result<GltfLights> read_lights(const GltfDocument& document, std::span<const Glt
         if (!light) {
             const Error error = in_element(light.error(), "lights", node.light, source.name);
             return in_element(error, "nodes", placed.node, node.name);
+        }
+        if (const char* missing = missing_axis(placed.world_from_node, light->type)) {
+            result.warnings.push_back(str_cat(gltf_place("node", placed.node, node.name),
+                                              ": is scaled to 0, so that its light has no ",
+                                              missing, "; left out"));
+            continue;
         }
         result.lights.push_back(*light);
         result.names.push_back(node.name.empty() ? source.name : node.name);

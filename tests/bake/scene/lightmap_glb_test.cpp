@@ -298,5 +298,27 @@ TEST(LightmapGlb, RefusesLightmapsOfAnotherScene) {
               std::string::npos);
 }
 
+TEST(LightmapGlb, MeshesScaledTo0StayAndHaveNoPlaces) {
+    GltfBuilder gltf;
+    const size_t square = add_square(gltf);
+    gltf.add_root({{"name", "hidden"}, {"mesh", square}, {"scale", {0, 1, 1}}});
+    gltf.add_root({{"name", "seen"}, {"mesh", square}});
+    const Json attributes = {{"SCALE", gltf.add_floats({0, 0, 0, 1, 1, 1}, "VEC3")}};
+    gltf.add_root({{"name", "trees"},
+                   {"mesh", square},
+                   {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}});
+    const GltfLightmapPlace place{0, 0, glm::vec2(0.5f), glm::vec2(0.25f)};
+    const Written result = written(gltf, {{kWhole}, {place, place}, {}, 1.0});
+    EXPECT_EQ(result.scene.instances.size(), 2u);
+    const Json& nodes = result.json["nodes"];
+    EXPECT_TRUE(nodes[0].contains("mesh"));
+    EXPECT_FALSE(nodes[0].contains("extras"));
+    EXPECT_TRUE(nodes[1]["extras"].contains("lightmap_rectangle"));
+    ASSERT_EQ(nodes[2]["children"].size(), 2u);
+    EXPECT_FALSE(nodes[nodes[2]["children"][0].get<size_t>()].contains("extras"));
+    EXPECT_TRUE(
+        nodes[nodes[2]["children"][1].get<size_t>()]["extras"].contains("lightmap_rectangle"));
+}
+
 }  // namespace
 }  // namespace tetralight
