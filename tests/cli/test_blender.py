@@ -155,7 +155,8 @@ class Walk(FromBlender):
         script.write_text(code)
         run_blender(script, lumens)
         self.assertIn("--light-unit watt", tetralight("explain", lumens).stdout)
-        self.assertIn("--light-unit watt", tetralight("grid", lumens, "-o", self.folder / "places.json").stderr)
+        placed = tetralight("grid", lumens, "--spacing", 4, "-o", self.folder / "places.json")
+        self.assertIn("--light-unit watt", placed.stderr)
         self.assertNotIn("--light-unit", tetralight("explain", lumens, "--light-unit", "watt").stdout)
         self.assertNotIn("--light-unit", tetralight("explain", self.scene).stdout)
 

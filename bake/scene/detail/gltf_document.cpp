@@ -19,6 +19,7 @@
 #include <tetralight/bake/scene/detail/gltf_elements.h>
 #include <tetralight/bake/scene/detail/gltf_members.h>
 #include <tetralight/bake/scene/detail/gltf_meshopt.h>
+#include <tetralight/bake/scene/detail/gltf_names.h>
 #include <tetralight/bake/scene/detail/gltf_schema.h>
 #include <tetralight/bake/scene/detail/gltf_unknown_extras.h>
 #include <tetralight/bake/scene/detail/gltf_unread.h>
@@ -87,14 +88,16 @@ Result<GltfDocument> parse_document(Bytes bytes, const std::string& path,
     if (!chunks) return chunks.error();
     const std::string_view json_text(reinterpret_cast<const char*>(chunks->json.data()),
                                      chunks->json.size());
-    const auto source = parse_gltf_json(json_text, container);
+    auto source = parse_gltf_json(json_text, container);
     if (!source) return source.error();
+    std::vector<std::string> warnings = clean_names(*source);
     const auto chosen = find_scene(*source, scene);
     if (!chosen) return chosen.error();
     auto buffers = read_buffers(*source, folder_of(path), chunks->binary);
     if (!buffers) return buffers.error();
     GltfDocument document = document_from(*source);
     document.path = path;
+    document.warnings = std::move(warnings);
     document.buffers = std::move(*buffers);
     choose_scene(*source, *chosen, document);
     if (auto status = decode_meshopt(document); !status) return status.error();

@@ -308,6 +308,8 @@ struct GltfDocument {
     std::optional<GltfImageBasedLight> image_based_light;
     /// What is in the file and is not read, or not as glTF defines it.
     std::vector<ScenePart> parts;
+    /// Without the path.
+    std::vector<std::string> warnings;
 };
 
 /// Reads and checks a .gltf or .glb file and its buffers, but not its image files. The scene that
