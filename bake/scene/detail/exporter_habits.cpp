@@ -11,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include <tetralight/bake/scene/length_unit.h>
 #include <tetralight/bake/scene/read_gltf.h>
+#include <tetralight/bake/scene/scene_bounds.h>
 #include <tetralight/bake/scene/surface_color.h>
 #include <tetralight/base/str_cat.h>
 
@@ -99,6 +101,52 @@ std::optional<size_t> light_in_lumens(const GltfDocument& document, const Scene&
     return static_cast<size_t>(found - scene.lights.begin());
 }
 
+/// The sizes of all objects, metres, ascending.
+std::vector<double> object_sizes(const Scene& scene) {
+    const std::vector<float> mesh_size = mesh_sizes(scene);
+    std::vector<double> sizes;
+    for (const MeshInstance& instance : scene.instances) {
+        sizes.push_back(mesh_size[instance.mesh] * largest_scale(instance.world_from_mesh));
+    }
+    std::ranges::sort(sizes);
+    return sizes;
+}
+
+constexpr double kTooLarge = 50.0;     // metres, for most objects
+constexpr double kDistantLamp = 20.0;  // metres from any surface
+
+/// True if a triangle's box is nearer to a position than that. Boxes hold their triangles: no
+/// surface is nearer than its box.
+bool is_near_surface(const Scene& scene, const glm::dvec3& position, double distance) {
+    for (const MeshInstance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        for (size_t corner = 0; corner + 2 < mesh.indices.size(); corner += 3) {
+            auto box = WorldBox::empty();
+            for (size_t k = 0; k < 3; ++k) {
+                const glm::vec3& vertex = mesh.positions[mesh.indices[corner + k]];
+                box = union_of(box, world_position(instance, vertex));
+            }
+            const glm::dvec3 nearest = glm::clamp(position, box.min, box.max);
+            if (glm::distance(nearest, position) < distance) return true;
+        }
+    }
+    return false;
+}
+
+/// True if there are lamps in a scene of 500 m or more, and none of them is near a surface: lamps
+/// of rooms and streets are. Looks at the first few.
+bool has_distant_lamps(const Scene& scene) {
+    constexpr size_t kMostLamps = 8;
+    if (length_unit_hint(scene).empty()) return false;
+    size_t lamps = 0;
+    for (const Light& light : scene.lights) {
+        if (light.type == LightType::Directional || lamps == kMostLamps) continue;
+        if (is_near_surface(scene, glm::dvec3(light.position), kDistantLamp)) return false;
+        ++lamps;
+    }
+    return lamps > 0;
+}
+
 }  // namespace
 
 void add_light_unit(const GltfDocument& document, const Scene& scene, bool has_other_sky,
@@ -123,22 +171,23 @@ void add_light_unit(const GltfDocument& document, const Scene& scene, bool has_o
 }
 
 void add_length_unit(const Scene& scene, PartList& parts) {
-    constexpr size_t kFewest = 3;       // one large object may be a landscape
-    constexpr double kTooLarge = 50.0;  // metres, for most objects
-    const std::vector<float> mesh_size = mesh_sizes(scene);
-    std::vector<double> sizes;
-    for (const MeshInstance& instance : scene.instances) {
-        sizes.push_back(mesh_size[instance.mesh] * largest_scale(instance.world_from_mesh));
+    const std::vector<double> sizes = object_sizes(scene);
+    if (sizes.empty()) return;
+    const double size = sizes[sizes.size() / 4];
+    constexpr size_t kFewest = 3;  // one large object may be a landscape
+    std::string reason;
+    if (size >= kTooLarge && sizes.size() >= kFewest) {
+        reason =
+            str_cat("three of four objects are larger than ", static_cast<int64_t>(size), " m");
+    } else if (sizes.front() >= kTooLarge && has_distant_lamps(scene)) {
+        reason = str_cat("all objects are larger than ", static_cast<int64_t>(sizes.front()),
+                         " m, and all lamps farther than ", kDistantLamp, " m from them");
     }
-    if (sizes.size() < kFewest) return;
-    const auto quarter = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 4);
-    std::ranges::nth_element(sizes, quarter);
-    if (*quarter < kTooLarge) return;
+    if (reason.empty()) return;
     ScenePart part;
     part.use = PartUse::Approximated;
     part.name = "units of length";
-    part.note = str_cat("three of four objects are larger than ", static_cast<int64_t>(*quarter),
-                        " m; lights fade over distance in metres");
+    part.note = reason + "; lights fade over distance in metres";
     part.remedy = "if the unit is a centimetre, scale the scene by 0.01";
     part.changes_light = true;
     parts.add(part, "the scene");

@@ -16,7 +16,8 @@ namespace tetralight::detail {
 void add_light_unit(const GltfDocument& document, const Scene& scene, bool has_other_sky,
                     PartList& parts);
 
-/// Adds a row if the objects are so large that their unit is more likely a centimetre than a metre.
+/// Adds a row if the objects are so large that their unit is more likely a centimetre than a metre:
+/// most of three and more, or all of a scene whose lamps are far from every surface.
 void add_length_unit(const Scene& scene, PartList& parts);
 
 }  // namespace tetralight::detail

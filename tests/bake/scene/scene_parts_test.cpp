@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <tetralight/bake/scene/length_unit.h>
 #include <tetralight/base/str_cat.h>
 #include "tests/bake/scene/gltf_builder.h"
 
@@ -246,6 +247,18 @@ TEST(SceneParts, AnotherSceneIsReadByNameOrIndex) {
               "scene.glb: has no scene \"2\"; it has 0 \"hall\", 1 \"0\"");
 }
 
+TEST(SceneParts, ControlCharactersOfNamesAreBlanks) {
+    GltfBuilder gltf = plain_scene();
+    gltf.json["nodes"][1]["name"] = "tab\tnew\nline.001";
+    gltf.json["nodes"][0]["name"] = "\x7f";
+    const Scene scene = read(gltf);
+    EXPECT_EQ(scene.light_names, std::vector<std::string>{"tab new line.001"});
+    EXPECT_EQ(scene.instances.at(0).name, " ");
+    EXPECT_EQ(warnings(scene), std::vector<std::string>{
+                                   "names (node 0 \" \" and 1 more): have blanks "
+                                   "here in place of line breaks and other control characters"});
+}
+
 TEST(SceneParts, LumensOfWattsBecomeWatts) {
     GltfBuilder gltf = plain_scene();
     gltf.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = 683.0 * 4.0;
@@ -367,6 +380,39 @@ TEST(SceneParts, CentimetresAreNoticed) {
                   "lights fade over distance in metres; if the unit is a centimetre, scale the "
                   "scene by 0.01"});
     EXPECT_TRUE(warnings(read(doors(0.01))).empty());
+}
+
+/// A room of 9 x 9 x 3 m in centimetres, and its door, with a lamp at a height.
+GltfBuilder room(double scale, double lamp_height) {
+    GltfBuilder gltf;
+    const size_t floor = gltf.add_mesh({-450, 0, -450, 450, 0, -450, 0, 0, 450});
+    const size_t door = gltf.add_mesh({-450, 0, 0, -450, 0, 90, -450, 200, 90});
+    const Json scales = {scale, scale, scale};
+    gltf.add_root({{"mesh", floor}, {"scale", scales}});
+    gltf.add_root({{"mesh", door}, {"scale", scales}});
+    const size_t light = gltf.add_light({{"type", "point"}});
+    gltf.add_root({{"name", "lamp"},
+                   {"translation", {0, lamp_height, 0}},
+                   {"extensions", GltfBuilder::light_extension(light)}});
+    return gltf;
+}
+
+TEST(SceneParts, CentimetresOfTwoObjectsAreNoticedByTheirLamps) {
+    EXPECT_EQ(
+        warnings(read(room(1.0, 200.0))),
+        std::vector<std::string>{
+            "units of length (the scene): all objects are larger than 219 m, and all lamps "
+            "farther than 20 m from them; lights fade over distance in metres; if the unit is "
+            "a centimetre, scale the scene by 0.01"});
+    EXPECT_TRUE(warnings(read(room(0.01, 2.0))).empty());
+    EXPECT_TRUE(warnings(read(room(1.0, 5.0))).empty());  // a street lamp in a landscape
+    GltfBuilder dark = room(1.0, 200.0);
+    dark.json["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "directional";
+    EXPECT_TRUE(warnings(read(dark)).empty());
+    EXPECT_EQ(length_unit_hint(read(room(1.0, 2.0))),
+              "the scene is 900 m wide; if its unit is a centimetre, scale it by 0.01");
+    EXPECT_EQ(length_unit_hint(read(room(0.5, 2.0))), "");
+    EXPECT_EQ(length_unit_hint(Scene{}), "");
 }
 
 }  // namespace
