@@ -158,16 +158,11 @@ void divide_intensities(detail::GltfDocument& document) {
 }  // namespace
 
 Result<Scene> read_gltf(const std::string& path, const SceneReading& reading) {
-    auto document = detail::read_gltf_document(path, reading.scene);
+    auto document = detail::read_posed_document(path, reading);
     if (!document) return document.error();
     if (reading.light_unit == LightUnit::Watt) divide_intensities(*document);
-    if (reading.time) {
-        const auto animation = detail::find_animation(*document, reading.animation);
-        if (!animation) return animation.error().in(path);
-        const auto moved = detail::pose_nodes(*document, *animation, *reading.time);
-        if (!moved) return moved.error().in(path);
-    }
     Scene scene;
+    scene.warnings = document->warnings;
     detail::PartList not_read;
     const auto status = add_all(*document, reading, scene, not_read);
     if (!status) return status.error().in(path);
