@@ -85,12 +85,12 @@ struct Bake {
         auto scene = scene_options.read();
         if (!scene) return scene.error();
         common.warn(scene->warnings);
-        const auto files = all_groups(*scene);
+        auto files = all_groups(*scene);
         if (!files) return files.error();
 
         auto prepared = prepare_bake(*scene, files->groups(), settings);
         if (!prepared) return located(*files, prepared.error());
-        group_files = *files;
+        group_files = std::move(*files);
         if (auto status = storing.reuse(*prepared, common); !status) return status;
         return bake(*scene, std::move(*prepared));
     }
