@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <utility>
 
 #include <tetralight/base/str_cat.h>
 #include <tetralight/cli/bake_report.h>
